@@ -95,11 +95,18 @@ build() {
     find "$build_root/build" -maxdepth 1 -type f -exec cp {} "$work" \;
 }
 
-# Anything that lintian says is too much.
+# Anything that lintian says is too much, except of bytes of machine code that happen to be letters: a
+# misspelling in a binary counts where the same word stands in the sources.
 lint() {
     in_build_root chroot "$build_root" apt-get -qy install lintian >"$work/lintian-install.log"
     in_build_root chroot --userspec=1000:1000 "$build_root" sh -c 'cd /build &&
-        lintian --pedantic --display-info --display-experimental --fail-on none *.changes' >"$work/tags"
+        lintian --pedantic --display-info --display-experimental --fail-on none *.changes' >"$work/said"
+    while read -r level package tag word rest; do
+        if [ "$tag" = spelling-error-in-binary ] && ! grep -rqwF -e "$word" lib tools include; then
+            continue
+        fi
+        echo "$level $package $tag $word $rest"
+    done <"$work/said" >"$work/tags"
     cat "$work/tags"
     [ ! -s "$work/tags" ]
 }

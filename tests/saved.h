@@ -47,12 +47,12 @@ static inline bytes map_bytes(const icc_map *map)
     return b;
 }
 
-/* With length and checksum put right. */
+/* With length and checksum put right; the version stays, which is less than 256. */
 static inline void repair_bytes(bytes *b, const char *kind)
 {
     iccp_blob w;
     size_t n;
-    iccp_blob_begin(&w, b->data, b->n, kind, 1);
+    iccp_blob_begin(&w, b->data, b->n, kind, b->data[8]);
     w.at = b->n;
     iccp_blob_end(&w, &n);
 }

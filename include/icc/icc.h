@@ -872,6 +872,20 @@ typedef struct icc_map_info {
                                  1e-6 of its mean. At most 0.2 % if certified */
     int32_t reason;         /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
     int32_t reason_side;    /**< 1: because the source's chart is not, 2: the target's; else 0 */
+    size_t n_holes;         /**< features inside: holes, */
+    size_t n_lines;         /**< lines */
+    size_t n_points;        /**< and points */
+    size_t n_ties;          /**< with features: as many ties, see icc_map_get_tie() */
+    double detour;          /**< lengths of these in the target over those of the straight lines
+                                 between their ends: what is much more than 1 is twisted */
+    int32_t class_kept;     /**< with features, 1: the map can be moved, while it stays one-to-one,
+                                 to what its ties, or the cuts chosen for it, said; and after
+                                 icc_map_retarget() to what became of the map before while every
+                                 vertex of the target went straight to its new place. Checked by
+                                 which edges of a triangulation the images of cuts cross; 0: not
+                                 so, or rounding or the way of the vertices leaves it open */
+    int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
+                                 map; 1 with ties */
 } icc_map_info;
 
 /**
@@ -1118,9 +1132,35 @@ ICC_API icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *
                                     double *jacobians, icc_status *status, size_t *n_failed,
                                     const icc_env *env);
 
+/** What icc_map_get_tie() reports. */
+typedef struct icc_tie_info {
+    size_t size;        /**< set by the caller: `sizeof(icc_tie_info)` */
+    uint32_t vertex[2]; /**< as in icc_tie */
+    size_t n_source;    /**< its bends in the source: none as yet, they are edges of a triangulation
+                             of the source's vertices */
+    size_t n_target;    /**< and in the target */
+    double length[2];   /**< of the tie in the source, and in the target */
+} icc_tie_info;
+
+/**
+ * Reports a tie of a map of domains with features: which way round one another the features go. All
+ * of them, as icc_map_options::ties, make another map that can be moved to this one while it stays
+ * one-to-one. They follow from the map alone: the source's are a shortest tree of straight lines
+ * between vertices, in which the ties that it was made with, if any, need not be; the target's are
+ * drawn with few bends and do not cross.
+ *
+ * @param map         the map
+ * @param tie         its number, less than icc_map_info::n_ties
+ * @param[out] info   `size` is set by the caller
+ * @param[out] source 2 * n_source coordinates of bends, or NULL
+ * @param[out] target 2 * n_target coordinates of bends, or NULL
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT (`map` or `info` is NULL, or there is no such tie)
+ */
+ICC_API icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info,
+                                   double *source, double *target);
+
 /**
  * Writes a map to memory, with its domains and charts, in two calls as icc_chart_save() does.
- * Maps of domains with features cannot be saved: ::ICC_ERR_UNSUPPORTED.
  */
 ICC_API icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes);
 

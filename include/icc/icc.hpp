@@ -518,6 +518,25 @@ private:
     }
 };
 
+/** A tie of a map between domains with features: map::ties(). */
+struct tie {
+    std::array<std::uint32_t, 2> vertices{}; /**< where it begins and ends */
+    std::vector<double> source, target;      /**< its bends, 2 coordinates each */
+
+    /** As icc_map_options takes it, in an array; points into this. */
+    icc_tie raw() const noexcept
+    {
+        icc_tie t = sized<icc_tie>();
+        t.vertex[0] = vertices[0];
+        t.vertex[1] = vertices[1];
+        t.n_source = source.size() / 2;
+        t.source = source.data();
+        t.n_target = target.size() / 2;
+        t.target = target.data();
+        return t;
+    }
+};
+
 /** The mesh of a map of kind mesh: icc_map_get_mesh(). */
 struct map_mesh {
     std::vector<double> vertices;         /**< `dim` coordinates each */
@@ -581,6 +600,25 @@ public:
 
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
+
+    /** Which way round one another features go: icc_map_get_tie(). None without features. */
+    std::vector<tie> ties() const
+    {
+        std::vector<tie> result(info().n_ties);
+        for (std::size_t k = 0; k < result.size(); ++k) {
+            auto about = sized<icc_tie_info>();
+            tie &t = result[k];
+            call({}, [&](auto...) { return icc_map_get_tie(get(), k, &about, nullptr, nullptr); });
+            t.source.resize(2 * about.n_source);
+            t.target.resize(2 * about.n_target);
+            call({}, [&](auto...) {
+                return icc_map_get_tie(get(), k, &about, t.source.data(), t.target.data());
+            });
+            t.vertices = {about.vertex[0], about.vertex[1]};
+        }
+        return result;
+    }
+
     /** The charts, for calls of the C interface; borrowed. NULL after retarget(). */
     const icc_chart *get_source_chart() const noexcept { return icc_map_source_chart(get()); }
     const icc_chart *get_target_chart() const noexcept { return icc_map_target_chart(get()); } /**< too */

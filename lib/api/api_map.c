@@ -84,6 +84,17 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
     return iccp_write_struct(info, &map->info, sizeof map->info, "icc_map_info", NULL);
 }
 
+icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *source,
+                           double *target)
+{
+    if (map == NULL || info == NULL || map->isotopy == NULL || tie >= map->isotopy->n)
+        return ICC_ERR_ARGUMENT;
+    const icc_tie_info full =
+        iccp_isotopy_tie(map->isotopy, tie, map->source_domain, map->target_domain, target);
+    (void)source; /* there are no bends */
+    return iccp_write_struct(info, &full, sizeof full, "icc_tie_info", NULL);
+}
+
 const icc_chart *icc_map_source_chart(const icc_map *map)
 {
     return map != NULL ? map->source : NULL;
@@ -287,8 +298,6 @@ icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t 
 {
     if (map == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
-    if (map->source_domain->features != NULL)
-        return ICC_ERR_UNSUPPORTED;
     iccp_map_save(map, capacity, data, n_bytes);
     return ICC_OK;
 }

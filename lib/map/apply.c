@@ -114,6 +114,14 @@ static icc_status map_point(map_loop *loop, size_t i, iccp_path *path)
 
 /* ---- the mesh in the plane ---- */
 
+/* Given vertices go to theirs, be they as near as that. */
+static bool is_given(const icc_map *map, const iccp_found *found)
+{
+    uint32_t vertex;
+    return found->triangle != ICCP_NO_NEIGHBOUR &&
+           iccp_mesh_map_is_given(map->mesh, found, &vertex);
+}
+
 /* Where a triangle holds a point and the boundary is not near, the point is inside, and where none
  * does it is outside, as the domain would say: it counts as on the boundary only within the reach
  * of the band, and the mesh's own boundary follows the domain's to within 1.5 times that, so that
@@ -129,7 +137,7 @@ static icc_status plane_point(const map_loop *loop, const double *point, const d
     uint32_t facet;
     icc_status status = ICC_OK;
     int32_t where = found->triangle != ICCP_NO_NEIGHBOUR ? ICC_INSIDE : ICC_OUTSIDE;
-    if (found->is_near) {
+    if (found->is_near && !is_given(map, found)) {
         if (!is_finite(2, point))
             return ICC_ERR_ARGUMENT;
         where = iccp_domain_locate(from, local, true, &facet, bary);

@@ -60,4 +60,16 @@ static inline void iccp_candidate_add(iccp_candidate *candidate, const iccp_plma
                                                 iccp_roundness(image[0], image[1], image[2])));
 }
 
+/* Whether doubles, too, find area and energy in the triangle of three vertices, there and back. */
+static inline bool iccp_candidate_is_sound(const iccp_plmap *map, uint32_t a, uint32_t b,
+                                           uint32_t c)
+{
+    iccp_plmap inverse = *map;
+    iccp_candidate there = iccp_no_candidate(), back = there;
+    iccp_plmap_swap(&inverse);
+    iccp_candidate_add(&there, map, a, b, c);
+    iccp_candidate_add(&back, &inverse, a, b, c);
+    return there.area > 0 && there.energy < HUGE_VAL && back.area > 0 && back.energy < HUGE_VAL;
+}
+
 #endif

@@ -26,10 +26,10 @@ enum { MOST_BLOCKED = 12, MOST_HALVINGS = 30 };
 
 /* Of a new mesh. */
 enum { ROUNDS = 2 };
-static const iccp_descent RELAXATION = {0, 4, 1e-2, 0};
+static const iccp_descent RELAXATION = {0, 4, 1e-2, 0, false};
 
 /* After each part. */
-static const iccp_descent CORRECTION = {0, 2, 1e-2, 0};
+static const iccp_descent CORRECTION = {0, 2, 1e-2, 0, false};
 
 typedef struct carry {
     iccp_plmap *map;

@@ -8,7 +8,10 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "map/candidate.h"
 #include "map/coarsen.h"
+#include "map/descent.h"
+#include "map/flips.h"
 #include "map/glue.h"
 #include "map/overlay_start.h"
 #include "map/repair.h"
@@ -24,7 +27,14 @@ enum { TREES = 30, COST = 1 };
  * are longer than straight ones by no more than a factor. */
 static const double GOOD = 8, FAIR = 100, STRAIGHT = 1.2;
 
-/* By one way to cut. ICC_ERR_CERTIFICATE when rounding spoils it. */
+/* Trees whose overlay has so many times the triangles of another one are not the best: one in a
+ * hundred would have been, by a tenth. */
+static const double TOO_MANY = 3;
+
+/* Steps on both sides of a start that is GOOD. */
+static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
+
+/* By one way to cut, as it comes. ICC_ERR_CERTIFICATE when rounding spoils it. */
 static icc_status start_from(iccp_plmap *map, const iccp_scene *scene, const iccp_cuts *cuts,
                              const iccp_env *env)
 {
@@ -61,25 +71,45 @@ static bool is_lost(icc_status status)
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
 }
 
-/* A start without more triangles than it needs, and its energy. */
-static icc_status try_tree(iccp_plmap *map, double *energy, iccp_cuts *cuts,
+/* Leaves no more triangles than a start needs. */
+static icc_status thin_out(iccp_plmap *map, const iccp_env *env)
+{
+    size_t n_gone;
+    const icc_status status = iccp_cut_chords(map);
+    return status == ICC_OK ? iccp_coarsen(map, ICCP_RISE, &n_gone, env) : status;
+}
+
+/* Infinite, too, where doubles find no area in a triangle. */
+static double energy_of(const iccp_plmap *map)
+{
+    const uint32_t *v = map->corners.vertex;
+    for (size_t t = 0; t < map->corners.n_triangles; ++t)
+        if (!iccp_candidate_is_sound(map, v[3 * t], v[3 * t + 1], v[3 * t + 2]))
+            return HUGE_VAL;
+    return iccp_plmap_energy(map);
+}
+
+/* A start and its energy, HUGE_VAL where there is none. `least`: the fewest triangles of all
+ * overlays so far. */
+static icc_status try_tree(iccp_plmap *map, double *energy, size_t *least, iccp_cuts *cuts,
                            const iccp_scene *scene, iccp_cutter *cutter, uint64_t tree,
                            iccp_work *work, const iccp_env *env)
 {
-    size_t n_gone;
     icc_status status = iccp_cuts_create(cuts, cutter, tree, env);
+    *energy = HUGE_VAL;
+    if (status == ICC_OK)
+        status = start_from(map, scene, cuts, env);
     if (status != ICC_OK)
         return status;
-    status = start_from(map, scene, cuts, env);
-    if (status == ICC_OK) {
-        if (!iccp_work_take(work, COST * map->corners.n_triangles))
-            work->left = 0;
-        status = iccp_cut_chords(map);
-    }
+    const size_t n = map->corners.n_triangles;
+    if (!iccp_work_take(work, COST * n))
+        work->left = 0;
+    *least = n < *least ? n : *least;
+    if ((double)n > TOO_MANY * (double)*least)
+        return ICC_OK;
+    status = thin_out(map, env);
     if (status == ICC_OK)
-        status = iccp_coarsen(map, ICCP_RISE, &n_gone, env);
-    if (status == ICC_OK)
-        *energy = iccp_plmap_energy(map);
+        *energy = energy_of(map);
     return status;
 }
 
@@ -93,25 +123,27 @@ static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *
                          iccp_work *work, iccp_feature_report *report, const iccp_env *env)
 {
     double best = HUGE_VAL;
+    size_t least = SIZE_MAX;
     bool is_good = false;
     icc_status status = ICC_OK;
     for (uint64_t tree = 0; tree < TREES && !is_good && work->left > 0; ++tree) {
         iccp_cuts cuts = {.memory = env->memory};
         iccp_plmap other = {.memory = env->memory};
-        double energy = HUGE_VAL;
+        double energy;
         const iccp_env part = iccp_round(env, tree, 2);
-        status = try_tree(&other, &energy, &cuts, scene, cutter, tree, work, &part);
+        status = try_tree(&other, &energy, &least, &cuts, scene, cutter, tree, work, &part);
         if (status == ICC_OK) {
             const double detour = iccp_max(detour_of(&cuts, 0), detour_of(&cuts, 1));
             ++report->n_trees;
             is_good = energy <= GOOD || (energy <= FAIR && detour <= STRAIGHT);
             if (energy < best) {
                 const iccp_plmap worse = *map;
+                const iccp_cuts others = report->cuts;
                 *map = other;
                 other = worse;
+                report->cuts = cuts;
+                cuts = others;
                 best = energy;
-                report->n_cuts = cuts.n;
-                report->detour = detour_of(&cuts, 1);
             }
         }
         iccp_cuts_free(&cuts);
@@ -127,14 +159,26 @@ static icc_status start_from_ties(iccp_plmap *map, const iccp_scene *scene,
                                   const icc_map_options *options, iccp_feature_report *report,
                                   const iccp_env *env, icc_error *err)
 {
-    iccp_cuts cuts;
-    icc_status status = iccp_ties_read(&cuts, scene, options->n_ties, options->ties, env, err);
+    icc_status status =
+        iccp_ties_read(&report->cuts, scene, options->n_ties, options->ties, env, err);
     if (status != ICC_OK)
         return status;
-    status = start_from(map, scene, &cuts, env);
-    *report = (iccp_feature_report){cuts.n, 1, detour_of(&cuts, 1)};
-    iccp_cuts_free(&cuts);
+    status = start_from(map, scene, &report->cuts, env);
+    report->n_trees = 1;
+    if (status == ICC_OK)
+        status = thin_out(map, env);
     return is_lost(status) || status == ICC_OK ? status : ICC_ERR_RESOLUTION;
+}
+
+/* From a GOOD start the images will find the rest of the way alone. */
+static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    size_t n_flips;
+    iccp_improvement ignored = {0};
+    if (iccp_plmap_energy(map) > GOOD)
+        return iccp_overlay_relax(map, work, env);
+    const icc_status status = iccp_flip_edges(map, &n_flips, env);
+    return status == ICC_OK ? iccp_improve_both_sides(map, &DESCENT, work, &ignored, env) : status;
 }
 
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
@@ -146,7 +190,7 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     *map = (iccp_plmap){.memory = env->memory};
-    *report = (iccp_feature_report){0};
+    *report = (iccp_feature_report){.cuts.memory = env->memory};
     icc_status status = iccp_scene_create(&scene, source, target, env);
     if (status == ICC_OK && options->ties != NULL)
         status = start_from_ties(map, &scene, options, report, &part[0], err);
@@ -161,5 +205,22 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
         status = iccp_fail(err, status,
                            "the features are too close together, or too entangled, for "
                            "doubles: no start was found");
-    return status == ICC_OK ? iccp_overlay_relax(map, relaxing, &part[1]) : status;
+    return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
+}
+
+icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
+                                   const icc_domain *target, const iccp_cuts *cuts,
+                                   iccp_work *relaxing, const iccp_env *env)
+{
+    iccp_scene scene;
+    *map = (iccp_plmap){.memory = env->memory};
+    icc_status status = iccp_scene_create(&scene, source, target, env);
+    if (status == ICC_OK)
+        status = start_from(map, &scene, cuts, env);
+    iccp_scene_free(&scene);
+    if (status == ICC_OK)
+        status = thin_out(map, env);
+    if (status != ICC_OK)
+        return is_lost(status) ? status : ICC_ERR_RESOLUTION;
+    return relax(map, relaxing, env);
 }

@@ -2,14 +2,14 @@
 #ifndef ICCP_FEATURE_START_H
 #define ICCP_FEATURE_START_H
 
+#include "map/cuts.h"
 #include "map/plmap.h"
 #include "map/work.h"
 
 /* What is known of a start. */
 typedef struct iccp_feature_report {
-    size_t n_cuts, n_trees; /* paths of a tree; trees that led to a start */
-    double detour; /* lengths of the paths in the target over those of the straight lines between
-                      their ends */
+    size_t n_trees; /* of cuts that led to a start */
+    iccp_cuts cuts; /* those that it was made with; the caller frees them in any case */
 } iccp_feature_report;
 
 /* A map that takes every feature of one domain to the same of the other, vertex by vertex, and is
@@ -21,5 +21,11 @@ typedef struct iccp_feature_report {
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err);
+
+/* The start that cuts lead to, which the caller has. ICC_ERR_RESOLUTION when rounding is in the
+ * way. */
+icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
+                                   const icc_domain *target, const iccp_cuts *cuts,
+                                   iccp_work *relaxing, const iccp_env *env);
 
 #endif

@@ -41,9 +41,12 @@ iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work
     return part;
 }
 
-icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options, bool both_sides,
-                            iccp_work *work, bool *cancelled, iccp_improvement *improvement,
-                            const iccp_env *env)
+const iccp_schedule ICCP_PLAIN = {0}, ICCP_RELAXED = {.is_relaxed = true},
+                    ICCP_BOTH_SIDES = {.both_sides = true, .is_relaxed = true};
+
+icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
+                            const iccp_schedule *how, iccp_work *work, bool *cancelled,
+                            iccp_improvement *improvement, const iccp_env *env)
 {
     const bool is_limited = work->left < HUGE_VAL;
     const iccp_schedule schedule = {
@@ -54,7 +57,8 @@ icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options, 
                                          : (size_t)options->levels,
         .most =
             is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL,
-        .both_sides = both_sides};
+        .both_sides = how->both_sides,
+        .is_relaxed = how->is_relaxed};
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;
@@ -62,8 +66,8 @@ icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options, 
 }
 
 icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *options,
-                             iccp_work *work, icc_map_info *info, const iccp_env *env,
-                             icc_error *err)
+                             const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                             const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds();
     icc_status status = ICC_OK;
@@ -74,8 +78,7 @@ icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *opti
     if (options->iterations >= 0) {
         iccp_improvement improvement;
         bool cancelled;
-        status =
-            iccp_fit_improve(&map->pl, options, false, work, &cancelled, &improvement, &part[0]);
+        status = iccp_fit_improve(&map->pl, options, how, work, &cancelled, &improvement, &part[0]);
         if (status == ICC_OK && cancelled)
             status = ICC_ERR_CANCELLED;
         info->energy = improvement.energy;
@@ -100,8 +103,8 @@ icc_status iccp_refit(iccp_mesh_map *map, const icc_improve_options *options, ic
     info->seconds_repair = iccp_seconds() - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
         return status;
-    return iccp_fit_complete(map, options, iccp_bound(&work->improvement, 1, work), info, &part[1],
-                             err);
+    return iccp_fit_complete(map, options, &ICCP_PLAIN, iccp_bound(&work->improvement, 1, work),
+                             info, &part[1], err);
 }
 
 void iccp_fit_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)

@@ -23,15 +23,18 @@ double iccp_spent(const iccp_allowance *work);
 /* Before a part begins: no more than is left of all, where a step counts `weight` times. */
 iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work);
 
+/* How: the rest of a schedule is up to options. */
+extern const iccp_schedule ICCP_PLAIN, ICCP_RELAXED, ICCP_BOTH_SIDES;
+
 /* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
-icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options, bool both_sides,
-                            iccp_work *work, bool *cancelled, iccp_improvement *improvement,
-                            const iccp_env *env);
+icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
+                            const iccp_schedule *how, iccp_work *work, bool *cancelled,
+                            iccp_improvement *improvement, const iccp_env *env);
 
 /* Improves and certifies what is in map->pl, which is one-to-one. */
 icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *options,
-                             iccp_work *work, icc_map_info *info, const iccp_env *env,
-                             icc_error *err);
+                             const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                             const iccp_env *env, icc_error *err);
 
 /* Repairs, improves and certifies what is in map->pl. When it cannot be repaired,
  * info->n_unrepaired is not 0, with ICC_OK. */

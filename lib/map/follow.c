@@ -6,6 +6,7 @@
 #include "domain/features.h"
 #include "map/carry.h"
 #include "map/density.h"
+#include "map/feature_start.h"
 #include "map/fit.h"
 #include "map/tend.h"
 
@@ -38,33 +39,6 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
             iccp_carry_place(pl, target, v, pl->images + 2 * v);
 }
 
-/* Features must not be torn from one another: no state between is repaired. */
-static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
-                        const icc_improve_options *options, iccp_allowance *work,
-                        icc_map_info *info, const iccp_env *env, icc_error *err)
-{
-    const double begin = iccp_seconds();
-    bool reached = false;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){3, 1}, env);
-    icc_status status = ICC_OK;
-    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
-        status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
-    if (status == ICC_OK)
-        status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
-    bool changed;
-    if (status == ICC_OK && reached)
-        status = iccp_tend(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &work->overlay, &changed, env);
-    info->seconds_repair = iccp_seconds() - begin;
-    if (status == ICC_OK && !reached)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                         "features moved straight to their new places would meet, or the work "
-                         "allowed is not enough: go there in several steps, or make a new map");
-    if (status == ICC_OK)
-        status = iccp_fit_complete(map, options, &work->improvement, info, &part[1], err);
-    return status;
-}
-
 /* The images where they were, in the frame of the new target. */
 static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
                         const icc_domain *old_target, const icc_domain *target,
@@ -77,6 +51,61 @@ static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain 
     pl->plan = plan;
     pl->stretch = sqrt(target->measure / source->measure);
     return ICC_OK;
+}
+
+typedef struct journey {
+    const iccp_isotopy *isotopy;
+    const icc_domain *source, *old_target, *target;
+} journey;
+
+/* What the map would have become, but made anew. *made: whether that could be done. */
+static icc_status rebuild(iccp_plmap *pl, const journey *j, iccp_work *work, bool *made,
+                          const iccp_env *env)
+{
+    iccp_cuts cuts;
+    icc_status status =
+        iccp_isotopy_move(&cuts, made, j->isotopy, j->source, j->old_target, j->target, env);
+    if (status == ICC_OK && *made) {
+        iccp_plmap_free(pl);
+        status = iccp_feature_start_from(pl, j->source, j->target, &cuts, work, env);
+        *made = status == ICC_OK;
+    }
+    iccp_cuts_free(&cuts);
+    return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
+}
+
+/* Features must not be torn from one another: no state between is repaired. */
+static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_options *options,
+                        iccp_allowance *work, icc_map_info *info, const iccp_env *env,
+                        icc_error *err)
+{
+    const double begin = iccp_seconds(), stretch = map->pl.stretch;
+    const double longest = iccp_planar_step(j->target, CARRIED_CELLS);
+    bool reached = false, changed;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
+    icc_status status = ICC_OK;
+    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
+        status = iccp_limit_edges(&map->pl, longest, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_carry(&map->pl, j->target, &work->repair, &reached, &part[0]);
+    if (status == ICC_OK && !reached) {
+        status = rebuild(&map->pl, j, &work->overlay, &reached, &part[0]);
+        if (status == ICC_OK && reached)
+            status = iccp_limit_edges(&map->pl, longest, &part[0]);
+    }
+    if (status == ICC_OK && reached)
+        status = iccp_tend(&map->pl, longest, &work->overlay, &changed, env);
+    map->pl.stretch = stretch;
+    info->seconds_repair = iccp_seconds() - begin;
+    if (status == ICC_OK && !reached)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "features moved straight to their new places would meet, or the work "
+                         "allowed is not enough: go there in several steps, or make a new map");
+    if (status == ICC_OK)
+        status =
+            iccp_fit_complete(map, options, &ICCP_PLAIN, &work->improvement, info, &part[1], err);
+    return status;
 }
 
 static bool same_memory(const iccp_memory *a, const iccp_memory *b)
@@ -124,16 +153,17 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
     if (status == ICC_OK)
         status = iccp_carry(&next->pl, target, &work->overlay, &reached, env);
     if (status == ICC_OK && reached)
-        status = iccp_fit_complete(next, options, &work->improvement, &own, env, err);
+        status = iccp_fit_complete(next, options, &ICCP_PLAIN, &work->improvement, &own, env, err);
     if (status == ICC_OK && reached)
         *info = own;
     return status;
 }
 
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
-                                const icc_domain *source, const icc_domain *old_target,
-                                const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err)
+                                const iccp_isotopy *isotopy, const icc_domain *source,
+                                const icc_domain *old_target, const icc_domain *target,
+                                int32_t iterations, icc_map_info *info, const iccp_env *env,
+                                icc_error *err)
 {
     iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
     *out = NULL;
@@ -152,9 +182,11 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
         work.all = HUGE_VAL;
-        status = source->features == NULL ? follow_cage(next, map, source, old_target, target,
-                                                        &options, &work, info, env, err)
-                                          : carry(next, target, &options, &work, info, env, err);
+        status = source->features == NULL
+                     ? follow_cage(next, map, source, old_target, target, &options, &work, info,
+                                   env, err)
+                     : carry(next, &(journey){isotopy, source, old_target, target}, &options, &work,
+                             info, env, err);
         next->work = iccp_spent(&work);
         iccp_fit_keep_plan(next, plan);
     }

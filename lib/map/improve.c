@@ -6,8 +6,6 @@
 #include "base/threads.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
-#include "map/movable.h"
-#include "map/newton.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -16,8 +14,8 @@
  * converges. */
 enum { MAJORISED_STEPS = 3 };
 
-/* Shares of progress: half of a descent, and half of all descents. */
-static const double TYPICAL_STEPS = 8, TYPICAL_LEVELS = 2;
+/* Half of all descents, as far as progress goes. */
+static const double TYPICAL_LEVELS = 2;
 
 /* A refinement cuts the triangles that carry this share of the energy above an isometry's, but no
  * more than this share of all. */
@@ -39,65 +37,16 @@ enum { GRAIN = 1024 };
  * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
 static const double LEAST_GAIN = 0.01, HIGH = 20;
 
-icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
-{
-    improvement->is_converged = false;
-    if (!iccp_work_fits(work, map->n_simplices))
-        return ICC_OK;
-    iccp_newton newton;
-    iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
-    uint8_t *movable;
-    icc_status status = iccp_movable_create(&movable, map, env);
-    if (status == ICC_OK)
-        status = iccp_newton_create(&newton, map, movable, &part);
-    iccp_free(&env->memory, movable);
-    if (status != ICC_OK)
-        return status;
-    const size_t n_free = newton.assembly.n_free;
-    double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
-    size_t n_slow = 0;
-    for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
-                       iccp_work_take(work, map->n_simplices);
-         ++k) {
-        const iccp_energy model =
-            k < descent->majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
-        double slope;
-        part = iccp_round(env, k + 1, TYPICAL_STEPS);
-        status = iccp_progress(&part, "improve", 0);
-        if (status == ICC_OK)
-            status = iccp_newton_solve(&newton, model, 0, &slope, &part);
-        if (status != ICC_OK)
-            break;
-        const double after = iccp_newton_move(&newton, model, 0, energy, slope);
-        const double gain = energy - after;
-        energy = after;
-        ++improvement->n_iterations;
-        if (k < descent->majorised)
-            continue;
-        n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
-        improvement->is_converged = gain <= descent->tolerance * energy;
-        if (n_slow == 2 || improvement->is_converged)
-            break;
-    }
-    iccp_newton_free(&newton);
-    return status == ICC_ERR_SOLVER ? ICC_OK : status;
-}
+/* Where a map that was relaxed is as good as this, a refinement in vain can be told beforehand. */
+static const double NEAR = 5;
 
-/* Steps for the images; and, on both sides, as many for the points, by the energy of the inverse
- * map, which is the same but for how triangles count: by their area after the map. */
 static icc_status descend(iccp_plmap *map, const iccp_descent *descent, bool both_sides,
                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    for (int side = 0; side < (both_sides ? 2 : 1); ++side) {
-        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-        if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, descent, work, improvement, env);
-        if (both_sides)
-            iccp_plmap_swap(map);
-    }
+    if (both_sides)
+        return iccp_improve_both_sides(map, descent, work, improvement, env);
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
     improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
     return status;
 }
@@ -191,13 +140,21 @@ static bool may_refine(const iccp_plmap *map, const iccp_schedule *schedule, con
            STEPS * n <= work->left;
 }
 
+/* Whether the next refinement of a map NEAR an isometry is in vain, as its gain falls short of the
+ * last one's by the same share as that of the one before. */
+static bool is_settled(double energy, double gain, double gain_before)
+{
+    return energy < NEAR && gain < gain_before && gain * gain < LEAST_GAIN * gain_before;
+}
+
 /* Refinements, with steps after each, as long as they pay. */
 static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, double slow,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
-    const iccp_descent descent = {0, most, schedule->tolerance, slow};
+    const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
     size_t n_in_vain = 0;
+    double gain_before = 0;
     icc_status status = ICC_OK;
     while (status == ICC_OK && n_in_vain <= (improvement->energy > HIGH) &&
            may_refine(map, schedule, work, improvement)) {
@@ -211,7 +168,14 @@ static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, d
         if (status == ICC_OK)
             status = descend(map, &descent, schedule->both_sides, work, improvement, &part);
         ++improvement->n_levels;
-        n_in_vain = before - improvement->energy < LEAST_GAIN * before ? n_in_vain + 1 : 0;
+        const double gain = (before - improvement->energy) / before;
+        n_in_vain = gain < LEAST_GAIN ? n_in_vain + 1 : 0;
+        if (status == ICC_OK && schedule->is_relaxed &&
+            is_settled(improvement->energy, gain, gain_before)) {
+            improvement->is_converged = true;
+            break;
+        }
+        gain_before = gain;
     }
     return status;
 }
@@ -220,8 +184,9 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
                         iccp_improvement *improvement, const iccp_env *env)
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
-    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0};
-    iccp_descent first = {MAJORISED_STEPS, schedule->iterations, schedule->tolerance, slow};
+    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
+    iccp_descent first = {schedule->is_relaxed ? 0 : MAJORISED_STEPS, schedule->iterations,
+                          schedule->tolerance, slow, schedule->is_relaxed};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};

@@ -2,29 +2,7 @@
 #ifndef ICCP_IMPROVE_H
 #define ICCP_IMPROVE_H
 
-#include "map/plmap.h"
-#include "map/work.h"
-
-typedef struct iccp_improvement {
-    double energy; /* the map's at the end */
-    size_t n_iterations;
-    size_t n_levels;   /* refinements */
-    bool is_converged; /* the last step gained no more than the tolerance */
-} iccp_improvement;
-
-/* When steps on one mesh end. */
-typedef struct iccp_descent {
-    size_t majorised;  /* the first steps are by SLIM's model */
-    size_t iterations; /* at most so many, */
-    double tolerance;  /* until one gains no more than this share of the energy, */
-    double slow;       /* or two in turn no more than this share each */
-} iccp_descent;
-
-/* Lowers the symmetric Dirichlet energy of a map in the plane or in space, all of whose simplices
- * are positive, which they stay. Ends, too, when there is no work left for a step. Adds to
- * improvement->n_iterations. On any failure the map is as good. */
-icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
+#include "map/descent.h"
 
 /* How far a map is improved. */
 typedef struct iccp_schedule {
@@ -33,6 +11,7 @@ typedef struct iccp_schedule {
     size_t levels;     /* refinements at most, */
     double most;       /* to no more triangles than this */
     bool both_sides;   /* the points of inner vertices move, too */
+    bool is_relaxed;   /* they have: the energy has come down, and what is left is refined */
 } iccp_schedule;
 
 /* Lowers the symmetric Dirichlet energy of a map whose triangles are all positive, which they stay,

@@ -143,6 +143,22 @@ icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env)
     return status;
 }
 
+icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env)
+{
+    const iccp_features *features = map->source_domain->features;
+    icc_map_info *info = &map->info;
+    if (features == NULL)
+        return ICC_OK;
+    const icc_status status = iccp_isotopy_create(&map->isotopy, &map->mesh->pl, map->source_domain,
+                                                  map->target_domain, env);
+    info->n_holes = features->n_holes;
+    info->n_lines = features->n_lines;
+    info->n_points = features->n_points;
+    info->n_ties = map->isotopy != NULL ? map->isotopy->n : 0;
+    info->detour = map->isotopy != NULL ? map->isotopy->detour : 0;
+    return status;
+}
+
 /* Maps of domains with features have no charts. */
 static icc_status create_with_features(icc_map **out, const icc_domain *source,
                                        const icc_domain *target, const icc_map_options *options,
@@ -154,6 +170,8 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
     if (status == ICC_OK)
         status = iccp_mesh_map_create_features(&map->mesh, source, target, options, &map->info, env,
                                                err);
+    if (status == ICC_OK)
+        status = iccp_map_tell_features(map, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
@@ -343,11 +361,16 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
                                        options, report, &with, err);
     iccp_without_team(&with, env);
+    if (status == ICC_OK) {
+        better->info = map->info;
+        status = iccp_map_tell_features(better, env);
+    }
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
     }
-    better->info = map->info;
+    better->info.class_kept =
+        map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
     better->info.n_vertices = better->mesh->pl.n_vertices;
     better->info.n_simplices = better->mesh->pl.corners.n_triangles;
     better->info.energy = report->energy;
@@ -389,8 +412,8 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     const icc_status status =
-        iccp_mesh_map_follow(&next->mesh, map->mesh, source, map->target_domain, target, iterations,
-                             &next->info, &part[0], err);
+        iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source, map->target_domain,
+                             target, iterations, &next->info, &part[0], err);
     return status == ICC_OK && next->mesh == NULL ? begin_anew(next, iterations, &part[1], err)
                                                   : status;
 }
@@ -410,6 +433,14 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     if (status == ICC_OK)
         status = retarget(next, map, iterations, &with, err);
     iccp_without_team(&with, env);
+    if (status == ICC_OK)
+        status = iccp_map_tell_features(next, env);
+    if (status == ICC_OK && map->info.class_kept) {
+        bool kept;
+        status = iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &next->mesh->pl,
+                                      map->source_domain, target, env);
+        next->info.class_kept = kept;
+    }
     if (status != ICC_OK) {
         iccp_map_release(next);
         return iccp_explain(err, status);
@@ -428,6 +459,7 @@ void iccp_map_release(icc_map *map)
         return;
     iccp_mesh_map_free(map->mesh, &map->memory);
     iccp_solid_map_free(map->solid);
+    iccp_isotopy_free(map->isotopy);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
     iccp_domain_release(map->source_domain);

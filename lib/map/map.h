@@ -2,6 +2,7 @@
 #ifndef ICCP_MAP_H
 #define ICCP_MAP_H
 
+#include "map/isotopy.h"
 #include "map/mesh_map.h"
 #include "map/solid_map.h"
 
@@ -11,6 +12,7 @@ struct icc_map {
     icc_chart *source, *target; /* both NULL for a retargeted map */
     iccp_mesh_map *mesh;        /* kind mesh in the plane, or NULL */
     iccp_solid_map *solid;      /* kind mesh in space, or NULL */
+    iccp_isotopy *isotopy;      /* with features; NULL where rounding is in the way */
     icc_map_info info;
 };
 
@@ -43,6 +45,10 @@ icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const ic
 icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_domain *target,
                           const iccp_env *env, icc_error *err);
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
+
+/* Once the mesh of a map is there: between domains with features, its isotopy and what the info
+ * says of features, but for class_kept. */
+icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env);
 
 /* Takes the certificate away from a map that its charts do not warrant: of method field. */
 icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env);

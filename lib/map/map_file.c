@@ -80,6 +80,10 @@ static icc_status visit_story(iccp_blob *b, icc_map_info *info)
     iccp_blob_size(b, &info->n_iterations);
     iccp_blob_f64(b, 1, &info->energy_start);
     iccp_blob_f64(b, 1, &info->energy);
+    if (b->version != PLAIN_VERSION) {
+        iccp_blob_i32(b, ICCP_U32, 0, 1, &info->class_kept);
+        iccp_blob_i32(b, ICCP_U32, 0, INT32_MAX, &info->n_trees);
+    }
     return b->status;
 }
 
@@ -89,10 +93,13 @@ static icc_status visit_plane_mesh(iccp_blob *b, icc_map *map, const iccp_env *e
         map->mesh = iccp_mesh_map_new(map->source_domain, map->target_domain, &env->memory);
     if (map->mesh == NULL)
         return ICC_ERR_MEMORY;
-    const icc_status status =
+    icc_status status =
         iccp_plmap_visit(b, &map->mesh->pl, map->source_domain, map->target_domain, env);
-    return status == ICC_OK && b->reads ? iccp_mesh_map_finish(map->mesh, &map->info, env, NULL)
-                                        : status;
+    if (!b->reads)
+        return status;
+    if (status == ICC_OK)
+        status = iccp_mesh_map_finish(map->mesh, &map->info, env, NULL);
+    return status == ICC_OK ? iccp_map_tell_features(map, env) : status;
 }
 
 /* In space it takes charts to make one. */

@@ -10,6 +10,7 @@
 #include "domain/features.h"
 #include "map/feature_start.h"
 #include "map/fit.h"
+#include "map/isotopy.h"
 #include "map/movable.h"
 #include "map/overlay_start.h"
 #include "map/plmap_certificate.h"
@@ -230,7 +231,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = iccp_fit_improve(pl, options, true, &half, &cancelled, &ignored, env);
+        status = iccp_fit_improve(pl, options, &ICCP_BOTH_SIDES, &half, &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;
@@ -256,8 +257,16 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && options->iterations >= 0)
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
+    map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
-        status = iccp_fit_complete(map, &improvement, &work.improvement, info, &part[2], err);
+        status = iccp_fit_complete(map, &improvement, &ICCP_RELAXED, &work.improvement, info,
+                                   &part[2], err);
+    bool kept = false;
+    if (status == ICC_OK)
+        status = iccp_isotopy_has_cuts(&kept, &map->pl, source, target, &report.cuts, env);
+    info->class_kept = kept;
+    info->n_trees = (int32_t)report.n_trees;
+    iccp_cuts_free(&report.cuts);
     map->work = iccp_spent(&work);
     if (status == ICC_OK)
         *out = map;
@@ -283,8 +292,8 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status =
-            iccp_fit_improve(&better->pl, options, false, &work, &cancelled, &improvement, env);
+        status = iccp_fit_improve(&better->pl, options, &ICCP_PLAIN, &work, &cancelled,
+                                  &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -348,6 +357,19 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
+/* Its own coordinate may be rounded. */
+bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
+{
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    for (size_t k = 0; k < 3; ++k)
+        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
+            !(found->bary[(k + 2) % 3] > 0)) {
+            *vertex = v[k];
+            return true;
+        }
+    return false;
+}
+
 void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
                          double *image, double *jacobian)
 {
@@ -356,6 +378,9 @@ void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_foun
     for (size_t d = 0; d < 2; ++d)
         image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
                    bary[2] * to[2 * (size_t)v[2] + d];
+    uint32_t given;
+    if (iccp_mesh_map_is_given(map, found, &given))
+        memcpy(image, to + 2 * (size_t)given, 2 * sizeof *to);
     if (jacobian != NULL) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
         iccp_simplicial_jacobian(&simplicial, inverse, found->triangle, jacobian);

@@ -60,4 +60,8 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
 void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
                          double *image, double *jacobian);
 
+/* Whether what was found is a vertex of the mesh on a line or point inside, whose image is that of
+ * the vertex bit for bit. */
+bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex);
+
 #endif

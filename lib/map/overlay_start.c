@@ -9,8 +9,8 @@
 #include "base/minmax.h"
 #include "map/coarsen.h"
 #include "map/compatible.h"
+#include "map/descent.h"
 #include "map/flips.h"
-#include "map/improve.h"
 #include "map/repair.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static const double LEAST_GAIN = 0.05;
 static const double CROSSING = 4;
 
 /* Of a round, on each side. */
-static const iccp_descent DESCENT = {3, 10, 1e-3, 0};
+static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
 
 /* The overlay of the cages' own corners. */
 static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
@@ -69,33 +69,18 @@ static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
     return status;
 }
 
-/* Steps on both sides. */
-static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
-{
-    icc_status status = ICC_OK;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 1}, env);
-    for (int side = 0; side < 2; ++side) {
-        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-        iccp_improvement ignored = {0};
-        if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, &DESCENT, work, &ignored, &part[side]);
-        iccp_plmap_swap(map);
-    }
-    return status;
-}
-
 icc_status iccp_overlay_round(iccp_plmap *map, iccp_work *work, double *gain, const iccp_env *env)
 {
     const double before = iccp_plmap_energy(map);
     size_t n_gone, n_flips;
+    iccp_improvement ignored = {0};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     icc_status status = iccp_coarsen(map, ICCP_RISE, &n_gone, &part[0]);
     if (status == ICC_OK)
         status = iccp_flip_edges(map, &n_flips, env);
     if (status == ICC_OK)
-        status = relax(map, work, &part[1]);
+        status = iccp_improve_both_sides(map, &DESCENT, work, &ignored, &part[1]);
     *gain = 1 - iccp_plmap_energy(map) / before;
     return status;
 }

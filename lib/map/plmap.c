@@ -168,6 +168,23 @@ bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t 
     return false;
 }
 
+bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex)
+{
+    size_t n = 0;
+    memset(vertex, 0xff, source->n_vertices * sizeof *vertex);
+    for (size_t v = 0; v < map->n_vertices; ++v) {
+        const uint32_t *ends = source->facets + 2 * (size_t)map->facet[v];
+        if (map->fixed[v] == ICCP_FREE || (map->along[v] > 0 && map->along[v] < 1))
+            continue;
+        uint32_t *own = &vertex[ends[map->along[v] > 0]];
+        if (*own != UINT32_MAX)
+            return false;
+        *own = (uint32_t)v;
+        ++n;
+    }
+    return n == source->n_vertices;
+}
+
 /* Vertex m in the middle of the edge from a to b, which may be one of the boundary, the inside
  * being on its left, or of a line. */
 static void place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)

@@ -121,6 +121,9 @@ static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
            iccp_plmap_on_line(map, a, b, &facet, &from, &to);
 }
 
+/* The mesh's vertex at each vertex of the source. False unless there is one for each. */
+bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex);
+
 /* Whether a triangle is positive before and after the map, exactly. */
 bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);
 bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);

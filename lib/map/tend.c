@@ -3,7 +3,7 @@
 #include "map/coarsen.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
-#include "map/improve.h"
+#include "map/descent.h"
 #include <stdio.h>
 
 #include <stdlib.h>
@@ -59,7 +59,7 @@ icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *cha
             status = iccp_flip_edges(map, &n_flips, env);
         if (status == ICC_OK && P("COARSEN", 0.02) > 0)
             status = iccp_coarsen_within(map, P("COARSEN", 0.02), P("LONG", 1) * longest, &n_gone, env);
-        const iccp_descent descent = {0, (size_t)P("STEPS", 2), 1e-2, 0};
+        const iccp_descent descent = {0, (size_t)P("STEPS", 2), 1e-2, 0, false};
         for (int side = 0; side < 2; ++side) {
             const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
             iccp_improvement ignored = {0};

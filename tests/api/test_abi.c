@@ -287,7 +287,7 @@ AT(icc_map_options, target_maximum, 24);
 AT(icc_map_options, n_ties, 32);
 AT(icc_map_options, ties, 40);
 
-SIZE(icc_map_info, 144);
+SIZE(icc_map_info, 192);
 AT(icc_map_info, size, 0);
 AT(icc_map_info, dim, 8);
 AT(icc_map_info, kind, 12);
@@ -309,6 +309,20 @@ AT(icc_map_info, n_lost, 120);
 AT(icc_map_info, n_flat, 128);
 AT(icc_map_info, reason, 136);
 AT(icc_map_info, reason_side, 140);
+AT(icc_map_info, n_holes, 144);
+AT(icc_map_info, n_lines, 152);
+AT(icc_map_info, n_points, 160);
+AT(icc_map_info, n_ties, 168);
+AT(icc_map_info, detour, 176);
+AT(icc_map_info, class_kept, 184);
+AT(icc_map_info, n_trees, 188);
+
+SIZE(icc_tie_info, 48);
+AT(icc_tie_info, size, 0);
+AT(icc_tie_info, vertex, 8);
+AT(icc_tie_info, n_source, 16);
+AT(icc_tie_info, n_target, 24);
+AT(icc_tie_info, length, 32);
 
 SIZE(icc_improve_options, 24);
 AT(icc_improve_options, size, 0);

@@ -187,6 +187,10 @@ START_TEST(maps_refuse_bad_arguments)
     icc_map_info info = {.size = sizeof info};
     REFUSED(icc_map_get_info(NULL, &info));
     REFUSED(icc_map_get_info(o.map, NULL));
+    icc_tie_info tie = {.size = sizeof tie};
+    REFUSED(icc_map_get_tie(NULL, 0, &tie, NULL, NULL));
+    REFUSED(icc_map_get_tie(o.map, 0, NULL, NULL, NULL));
+    REFUSED(icc_map_get_tie(o.map, 0, &tie, NULL, NULL)); /* it has no features */
     ck_assert(icc_map_source_chart(NULL) == NULL && icc_map_target_chart(NULL) == NULL);
     ck_assert(icc_map_source_chart(o.map) == o.chart &&
               icc_map_target_chart(o.map) == o.target_chart);
@@ -808,6 +812,20 @@ static icc_status write_feature_info(const objects *o, void *info)
     return status;
 }
 
+static icc_status write_tie_info(const objects *o, void *info)
+{
+    icc_domain *domain;
+    icc_map *map;
+    (void)o;
+    ck_assert_int_eq(
+        icc_domain_create_features(&domain, N_CORNERS, SOURCE, 3, FEATURES, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_create(&map, domain, domain, NULL, NULL, NULL), ICC_OK);
+    const icc_status status = icc_map_get_tie(map, 0, info, NULL, NULL);
+    icc_map_free(map);
+    icc_domain_free(domain);
+    return status;
+}
+
 static icc_status write_chart_info(const objects *o, void *info)
 {
     return icc_chart_get_info(o->chart, info);
@@ -936,6 +954,7 @@ START_TEST(infos_may_be_older_or_newer)
         size_t size;
     } WRITERS[] = {{write_domain_info, sizeof(icc_domain_info)},
                    {write_feature_info, sizeof(icc_feature_info)},
+                   {write_tie_info, sizeof(icc_tie_info)},
                    {write_chart_info, sizeof(icc_chart_info)},
                    {write_measures, sizeof(icc_chart_report)},
                    {write_map_info, sizeof(icc_map_info)},

@@ -83,6 +83,22 @@ static void check_chart(const uint8_t *bytes, size_t size, const icc_env *env)
     icc_chart_free(chart);
 }
 
+/* As many numbers as are told, and finite. */
+static void check_ties(const icc_map *map, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) {
+        icc_tie_info info = {.size = sizeof info};
+        require(icc_map_get_tie(map, k, &info, NULL, NULL) == ICC_OK);
+        double *bends = malloc((2 * info.n_target + 1) * sizeof *bends);
+        require(bends != NULL);
+        require(icc_map_get_tie(map, k, &info, NULL, bends) == ICC_OK);
+        for (size_t i = 0; i < 2 * info.n_target; ++i)
+            require(isfinite(bends[i]));
+        require(isfinite(info.length[0]) && isfinite(info.length[1]));
+        free(bends);
+    }
+}
+
 static void check_map(const uint8_t *bytes, size_t size, const icc_env *env)
 {
     icc_map *map;
@@ -104,6 +120,7 @@ static void check_map(const uint8_t *bytes, size_t size, const icc_env *env)
         find_points(icc_chart_domain(icc_map_source_chart(map)), points);
         require(icc_map_apply(map, N_POINTS, points, points, NULL, NULL, NULL) == ICC_OK);
     }
+    check_ties(map, info.n_ties);
     free(again);
     icc_map_free(map);
 }

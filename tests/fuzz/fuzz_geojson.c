@@ -43,8 +43,9 @@ static const cages *make_cages(bool holes)
                                            features, NULL, NULL) == ICC_OK);
     }
     require(icc_map_create(&c->map, c->domains[0], c->domains[1], NULL, NULL, NULL) == ICC_OK);
-    require(carrier_start(&c->carrier, c->map, c->domains[0], c->domains[1], false, -1, NULL) ==
-            ICC_OK);
+    carrier_start(&c->carrier, false, NULL);
+    require(carrier_add(&c->carrier, c->map, c->domains[0], c->domains[1], CARRIER_ALL) == ICC_OK);
+    carrier_set_snap(&c->carrier, -1);
     return c;
 }
 

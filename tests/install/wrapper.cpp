@@ -345,6 +345,16 @@ void has_features()
               ICC_ERR_ARGUMENT,
           "half a vertex");
     check(thrown([&] { icc::chart chart(domain); }, none).status == ICC_ERR_UNSUPPORTED, "no chart");
+    const icc::map map(domain, domain);
+    std::vector<icc_tie> ties;
+    const std::vector<icc::tie> own = map.ties();
+    for (const icc::tie &tie : own)
+        ties.push_back(tie.raw());
+    auto options = icc::sized<icc_map_options>();
+    options.n_ties = ties.size();
+    options.ties = ties.data();
+    check(ties.size() == 3 && icc::map(domain, domain, options).info().class_kept == 1, "its ties");
+    check(icc::map(source, target).ties().empty(), "no ties");
 }
 
 void saves()

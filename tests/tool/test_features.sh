@@ -193,6 +193,24 @@ collection "$source" "$target" "$point" "$partner" "$ends" "$(feature target-tie
 run 1 map -s bad -p given.txt
 says 'as many as features'
 
+# The map's own ties, in a file that makes a map of the same ties.
+run 0 map -s case.geojson -p given.txt --ties own.geojson
+[ "$(grep -c -- '-tie"' own.geojson)" -eq 6 ] || complain "not three ties on each side: $(cat own.geojson)"
+run 0 map -s own.geojson -p given.txt --ties again.geojson
+close_to out images.txt 1e-12
+same own.geojson again.geojson
+run 0 info -s tied.geojson --ties own.geojson
+holds out 'ties        3, '
+run 0 info -s own.geojson --json --ties again.geojson
+holds out '"ties": 3,'
+holds out '"class_kept": true'
+same own.geojson again.geojson
+run 2 map -s case.geojson -p given.txt --ties -
+says '--ties goes to a file'
+run 2 map -s case.geojson -p given.txt --ties own.png
+run 1 map -s source.txt -t target.txt -p points.txt --ties own.geojson
+says 'no ties to write'
+
 # The other commands.
 run 0 check -s case.geojson
 head -n 1 out | grep -qx 'one-to-one: yes, certified' || complain "not certified: $(head -n 1 out)"
@@ -209,6 +227,7 @@ run 0 plot -s case.geojson out.svg
 holds out.svg 'clip-rule="evenodd"'
 holds out.svg 'target: triangles'
 run 0 plot -s case.geojson --triangles out.svg
+[ "$(grep -c stroke-dasharray out.svg)" -eq 18 ] || complain "the map's own ties are not drawn"
 run 0 plot -s tied.geojson out.svg
 [ "$(grep -c stroke-dasharray out.svg)" -eq 18 ] || complain "three ties are not drawn in each of six panels"
 collection "$(feature none Polygon "[$square, $hole]")" "$(feature none LineString "$line")" "$(feature none Point '[2,8]')" >in.geojson
@@ -216,6 +235,27 @@ run 0 map -s case.geojson --geojson in.geojson out.geojson --tolerance 100
 for pair in '1,2' '3,4' '9,4' '3,8'; do
     tr -d ' ' <out.geojson | grep -qF "[$pair]" || complain "$pair is not in $(cat out.geojson)"
 done
+
+# A point with a radius takes the circle round it along, a larger or smaller one if need be.
+sized() { # ROLE COORDINATES RADIUS [NUMBER]
+    feature "$1" Point "$2" "${4:-3}" | sed "s/}, \"geometry\"/, \"radius\": $3&/"
+}
+collection "$source" "$target" "$(sized source '[2,8]' 1)" "$(sized target '[3,7]' 1.5)" >sized.geojson
+printf '2 8\n3 8\n2 9\n1 8\n2 7\n1.29289321881345248 8.70710678118654752\n' >on.txt
+printf '3 7\n4.5 7\n3 8.5\n1.5 7\n3 5.5\n1.93933982822017872 8.06066017177982128\n' >expected
+run 0 map -s sized.geojson -p on.txt
+close_to out expected 1e-12
+run 0 check -s sized.geojson
+holds out ', with 1 hole and 1 point inside'
+refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' -1)" "$partner"
+refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' '"1"')" "$partner"
+refuses 'target: circle of point 3 of the source has no partner' "$source" "$target" "$(sized source '[2,8]' 1)" "$partner"
+refuses 'source: circle of point 3, vertex' "$source" "$target" "$(sized source '[2,8]' 4)" "$(sized target '[2,8]' 1)"
+refuses 'points with a radius and ties do not go together' "$source" "$target" "$(sized source '[2,8]' 1)" \
+    "$(sized target '[2,8]' 1)" "$(feature source-tie LineString '[[0,10],[2,8]]' 1)"
+collection "$source" "$target" "$(sized source '[2,8]' 0)" "$(sized target '[3,8]' null)" >none.geojson
+printf '2 8\n' >on.txt
+run 0 map -s none.geojson -p on.txt
 
 # Lines and polygons are cut at holes.
 collection "$(feature none LineString '[[1,3],[9,3]]')" "$(feature none Polygon '[[[1,1],[3,1],[3,3],[1,3],[1,1]]]')" >in.geojson

@@ -102,6 +102,75 @@ printf 'v 1 1 7\nf 1 2 3\n' >bad.obj
 pose 1 rest.json bad.obj out.obj
 says 'libicc: bad.obj:2: '
 
+# Certified: handles and outline go where the pose takes them, and nothing turns over.
+pose 0 all.json --certified points.txt images
+awk '{ printf "%.17g %.17g\n", $1 + 0.5, $2 - 0.25 }' points.txt >expected
+close_to images expected 1e-12
+holds out 'certified one-to-one: '
+holds out ' 0 % of the shape is turned over'
+cat >pins.json <<'END'
+{"handles": [[0, 0], [10, 0], [10, 10], [0, 10], [3, 5], [7, 5]], "edges": [[0, 1], [1, 2], [2, 3], [3, 0]],
+ "regions": [[[0, 0], [10, 0], [10, 10], [0, 10]]]}
+END
+pins() { # EXPECTED POSE ARGUMENT...
+    expected=$1
+    moves=$2
+    shift 2
+    run "$expected" pose -a pins.json -t "$moves" --spacing 0.25 "$@"
+}
+echo '{"moves": [{"handle": 4, "move": [3, 2]}, {"handle": 5, "move": [-3, -2], "turn": 30}]}' >pass.json
+printf '0 0\n10 10\n3 5\n7 5\n10 4\n' >at.txt
+printf '0 0\n10 10\n6 7\n4 3\n10 4\n' >wanted
+pins 0 pass.json --certified at.txt images --json=report.json
+close_to images wanted 1e-2
+head -n 4 images >some.txt
+head -n 4 wanted >expected
+close_to some.txt expected 1e-12
+holds report.json '"inverted": 0'
+holds report.json '"certified": {'
+holds report.json '"folded_pose": 0.'
+pins 0 pass.json --certified --tolerance 0.5 at.txt images
+holds out 'certified one-to-one: '
+printf '1 1\n20 20\nnan 2\n10 3\n' >some.txt
+pins 4 pass.json --certified some.txt -
+holds err '2 of 4 points have no image: they are outside the shape'
+[ "$(sed -n '2,3p' out)" = "nan nan
+nan nan" ] || complain "not nan: $(cat out)"
+sed 's/^v 9.1/v 99/' mesh.obj >far.obj
+pins 1 pass.json --certified far.obj images
+says 'far.obj: vertex 4 is outside the shape, so nothing was written'
+pins 0 pass.json --certified mesh.obj out.obj
+holds out ', 0 inverted'
+# A handle on the outline is a vertex of it; the outline may be a region of the handles' file.
+echo '{"handles": [[0, 5], [10, 0], [3, 3], [0, 0]], "regions": [[[0, 0], [10, 0], [10, 10], [0, 10]]]}' >region.json
+echo '{"moves": [{"handle": 0, "move": [1, 0]}, {"handle": 2, "move": [4, 1]}]}' >one.json
+printf '0 5\n10 0\n3 3\n' >at.txt
+printf '1 5\n10 0\n7 4\n' >expected
+run 0 pose -a region.json -t one.json --spacing 0.25 --certified at.txt images
+close_to images expected 1e-12
+# What cannot be one-to-one is refused by name.
+echo '{"moves": [{"handle": 1, "move": [-20, 30]}]}' >bad.json
+pose 1 bad.json --certified at.txt images
+says 'libicc: bad.json: the posed outline meets itself, edge '
+echo '{"moves": [{"handle": 4, "move": [4, 0]}]}' >bad.json
+pins 1 bad.json --certified at.txt images
+says 'libicc: bad.json: handle 5, posed, is where another one is'
+echo '{"transforms": [' >bad.json
+for handle in 0 1 2 3 4; do
+    [ $handle = 0 ] || printf ', ' >>bad.json
+    printf '[[-1, 0, 10], [0, 1, 0]]' >>bad.json
+done
+echo ']}' >>bad.json
+pose 1 bad.json --certified at.txt images
+says 'the pose turns the outline over'
+echo '{"handles": [[1, 1], [9, 1], [5, 9]], "regions": [[[0, 0], [9, 0], [9, 9]]]}' >two.json
+run 1 pose -s cage.txt -a two.json -t rest.json --certified at.txt images
+says 'two.json: --certified poses one region, but there are 2'
+run 2 pose -b bound -t rest.json --certified images
+says '--certified needs shape and handles'
+pose 2 rest.json --tolerance 1 at.txt images
+says '--tolerance goes with --certified'
+
 # In space: a turn has an axis.
 make_cubes
 echo '{"handles": [[0.1, 0.1, 0.1], [0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9], [0.9, 0.9, 0.9]]}' >cube.json
@@ -145,6 +214,16 @@ run 0 pose -s cage.txt -a handles.json -t fold.json in.png out.png
 grep -q '% of the shape is turned over$' out || complain "the fold is not told: $(cat out)"
 run 0 pose -s cage.txt -a handles.json -t fold.json in.png out.png --json
 holds out '"folded": 0.'
+
+run 1 pose -s cage.txt -a handles.json -t fold.json --certified in.png out.png
+says 'handle 4, posed, is not inside the posed outline'
+sed 's/25/9/' fold.json >nearer.json
+run 0 pose -s cage.txt -a handles.json -t nearer.json --certified --background ff0000 in.png out.png
+holds out 'certified one-to-one: '
+pixel out.png 2 10 "65535 0 0"
+run 0 pose -s cage.txt -a handles.json -t rest.json --certified in.png out.png --json
+holds out '"folded_pose": 0,'
+"$pictures" same in.png out.png || complain "a certified picture at rest changes"
 
 echo '{"handles": [[0, 0], [0, 4], [3, 3]], "curves": {"vertices": [[0, 0], [0, 4], [3, 3]], "segments": [[0, 1], [1, 2]]}}' >stick.json
 run 1 pose -a stick.json -t rest.json in.png out.png

@@ -48,6 +48,9 @@ void cage_free(cage *c)
         free(c->features[i].points);
     for (size_t i = 0; i < c->n_ties; i++)
         free(c->ties[i].points);
+    for (size_t i = 0; i < c->n_more; i++)
+        cage_free(&c->more[i]);
+    free(c->more);
     free(c->features);
     free(c->ties);
     *c = (cage){0};

@@ -16,14 +16,16 @@
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
 
-/* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
-enum { CAGE_TIE = 100 };
+/* Something inside a cage in the plane. Kinds are those of icc_feature, a tie, and the circle round
+ * a point with a radius: a line to the library. */
+enum { CAGE_TIE = 100, CAGE_CIRCLE };
 
 typedef struct cage_feature {
     int32_t kind;
     int64_t number; /* a hole's among the holes, from 1; else what the file says */
     size_t n;
     double *points; /* 2 n */
+    double radius;  /* of a point; 0: none */
     size_t line;    /* of its first vertex, or 0 */
 } cage_feature;
 
@@ -42,6 +44,8 @@ typedef struct cage {
     cage_feature *features;
     size_t n_ties;
     cage_feature *ties; /* polylines from a vertex to a vertex */
+    size_t n_more;
+    struct cage *more; /* of several polygons those behind the first */
     size_t room_points, room_lines, room_facets, room_facet_lines, room_features;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;

@@ -11,6 +11,7 @@ static const char *kind_name(int32_t kind)
     return kind == ICC_FEATURE_HOLE    ? "hole"
            : kind == ICC_FEATURE_LINE  ? "line"
            : kind == ICC_FEATURE_POINT ? "point"
+           : kind == CAGE_CIRCLE       ? "circle of point"
                                        : "tie";
 }
 
@@ -83,7 +84,7 @@ bool cage_end_ring(cage *c, size_t first, problem *wrong)
 /* Holes first, ties last. */
 static int rank(int32_t kind)
 {
-    return kind == ICC_FEATURE_HOLE ? 0 : kind == CAGE_TIE ? 2 : 1;
+    return kind == ICC_FEATURE_HOLE ? 0 : kind == CAGE_CIRCLE ? 2 : kind == CAGE_TIE ? 3 : 1;
 }
 
 static int by_number(const void *a, const void *b)
@@ -92,6 +93,27 @@ static int by_number(const void *a, const void *b)
     if (rank(p->kind) != rank(q->kind))
         return rank(p->kind) - rank(q->kind);
     return p->number < q->number ? -1 : p->number > q->number;
+}
+
+/* Round each point with a radius a polygon of 16 sides without one of them: lines do not close. */
+static void add_circles(cage *c)
+{
+    static const double at[] = {
+        1,  0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
+        0,  -0.38268343236508977, -0.70710678118654752, -0.92387953251128674,
+        -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
+        0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
+    size_t n = c->n_features;
+    for (size_t i = 0; i < n; i++) {
+        size_t first = c->n;
+        const cage_feature *f = &c->features[i];
+        double radius = f->radius, x = f->points[0], y = f->points[1];
+        if (f->kind != ICC_FEATURE_POINT || !(radius > 0))
+            continue;
+        for (size_t k = 0; k < 16; k++)
+            cage_add(c, x + radius * at[k], y + radius * at[(k + 12) % 16], f->line);
+        cage_add_feature(c, CAGE_CIRCLE, f->number, first);
+    }
 }
 
 bool cage_sort_features(cage *c, problem *wrong)
@@ -106,12 +128,13 @@ bool cage_sort_features(cage *c, problem *wrong)
                           (long long)c->features[i].number);
     while (c->n_ties < c->n_features && c->features[c->n_features - c->n_ties - 1].kind == CAGE_TIE)
         c->n_ties++;
-    if (c->n_ties == 0)
-        return true;
     c->n_features -= c->n_ties;
     c->ties = need(c->n_ties, sizeof *c->ties);
     memcpy(c->ties, c->features + c->n_features, c->n_ties * sizeof *c->ties);
-    return true;
+    size_t n = c->n_features;
+    add_circles(c);
+    return n == c->n_features || c->n_ties == 0 ||
+           spoilt(wrong, 0, "points with a radius and ties do not go together");
 }
 
 /* ----------------------------------------------------------------- pairing */

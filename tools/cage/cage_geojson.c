@@ -6,6 +6,7 @@
  * A ring that is not closed is taken as it is, like one in text. */
 #include "cage/cage_readers.h"
 
+#include "base/allocate.h"
 #include "base/foreign.h"
 #include "base/json_in.h"
 #include "cage/cage_features.h"
@@ -81,18 +82,31 @@ static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
     return true;
 }
 
+/* The first polygon is the cage, the others are more of it. */
+static bool read_polygons(cage *out, const cJSON *polygons, problem *wrong)
+{
+    int n = cJSON_GetArraySize(polygons);
+    if (n == 0)
+        return spoilt(wrong, 0, "the MultiPolygon has no polygons");
+    out->more = need((size_t)n, sizeof *out->more);
+    for (const cJSON *polygon = polygons->child->next; polygon != NULL; polygon = polygon->next) {
+        cage *c = &out->more[out->n_more++];
+        c->dim = 2;
+        if (!read_rings(c, polygon, wrong))
+            return false;
+        out->n_heights += c->n_heights;
+    }
+    return read_rings(out, polygons->child, wrong);
+}
+
 static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
 {
     const char *type = type_of(geometry);
     const cJSON *coordinates = json_get(geometry, "coordinates");
     if (strcmp(type, "Polygon") == 0)
         return read_rings(out, coordinates, wrong);
-    if (strcmp(type, "MultiPolygon") == 0) {
-        int parts = cJSON_GetArraySize(coordinates);
-        if (parts == 1)
-            return read_rings(out, cJSON_GetArrayItem(coordinates, 0), wrong);
-        return spoilt(wrong, 0, "the MultiPolygon has %d parts; make one map per part", parts);
-    }
+    if (strcmp(type, "MultiPolygon") == 0)
+        return read_polygons(out, coordinates, wrong);
     char shown[32];
     return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon", quoted(shown, type));
 }
@@ -125,6 +139,17 @@ static int32_t kind_of(const cJSON *feature)
                                            : IS_CAGE;
 }
 
+/* How large a Point is, if it says so. */
+static bool read_radius(double *out, const cJSON *feature, const char *name, problem *wrong)
+{
+    const cJSON *radius = json_get(json_get(feature, "properties"), "radius");
+    if (radius == NULL || cJSON_IsNull(radius))
+        return true;
+    *out = radius->valuedouble;
+    return (cJSON_IsNumber(radius) && *out >= 0 && isfinite(*out)) ||
+           spoilt(wrong, 0, "the radius of %s is no number from 0 up", name);
+}
+
 /* A Point, a LineString or a tie, with the number that pairs it. */
 static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem *wrong)
 {
@@ -154,7 +179,10 @@ static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem 
     if (kind != ICC_FEATURE_POINT && out->n - first < 2)
         return spoilt(wrong, 0, "%s has %zu %s; a line has at least 2", name, out->n - first,
                       out->n - first == 1 ? "vertex" : "vertices");
+    if (kind == ICC_FEATURE_POINT && !read_radius(&named.radius, feature, name, wrong))
+        return false;
     cage_add_feature(out, kind, named.number, first);
+    out->features[out->n_features - 1].radius = named.radius;
     return true;
 }
 

@@ -106,6 +106,11 @@ bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n
     bool good = read_any(out, role, dim, text, n, wrong);
     size_t least = out->dim + 1;
     good = good && cage_sort_features(out, wrong);
+    for (size_t i = 0; good && i < out->n_more; i++)
+        good = cage_sort_features(&out->more[i], wrong) &&
+               (out->more[i].n >= least ||
+                spoilt(wrong, 0, "polygon %zu has %zu %s; it has at least %zu", i + 2,
+                       out->more[i].n, out->more[i].n == 1 ? "vertex" : "vertices", least));
     if (good && out->cells == NULL && out->n < least)
         good = spoilt(wrong, 0, "%zu %s; a cage has at least %zu", out->n,
                       out->n == 1 ? "vertex" : "vertices", least);

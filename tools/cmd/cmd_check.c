@@ -4,8 +4,11 @@
  * the vertices that a defect names as superfluous. */
 #include "cmd/commands.h"
 
+#include "base/allocate.h"
 #include "job/output_name.h"
 #include "report/check_job.h"
+
+#include <stdlib.h>
 
 static bool in_plane(const check *c)
 {
@@ -16,20 +19,16 @@ static int verdict_on_defects(check *c)
 {
     if (c->job.args->json && check_report(c) != DONE)
         return FAILED;
-    bool first = c->defects[0].n > 0;
+    bool first = c->defects[0].n > 0 || c->defects[1].n == 0;
     return failed(job_file(&c->job, first ? 1 : 2), 0, "%zu defect%s%s; see the list", c->n_defects,
                   c->n_defects == 1 ? "" : "s",
                   first && c->defects[1].n > 0 ? " in both cages" : "");
 }
 
-/* Makes the chart, or both charts and the map; the library certifies what it can. */
-static int certify(check *c)
+/* Asks the chart, or the map and its charts, for their certificates. */
+static void ask(check *c)
 {
     bool pair = c->job.args->target != NULL;
-    int result = pair ? job_make_map(&c->job) : job_make_chart(&c->job);
-    progress_end(&c->job.bar);
-    if (result != DONE)
-        return result;
     c->certified = true;
     for (size_t side = 0; side < (pair ? 2 : 1); side++) {
         const icc_chart *chart = !pair       ? c->job.chart
@@ -39,11 +38,47 @@ static int certify(check *c)
         c->certified = c->certified && (chart == NULL || c->charts[side].common.certified);
     }
     if (!pair)
-        return DONE;
+        return;
     c->map.size = sizeof c->map;
     icc_map_get_info(c->job.map, &c->map);
     c->certified = c->certified && c->map.certified;
+}
+
+/* Makes the chart, or both charts and the map, of each polygon; the library certifies what it
+ * can. */
+static int certify(check *c)
+{
+    bool pair = c->job.args->target != NULL;
+    int result = pair ? job_make_map(&c->job) : job_make_chart(&c->job);
+    progress_end(&c->job.bar);
+    if (result != DONE)
+        return result;
+    ask(c);
+    for (size_t i = 0; i < c->job.n_parts; i++) {
+        c->parts[i].job = c->job.parts[i];
+        ask(&c->parts[i]);
+    }
     return DONE;
+}
+
+/* What speaks for all: the first polygon that is not certified, if there is one. */
+static const check *first_doubtful(const check *c)
+{
+    for (size_t i = 0; i < c->job.n_parts && c->certified; i++)
+        if (!c->parts[i].certified)
+            return &c->parts[i];
+    return c;
+}
+
+static void print_found(const check *c)
+{
+    check_print_verdict(first_doubtful(c));
+    check_print_domains(c);
+    for (size_t i = 0; i < c->job.n_parts; i++)
+        check_print_domains(&c->parts[i]);
+    check_print_certificates(c);
+    for (size_t i = 0; i < c->job.n_parts; i++)
+        check_print_certificates(&c->parts[i]);
 }
 
 static int verdict_on_method(check *c)
@@ -56,15 +91,12 @@ static int verdict_on_method(check *c)
         return result;
     if (c->job.args->json && check_report(c) != DONE)
         return FAILED;
-    if (!c->job.args->json) {
-        check_print_verdict(c);
-        check_print_domains(c);
-        check_print_certificates(c);
-    }
+    if (!c->job.args->json)
+        print_found(c);
     char text[240];
-    return c->certified || check_mask_only(c)
+    return first_doubtful(c)->certified || check_mask_only(c)
                ? DONE
-               : failed(c->job.args->source, 0, "%s", check_reason(text, c));
+               : failed(c->job.args->source, 0, "%s", check_reason(text, first_doubtful(c)));
 }
 
 static bool is_surface_only(const check *c)
@@ -94,6 +126,8 @@ static int check_options(const check *c)
                       "target");
     if (a->repair != NULL && c->job.cages[0].n_features > 0)
         return failed(a->source, 0, "--repair is for cages without holes, lines or points inside");
+    if (a->repair != NULL && c->job.n_parts > 0)
+        return failed(a->source, 0, "--repair is for cages of a single polygon");
     return output_fits(a->command, a->boundary, job_dim(&c->job) == 3 ? "text, OBJ" : "text") ==
                    DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))
@@ -105,6 +139,9 @@ static int run(check *c)
     int result = job_read_cages(&c->job);
     if (result == DONE)
         result = check_options(c);
+    c->parts = need(c->job.n_parts, sizeof *c->parts);
+    for (size_t i = 0; i < c->job.n_parts; i++)
+        c->parts[i].job = c->job.parts[i];
     if (result == DONE)
         result = check_find_defects(c);
     if (result != DONE)
@@ -114,6 +151,8 @@ static int run(check *c)
         check_print_verdict(c);
     if (!c->job.args->json)
         check_print_defects(c);
+    for (size_t i = 0; i < c->job.n_parts && !c->job.args->json; i++)
+        check_print_defects(&c->parts[i]);
     if (refused)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
@@ -123,13 +162,21 @@ static int run(check *c)
     return result == DONE ? verdict_on_method(c) : result;
 }
 
+static void free_defects(check *c)
+{
+    for (size_t side = 0; side < 2; side++)
+        defects_free(&c->defects[side]);
+}
+
 int run_check(const args *a)
 {
     check c = {0};
     job_start(&c.job, a);
     int result = run(&c);
-    for (size_t side = 0; side < 2; side++)
-        defects_free(&c.defects[side]);
+    for (size_t i = 0; i < c.job.n_parts; i++)
+        free_defects(&c.parts[i]);
+    free_defects(&c);
+    free(c.parts);
     job_end(&c.job);
     return result;
 }

@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "geo/geo_carry.h"
 #include "job/job.h"
+#include "job/ties_file.h"
 #include "job/triangulation.h"
 
 #include <math.h>
@@ -101,6 +102,8 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
             names);
     if (result == DONE)
         result = triangulation_write(j);
+    if (result == DONE)
+        result = ties_write(j);
     outfile file;
     if (result != DONE || !outfile_open(&file, to))
         return FAILED;
@@ -114,12 +117,19 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     return PARTIAL;
 }
 
-/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
-static double choose_tolerance(const job *j)
+static double size_of(const job *j)
 {
     icc_domain_info info = {.size = sizeof info};
     icc_domain_get_info(j->domains[!j->args->inverse], &info);
-    double size = fmax(info.upper[0] - info.lower[0], info.upper[1] - info.lower[1]);
+    return fmax(info.upper[0] - info.lower[0], info.upper[1] - info.lower[1]);
+}
+
+/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
+static double choose_tolerance(const job *j)
+{
+    double size = size_of(j);
+    for (size_t i = 0; i < j->n_parts; i++)
+        size = fmax(size, size_of(&j->parts[i]));
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
@@ -155,6 +165,8 @@ int run_geojson(const args *a)
     job j;
     job_start(&j, a);
     int result = job_read_plane(&j, "--geojson");
+    if (result == DONE)
+        result = ties_check(&j);
     if (result == DONE)
         result = job_make_map(&j);
     if (result == DONE)

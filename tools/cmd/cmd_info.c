@@ -2,6 +2,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "job/ties_file.h"
 #include "plot/stages.h"
 #include "report/info.h"
 
@@ -83,7 +84,11 @@ int run_info(const args *a)
               .measures = {.size = sizeof x.measures},
               .map = {.size = sizeof x.map}};
     job_start(&x.job, a);
-    int result = gather(&x);
+    int result = ties_check(&x.job);
+    if (result == DONE)
+        result = gather(&x);
+    if (result == DONE)
+        result = ties_write(&x.job);
     if (result == DONE && a->json)
         result = info_report(&x);
     else if (result == DONE)

@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "job/point_file.h"
+#include "job/ties_file.h"
 #include "job/triangulation.h"
 
 #include <stdlib.h>
@@ -48,6 +49,8 @@ static int write_points(job *j, const table *points, double *images, const icc_s
     settle_outside(j, points, images, status);
     int result = triangulation_write(j);
     if (result == DONE)
+        result = ties_write(j);
+    if (result == DONE)
         result = rows_write(out, points->n, points->columns, images);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
@@ -83,6 +86,8 @@ int run_map(const args *a)
     table points;
     job_start(&j, a);
     int result = triangulation_check(&j);
+    if (result == DONE)
+        result = ties_check(&j);
     if (result == DONE)
         result = job_make_map(&j);
     if (result == DONE) {

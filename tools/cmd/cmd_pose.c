@@ -13,11 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int partial(size_t n_failed, size_t n, const char *what)
+static int partial(const pose *p, size_t n_failed, size_t n, const char *what)
 {
     if (n_failed == 0)
         return DONE;
-    note("%zu of %zu %s have no image: they are not finite", n_failed, n, what);
+    note("%zu of %zu %s have no image: they are %s", n_failed, n, what,
+         p->map != NULL ? "outside the shape" : "not finite");
     return PARTIAL;
 }
 
@@ -62,7 +63,7 @@ static int write_points(pose *p, const table *points)
     }
     free(images);
     free(jacobians);
-    return result == DONE ? partial(n_failed, points->n, "points") : result;
+    return result == DONE ? partial(p, n_failed, points->n, "points") : result;
 }
 
 static int pose_rows(pose *p, const char *text, size_t n)
@@ -85,8 +86,9 @@ static int check_images(pose *p, const mesh_file *m, const double *images)
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         if (!isfinite(images[i]))
             return failed(p->kernel.job.args->operands[0], 0,
-                          "vertex %zu goes beyond the range of numbers, so nothing was written",
-                          i / m->dim);
+                          "vertex %zu %s, so nothing was written", i / m->dim,
+                          p->map != NULL ? "is outside the shape"
+                                         : "goes beyond the range of numbers");
     return DONE;
 }
 
@@ -127,7 +129,7 @@ static int write_mesh(pose *p, const mesh_file *m)
     if (result == DONE)
         result = report_mesh(p, m, images, n_failed, seconds);
     free(images);
-    return result == DONE ? partial(n_failed, m->n_vertices, "vertices") : result;
+    return result == DONE ? partial(p, n_failed, m->n_vertices, "vertices") : result;
 }
 
 static int pose_mesh(pose *p, const char *text, size_t n)
@@ -174,9 +176,12 @@ static int pose_input(pose *p, const char *text, size_t n)
 static int pose_shape(pose *p)
 {
     const handle_set *set = &p->kernel.set;
+    bool certified = p->kernel.job.args->certified;
     size_t n = 0;
     char *text = NULL;
     int result = kernel_job_read(&p->kernel);
+    if (result == DONE && certified)
+        result = pose_certified_check(p);
     if (result == DONE)
         result = read_pose(p, set->dim, set->n_handles, set->handles);
     if (result == DONE) {
@@ -189,8 +194,12 @@ static int pose_shape(pose *p)
     }
     if (result == DONE)
         result = kernel_job_make(&p->kernel);
+    if (result == DONE && certified)
+        result = pose_certified_make(p);
     if (result == DONE)
         result = pose_input(p, text, n);
+    if (result == DONE || result == PARTIAL)
+        pose_certified_say(p);
     free(text);
     return result;
 }
@@ -245,6 +254,7 @@ int run_pose(const args *a)
     kernel_job_start(&p.kernel, a);
     int result = a->binding != NULL ? pose_binding(&p) : pose_shape(&p);
     free(p.transforms);
+    pose_certified_free(&p);
     kernel_job_end(&p.kernel);
     return result;
 }

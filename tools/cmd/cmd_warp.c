@@ -1,10 +1,9 @@
 /* libicc warp: a picture inside a cage follows it. */
 #include "cmd/commands.h"
 
-#include "base/allocate.h"
 #include "job/job.h"
 #include "plot/coverage.h"
-#include "plot/picture.h"
+#include "plot/picture_warp.h"
 
 #include <stdlib.h>
 
@@ -29,46 +28,28 @@ static int read_picture(warp *w)
     return result;
 }
 
-/* The samples as the library takes them; free() the pixels. */
-static icc_picture pack(const picture *p)
+/* Each polygon of the target has its own pixels. */
+static icc_status warp_parts(warp *w, icc_error *err)
 {
-    size_t n = p->width * p->height * p->channels;
-    icc_picture packed = {.size = sizeof packed,
-                          .width = (int32_t)p->width,
-                          .height = (int32_t)p->height,
-                          .channels = (int32_t)p->channels,
-                          .bytes = (int32_t)p->depth / 8,
-                          .alpha = p->channels % 2 == 0};
-    packed.stride = p->width * p->channels * p->depth / 8;
-    packed.pixels = need(n, p->depth / 8);
-    for (size_t i = 0; i < n; i++)
-        if (p->depth == 8)
-            ((uint8_t *)packed.pixels)[i] = (uint8_t)p->samples[i];
-        else
-            ((uint16_t *)packed.pixels)[i] = p->samples[i];
-    return packed;
-}
-
-static void unpack(picture *p, const icc_picture *packed)
-{
-    for (size_t i = 0; i < p->width * p->height * p->channels; i++)
-        p->samples[i] = p->depth == 8 ? ((const uint8_t *)packed->pixels)[i]
-                                      : ((const uint16_t *)packed->pixels)[i];
+    const job *j = &w->job;
+    icc_status status = picture_warp(j->map, &w->from, &w->to, &w->n_failed, &j->env, err);
+    for (size_t i = 0; i < j->n_parts && status == ICC_OK; i++) {
+        size_t n_failed;
+        status = picture_warp(j->parts[i].map, &w->from, &w->to, &n_failed, &j->env, err);
+        w->n_failed += n_failed;
+    }
+    return status;
 }
 
 /* Warps and writes, unless every pixel must have an image and some have none. */
 static int warp_picture(warp *w)
 {
     icc_error err = {.size = sizeof err, .index = -1};
-    icc_picture from = pack(&w->from), to = pack(&w->to);
     double began = seconds_now();
     progress_expect(&w->job.bar, 0.9);
-    icc_status ran = icc_map_warp(w->job.map, &from, &to, &w->n_failed, &w->job.env, &err);
+    icc_status ran = warp_parts(w, &err);
     double seconds = seconds_now() - began;
     progress_end(&w->job.bar);
-    unpack(&w->to, &to);
-    free(from.pixels);
-    free(to.pixels);
     const args *a = w->job.args;
     if (ran == ICC_OK && w->n_failed > 0 && a->outside == OUTSIDE_FAIL)
         return failed(a->operands[0], 0,
@@ -94,7 +75,7 @@ int run_warp(const args *a)
         result = read_picture(&w);
     if (result == DONE)
         result = job_make_map(&w.job);
-    if (result == DONE)
+    if (result == DONE && w.job.n_parts == 0)
         coverage_tell(&w.job, w.from.width, w.from.height);
     if (result == DONE)
         result = warp_picture(&w);

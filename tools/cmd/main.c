@@ -27,9 +27,11 @@ static const command commands[] = {
          "Blank lines and lines that begin with # are left out.\n\n"
          "In the plane holes, lines and points inside the source go to their partners in the "
          "target;\n"
-         "see the manual page for how files hold them. A GeoJSON file may hold both cages: then "
-         "--target\n"
-         "is not needed. --triangulation writes the map itself.\n\n"
+         "see the manual page for how files hold them. Of several polygons each has its own map. A "
+         "GeoJSON file\n"
+         "may hold both cages: then --target is not needed. --triangulation writes the map "
+         "itself,\n"
+         "--ties which way round one another they go.\n\n"
          "With --geojson it carries the points, lines and polygons of a GeoJSON file, with more\n"
          "vertices where the map bends lines; all but coordinates stays byte for byte. Features "
          "that\n"
@@ -162,7 +164,10 @@ static const command commands[] = {
          "  {\"transforms\": [[[a, b, tx], [c, d, ty]], ..]}      one per handle\n\n"
          "A matrix and a turn are about the handle, and come before its move. A turn goes from x "
          "to y. Poses\n"
-         "can fold; in a picture what is the right way round then hides what is not.\n"},
+         "can fold; in a picture what is the right way round then hides what is not. With "
+         "--certified they\n"
+         "cannot: handles and outline go where they should, the rest is a certified map near the "
+         "pose.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 

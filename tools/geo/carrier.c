@@ -10,58 +10,109 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The outer ring has the inside on its left if it is counter-clockwise, a hole if it is not. */
-static void find_holes(carrier *c, const icc_domain_info *domain)
+void carrier_start(carrier *out, bool inverse, const icc_env *env)
 {
-    c->reversed = need(c->n_facets, sizeof *c->reversed);
-    c->in_holes = need(domain->n_features, 2 * sizeof *c->in_holes);
-    for (size_t i = 0; i < c->n_facets; i++)
-        c->reversed[i] = domain->orientation < 0;
-    for (size_t k = 0; k < domain->n_features; k++) {
-        icc_feature_info hole = {.size = sizeof hole};
-        icc_domain_get_feature(c->from, k, &hole);
-        if (hole.kind != ICC_FEATURE_HOLE)
-            continue;
-        for (size_t i = 0; i < hole.n_vertices; i++)
-            c->reversed[hole.first_facet + i] = hole.orientation > 0;
-        inner_point(hole.n_vertices, c->vertices[0] + 2 * hole.first_vertex,
-                    c->in_holes + 2 * c->n_holes++);
+    *out = (carrier){.env = env, .inverse = inverse, .matched = true};
+    for (size_t k = 0; k < ICC_MAX_DIM; k++) {
+        out->lower[k] = HUGE_VAL;
+        out->upper[k] = -HUGE_VAL;
     }
 }
 
-icc_status carrier_start(carrier *out, const icc_map *map, const icc_domain *from,
-                         const icc_domain *to, bool inverse, double snap, const icc_env *env)
+/* The vertices of one side behind those that there are, and its first n_facets facets. */
+static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain,
+                               const icc_domain_info *info, size_t n_facets)
+{
+    size_t dim = c->dim, n = info->n_vertices;
+    c->vertices[side] =
+        grow(c->vertices[side], &c->room_vertices[side], dim * (c->n_vertices + n), sizeof(double));
+    c->facets[side] = grow(c->facets[side], &c->room_facets[side],
+                           dim * (c->n_facets + info->n_facets), sizeof(uint32_t));
+    uint32_t *facets = c->facets[side] + dim * c->n_facets;
+    icc_status status =
+        icc_domain_get_boundary(domain, c->vertices[side] + dim * c->n_vertices, facets);
+    for (size_t i = 0; i < dim * n_facets; i++)
+        facets[i] += (uint32_t)c->n_vertices;
+    return status;
+}
+
+/* The outer ring has the inside on its left if it is counter-clockwise, a hole if it is not. */
+static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info *domain,
+                      size_t n_facets)
+{
+    c->reversed = grow(c->reversed, &c->room_reversed, c->n_facets + n_facets, sizeof *c->reversed);
+    for (size_t i = 0; i < n_facets; i++)
+        c->reversed[c->n_facets + i] = domain->orientation < 0;
+    for (size_t k = 0; k < domain->n_features && n_facets == domain->n_facets; k++) {
+        icc_feature_info hole = {.size = sizeof hole};
+        icc_domain_get_feature(from, k, &hole);
+        if (hole.kind != ICC_FEATURE_HOLE)
+            continue;
+        for (size_t i = 0; i < hole.n_vertices; i++)
+            c->reversed[c->n_facets + hole.first_facet + i] = hole.orientation > 0;
+        c->in_holes = grow(c->in_holes, &c->room_holes, 2 * (c->n_holes + 1), sizeof *c->in_holes);
+        inner_point(hole.n_vertices, c->vertices[0] + 2 * (c->n_vertices + hole.first_vertex),
+                    c->in_holes + 2 * c->n_holes);
+        c->n_holes++;
+    }
+}
+
+static void widen_box(carrier *c, const icc_domain_info *info)
+{
+    for (size_t k = 0; k < c->dim; k++) {
+        c->lower[k] = fmin(c->lower[k], info->lower[k]);
+        c->upper[k] = fmax(c->upper[k], info->upper[k]);
+        c->size = fmax(c->size, c->upper[k] - c->lower[k]);
+        c->largest = fmax(c->largest, fmax(fabs(info->lower[k]), fabs(info->upper[k])));
+    }
+}
+
+/* The facets of the outer ring come first. */
+static size_t count_outer(const icc_domain *domain, const icc_domain_info *info)
+{
+    size_t n = info->n_facets;
+    for (size_t k = 0; k < info->n_features; k++) {
+        icc_feature_info feature = {.size = sizeof feature};
+        icc_domain_get_feature(domain, k, &feature);
+        n -= feature.kind == ICC_FEATURE_HOLE ? feature.n_vertices : 0;
+    }
+    return n;
+}
+
+icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, const icc_domain *to,
+                       int32_t rings)
 {
     icc_domain_info info[2] = {{.size = sizeof *info}, {.size = sizeof *info}};
-    const icc_domain *sides[2] = {from, to};
-    *out = (carrier){.map = map, .from = from, .env = env, .inverse = inverse};
-    for (size_t side = 0; side < 2; side++) {
-        icc_status status = icc_domain_get_info(sides[side], &info[side]);
-        if (status != ICC_OK)
-            return status;
-        size_t dim = (size_t)info[side].dim;
-        out->vertices[side] = need(info[side].n_vertices, dim * sizeof(double));
-        out->facets[side] = need(info[side].n_facets, dim * sizeof(uint32_t));
-        status = icc_domain_get_boundary(sides[side], out->vertices[side], out->facets[side]);
-        if (status != ICC_OK)
-            return status;
-    }
-    out->dim = (size_t)info[0].dim;
-    out->n_vertices = info[0].n_vertices;
-    out->n_facets = info[0].n_facets;
-    if (out->dim == 2)
-        find_holes(out, &info[0]);
-    double largest = 0;
-    for (size_t k = 0; k < out->dim; k++) {
-        out->lower[k] = info[0].lower[k];
-        out->upper[k] = info[0].upper[k];
-        out->size = fmax(out->size, info[0].upper[k] - info[0].lower[k]);
-        largest = fmax(largest, fmax(fabs(info[0].lower[k]), fabs(info[0].upper[k])));
-    }
-    /* Sides that do not correspond facet by facet have no image to snap to. */
-    bool matched = info[0].n_facets == info[1].n_facets;
-    out->snap = !matched ? 0 : snap >= 0 ? snap : fmax(1e-9 * out->size, 4 * DBL_EPSILON * largest);
+    icc_status status = icc_domain_get_info(from, &info[0]);
+    if (status == ICC_OK)
+        status = icc_domain_get_info(to, &info[1]);
+    if (status != ICC_OK)
+        return status;
+    size_t n_facets = rings == CARRIER_ALL     ? info[0].n_facets
+                      : rings == CARRIER_OUTER ? count_outer(from, &info[0])
+                                               : 0;
+    c->dim = (size_t)info[0].dim;
+    status = add_boundary(c, 0, from, &info[0], n_facets);
+    if (status == ICC_OK)
+        status = add_boundary(c, 1, to, &info[1], n_facets);
+    if (status != ICC_OK)
+        return status;
+    if (c->dim == 2)
+        add_holes(c, from, &info[0], n_facets);
+    widen_box(c, &info[0]);
+    c->matched = c->matched && info[0].n_facets == info[1].n_facets;
+    c->maps = grow(c->maps, &c->room_maps, c->n_maps + 1, sizeof *c->maps);
+    c->maps[c->n_maps++] = (carried){map, from, (uint32_t)c->n_facets, (uint32_t)n_facets};
+    c->n_vertices += info[0].n_vertices;
+    c->n_facets += n_facets;
     return ICC_OK;
+}
+
+/* Sides that do not correspond facet by facet have no image to snap to. */
+void carrier_set_snap(carrier *c, double snap)
+{
+    double least = fmax(1e-9 * c->size, 4 * DBL_EPSILON * c->largest);
+    c->snap = !c->matched ? 0 : snap >= 0 ? snap : least;
 }
 
 void carrier_free(carrier *c)
@@ -70,6 +121,7 @@ void carrier_free(carrier *c)
         free(c->vertices[side]);
         free(c->facets[side]);
     }
+    free(c->maps);
     free(c->reversed);
     free(c->in_holes);
     *c = (carrier){0};
@@ -89,16 +141,38 @@ void carrier_facet_point(const carrier *c, size_t side, uint32_t facet, const do
 icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *facet, double *shares,
                            double *distance)
 {
-    int32_t where;
-    double nearest[ICC_MAX_DIM], square = 0;
-    icc_status status = icc_domain_locate(c->from, 1, point, &where, facet, shares, c->env);
-    if (status != ICC_OK)
-        return status;
-    carrier_facet_point(c, 0, *facet, shares, nearest);
-    for (size_t k = 0; k < c->dim; k++)
-        square += (point[k] - nearest[k]) * (point[k] - nearest[k]);
-    *distance = sqrt(square);
-    return ICC_OK;
+    icc_status status = ICC_OK;
+    *distance = HUGE_VAL;
+    *facet = 0;
+    for (size_t m = 0; m < c->n_maps && status == ICC_OK; m++) {
+        int32_t where;
+        uint32_t own;
+        double bary[ICC_MAX_DIM], nearest[ICC_MAX_DIM], square = 0;
+        status = icc_domain_locate(c->maps[m].from, 1, point, &where, &own, bary, c->env);
+        if (status != ICC_OK || own >= c->maps[m].n_facets)
+            continue;
+        carrier_facet_point(c, 0, c->maps[m].first_facet + own, bary, nearest);
+        for (size_t k = 0; k < c->dim; k++)
+            square += (point[k] - nearest[k]) * (point[k] - nearest[k]);
+        if (!(sqrt(square) < *distance))
+            continue;
+        *distance = sqrt(square);
+        *facet = c->maps[m].first_facet + own;
+        memcpy(shares, bary, c->dim * sizeof *bary);
+    }
+    return status;
+}
+
+icc_status carrier_is_outside(const carrier *c, const double *point, bool *out)
+{
+    icc_status status = ICC_OK;
+    *out = true;
+    for (size_t m = 0; m < c->n_maps && *out && status == ICC_OK; m++) {
+        int32_t where = ICC_OUTSIDE;
+        status = icc_domain_locate(c->maps[m].from, 1, point, &where, NULL, NULL, c->env);
+        *out = where == ICC_OUTSIDE;
+    }
+    return status;
 }
 
 /* Whether a point is so near to the cage's box that it may be snapped; most outside are not. */
@@ -110,6 +184,29 @@ static bool may_snap(const carrier *c, const double *point)
     return c->snap > 0;
 }
 
+/* Maps what the maps before have left outside: gathers it, and puts it where it belongs. */
+static icc_status map_rest(const carrier *c, const icc_map *map, size_t n, const double *points,
+                           double *images, icc_status *status, size_t *n_failed)
+{
+    size_t dim = c->dim, n_rest = 0, ignored;
+    double *rest = need(*n_failed, dim * sizeof *rest);
+    icc_status *own = need(*n_failed, sizeof *own);
+    for (size_t i = 0; i < n; i++)
+        if (status[i] == ICC_ERR_OUTSIDE)
+            memcpy(rest + dim * n_rest++, points + dim * i, dim * sizeof *rest);
+    icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(map, n_rest, rest, rest,
+                                                                          own, &ignored, c->env);
+    for (size_t i = 0, k = 0; i < n && ran == ICC_OK; i++)
+        if (status[i] == ICC_ERR_OUTSIDE) {
+            memcpy(images + dim * i, rest + dim * k, dim * sizeof *rest);
+            *n_failed -= own[k] == ICC_OK;
+            status[i] = own[k++];
+        }
+    free(rest);
+    free(own);
+    return ran;
+}
+
 icc_status carrier_map(const carrier *c, size_t n, const double *points, double *images,
                        icc_status *status, bool *snapped)
 {
@@ -117,7 +214,9 @@ icc_status carrier_map(const carrier *c, size_t n, const double *points, double 
     if (snapped != NULL)
         memset(snapped, 0, n * sizeof *snapped);
     icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(
-        c->map, n, points, images, status, &n_failed, c->env);
+        c->maps[0].map, n, points, images, status, &n_failed, c->env);
+    for (size_t m = 1; m < c->n_maps && n_failed > 0 && ran == ICC_OK; m++)
+        ran = map_rest(c, c->maps[m].map, n, points, images, status, &n_failed);
     for (size_t i = 0; i < n && n_failed > 0 && ran == ICC_OK; i++) {
         const double *point = points + c->dim * i;
         uint32_t facet;

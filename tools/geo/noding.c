@@ -173,11 +173,11 @@ static void add_meetings(noding *x, geo_node a, geo_node b)
 
 bool noding_is_outside(noding *x, const double point[2], double slack)
 {
-    int32_t where;
+    bool out;
     uint32_t facet;
     double shares[2], off;
-    icc_status ran = icc_domain_locate(x->cage->from, 1, point, &where, NULL, NULL, x->cage->env);
-    bool out = ran == ICC_OK && where == ICC_OUTSIDE;
+    icc_status ran = carrier_is_outside(x->cage, point, &out);
+    out = ran == ICC_OK && out;
     if (out && slack > 0) {
         ran = carrier_nearest(x->cage, point, &facet, shares, &off);
         out = ran == ICC_OK && !(off <= slack);

@@ -13,7 +13,7 @@ typedef struct args {
     const char *command;
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
-    const char *triangulation;
+    const char *triangulation, *ties;
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;
@@ -27,21 +27,21 @@ typedef struct args {
     int32_t outside;  /* one of the policies below; 0: the command's choice */
     double snap;      /* below 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
-    size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
-    bool needs_target, may_pair;        /* what the command does with two cages */
+    size_t n_maximum, n_target_maximum;       /* their coordinates; 0: not given */
+    bool needs_target, may_pair, takes_parts; /* what the command does with two cages */
     bool constrained, unconstrained;
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
     double spacing, sigma;
-    bool thesis;
+    bool thesis, certified;
     /* their figures */
     int32_t handle;
     double along[ICC_MAX_DIM];
     size_t n_along;
     bool logarithmic;
     /* what to do */
-    bool inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down, compression,
-        has_background;
+    bool fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
+        compression, has_background;
     unsigned char background[4];
     int32_t lines;
 } args;
@@ -61,6 +61,7 @@ enum {
     FOR_PLOT = 128,
     FOR_CHARTS = 255, /* all of the above */
     MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
+    TAKES_PARTS = FOR_MAP | FOR_WARP | FOR_CHECK,
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,

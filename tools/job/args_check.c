@@ -86,7 +86,7 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "--points and --output do not go with --geojson IN OUT");
     if (a->repair_mesh && a->inverse)
         return misused(c->name, "--untangle does not go with --inverse");
-    if (a->tolerance > 0 && !a->geojson)
+    if (a->tolerance > 0 && !a->geojson && !(c->bit & FOR_POSE))
         return misused(c->name, "--tolerance goes with --geojson only");
     if (a->outside == OUTSIDE_CLIP && !a->geojson)
         return misused(c->name, "--outside clip goes with --geojson only");
@@ -109,6 +109,10 @@ static int check_kernel(const args *a, const command *c)
         return misused(c->name, "--handles FILE is missing");
     if (bound && (a->handles != NULL || a->source != NULL))
         return misused(c->name, "--source and --handles do not go with --binding");
+    if (bound && a->certified)
+        return misused(c->name, "--certified needs shape and handles, and no --binding");
+    if (a->tolerance > 0 && !a->certified)
+        return misused(c->name, "--tolerance goes with --certified");
     if (a->n_along > 0 && a->points != NULL)
         return misused(c->name, "--points and --along exclude each other");
     if (a->n_along > 0 && a->n_along != 4 && a->n_along != 6)
@@ -178,6 +182,8 @@ static int settle_streams(args *a, const command *c)
                        "result and report cannot both go to standard output; use --json=FILE");
     if (a->triangulation != NULL && strcmp(a->triangulation, "-") == 0)
         return misused(c->name, "--triangulation goes to a file, beside the result");
+    if (a->ties != NULL && strcmp(a->ties, "-") == 0)
+        return misused(c->name, "--ties goes to a file, beside the result");
     return DONE;
 }
 
@@ -185,6 +191,7 @@ int args_check(args *a, const command *c)
 {
     a->needs_target = c->needs_target;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
+    a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     settle_functions(a);
     int result = settle_streams(a, c);
     return result != DONE ? result : check_together(a, c);

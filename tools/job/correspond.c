@@ -48,6 +48,7 @@ int correspond(job *j)
 {
     const cage *source = &j->cages[0];
     cage *target = &j->cages[1];
+    side_text where;
     if (target->dim == 0)
         return DONE;
     if (target->cells != NULL)
@@ -62,14 +63,14 @@ int correspond(job *j)
     if (source->n != target->n)
         return failed(
             j->args->target, 0, "%s%zu vertices, but the %s %s has %zu; they correspond one by one",
-            job_side(j, 2), target->n, source->cells != NULL ? "boundary of the mask" : "source",
-            j->args->source, source->n);
+            job_side(where, j, 2), target->n,
+            source->cells != NULL ? "boundary of the mask" : "source", j->args->source, source->n);
     problem wrong;
     if (!features_correspond(source, target, &wrong))
-        return failed(j->args->target, wrong.line, "%s%s", job_side(j, 2), wrong.text);
+        return failed(j->args->target, wrong.line, "%s%s", job_side(where, j, 2), wrong.text);
     int side;
     if (!ties_correspond(source, target, &side, &wrong))
-        return failed(job_file(j, side), wrong.line, "%s%s", job_side(j, side), wrong.text);
+        return failed(job_file(j, side), wrong.line, "%s%s", job_side(where, j, side), wrong.text);
     if (target->n_facets > 0)
         return compare_facets(j);
     if (source->n_facets > 0)

@@ -16,7 +16,7 @@ static const double MADE = 0.8;
 void job_start(job *j, const args *a)
 {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    *j = (job){.own = *a, .started = seconds_now()};
+    *j = (job){.own = *a, .place = {NO_HOLE, NO_HOLE}, .started = seconds_now()};
     j->args = &j->own;
     j->both = a->source != NULL && a->target != NULL && strcmp(a->source, a->target) == 0;
     progress_start(&j->bar, a->quiet);
@@ -35,6 +35,11 @@ void job_end(job *j)
         icc_domain_free(j->domains[side]);
         cage_free(&j->cages[side]);
     }
+    for (size_t i = 0; i < j->n_parts; i++)
+        job_end(&j->parts[i]);
+    free(j->parts);
+    j->parts = NULL;
+    j->n_parts = 0;
 }
 
 const char *job_file(const job *j, int side)
@@ -43,9 +48,11 @@ const char *job_file(const job *j, int side)
     return side == 2 && a->target != NULL ? a->target : a->source != NULL ? a->source : a->handles;
 }
 
-const char *job_side(const job *j, int side)
+const char *job_side(side_text out, const job *j, int side)
 {
-    return !j->both ? "" : side == 1 ? "source: " : side == 2 ? "target: " : "";
+    const char *role = !j->both ? "" : side == 1 ? "source: " : side == 2 ? "target: " : "";
+    snprintf(out, sizeof(side_text), "%s%s", role, j->name);
+    return out;
 }
 
 /* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message
@@ -70,10 +77,11 @@ int job_failed_with(job *j, const icc_error *err, const char *hint)
     progress_end(&j->bar);
     const cage *c = &j->cages[err->side == 2];
     char translated[512];
+    side_text where;
     features_translate(translated, sizeof translated, c,
                        err->message[0] != '\0' ? err->message : icc_status_name(err->status));
-    return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s", job_side(j, err->side),
-                  translated, hint);
+    return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s",
+                  job_side(where, j, err->side), translated, hint);
 }
 
 int job_failed(job *j, const icc_error *err)
@@ -148,15 +156,29 @@ int job_make_map(job *j)
     free(ties);
     if (status != ICC_OK)
         return job_failed(j, &err);
+    for (size_t i = 0; i < j->n_parts && result == DONE; i++)
+        result = job_make_map(&j->parts[i]);
     j->seconds_made = seconds_now() - began;
-    return DONE;
+    return result;
+}
+
+/* Of holes that are filled only the outlines of polygons that lie in no hole are left. */
+static icc_status add_to_carrier(const job *j, carrier *c)
+{
+    bool inverse = j->args->inverse;
+    int32_t rings = !j->args->fill_holes          ? CARRIER_ALL
+                    : j->place.polygon != NO_HOLE ? CARRIER_NONE
+                                                  : CARRIER_OUTER;
+    return carrier_add(c, j->map, j->domains[inverse], j->domains[!inverse], rings);
 }
 
 int job_start_carrier(job *j, carrier *c)
 {
-    bool inverse = j->args->inverse;
-    icc_status ran = carrier_start(c, j->map, j->domains[inverse], j->domains[!inverse], inverse,
-                                   j->args->snap, &j->env);
+    carrier_start(c, j->args->inverse, &j->env);
+    icc_status ran = add_to_carrier(j, c);
+    for (size_t i = 0; i < j->n_parts && ran == ICC_OK; i++)
+        ran = add_to_carrier(&j->parts[i], c);
+    carrier_set_snap(c, j->args->snap);
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 
@@ -197,6 +219,8 @@ bool report_open(report *r, const job *j)
         json_count(&r->json, "dimension", job_dim(j));
         json_count(&r->json, "vertices", j->cages[0].n);
     }
+    if (j->n_parts > 0)
+        json_count(&r->json, "polygons", 1 + j->n_parts);
     if (j->cages[0].n_features > 0) {
         json_open(&r->json, "inside", '{');
         json_count(&r->json, "holes", cage_count(&j->cages[0], ICC_FEATURE_HOLE));

@@ -9,6 +9,7 @@
 #include "cage/cage.h"
 #include "geo/carrier.h"
 #include "job/args.h"
+#include "job/nesting.h"
 
 #include <icc/icc.h>
 
@@ -23,6 +24,11 @@ typedef struct job {
     size_t function;  /* which of args->functions; the first unless there are several */
     icc_chart *chart; /* of the source */
     icc_map *map;
+    char name[48];     /* of one polygon of several, as in "polygon 2: "; else "" */
+    cage_hole place;   /* the hole of another that it lies in */
+    size_t n_parts;    /* others: polygons, then insides of holes */
+    size_t n_polygons; /* all of them, with this one */
+    struct job *parts;
     double started, seconds_read, seconds_made;
 } job;
 
@@ -39,7 +45,7 @@ int job_read_cages(job *j);
 /* Coordinates of a point, once the cages have been read. */
 size_t job_dim(const job *j);
 
-/* Reads the cages and makes their domains. A mask then has the vertices and facets of its
+/* Reads the cages and makes their domains, those of all parts. A mask then has the vertices and facets of its
  * boundary. */
 int job_make_domains(job *j);
 
@@ -49,15 +55,18 @@ int job_read_plane(job *j, const char *what);
 /* All that, and the chart of the source. */
 int job_make_chart(job *j);
 
-/* All that, and the map from source to target. */
+/* All that, and the map from source to target, of each part. */
 int job_make_map(job *j);
 
 /* A carrier from the side whose points are read to the other, once there is a map; to be freed in
  * any case. */
 int job_start_carrier(job *j, carrier *c);
 
-/* The word that tells which cage of a file with both is meant: "source: ", "target: ", or "". */
-const char *job_side(const job *j, int side);
+typedef char side_text[64];
+
+/* The words that tell which cage of a file with several is meant: "source: ", "target: polygon 2: ",
+ * or "". Returns `out`. */
+const char *job_side(side_text out, const job *j, int side);
 
 /* Says what the library said, with the file and the line at fault; returns FAILED. */
 int job_failed(job *j, const icc_error *err);

@@ -7,6 +7,7 @@
 #include "cage/weld.h"
 #include "job/correspond.h"
 #include "job/fill.h"
+#include "job/parts.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,7 +19,8 @@ static int read_cage(job *j, size_t side, const char *text, size_t n)
     if (cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, dim, text, n, &wrong))
         return DONE;
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
-    return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(j, (int)side + 1),
+    side_text where;
+    return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
                   wrong.text);
 }
 
@@ -27,7 +29,8 @@ static int read_cage(job *j, size_t side, const char *text, size_t n)
 static int read_target(job *j, const char *text, size_t n)
 {
     args *a = &j->own;
-    if (a->target == NULL && !a->needs_target && !(a->may_pair && j->cages[0].n_features > 0))
+    if (a->target == NULL && !a->needs_target &&
+        !(a->may_pair && j->cages[0].n_features + j->cages[0].n_more > 0))
         return DONE;
     if (a->target == NULL && cage_is_named(CAGE_TARGET, text, n)) {
         a->target = a->source;
@@ -71,8 +74,8 @@ int job_read_cages(job *j)
     if (result == DONE)
         result = read_target(j, text, n);
     free(text);
-    if (result == DONE && j->args->target != NULL)
-        result = correspond(j);
+    if (result == DONE)
+        result = parts_make(j);
     j->seconds_read = seconds_now() - j->started;
     return result;
 }
@@ -98,8 +101,9 @@ static int failed_boundary(job *j, size_t side, const icc_error *err)
     char text[200], more[80] = "";
     if (n_all > 1)
         snprintf(more, sizeof more, " (%zu defects in all; 'libicc check' lists them)", n_all);
+    side_text where;
     failed(job_file(j, (int)side + 1), c->lines[list.items[0]], "%s%s%s",
-           job_side(j, (int)side + 1), defect_text(text, &list, 0, c), more);
+           job_side(where, j, (int)side + 1), defect_text(text, &list, 0, c), more);
     defects_free(&list);
     return FAILED;
 }
@@ -120,10 +124,11 @@ static icc_status make_polygon(icc_domain **out, const cage *c, const icc_env *e
 {
     icc_feature *features = need(c->n_features, sizeof *features);
     for (size_t i = 0; i < c->n_features; i++)
-        features[i] = (icc_feature){.size = sizeof *features,
-                                    .kind = c->features[i].kind,
-                                    .n_vertices = c->features[i].n,
-                                    .vertices = c->features[i].points};
+        features[i] = (icc_feature){
+            .size = sizeof *features,
+            .kind = c->features[i].kind == CAGE_CIRCLE ? ICC_FEATURE_LINE : c->features[i].kind,
+            .n_vertices = c->features[i].n,
+            .vertices = c->features[i].points};
     icc_status status =
         icc_domain_create_features(out, c->n, c->points, c->n_features, features, env, err);
     free(features);
@@ -179,6 +184,10 @@ int job_make_domains(job *j)
         result = make_domain(j, 1);
     if (result == DONE)
         result = fill_domains(j);
+    for (size_t i = 0; i < j->n_parts && result == DONE; i++)
+        result = job_make_domains(&j->parts[i]);
+    if (result == DONE && j->n_parts > 0)
+        result = parts_check(j);
     if (result == DONE)
         note_heights(j);
     return result;

@@ -146,6 +146,7 @@ int output_names_check(const args *a, const command *c)
         const char *name, *formats;
     } outputs[] = {{a->output, "text"},
                    {a->triangulation, "JSON"},
+                   {a->ties, "GeoJSON, JSON"},
                    {a->repair, "text, GeoJSON, JSON, OBJ, NumPy"},
                    {a->boundary, "text, OBJ"},
                    {a->picture, "SVG"},

@@ -6,10 +6,27 @@
 
 #include <stdlib.h>
 
-/* Column by column, as "vertices_columns" and "triangles_columns" say. */
-static void write_mesh(FILE *stream, const icc_map_info *info, const double *from, const double *to,
-                       const uint32_t *triangles)
+typedef struct part_mesh {
+    icc_map_info info;
+    double *from, *to;
+    uint32_t *triangles;
+} part_mesh;
+
+static part_mesh take_mesh(const icc_map *map)
 {
+    part_mesh m = {.info.size = sizeof m.info};
+    icc_map_get_info(map, &m.info);
+    m.from = need(m.info.n_vertices, 2 * sizeof *m.from);
+    m.to = need(m.info.n_vertices, 2 * sizeof *m.to);
+    m.triangles = need(m.info.n_simplices, 3 * sizeof *m.triangles);
+    icc_map_get_mesh(map, m.from, m.to, m.triangles);
+    return m;
+}
+
+/* Column by column, as "vertices_columns" and "triangles_columns" say; one part behind the other. */
+static void write_meshes(FILE *stream, size_t n, const part_mesh *meshes)
+{
+    const char *comma = "";
     fputs("{\n\"file_type\": \"triangulation_file\",\n\"format_version\": \"1.1\",\n", stream);
     fprintf(stream, "\"publisher\": \"libicc %s\",\n", icc_version());
     fputs("\"transformed_components\": [\"horizontal\"],\n\"fallback_strategy\": \"none\",\n"
@@ -17,13 +34,17 @@ static void write_mesh(FILE *stream, const icc_map_info *info, const double *fro
           "\"triangles_columns\": [\"idx_vertex1\", \"idx_vertex2\", \"idx_vertex3\"],\n"
           "\"vertices\": [",
           stream);
-    for (size_t i = 0; i < 2 * info->n_vertices; i += 2)
-        fprintf(stream, "%s\n[%.17g, %.17g, %.17g, %.17g]", i > 0 ? "," : "", from[i], from[i + 1],
-                to[i], to[i + 1]);
+    for (const part_mesh *m = meshes; m < meshes + n; m++)
+        for (size_t i = 0; i < 2 * m->info.n_vertices; i += 2, comma = ",")
+            fprintf(stream, "%s\n[%.17g, %.17g, %.17g, %.17g]", comma, m->from[i], m->from[i + 1],
+                    m->to[i], m->to[i + 1]);
     fputs("],\n\"triangles\": [", stream);
-    for (size_t i = 0; i < 3 * info->n_simplices; i += 3)
-        fprintf(stream, "%s\n[%u, %u, %u]", i > 0 ? "," : "", (unsigned)triangles[i],
-                (unsigned)triangles[i + 1], (unsigned)triangles[i + 2]);
+    comma = "";
+    size_t first = 0;
+    for (const part_mesh *m = meshes; m < meshes + n; first += m->info.n_vertices, m++)
+        for (size_t i = 0; i < 3 * m->info.n_simplices; i += 3, comma = ",")
+            fprintf(stream, "%s\n[%zu, %zu, %zu]", comma, first + m->triangles[i],
+                    first + m->triangles[i + 1], first + m->triangles[i + 2]);
     fputs("]\n}\n", stream);
 }
 
@@ -32,26 +53,36 @@ int triangulation_check(job *j)
     return j->args->triangulation != NULL ? job_read_plane(j, "--triangulation") : DONE;
 }
 
-int triangulation_write(const job *j)
+static bool is_mesh(const job *j)
 {
     icc_map_info info = {.size = sizeof info};
+    icc_map_get_info(j->map, &info);
+    return info.kind == ICC_MAP_MESH;
+}
+
+int triangulation_write(const job *j)
+{
     outfile file;
     if (j->args->triangulation == NULL)
         return DONE;
-    icc_map_get_info(j->map, &info);
-    if (info.kind != ICC_MAP_MESH)
+    bool all = is_mesh(j);
+    for (size_t i = 0; i < j->n_parts; i++)
+        all = all && is_mesh(&j->parts[i]);
+    if (!all)
         return failed(j->args->source, 0,
                       "the map is not of kind mesh: its repair failed; without --triangulation its "
                       "curves map points");
     if (!outfile_open(&file, j->args->triangulation))
         return FAILED;
-    double *from = need(info.n_vertices, 2 * sizeof *from),
-           *to = need(info.n_vertices, 2 * sizeof *to);
-    uint32_t *triangles = need(info.n_simplices, 3 * sizeof *triangles);
-    icc_map_get_mesh(j->map, from, to, triangles);
-    write_mesh(file.stream, &info, from, to, triangles);
-    free(from);
-    free(to);
-    free(triangles);
+    part_mesh *meshes = need(1 + j->n_parts, sizeof *meshes);
+    for (size_t i = 0; i <= j->n_parts; i++)
+        meshes[i] = take_mesh(i == 0 ? j->map : j->parts[i - 1].map);
+    write_meshes(file.stream, 1 + j->n_parts, meshes);
+    for (size_t i = 0; i <= j->n_parts; i++) {
+        free(meshes[i].from);
+        free(meshes[i].to);
+        free(meshes[i].triangles);
+    }
+    free(meshes);
     return outfile_close(&file) ? DONE : FAILED;
 }

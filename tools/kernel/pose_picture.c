@@ -266,21 +266,31 @@ static int report_picture(drawing *d, double seconds)
             pose_say(p, text);
         return DONE;
     }
-    const patch *first = &d->patches[0];
-    if (pose_report_open(&r, p, first->n, first->rest, 0, seconds) != DONE)
+    size_t n = d->n_patches > 0 ? d->patches[0].n : p->kernel.set.n_handles;
+    const double *points = d->n_patches > 0 ? d->patches[0].rest : p->kernel.set.handles;
+    if (pose_report_open(&r, p, n, points, 0, seconds) != DONE)
         return FAILED;
     json_number(&r.json, "folded", folded);
     return report_close(&r) ? DONE : FAILED;
 }
 
-static int draw(drawing *d)
+static int draw_patches(drawing *d)
 {
-    double began = seconds_now();
     int result = make_patches(d);
     if (result != DONE)
         return result;
     draw_triangles(d, -1);
     draw_triangles(d, 1);
+    return DONE;
+}
+
+static int draw(drawing *d)
+{
+    double began = seconds_now();
+    int result =
+        d->pose->map != NULL ? pose_certified_picture(d->pose, &d->from, &d->to) : draw_patches(d);
+    if (result != DONE)
+        return result;
     double seconds = seconds_now() - began;
     result = picture_save(&d->to, d->from.keep, pose_output(d->pose));
     return result == DONE ? report_picture(d, seconds) : result;

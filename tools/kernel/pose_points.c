@@ -56,6 +56,8 @@ int pose_points(pose *p, size_t n, const double *points, double *images, double 
                 size_t *n_failed)
 {
     size_t dim = p->kernel.set.dim;
+    if (p->map != NULL)
+        return pose_certified_points(p, n, points, images, jacobians, n_failed);
     double *work = need(BATCH, dim * (dim + 1) * sizeof *work);
     icc_error err = {.size = sizeof err, .index = -1};
     icc_status status = ICC_OK;

@@ -41,5 +41,6 @@ int pose_report_open(report *r, pose *p, size_t n, const double *points, size_t 
     json_count(&r->json, "points", n);
     json_count(&r->json, "without_image", n_failed);
     json_number(&r->json, "seconds_pose", seconds);
+    pose_certified_report(p, &r->json);
     return DONE;
 }

@@ -25,8 +25,8 @@ void panel_locate(const panel *p, double x, double y, double out[2]);
 /* Defines the clip path of the shape. */
 void plot_clip(const panel *p, const cage *c);
 
-/* The outline with what is inside, and ties; drawn last. */
-void plot_cage(const panel *p, const cage *c);
+/* The outline with what is inside, and the map's ties, or else those that were given; drawn last. */
+void plot_cage(const panel *p, const job *j);
 
 /* Whether the shape is drawn with the triangles of the map: where that is asked for, and where
  * there is no chart with curves. */

@@ -71,7 +71,7 @@ int plot_pattern(const panel *p, job *j, const places *from, pattern what)
             image.samples[3 * i + k] = (uint16_t)(sum[k] / (double)(samples * samples) + 0.5);
     }
     int result = svg_picture(p->svg, p->left, p->top, p->width, p->height, p->clip, &image);
-    plot_cage(p, &j->cages[p->side == 2]);
+    plot_cage(p, j);
     picture_free(&image);
     return result;
 }

@@ -4,6 +4,7 @@
 #include "plot/plot.h"
 
 #include "base/allocate.h"
+#include "job/ties_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,7 +90,7 @@ static void draw_lines(const panel *p, const cage *c)
 }
 
 /* Dots are vertices where there are not too many of them, and points inside always. */
-void plot_cage(const panel *p, const cage *c)
+static void draw_cage(const panel *p, const cage *c)
 {
     size_t n = c->n;
     if (c->n_features > 0)
@@ -108,6 +109,21 @@ void plot_cage(const panel *p, const cage *c)
             draw_vertices(p, f->n, f->points, f->kind == ICC_FEATURE_POINT ? 3.6 : 2.4,
                           f->kind == ICC_FEATURE_POINT);
     }
+}
+
+void plot_cage(const panel *p, const job *j)
+{
+    cage shown = j->cages[p->side == 2];
+    cage_feature *own = NULL;
+    size_t n_own = 0;
+    if (shown.n_features > 0 && p->stages->map != NULL)
+        n_own = ties_of_map(p->stages->map, &shown, p->side, &own);
+    if (n_own > 0) {
+        shown.n_ties = n_own;
+        shown.ties = own;
+    }
+    draw_cage(p, &shown);
+    ties_free(n_own, own);
 }
 
 /* ------------------------------------------------------------------ curves */
@@ -326,7 +342,7 @@ int plot_shape(const panel *p, job *j)
     if (has_tree)
         draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
     fputs("</g>\n", p->svg);
-    plot_cage(p, &j->cages[p->side == 2]);
+    plot_cage(p, j);
     if (!triangles)
         draw_maximum(p);
     return result;

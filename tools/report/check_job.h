@@ -14,11 +14,12 @@ typedef struct check {
     size_t n_filled;  /* by --repair: cells of a mask */
     size_t n_joined;  /* by --repair: vertices of a surface */
     chart_facts charts[2];
-    icc_map_info map; /* of kind 0 without a target */
-    bool certified;   /* all there is */
+    icc_map_info map;    /* of kind 0 without a target */
+    bool certified;      /* all there is */
+    struct check *parts; /* the other polygons, as many as the job has; their jobs are copies */
 } check;
 
-/* Lists the defects of cages in the plane. */
+/* Lists the defects of cages in the plane, and those of the other polygons. */
 int check_find_defects(check *c);
 
 /* Whether the source is a mask that is checked by itself. */

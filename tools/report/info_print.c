@@ -177,6 +177,9 @@ static void print_mesh_map(const icc_map_info *m)
            elements_name(m->dim), m->n_simplices, m->n_vertices, m->n_inverted);
     printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
            m->energy, m->n_iterations, (int)m->n_levels);
+    if (m->n_ties > 0)
+        printf("ties        %zu, %.4g times as long as straight lines%s\n", m->n_ties, m->detour,
+               m->class_kept ? "" : "; not known to go round features as those that it began with");
 }
 
 /* The map, its certificate or why there is none, and how it distorts the source. */

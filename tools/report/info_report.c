@@ -126,6 +126,11 @@ static void report_mesh_map(json *j, const icc_map_info *m)
     json_count(j, "refinements", (size_t)m->n_levels);
     json_number(j, "energy_before", m->energy_start);
     json_number(j, "energy", m->energy);
+    if (m->n_ties > 0) {
+        json_count(j, "ties", m->n_ties);
+        json_number(j, "detour", m->detour);
+        json_flag(j, "class_kept", m->class_kept != 0);
+    }
     json_open(j, "seconds", '{');
     json_number(j, "repair", m->seconds_repair);
     json_number(j, "improve", m->seconds_improve);

@@ -29,7 +29,8 @@ disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size second
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
-map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32
+map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32 n_holes:size n_lines:size n_points:size n_ties:size detour:f64 class_kept:i32 n_trees:i32
+tie_info vertex:u32[2] n_source:size n_target:size length:f64[2]
 improve_options iterations:i32 levels:i32 tolerance:f64
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
 certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64
@@ -88,6 +89,7 @@ map_certify map* size f64* size u32* f64* certificate* env* error*
 map_repair map* size f64* size u32* f64* certificate* env* error*
 void:map_free map*
 map_get_info map* map_info*
+map_get_tie map* size tie_info* f64* f64*
 chart*:map_source_chart map*
 chart*:map_target_chart map*
 map_apply map* size f64* f64* i32* size* env*

@@ -97,6 +97,20 @@ class Map(Saved):
         return result
 
     @property
+    def ties(self) -> List[Tuple[Tuple[int, int], Floats, Floats]]:
+        """Which way round one another features go: as the argument ``ties``, they make another map that can
+        be moved to this one while it stays one-to-one. Each is its two vertices and its bends in the source
+        and in the target; there are none without features."""
+        return [self._tie(tie) for tie in range(self.info.n_ties)]
+
+    def _tie(self, tie: int) -> Tuple[Tuple[int, int], Floats, Floats]:
+        info = new("tie_info")
+        check(lib.map_get_tie(self, tie, ctypes.addressof(info), None, None))
+        source, target = np.empty((info.n_source, 2)), np.empty((info.n_target, 2))
+        check(lib.map_get_tie(self, tie, ctypes.addressof(info), address(source), address(target)))
+        return (info.vertex[0], info.vertex[1]), source, target
+
+    @property
     def certified(self) -> bool:
         """Whether the map is proved to be one-to-one."""
         return bool(self._info("map_get_info", "map_info").certified)

@@ -263,6 +263,15 @@ def test_maps_of_features():
     turn = [[8, 0.5], [8, 8], [1, 8], [2, 3]]
     long = libicc.Map(source, source, ties=[((0, 4), [], turn), ((7, 8), [], [])])
     assert short.info.energy == pytest.approx(4) and long.certified and long.info.energy > 10
+    assert short.info.class_kept == long.info.class_kept == 1 and long.info.detour > 1.2 > short.info.detour
+    assert short.info.n_ties == 2 and (short.info.n_holes, short.info.n_lines, short.info.n_points) == (1, 0, 1)
+    # Ties out, and in again.
+    again = libicc.Map(source, source, improve=0, ties=long.ties)
+    for (ends, _, bends), (own_ends, own_source, own_bends) in zip(long.ties, again.ties):
+        assert ends == own_ends and len(own_source) == 0 and np.array_equal(bends, own_bends)
+    loaded = libicc.Map.from_bytes(long.to_bytes())
+    assert np.array_equal(loaded([[1, 1], [6, 6]]), long([[1, 1], [6, 6]]))
+    assert libicc.Map(square, square).ties == []
     with pytest.raises(libicc.TopologyError, match="tie 1 joins") as caught:
         libicc.Map(source, source, ties=[((0, 4), [], []), ((1, 7), [], [])])
     assert caught.value.index == 1 and caught.value.item == "tie"

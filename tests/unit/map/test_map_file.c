@@ -1,6 +1,7 @@
 /* Maps as bytes: what is loaded is what was saved, goes on as that would, and nothing else is
  * loaded. */
 #include "../../faulty.h"
+#include "../../feature_pairs.h"
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
 #include "../../saved.h"
@@ -156,6 +157,72 @@ START_TEST(far_meshes)
 }
 END_TEST
 
+static pair feature_pair(int k)
+{
+    plan source, target;
+    plans_number(k, &source, &target);
+    return (pair){plan_domain(&source), plan_domain(&target)};
+}
+
+static icc_map *feature_map(const pair *p, int32_t iterations)
+{
+    const icc_map_options options = {.size = sizeof options, .iterations = iterations};
+    icc_map *map;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_map_create(&map, p->source, p->target, &options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    return map;
+}
+
+/* Holes, lines and points inside, there and back. */
+START_TEST(features)
+{
+    for (int k = 0; k < N_PLANS; ++k)
+        for (int turn = 0; turn < 2; ++turn) {
+            pair p = feature_pair(k);
+            const pair used = turn == 0 ? p : (pair){p.target, p.source};
+            icc_map *map = feature_map(&used, k % 2 == 0 ? 0 : -1);
+            check_map(map, used.source);
+            icc_map_free(map);
+            free_pair(&p);
+        }
+}
+END_TEST
+
+/* Loaded maps are improved and follow as the first ones do. */
+START_TEST(features_go_on)
+{
+    for (int k = 0; k < N_PLANS; ++k) {
+        plan source, target;
+        plans_number(k, &source, &target);
+        pair p = {plan_domain(&source), plan_domain(&target)};
+        icc_map *map = feature_map(&p, 0), *better[2], *next[2];
+        bytes b = map_bytes(map);
+        icc_map *loaded = load(&b);
+        const icc_improve_options options = {.size = sizeof options, .iterations = 3, .levels = 2};
+        ck_assert_int_eq(icc_map_improve(&better[0], map, &options, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_improve(&better[1], loaded, &options, NULL, NULL, NULL), ICC_OK);
+        same_map(better[0], better[1], p.source);
+        check_map(better[0], p.source);
+        target.xy[2 * target.n_outer] += 0.01 * (target.xy[2] - target.xy[0]);
+        icc_domain *further = plan_domain(&target);
+        ck_assert_int_eq(icc_map_retarget(&next[0], map, further, 0, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_retarget(&next[1], loaded, further, 0, NULL, NULL), ICC_OK);
+        same_map(next[0], next[1], p.source);
+        check_map(next[0], p.source);
+        for (int i = 0; i < 2; ++i) {
+            icc_map_free(better[i]);
+            icc_map_free(next[i]);
+        }
+        free(b.data);
+        icc_map_free(loaded);
+        icc_map_free(map);
+        icc_domain_free(further);
+        free_pair(&p);
+    }
+}
+END_TEST
+
 /* A loaded map is improved, follows and derives as the first one does. */
 START_TEST(it_goes_on)
 {
@@ -303,7 +370,7 @@ END_TEST
 
 /* ---- bytes that are not those of a map ---- */
 
-enum { N_SMALL = 4 };
+enum { N_SMALL = 5 };
 
 static icc_map *small_map(int k, pair *p)
 {
@@ -311,6 +378,10 @@ static icc_map *small_map(int k, pair *p)
     if (k == 3) {
         *p = filled_pair(3, 2);
         return map_of(p, ICC_MAP_MESH, 0, 0, 0);
+    }
+    if (k == 4) {
+        *p = feature_pair(1);
+        return feature_map(p, -1);
     }
     *p = bent_pair(&s);
     if (k == 0)
@@ -345,10 +416,9 @@ START_TEST(damage_is_noticed)
 }
 END_TEST
 
-/* Bytes of maps without features are of version 1, and of no other. */
+/* Bytes of maps without features are of version 1, those of others of version 2, and of no other. */
 START_TEST(versions)
 {
-    static const icc_status expected[] = {ICC_ERR_FORMAT, ICC_OK, ICC_ERR_FORMAT, ICC_ERR_VERSION};
     for (int k = 0; k < N_SMALL; ++k) {
         pair p;
         icc_map *map = small_map(k, &p), *again;
@@ -359,7 +429,10 @@ START_TEST(versions)
             iccp_blob_begin(&w, b.data, b.n, "MAP_", version);
             w.at = b.n;
             iccp_blob_end(&w, &n);
-            ck_assert_int_eq(icc_map_load(&again, b.n, b.data, NULL, NULL), expected[version]);
+            const icc_status expected = version == (k == 4 ? 2 : 1) ? ICC_OK
+                                        : version == 3              ? ICC_ERR_VERSION
+                                                                    : ICC_ERR_FORMAT;
+            ck_assert_int_eq(icc_map_load(&again, b.n, b.data, NULL, NULL), expected);
             icc_map_free(again);
         }
         free(b.data);
@@ -543,6 +616,8 @@ int main(void)
     tcase_add_test(c, plane_meshes);
     tcase_add_test(c, hard_meshes);
     tcase_add_test(c, far_meshes);
+    tcase_add_test(c, features);
+    tcase_add_test(c, features_go_on);
     tcase_add_test(c, it_goes_on);
     tcase_add_test(c, filled);
     tcase_add_test(c, cut_chords);

@@ -263,7 +263,7 @@ START_TEST(shaken_maps_become_fair)
             for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.images; ++i)
                 c.images[i] += random_between(&r, -0.02, 0.02);
             const double before = iccp_simplicial_energy(&map);
-            const iccp_descent descent = {3, steps, 1e-13, 0};
+            const iccp_descent descent = {3, steps, 1e-13, 0, false};
             iccp_work work = iccp_work_unlimited();
             ck_assert_int_eq(iccp_improve_images(&map, &descent, &work, &improvement, &env),
                              ICC_OK);

@@ -795,8 +795,42 @@ pub struct icc_map_info {
     pub reason: i32,
     /// 1: because the source's chart is not, 2: the target's; else 0
     pub reason_side: i32,
+    /// features inside: holes,
+    pub n_holes: usize,
+    /// lines
+    pub n_lines: usize,
+    /// and points
+    pub n_points: usize,
+    /// with features: as many ties, see `icc_map_get_tie()`
+    pub n_ties: usize,
+    /// lengths of these in the target over those of the straight lines between their ends: what is
+    /// much more than 1 is twisted
+    pub detour: f64,
+    /// with features, 1: the map can be moved, while it stays one-to-one, to what its ties, or the
+    /// cuts chosen for it, said; and after `icc_map_retarget()` to what became of the map before
+    /// while every vertex of the target went straight to its new place; 0: not so, or it is open
+    pub class_kept: i32,
+    /// with features: ways to cut them apart that were tried and led to a map; 1 with ties
+    pub n_trees: i32,
 }
 sized!(icc_map_info);
+
+/// What `icc_map_get_tie()` reports.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_tie_info {
+    /// set by the caller: `sizeof(icc_tie_info)`
+    pub size: usize,
+    /// as in `icc_tie`
+    pub vertex: [u32; 2],
+    /// its bends in the source: none as yet
+    pub n_source: usize,
+    /// and in the target
+    pub n_target: usize,
+    /// of the tie in the source, and in the target
+    pub length: [f64; 2],
+}
+sized!(icc_tie_info);
 
 /// Options of `icc_map_improve()`.
 #[repr(C)]
@@ -1516,6 +1550,20 @@ extern "C" {
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_map_get_info(map: *const icc_map, info: *mut icc_map_info) -> icc_status;
+
+    /// Reports a tie of a map of domains with features, less than `icc_map_info.n_ties`: all of them, as
+    /// `icc_map_options.ties`, make another map that can be moved to this one while it stays one-to-one.
+    /// - `source` (out): 2 * n_source coordinates of bends, or NULL
+    /// - `target` (out): 2 * n_target coordinates of bends, or NULL
+    ///
+    /// Returns `ICC_OK`; `ICC_ERR_ARGUMENT` (`map` or `info` is NULL, or there is no such tie).
+    pub fn icc_map_get_tie(
+        map: *const icc_map,
+        tie: usize,
+        info: *mut icc_tie_info,
+        source: *mut f64,
+        target: *mut f64,
+    ) -> icc_status;
 
     /// The chart of the source; borrowed. NULL for maps made by `icc_map_retarget()`.
     pub fn icc_map_source_chart(map: *const icc_map) -> *const icc_chart;

@@ -60,7 +60,9 @@ pub use domain::{
 };
 pub use env::Env;
 pub use error::{Error, Item, Result, Side, Status};
-pub use map::{Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions};
+pub use map::{
+    Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, OwnedTie, Tie,
+};
 pub use object::Borrowed;
 pub use picture::{Layout, Picture, PictureMut};
 pub use slices::{flat, flat_mut, rows};

@@ -68,6 +68,24 @@ pub struct Tie<'a> {
     pub target: &'a [f64],
 }
 
+/// A tie of a map: see [`Map::ties`].
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OwnedTie {
+    /// where it begins and ends
+    pub vertices: [u32; 2],
+    /// its bends in the source, 2 coordinates each
+    pub source: Vec<f64>,
+    /// its bends in the target
+    pub target: Vec<f64>,
+}
+
+impl OwnedTie {
+    /// As [`MapOptions`] takes it.
+    pub fn borrow(&self) -> Tie<'_> {
+        Tie { vertices: self.vertices, source: &self.source, target: &self.target }
+    }
+}
+
 impl Tie<'_> {
     fn raw(&self) -> sys::icc_tie {
         sys::icc_tie {
@@ -231,6 +249,22 @@ impl Map {
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_map_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// Which way round one another features go: ties that make, given to [`MapOptions`], another map that can be
+    /// moved to this one while it stays one-to-one. Without features there are none.
+    pub fn ties(&self) -> Vec<OwnedTie> {
+        (0..self.info().n_ties).map(|tie| self.tie(tie)).collect()
+    }
+
+    fn tie(&self, tie: usize) -> OwnedTie {
+        let (mut info, nothing) = (sys::icc_tie_info::default(), std::ptr::null_mut());
+        // SAFETY: `size` is set, and there is such a tie. It cannot fail.
+        unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
+        let (mut source, mut target) = (vec![0.0; 2 * info.n_source], vec![0.0; 2 * info.n_target]);
+        // SAFETY: there is room for all bends.
+        unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, source.as_mut_ptr(), target.as_mut_ptr()) };
+        OwnedTie { vertices: info.vertex, source, target }
     }
 
     /// The dimension.

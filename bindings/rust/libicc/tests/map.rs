@@ -1,7 +1,7 @@
 //! Maps and charts from Rust: what comes back, what fails and how, threads and callbacks.
 use libicc::{
     flat, Certificate, Chart, ChartOptions, Domain, Env, Feature, Images, ImproveOptions, Item, Layout, Map,
-    MapKind, MapOptions, Method, Picture, PictureMut, Side, Status,
+    MapKind, MapOptions, Method, OwnedTie, Picture, PictureMut, Side, Status, Tie,
 };
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -62,6 +62,14 @@ fn domains_have_features() {
     assert_eq!(error.status, Status::ARGUMENT);
     let error = Chart::new(&domain, &ChartOptions::default(), env).unwrap_err();
     assert_eq!(error.status, Status::UNSUPPORTED);
+
+    let map = Map::new(&domain, &domain, &MapOptions::default(), env).unwrap();
+    let own = map.ties();
+    let ties: Vec<Tie<'_>> = own.iter().map(OwnedTie::borrow).collect();
+    let again = Map::new(&domain, &domain, &MapOptions { ties: &ties, ..Default::default() }, env).unwrap();
+    assert_eq!((again.info().class_kept, again.info().n_ties), (1, 3));
+    assert_eq!(again.ties(), own);
+    assert_eq!(Map::from_bytes(&map.to_bytes().unwrap(), env).unwrap().ties(), own);
 }
 
 #[test]

@@ -1,0 +1,148 @@
+/* docs/theory.md, the mesh map; Newton's method itself is in map/newton.c.
+ *
+ * Images may move, and so may points, by the energy of the inverse map: the same but for how
+ * triangles count, by their area after the map. A triangle that is tiny on one side costs next to
+ * nothing there, however flat it becomes on the other, down to where doubles take it for one
+ * without area, which has no energy on that other side. So where triangles come near to that, their
+ * corners go back. */
+#include "map/descent.h"
+
+#include "map/candidate.h"
+#include "map/movable.h"
+#include "map/newton.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Half of a descent, as far as progress goes. */
+static const double TYPICAL_STEPS = 8;
+
+/* Triangles become no flatter than this. What doubles say of a triangle's area is off by so much
+ * where it is some 1e-8 of the domain across. */
+static const double LEAST_ROUNDNESS = 1e-8;
+
+icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
+                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+{
+    improvement->is_converged = false;
+    if (!iccp_work_fits(work, map->n_simplices))
+        return ICC_OK;
+    iccp_newton newton;
+    iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
+    uint8_t *movable;
+    icc_status status = iccp_movable_create(&movable, map, env);
+    if (status == ICC_OK)
+        status = iccp_newton_create(&newton, map, movable, &part);
+    iccp_free(&env->memory, movable);
+    if (status != ICC_OK)
+        return status;
+    const size_t n_free = newton.assembly.n_free;
+    double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
+    size_t n_slow = 0;
+    for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
+                       iccp_work_take(work, map->n_simplices);
+         ++k) {
+        const iccp_energy model =
+            k < descent->majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
+        double slope;
+        part = iccp_round(env, k + 1, TYPICAL_STEPS);
+        status = iccp_progress(&part, "improve", 0);
+        if (status == ICC_OK)
+            status = iccp_newton_solve(&newton, model, 0, &slope, &part);
+        if (status != ICC_OK)
+            break;
+        const double after = iccp_newton_move(&newton, model, 0, energy, slope);
+        const double gain = energy - after;
+        energy = after;
+        ++improvement->n_iterations;
+        if (k < descent->majorised)
+            continue;
+        n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
+        improvement->is_converged = gain <= descent->tolerance * energy;
+        if (n_slow == (descent->is_hasty ? 1 : 2) || improvement->is_converged)
+            break;
+    }
+    iccp_newton_free(&newton);
+    return status == ICC_ERR_SOLVER ? ICC_OK : status;
+}
+
+/* ---- both sides ---- */
+
+typedef struct retreat {
+    iccp_plmap *map;
+    double *before; /* the images that were, */
+    uint8_t *back;  /* of each vertex: that it has it again */
+} retreat;
+
+static double roundness_of(const double *places, const uint32_t *v)
+{
+    return iccp_roundness(places + 2 * (size_t)v[0], places + 2 * (size_t)v[1],
+                          places + 2 * (size_t)v[2]);
+}
+
+/* Whether the image of a triangle is too flat, and flatter than it was; or what doubles make of it
+ * on one side or the other has no area or no energy. */
+static bool is_spoilt(const retreat *r, uint32_t triangle)
+{
+    const uint32_t *v = r->map->corners.vertex + 3 * (size_t)triangle;
+    if (!iccp_plmap_positive_image(r->map, triangle) ||
+        roundness_of(r->map->images, v) < iccp_min(LEAST_ROUNDNESS, roundness_of(r->before, v)))
+        return true;
+    return !iccp_candidate_is_sound(r->map, v[0], v[1], v[2]);
+}
+
+/* Gives the corners of a triangle the images that they had; false when they all have them. */
+static bool send_back(const retreat *r, uint32_t triangle)
+{
+    bool any = false;
+    for (size_t k = 0; k < 3; ++k) {
+        const size_t v = r->map->corners.vertex[3 * (size_t)triangle + k];
+        any |= !r->back[v];
+        r->back[v] = 1;
+        memcpy(r->map->images + 2 * v, r->before + 2 * v, 2 * sizeof *r->before);
+    }
+    return any;
+}
+
+/* Where corners go back their neighbours may become flat: again, until nothing changes. Each round
+ * but the last sends a vertex back for good. */
+static void send_back_spoilt(const retreat *r, double energy_before)
+{
+    const size_t n = r->map->n_vertices;
+    bool any = true, ever = false;
+    memset(r->back, 0, n);
+    while (any) {
+        any = false;
+        for (uint32_t t = 0; t < r->map->corners.n_triangles; ++t)
+            if (is_spoilt(r, t) && send_back(r, t))
+                any = ever = true;
+    }
+    if (ever && !(iccp_plmap_energy(r->map) <= energy_before))
+        memcpy(r->map->images, r->before, 2 * n * sizeof *r->before);
+}
+
+icc_status iccp_improve_both_sides(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
+                                   iccp_improvement *improvement, const iccp_env *env)
+{
+    const size_t n = map->n_vertices;
+    retreat r = {map, iccp_alloc(&env->memory, n, 2 * sizeof *r.before),
+                 iccp_alloc(&env->memory, n, sizeof *r.back)};
+    icc_status status = r.before != NULL && r.back != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    for (int side = 0; side < 2; ++side) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+        if (status == ICC_OK) {
+            const double energy = iccp_simplicial_energy_at_once(&simplicial, env);
+            memcpy(r.before, map->images, 2 * n * sizeof *r.before);
+            status = iccp_improve_images(&simplicial, descent, work, improvement, &part[side]);
+            send_back_spoilt(&r, energy);
+        }
+        iccp_plmap_swap(map);
+    }
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
+    iccp_free(&env->memory, r.before);
+    iccp_free(&env->memory, r.back);
+    return status;
+}

@@ -1,0 +1,138 @@
+#include "job/ties_file.h"
+
+#include "base/allocate.h"
+#include "cage/cage_features.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Vertices are those of the ring, then those of the features. */
+static const double *vertex_of(const cage *c, size_t vertex)
+{
+    if (vertex < c->n)
+        return c->points + 2 * vertex;
+    vertex -= c->n;
+    const cage_feature *f = c->features;
+    for (; vertex >= f->n; f++)
+        vertex -= f->n;
+    return f->points + 2 * vertex;
+}
+
+size_t ties_of_map(const icc_map *map, const cage *c, int side, cage_feature **ties)
+{
+    icc_map_info info = {.size = sizeof info};
+    icc_map_get_info(map, &info);
+    *ties = need(info.n_ties, sizeof **ties);
+    for (size_t i = 0; i < info.n_ties; i++) {
+        icc_tie_info tie = {.size = sizeof tie};
+        icc_map_get_tie(map, i, &tie, NULL, NULL);
+        size_t n = 2 + (side == 1 ? tie.n_source : tie.n_target);
+        double *points = need(n, 2 * sizeof *points);
+        icc_map_get_tie(map, i, &tie, side == 1 ? points + 2 : NULL, side == 2 ? points + 2 : NULL);
+        memcpy(points, vertex_of(c, tie.vertex[0]), 2 * sizeof *points);
+        memcpy(points + 2 * (n - 1), vertex_of(c, tie.vertex[1]), 2 * sizeof *points);
+        (*ties)[i] =
+            (cage_feature){.kind = CAGE_TIE, .number = (int64_t)i + 1, .n = n, .points = points};
+    }
+    return info.n_ties;
+}
+
+void ties_free(size_t n, cage_feature *ties)
+{
+    for (size_t i = 0; i < n; i++)
+        free(ties[i].points);
+    free(ties);
+}
+
+int ties_check(job *j)
+{
+    if (j->args->ties == NULL)
+        return DONE;
+    int result = job_read_plane(j, "--ties");
+    return result == DONE && j->cages[0].n_features == 0
+               ? failed(j->args->source, 0,
+                        "nothing is inside the cage, so that there are no ties to write")
+               : result;
+}
+
+/* ------------------------------------------------------------------ writing */
+
+static void write_position(FILE *stream, const double *at)
+{
+    fprintf(stream, "[%.17g, %.17g]", at[0], at[1]);
+}
+
+/* With the first one again at the end of rings. */
+static void write_positions(FILE *stream, size_t n, const double *points, bool closed)
+{
+    fputc('[', stream);
+    for (size_t i = 0; i < n + closed; i++) {
+        fputs(i > 0 ? ", " : "", stream);
+        write_position(stream, points + 2 * (i % n));
+    }
+    fputc(']', stream);
+}
+
+static void write_polygon(FILE *stream, const cage *c, cage_role role)
+{
+    fprintf(stream,
+            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"}, \"geometry\": "
+            "{\"type\": \"Polygon\", \"coordinates\": [",
+            cage_role_name(role));
+    write_positions(stream, c->n, c->points, true);
+    for (size_t i = 0; i < c->n_features; i++)
+        if (c->features[i].kind == ICC_FEATURE_HOLE) {
+            fputs(", ", stream);
+            write_positions(stream, c->features[i].n, c->features[i].points, true);
+        }
+    fputs("]}}", stream);
+}
+
+/* A line, a point or a tie. */
+static void write_feature(FILE *stream, const cage_feature *f, cage_role role)
+{
+    bool is_point = f->kind == ICC_FEATURE_POINT;
+    fprintf(stream,
+            ",\n{\"type\": \"Feature\", \"properties\": {\"role\": \"%s%s\", \"feature\": %lld}, "
+            "\"geometry\": {\"type\": \"%s\", \"coordinates\": ",
+            cage_role_name(role), f->kind == CAGE_TIE ? "-tie" : "", (long long)f->number,
+            is_point ? "Point" : "LineString");
+    if (is_point)
+        write_position(stream, f->points);
+    else
+        write_positions(stream, f->n, f->points, false);
+    fputs("}}", stream);
+}
+
+static void write_side(FILE *stream, const job *j, cage_role role)
+{
+    const cage *c = &j->cages[role - 1];
+    cage_feature *ties;
+    size_t n = ties_of_map(j->map, c, (int)role, &ties);
+    write_polygon(stream, c, role);
+    for (size_t i = 0; i < c->n_features; i++)
+        if (c->features[i].kind != ICC_FEATURE_HOLE)
+            write_feature(stream, &c->features[i], role);
+    for (size_t i = 0; i < n; i++)
+        write_feature(stream, &ties[i], role);
+    ties_free(n, ties);
+}
+
+int ties_write(const job *j)
+{
+    outfile file;
+    icc_map_info info = {.size = sizeof info};
+    if (j->args->ties == NULL)
+        return DONE;
+    icc_map_get_info(j->map, &info);
+    if (info.n_ties == 0)
+        return failed(j->args->source, 0, "rounding is in the way of the map's ties");
+    if (!outfile_open(&file, j->args->ties))
+        return FAILED;
+    fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", file.stream);
+    write_side(file.stream, j, CAGE_SOURCE);
+    fputs(",\n", file.stream);
+    write_side(file.stream, j, CAGE_TARGET);
+    fputs("\n]}\n", file.stream);
+    return outfile_close(&file) ? DONE : FAILED;
+}

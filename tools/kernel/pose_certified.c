@@ -1,0 +1,255 @@
+/* Poses that are one-to-one. Kernel coordinates say where the outline goes, the handles inside, and
+ * other places inside round which they do not fold; a certified map of the shape with all of these
+ * as its points does the rest. */
+#include "kernel/pose_job.h"
+
+#include "base/allocate.h"
+#include "job/args.h"
+#include "kernel/pose_outline.h"
+#include "kernel/pose_places.h"
+#include "plot/picture_warp.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Where the outline bends, it may be off by such a share of the shape's size unless an option says
+ * otherwise. */
+static const double TOLERANCE = 1e-3;
+
+/* The shape must be one region: a map goes from one polygon to another. */
+int pose_certified_check(const pose *p)
+{
+    const handle_set *set = &p->kernel.set;
+    const char *name = p->kernel.job.args->handles;
+    size_t n_regions = (p->kernel.job.domains[0] != NULL) + set->n_regions;
+    if (set->dim != 2)
+        return failed(name, 0, "the handles are in space; --certified is for the plane");
+    if (set->n_segments > 0)
+        return failed(name, 0, "--certified poses one region, and does without curves");
+    if (n_regions != 1)
+        return failed(name, 0, "--certified poses one region, but there are %zu", n_regions);
+    return DONE;
+}
+
+/* ---------------------------------------------------------------------- map */
+
+/* The handles that are not on the outline, at rest and where their transforms take them. */
+static void take_handles(posed_places *in, const pose *p, const bool *on_ring)
+{
+    for (size_t h = 0; h < p->kernel.set.n_handles; h++) {
+        const double *at = p->kernel.set.handles + 2 * h, *t = p->transforms + 6 * h;
+        const double image[2] = {t[0] * at[0] + t[1] * at[1] + t[2],
+                                 t[3] * at[0] + t[4] * at[1] + t[5]};
+        if (!on_ring[h])
+            posed_places_add(in, at, image, h);
+    }
+}
+
+/* What keeps the handles from being points of a map, by their numbers. */
+static int failed_handle(pose *p, const posed_places *in, const icc_error *err)
+{
+    progress_end(&p->kernel.job.bar);
+    if (err->item != ICC_ITEM_FEATURE || err->index < 0 || (size_t)err->index >= in->n)
+        return failed(p->kernel.job.args->pose, 0, "%s",
+                      err->message[0] != '\0' ? err->message : icc_status_name(err->status));
+    const char *why = err->status == ICC_ERR_OUTSIDE    ? "is not inside the posed outline"
+                      : err->status == ICC_ERR_BOUNDARY ? "is where another one is"
+                                                        : err->message;
+    return failed(p->kernel.job.args->pose, 0,
+                  "handle %zu, posed, %s; --certified needs all of them inside and apart",
+                  in->handles[err->index], why);
+}
+
+static icc_status make_sides(icc_domain *sides[2], const pose *p, const posed_outline *ring,
+                             const posed_places *in, icc_error *err)
+{
+    const double *rings[2] = {ring->rest, ring->posed};
+    icc_feature *points = need(in->n, sizeof *points);
+    icc_status status = ICC_OK;
+    for (size_t side = 0; side < 2 && status == ICC_OK; side++) {
+        for (size_t i = 0; i < in->n; i++)
+            points[i] = (icc_feature){.size = sizeof *points,
+                                      .kind = ICC_FEATURE_POINT,
+                                      .n_vertices = 1,
+                                      .vertices = in->places[side] + 2 * i};
+        status = icc_domain_create_features(&sides[side], ring->n, rings[side], in->n, points,
+                                            &p->kernel.job.env, err);
+    }
+    free(points);
+    return status;
+}
+
+/* The map of the outline and what is inside, if it can be certified and has at most so many times
+ * the energy of what there is. */
+static icc_status try_map(pose *p, const posed_outline *ring, const posed_places *in, double times,
+                          icc_error *err)
+{
+    icc_domain *sides[2] = {NULL, NULL};
+    icc_map *map = NULL;
+    icc_map_info info = {.size = sizeof info};
+    icc_status status = make_sides(sides, p, ring, in, err);
+    if (status == ICC_OK)
+        status = icc_map_create(&map, sides[0], sides[1], NULL, &p->kernel.job.env, err);
+    if (status == ICC_OK)
+        icc_map_get_info(map, &info);
+    if (status == ICC_OK && info.kind == ICC_MAP_MESH && info.certified &&
+        (p->map == NULL || info.energy <= times * p->energy)) {
+        pose_certified_free(p);
+        memcpy(p->sides, sides, sizeof sides);
+        p->map = map;
+        p->energy = info.energy;
+        p->n_followed = in->n;
+        return ICC_OK;
+    }
+    icc_map_free(map);
+    icc_domain_free(sides[0]);
+    icc_domain_free(sides[1]);
+    return status;
+}
+
+/* The places of the pose are followed unless the energy is then so many times that of the map of
+ * the handles alone: near folds places get entangled. */
+static const double DEAR = 1.5;
+
+static int make_map(pose *p, const posed_samples *samples, const posed_outline *ring,
+                    const bool *on_ring)
+{
+    posed_places in = {0};
+    icc_error err = {.size = sizeof err, .index = -1};
+    take_handles(&in, p, on_ring);
+    size_t n_handles = in.n;
+    progress_expect(&p->kernel.job.bar, 0.9);
+    icc_status status = try_map(p, ring, &in, 1, &err);
+    int result = status != ICC_OK ? failed_handle(p, &in, &err)
+                 : p->map == NULL ? failed(p->kernel.job.args->pose, 0,
+                                           "no map to the posed outline could be certified")
+                                  : posed_places_follow(&in, p, samples, ring);
+    if (result == DONE && in.n > n_handles)
+        (void)try_map(p, ring, &in, DEAR, NULL);
+    if (result == DONE)
+        p->n_followed -= n_handles;
+    posed_places_free(&in);
+    progress_end(&p->kernel.job.bar);
+    return result;
+}
+
+/* ------------------------------------------------------------- how far off */
+
+/* Compares the map with the pose by the weights alone. */
+static int compare(pose *p, const posed_samples *s)
+{
+    size_t n_failed, n_folded = 0, n_both = 0;
+    double *mapped = need(s->n, 2 * sizeof *mapped);
+    int result = pose_points(p, s->n, s->rest, mapped, NULL, &n_failed);
+    for (size_t i = 0; i < s->n && result == DONE; i++) {
+        double off =
+            hypot(s->posed[2 * i] - mapped[2 * i], s->posed[2 * i + 1] - mapped[2 * i + 1]);
+        n_folded += !(s->growth[i] > 0);
+        if (isnan(off))
+            continue;
+        n_both++;
+        p->off_mean += off;
+        p->off_most = fmax(p->off_most, off);
+    }
+    p->off_mean /= n_both > 0 ? (double)n_both : 1;
+    p->folded = s->n > 0 ? (double)n_folded / (double)s->n : 0;
+    free(mapped);
+    return result;
+}
+
+int pose_certified_make(pose *p)
+{
+    const kernel_job *k = &p->kernel;
+    const cage *source = &k->job.cages[0];
+    const icc_domain *region = k->job.domains[0] != NULL ? k->job.domains[0] : k->regions[0];
+    size_t n = k->job.domains[0] != NULL ? source->n : k->set.regions[0].n;
+    const double *ring = k->job.domains[0] != NULL ? source->points : k->set.regions[0].points;
+    bool *on_ring = need(k->set.n_handles, sizeof *on_ring);
+    posed_outline posed;
+    posed_samples samples = {0};
+    double given = k->job.args->tolerance;
+    double tolerance = given > 0 ? given : TOLERANCE * ring_size(n, ring);
+    int result = posed_outline_make(&posed, p, region, n, ring, tolerance, on_ring);
+    if (result == DONE)
+        result = posed_outline_check(&posed, p);
+    if (result == DONE)
+        result = posed_samples_make(&samples, p);
+    if (result == DONE)
+        result = make_map(p, &samples, &posed, on_ring);
+    if (result == DONE) {
+        carrier_start(&p->carrier, false, &k->job.env);
+        icc_status ran = carrier_add(&p->carrier, p->map, p->sides[0], p->sides[1], CARRIER_ALL);
+        carrier_set_snap(&p->carrier, -1);
+        result = ran == ICC_OK ? compare(p, &samples) : job_failed_status(&p->kernel.job, ran);
+    }
+    posed_samples_free(&samples);
+    posed_outline_free(&posed);
+    free(on_ring);
+    return result;
+}
+
+/* ------------------------------------------------------------------- using it */
+
+int pose_certified_points(pose *p, size_t n, const double *points, double *images,
+                          double *jacobians, size_t *n_failed)
+{
+    icc_status *status = need(n, sizeof *status);
+    icc_status ran = carrier_map(&p->carrier, n, points, images, status, NULL);
+    if (ran == ICC_OK && jacobians != NULL)
+        ran = icc_map_jacobian(p->map, n, points, jacobians, NULL, NULL, &p->kernel.job.env);
+    *n_failed = 0;
+    for (size_t i = 0; i < n && ran == ICC_OK; i++)
+        *n_failed += status[i] != ICC_OK;
+    free(status);
+    return ran == ICC_OK ? DONE : job_failed_status(&p->kernel.job, ran);
+}
+
+int pose_certified_picture(pose *p, const picture *from, picture *to)
+{
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_status ran = picture_warp(p->map, from, to, NULL, &p->kernel.job.env, &err);
+    progress_end(&p->kernel.job.bar);
+    return ran == ICC_OK ? DONE : job_failed(&p->kernel.job, &err);
+}
+
+void pose_certified_say(const pose *p)
+{
+    icc_map_info info = {.size = sizeof info};
+    char text[240];
+    if (p->map == NULL || p->kernel.job.args->json)
+        return;
+    icc_map_get_info(p->map, &info);
+    snprintf(text, sizeof text,
+             "certified one-to-one: %zu triangles, through %zu places of the pose; by weights "
+             "alone %.2g %% of the shape is turned over, and is %.3g away on average, %.3g at most",
+             info.n_simplices, p->n_followed, 100 * p->folded, p->off_mean, p->off_most);
+    pose_say(p, text);
+}
+
+void pose_certified_report(const pose *p, json *out)
+{
+    icc_map_info info = {.size = sizeof info};
+    if (p->map == NULL)
+        return;
+    icc_map_get_info(p->map, &info);
+    json_open(out, "certified", '{');
+    json_count(out, "triangles", info.n_simplices);
+    json_number(out, "energy", info.energy);
+    json_count(out, "followed", p->n_followed);
+    json_number(out, "folded_pose", p->folded);
+    json_number(out, "off_mean", p->off_mean);
+    json_number(out, "off_most", p->off_most);
+    json_close(out, '}');
+}
+
+void pose_certified_free(pose *p)
+{
+    carrier_free(&p->carrier);
+    icc_map_free(p->map);
+    icc_domain_free(p->sides[0]);
+    icc_domain_free(p->sides[1]);
+    p->map = NULL;
+    p->sides[0] = p->sides[1] = NULL;
+}
