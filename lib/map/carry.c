@@ -169,7 +169,7 @@ icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work
     size_t n_blocked = 0;
     icc_status status = make_room(&c, env);
     *reached = status == ICC_OK && !find_motion(&c);
-    while (status == ICC_OK && !*reached && n_blocked < MOST_BLOCKED &&
+    while (status == ICC_OK && !*reached && n_blocked < (getenv("BLK")?(size_t)atoi(getenv("BLK")):MOST_BLOCKED) &&
            iccp_work_take(work, 2 * map->corners.n_triangles)) {
         double share;
         status = advance(&c, &share, env);

@@ -11,6 +11,7 @@
 #include "map/tend.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 /* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
  * next frame continues from here. */
@@ -174,7 +175,7 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
     if (status == ICC_OK)
         status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
     if (status == ICC_OK) {
-        const icc_improve_options options = {.iterations = iterations != 0 ? iterations
+        const icc_improve_options options = {.iterations = iterations != 0 ? iterations : getenv("NOIT") && source->features ? -1
                                                            : source->features != NULL
                                                                ? CARRY_ITERATIONS
                                                                : FOLLOW_ITERATIONS,
