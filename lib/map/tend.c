@@ -16,6 +16,9 @@ static double P(const char *name, double d) { const char *s = getenv(name); retu
 /* Energy over area, of which an isometry has 4: what is more than this is tense. */
 #define TENSE P("HIGH", 50)
 
+static double tense;
+#undef TENSE
+#define TENSE tense
 /* No edge is cut that is shorter than this share of the longest that there may be. */
 #define SHORTEST P("SHORT", 0.05)
 
@@ -65,8 +68,8 @@ static icc_status cut_tense(iccp_plmap *map, double shortest, size_t *n_tense)
         double length2;
         if (!(density_of(&simplicial, t) > TENSE))
             continue;
-        ++*n_tense;
         const uint32_t corner = longest_of(map, t, &length2);
+        *n_tense += length2 > shortest * shortest;
         if (length2 > shortest * shortest)
             status = iccp_plmap_cut(map, corner, &done);
     }
@@ -114,6 +117,13 @@ static icc_status relax(iccp_plmap *map, const uint8_t *still, iccp_work *work,
 icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *changed,
                      const iccp_env *env)
 {
+    tense = P("HIGH", 50); { double m = P("REL",0) * iccp_plmap_energy(map); if (m > tense) tense = m; }
+    *changed = false;
+    bool any = false;
+    const iccp_simplicial_map now = iccp_plmap_simplicial(map);
+    for (uint32_t t = 0; t < map->corners.n_triangles && !any; ++t)
+    {   double l2; if (density_of(&now, t) > tense * P("TRIG", 1)) { (void)longest_of(map, t, &l2); any = l2 > SHORTEST*SHORTEST*longest*longest; } }
+    if (!any) return ICC_OK;
     size_t n_tense = 1, n_flips, n_gone;
     icc_status status = ICC_OK;
     *changed = false;

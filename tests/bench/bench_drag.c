@@ -75,7 +75,7 @@ static void follow(const drag *d, tally *t)
 int main(int argc, char **argv)
 {
     const int n_sets = argc > 1 ? atoi(argv[1]) : 3;
-    for (int k = argc > 2 ? atoi(argv[2]) : 1; k <= 2; ++k)
+    for (int k = argc > 2 ? atoi(argv[2]) : 1; k <= (argc > 3 ? atoi(argv[3]) : 2); ++k)
         for (int set = 1; set <= n_sets; ++set) {
             static tally t;
             const drag d = drag_create(HANDLES, 0.1 * k, 0.12, 0.02, (uint64_t)set);
