@@ -1,7 +1,7 @@
 /* Triangles that carry far more energy than others are about to lock: what they hold between them
- * cannot move on, however much room there is round about. So edges are cut there, which gives a map
- * more freedom; edges flip where that lowers the energy; and near by, points and images move by
- * turns. Where it has become finer than it needs to be, the mesh is made coarse again. */
+ * cannot move on, however much room there is round about. So edges are cut there, which gives the
+ * map more freedom; edges flip where that lowers the energy; and near by, points and images move by
+ * turns. Where a mesh has many triangles, vertices merge that matter little. */
 #include "map/tend.h"
 
 #include "map/coarsen.h"
@@ -9,28 +9,25 @@
 #include "map/dirichlet.h"
 #include "map/flips.h"
 
-#include <stdlib.h>
 #include <string.h>
-static double P(const char *name, double d) { const char *s = getenv(name); return s ? atof(s) : d; }
 
-/* Energy over area, of which an isometry has 4: what is more than this is tense. */
-#define TENSE P("HIGH", 50)
+/* A triangle is tense from so much energy over its area on, of which an isometry has 4, or from so
+ * many times the mean; and all too tense from some times that on. */
+static const double TENSE = 100, TENSE_TO_MEAN = 3, ALL_TOO = 2;
 
-static double tense;
-#undef TENSE
-#define TENSE tense
-/* No edge is cut that is shorter than this share of the longest that there may be. */
-#define SHORTEST P("SHORT", 0.05)
+/* No edge is cut that is shorter than this share of the longest: round a point, energy grows
+ * without end as triangles shrink. */
+static const double SHORTEST = 0.3;
 
-/* Points move as far as so many triangles away from tense ones. */
-#define RINGS (int)P("RINGS", 3)
+/* What is not so many triangles away from tense ones stays where it is. */
+enum { RINGS = 2 };
 
-/* With more triangles than this, vertices merge where the energy near by rises by no more than a
- * share. */
-#define MANY (size_t)P("MANY", 2000)
-#define RISE P("RISE", 0.02)
+/* Vertices merge where the energy near by rises by no more than this share, times the square of how
+ * many times too many triangles there are. */
+static const double RISE = 0.02;
 
-#define ROUNDS (int)P("ROUNDS",1)
+/* On each side. */
+static const iccp_descent RELAXATION = {0, 1, 1e-2, 0, false};
 
 static double density_of(const iccp_simplicial_map *map, size_t triangle)
 {
@@ -57,92 +54,94 @@ static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle, double *len
     return best;
 }
 
-static icc_status cut_tense(iccp_plmap *map, double shortest, size_t *n_tense)
+/* Whether a triangle that may be cut is all too tense. */
+static bool any_all_too_tense(const iccp_plmap *map, double tense, double shortest)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
+        double length2;
+        if (!(density_of(&simplicial, t) > ALL_TOO * tense))
+            continue;
+        (void)longest_of(map, t, &length2);
+        if (length2 > shortest * shortest)
+            return true;
+    }
+    return false;
+}
+
+static icc_status cut_tense(iccp_plmap *map, double tense, double shortest)
 {
     const size_t n = map->corners.n_triangles;
     icc_status status = ICC_OK;
-    *n_tense = 0;
     for (uint32_t t = 0; status == ICC_OK && t < n; ++t) {
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
         bool done;
         double length2;
-        if (!(density_of(&simplicial, t) > TENSE))
+        if (!(density_of(&simplicial, t) > tense))
             continue;
         const uint32_t corner = longest_of(map, t, &length2);
-        *n_tense += length2 > shortest * shortest;
         if (length2 > shortest * shortest)
             status = iccp_plmap_cut(map, corner, &done);
     }
     return status;
 }
 
-/* Marks what is to stay: all that is fixed or far from tense triangles. */
-static void mark_still(const iccp_plmap *map, uint8_t *still)
+/* Marks what is to stay: all that is fixed or far from tense triangles. Until the end, marks count
+ * triangles to the next tense one. */
+static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     const uint32_t *v = map->corners.vertex;
     const size_t n = map->corners.n_triangles;
-    memset(still, 1 + RINGS, map->n_vertices);
+    memset(still, RINGS + 1, map->n_vertices);
     for (size_t t = 0; t < n; ++t)
-        if (density_of(&simplicial, t) > 0.5 * TENSE)
+        if (density_of(&simplicial, t) > 0.5 * tense)
             still[v[3 * t]] = still[v[3 * t + 1]] = still[v[3 * t + 2]] = 0;
     for (uint8_t ring = 0; ring < RINGS; ++ring)
         for (size_t c = 0; c < 3 * n; ++c)
-            if (still[v[c]] == ring)
-                for (size_t k = 0; k < 3; ++k) {
-                    uint8_t *other = &still[v[c - c % 3 + k]];
-                    *other = *other > ring + 1 ? (uint8_t)(ring + 1) : *other;
-                }
+            for (size_t k = 0; k < 3 && still[v[c]] == ring; ++k) {
+                uint8_t *other = &still[v[c - c % 3 + k]];
+                if (*other > ring)
+                    *other = (uint8_t)(ring + (v[c - c % 3 + k] != v[c]));
+            }
     for (size_t i = 0; i < map->n_vertices; ++i)
         still[i] = map->fixed[i] != ICCP_FREE || still[i] > RINGS;
 }
 
-/* Both sides of what is not still, by turns. */
-static icc_status relax(iccp_plmap *map, const uint8_t *still, iccp_work *work,
-                        const iccp_env *env)
+/* The points of what is not still, then the images. */
+static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    const iccp_descent RELAXATION = {0, (size_t)P("STEPS",1), 1e-2, 0, false};
-    for (int side = 0; side < 2; ++side) {
-        iccp_plmap_swap(map);
-        iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    uint8_t *still = iccp_alloc(&env->memory, map->n_vertices, 1);
+    icc_status status = still != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        mark_still(map, tense, still);
+    for (int side = 0; status == ICC_OK && side < 2; ++side) {
+        iccp_plmap inverse = *map;
+        if (side == 0)
+            iccp_plmap_swap(&inverse);
+        iccp_simplicial_map simplicial = iccp_plmap_simplicial(&inverse);
         iccp_improvement ignored = {0};
         simplicial.fixed = still;
-        if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
+        status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
     }
+    iccp_free(&env->memory, still);
     return status;
 }
 
-icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *changed,
+icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, bool blocked, iccp_work *work,
                      const iccp_env *env)
 {
-    tense = P("HIGH", 50); { double m = P("REL",0) * iccp_plmap_energy(map); if (m > tense) tense = m; }
-    *changed = false;
-    bool any = false;
-    const iccp_simplicial_map now = iccp_plmap_simplicial(map);
-    for (uint32_t t = 0; t < map->corners.n_triangles && !any; ++t)
-    {   double l2; if (density_of(&now, t) > tense * P("TRIG", 1)) { (void)longest_of(map, t, &l2); any = l2 > SHORTEST*SHORTEST*longest*longest; } }
-    if (!any) return ICC_OK;
-    size_t n_tense = 1, n_flips, n_gone;
-    icc_status status = ICC_OK;
-    *changed = false;
-    for (int round = 0; status == ICC_OK && n_tense > 0 && round < ROUNDS; ++round) {
-        status = cut_tense(map, SHORTEST * longest, &n_tense);
-        if (status != ICC_OK || n_tense == 0)
-            break;
-        *changed = true;
-        map->plan = NULL;
+    const double tense = iccp_max(TENSE, TENSE_TO_MEAN * iccp_plmap_energy(map));
+    const double shortest = SHORTEST * grain->longest;
+    size_t n_flips, n_gone;
+    if (!blocked && !any_all_too_tense(map, tense, shortest))
+        return ICC_OK;
+    map->plan = NULL;
+    icc_status status = cut_tense(map, tense, shortest);
+    if (status == ICC_OK)
         status = iccp_flip_edges(map, &n_flips, env);
-        if (status == ICC_OK && map->corners.n_triangles > MANY)
-            status = iccp_coarsen_within(map, RISE, longest, &n_gone, env);
-        uint8_t *still = iccp_alloc(&env->memory, map->n_vertices, 1);
-        if (still == NULL)
-            return ICC_ERR_MEMORY;
-        mark_still(map, still);
-        if (status == ICC_OK)
-            status = relax(map, still, work, env);
-        iccp_free(&env->memory, still);
-    }
-    return status;
+    const double times = (double)map->corners.n_triangles / (double)grain->many;
+    if (status == ICC_OK && times > 1)
+        status = iccp_coarsen_within(map, RISE * times * times, grain->longest, &n_gone, env);
+    return status == ICC_OK ? relax(map, tense, work, env) : status;
 }
