@@ -987,11 +987,17 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * far it is: when what has moved at once cannot be repaired, the old map is carried along in parts;
  * and when that does not get there, the map is a new one, with another mesh.
  *
+ * Features go straight to their new places, and the map stays what becomes of the old one: it
+ * passes them on the same sides (icc_map_info::class_kept). The mesh changes as it must. Where
+ * features would meet on the way, the call fails with ::ICC_ERR_CERTIFICATE: go another way, in
+ * several calls.
+ *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
  *                   NULL.
  * @param map        a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
  * @param target     the new target, which must correspond as icc_map_create() requires
- * @param iterations at most so many improvement steps; 0: 8; -1: none
+ * @param iterations at most so many improvement steps; 0: 8, or what a frame has time for with
+ *                   features; -1: none
  * @param env        may be NULL
  * @param err        may be NULL
  * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target cannot be reached

@@ -1,7 +1,7 @@
 /* A predictor and a corrector, as in E. L. Allgower, K. Georg, Introduction to numerical
- * continuation methods, 1990: what is free answers the motion by the energy's own model, both go
- * together as far as no triangle flips, and a Newton step corrects. Without the predictor handles
- * run into their own triangles, which then have hardly any room left.
+ * continuation methods, 1990: what is free answers the motion by the energy's own model, and both
+ * go together as far as no triangle flips. Where nothing is in the way, so does the step to rest.
+ * Without the predictor handles run into their own triangles, which then have hardly any room left.
  *
  * Where the way is blocked all the same, the mesh is in the way, not the map: a mesh that fits what
  * has been reached lets it go on. */

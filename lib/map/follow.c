@@ -102,8 +102,8 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                         "features moved straight to their new places would meet, or the work "
-                         "allowed is not enough: go there in several steps, or make a new map");
+                         "features moved straight to their new places would meet or come too "
+                         "close: go there another way, in several steps, or make a new map");
     if (status == ICC_OK)
         status =
             iccp_fit_complete(map, options, &ICCP_PLAIN, &work->improvement, info, &part[1], err);
