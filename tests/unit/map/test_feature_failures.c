@@ -22,9 +22,8 @@ static void begin(setting *s, int k, int32_t iterations)
     icc_map_info info = {.size = sizeof info};
     const icc_map_options options = {.size = sizeof options, .iterations = iterations};
     plans_number(k, &source, &target);
-    *s = (setting){.source = plan_domain(&source),
-                   .target = plan_domain(&target),
-                   .iterations = iterations};
+    *s = (setting){
+        .source = plan_domain(&source), .target = plan_domain(&target), .iterations = iterations};
     target.xy[2 * target.n_outer] += 0.05 * (target.xy[2] - target.xy[0]);
     s->further = plan_domain(&target);
     ck_assert_int_eq(icc_map_create(&s->map, s->source, s->target, &options, NULL, NULL), ICC_OK);
@@ -80,10 +79,8 @@ static icc_status create(const icc_env *env, icc_error *err, void *argument)
 static icc_status create_tied(const icc_env *env, icc_error *err, void *argument)
 {
     const setting *s = argument;
-    const icc_map_options options = {.size = sizeof options,
-                                     .iterations = s->iterations,
-                                     .n_ties = s->n_ties,
-                                     .ties = s->ties};
+    const icc_map_options options = {
+        .size = sizeof options, .iterations = s->iterations, .n_ties = s->n_ties, .ties = s->ties};
     icc_map *map;
     const icc_status status = icc_map_create(&map, s->source, s->target, &options, env, err);
     return check(map, status);
