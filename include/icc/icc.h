@@ -983,6 +983,10 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * each frame continues from the one before. The mesh is not refined further; frames with the same
  * mesh and allocator share what is known of it.
  *
+ * Without features inside, any target is reached that icc_map_create() can make a map to, however
+ * far it is: when what has moved at once cannot be repaired, the old map is carried along in parts;
+ * and when that does not get there, the map is a new one, with another mesh.
+ *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
  *                   NULL.
  * @param map        a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
@@ -990,8 +994,7 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * @param iterations at most so many improvement steps; 0: 8; -1: none
  * @param env        may be NULL
  * @param err        may be NULL
- * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target has moved too far: then make a
- *         new map
+ * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target cannot be reached
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                                     int32_t iterations, const icc_env *env, icc_error *err);

@@ -13,6 +13,8 @@
 #include "map/newton.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Of the way to the first flip. */
@@ -32,7 +34,7 @@ static const iccp_descent CORRECTION = {0, 2, 1e-2, 0, false};
 typedef struct carry {
     iccp_plmap *map;
     const icc_domain *target;
-    double *motion, *images; /* 2 n_vertices each */
+    double *motion, *rest, *images; /* 2 n_vertices each */
     size_t room;
 } carry;
 
@@ -49,11 +51,13 @@ static icc_status make_room(carry *c, const iccp_env *env)
     if (n <= c->room)
         return ICC_OK;
     iccp_free(&env->memory, c->motion);
+    iccp_free(&env->memory, c->rest);
     iccp_free(&env->memory, c->images);
     c->room = n + n / 2;
     c->motion = iccp_alloc(&env->memory, c->room, 2 * sizeof *c->motion);
+    c->rest = iccp_alloc(&env->memory, c->room, 2 * sizeof *c->rest);
     c->images = iccp_alloc(&env->memory, c->room, 2 * sizeof *c->images);
-    return c->motion != NULL && c->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    return c->motion != NULL && c->rest != NULL && c->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 /* What is left to go for fixed vertices; 0 for others. Returns whether anything is. */
@@ -91,28 +95,42 @@ static void go(carry *c, double share)
             iccp_carry_place(map, c->target, v, map->images + 2 * v);
 }
 
-/* One part: as far as nothing flips. */
+/* As far along the motion as nothing flips, but at most `length`. */
+static double go_along(carry *c, double length)
+{
+    for (int k = 0; k < MOST_HALVINGS; ++k, length *= 0.5) {
+        go(c, length);
+        if (all_positive(c->map))
+            return length;
+    }
+    go(c, 0);
+    return 0;
+}
+
+/* One part: to the end and to rest, where nothing is in the way of that; else as far as nothing
+ * flips. */
 static icc_status advance(carry *c, double *share, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(c->map);
+    const size_t n = 2 * c->map->n_vertices;
     iccp_newton newton;
+    *share = 0;
     icc_status status = iccp_newton_create(&newton, &simplicial, NULL, env);
     if (status != ICC_OK)
         return status;
-    status = iccp_newton_answer(&newton, c->motion, c->images, env);
+    status = iccp_newton_answer(&newton, c->motion, c->rest, env);
     iccp_newton_free(&newton);
-    *share = 0;
     if (status != ICC_OK)
         return status == ICC_ERR_SOLVER ? ICC_OK : status;
-    double length = iccp_min(1, SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->motion));
-    for (int k = 0; k < MOST_HALVINGS; ++k, length *= 0.5) {
-        go(c, length);
-        if (all_positive(c->map)) {
-            *share = length;
-            return ICC_OK;
-        }
+    memcpy(c->images, c->map->images, n * sizeof *c->images);
+    for (size_t i = 0; i < n; ++i)
+        c->rest[i] += c->motion[i];
+    if (SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->rest) >= 1) {
+        double *const motion = c->motion;
+        c->motion = c->rest;
+        c->rest = motion;
     }
-    go(c, 0);
+    *share = go_along(c, iccp_min(1, SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->motion)));
     return ICC_OK;
 }
 
@@ -157,6 +175,7 @@ icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work
         status = advance(&c, &share, env);
         *reached = share >= 1;
         n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
+        if (getenv("CARRY") && share<1) fprintf(stderr,"        share %g status %d n %zu E %g\n",share,(int)status,map->corners.n_triangles,iccp_plmap_energy(map));
         if (status == ICC_OK && !*reached)
             status = n_blocked > 0 ? remesh(map, work, env) : correct(map, work, env);
         if (status == ICC_OK && !*reached)
@@ -165,6 +184,7 @@ icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work
             *reached = !find_motion(&c);
     }
     iccp_free(&env->memory, c.motion);
+    iccp_free(&env->memory, c.rest);
     iccp_free(&env->memory, c.images);
     return status;
 }

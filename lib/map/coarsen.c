@@ -19,6 +19,7 @@ typedef struct coarsening {
     const iccp_memory *memory;
     iccp_plmap *map;
     double rise, mean; /* what is allowed: a share more than before, or the mean over the area */
+    double longest;    /* and no longer new edges */
     uint32_t *corner;  /* of each vertex that is left: one at it */
     uint32_t *queue;   /* a ring of n_vertices: n_queued vertices from `first` on */
     size_t first, n_queued;
@@ -71,14 +72,16 @@ static uint32_t dequeue(coarsening *o)
 
 /* The triangles that are left when the vertex goes to ring vertex j: no energy above `most`, no
  * roundness below `least`, or HUGE_VAL. */
-static double energy_merged(const iccp_plmap *map, const star *s, size_t j, double most,
+static double energy_merged(const coarsening *o, const star *s, size_t j, double most,
                             double least)
 {
+    const iccp_plmap *map = o->map;
     const uint32_t to = s->ring[j];
     iccp_candidate merged = iccp_no_candidate();
     for (size_t k = 1; k + 1 < s->n; ++k) {
         const uint32_t a = s->ring[(j + k) % s->n], b = s->ring[(j + k + 1) % s->n];
-        if ((k > 1 && map->fixed[to] && map->fixed[a]) ||
+        if ((k > 1 && ((map->fixed[to] && map->fixed[a]) ||
+                       iccp_plmap_length2(map, to, a) > o->longest * o->longest)) ||
             !iccp_candidate_is_positive(map, to, a, b))
             return HUGE_VAL;
         iccp_candidate_add(&merged, map, to, a, b);
@@ -98,7 +101,7 @@ static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s
     double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
     size_t best = s->n;
     for (size_t j = 0; j < s->n; ++j) {
-        const double energy = energy_merged(o->map, s, j, most, least);
+        const double energy = energy_merged(o, s, j, most, least);
         if (energy < HUGE_VAL && (best == s->n || energy < most)) {
             most = energy;
             best = j;
@@ -189,7 +192,6 @@ static icc_status begin(coarsening *o)
 {
     const iccp_corners *c = &o->map->corners;
     const size_t n = o->map->n_vertices;
-    o->mean = iccp_plmap_energy(o->map);
     o->corner = iccp_alloc(o->memory, n, sizeof *o->corner);
     o->queue = iccp_alloc(o->memory, n, sizeof *o->queue);
     o->is_queued = iccp_alloc_zero(o->memory, n, 1);
@@ -214,17 +216,33 @@ static void release(coarsening *o)
     iccp_free(o->memory, o->number);
 }
 
+static icc_status coarsen(coarsening *o, size_t *n_gone, const iccp_env *env)
+{
+    *n_gone = 0;
+    icc_status status = begin(o);
+    if (status == ICC_OK)
+        status = merge_all(o, n_gone, env);
+    if (*n_gone > 0) {
+        close_up_triangles(o);
+        close_up_vertices(o);
+    }
+    release(o);
+    return status;
+}
+
 icc_status iccp_coarsen(iccp_plmap *map, double rise, size_t *n_gone, const iccp_env *env)
 {
-    coarsening o = {.memory = &env->memory, .map = map, .rise = rise};
-    *n_gone = 0;
-    icc_status status = begin(&o);
-    if (status == ICC_OK)
-        status = merge_all(&o, n_gone, env);
-    if (*n_gone > 0) {
-        close_up_triangles(&o);
-        close_up_vertices(&o);
-    }
-    release(&o);
-    return status;
+    coarsening o = {.memory = &env->memory,
+                    .map = map,
+                    .rise = rise,
+                    .mean = iccp_plmap_energy(map),
+                    .longest = HUGE_VAL};
+    return coarsen(&o, n_gone, env);
+}
+
+icc_status iccp_coarsen_within(iccp_plmap *map, double rise, double longest, size_t *n_gone,
+                               const iccp_env *env)
+{
+    coarsening o = {.memory = &env->memory, .map = map, .rise = rise, .longest = longest};
+    return coarsen(&o, n_gone, env);
 }

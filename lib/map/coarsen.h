@@ -11,4 +11,9 @@
  * failure the map is valid, and part of the work is done. */
 icc_status iccp_coarsen(iccp_plmap *map, double rise, size_t *n_gone, const iccp_env *env);
 
+/* The same, but only where the energy rises by no more than that share, and no new edge is longer
+ * than `longest`, after the map or before it and stretched. */
+icc_status iccp_coarsen_within(iccp_plmap *map, double rise, double longest, size_t *n_gone,
+                               const iccp_env *env);
+
 #endif

@@ -4,16 +4,10 @@
  * on which edges grow. */
 #include "map/density.h"
 
-#include "base/minmax.h"
-#include "math/vec.h"
-
-/* The square of how long the edge is that a corner faces, on the side where it is longer. */
 static double length2(const iccp_plmap *map, uint32_t corner)
 {
-    const uint32_t a = iccp_after(corner), b = iccp_before(corner);
-    return iccp_max(map->stretch * map->stretch *
-                        iccp_vec_distance2(2, iccp_plmap_point(map, a), iccp_plmap_point(map, b)),
-                    iccp_vec_distance2(2, iccp_plmap_image(map, a), iccp_plmap_image(map, b)));
+    const uint32_t *v = map->corners.vertex;
+    return iccp_plmap_length2(map, v[iccp_after(corner)], v[iccp_before(corner)]);
 }
 
 static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle)

@@ -207,3 +207,20 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
                            "doubles: no start was found");
     return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
 }
+
+icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
+                                   const icc_domain *target, const iccp_cuts *cuts,
+                                   iccp_work *relaxing, const iccp_env *env)
+{
+    iccp_scene scene;
+    *map = (iccp_plmap){.memory = env->memory};
+    icc_status status = iccp_scene_create(&scene, source, target, env);
+    if (status == ICC_OK)
+        status = start_from(map, &scene, cuts, env);
+    iccp_scene_free(&scene);
+    if (status == ICC_OK)
+        status = thin_out(map, env);
+    if (status != ICC_OK)
+        return is_lost(status) ? status : ICC_ERR_RESOLUTION;
+    return relax(map, relaxing, env);
+}

@@ -22,4 +22,10 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err);
 
+/* The start that cuts lead to, which the caller has. ICC_ERR_RESOLUTION when rounding is in the
+ * way. */
+icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
+                                   const icc_domain *target, const iccp_cuts *cuts,
+                                   iccp_work *relaxing, const iccp_env *env);
+
 #endif

@@ -255,6 +255,76 @@ static icc_status begin_move(iccp_moving_net *moving, const iccp_scene *old,
     return status;
 }
 
+/* Words of the old target become those of the new one, by the moving net. */
+static icc_status move_words(iccp_words *moved, iccp_moving_net *moving, bool *arrived,
+                             const iccp_words *before, const iccp_scene *old,
+                             const icc_domain *target, const iccp_env *env)
+{
+    *arrived = false;
+    icc_status status = copy_words(moved, before, env);
+    if (status == ICC_OK)
+        status = begin_move(moving, old, target, &env->memory);
+    return status == ICC_OK ? iccp_words_move(moved, moving, target->vertices, arrived, env)
+                            : status;
+}
+
+/* Straight lines in the source, and in the target what words say. */
+static icc_status draw_cuts(iccp_cuts *cuts, const iccp_words *words, const iccp_scene *old,
+                            const iccp_moving_net *moving, const icc_domain *target,
+                            const iccp_env *env)
+{
+    iccp_scene scene = *old;
+    const double *points[2] = {scene.domain[0]->vertices, target->vertices};
+    iccp_polyline line[2] = {{0}, {0}}, *drawn;
+    scene.domain[1] = target;
+    scene.mesh[1] = moving->mesh;
+    drawn = iccp_alloc_zero(&env->memory, words->n, sizeof *drawn);
+    if (drawn == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_strands_draw(drawn, words, &scene, 1, &moving->net, env);
+    if (status == ICC_OK)
+        status = iccp_cuts_begin(cuts, words->n, &env->memory);
+    for (size_t i = 0; status == ICC_OK && i < words->n; ++i) {
+        const uint32_t *ends = words->word[i].ends;
+        line[0].n = 0;
+        for (int k = 0; status == ICC_OK && k < 2; ++k)
+            status = iccp_polyline_add(&line[0], points[0] + 2 * (size_t)ends[k], &env->memory);
+        line[1] = drawn[i];
+        if (status == ICC_OK)
+            status = iccp_cuts_add(cuts, i, ends, line);
+        drawn[i] = line[1];
+    }
+    iccp_polyline_free(&line[0], &env->memory);
+    for (size_t i = 0; i < words->n; ++i)
+        iccp_polyline_free(&drawn[i], &env->memory);
+    iccp_free(&env->memory, drawn);
+    return status;
+}
+
+icc_status iccp_isotopy_move(iccp_cuts *cuts, bool *arrived, const iccp_isotopy *isotopy,
+                             const icc_domain *source, const icc_domain *old_target,
+                             const icc_domain *target, const iccp_env *env)
+{
+    iccp_scene old;
+    iccp_words moved = {.memory = env->memory};
+    iccp_moving_net moving = {.memory = env->memory};
+    *cuts = (iccp_cuts){.memory = env->memory};
+    *arrived = false;
+    if (isotopy == NULL)
+        return ICC_OK;
+    icc_status status = iccp_scene_create(&old, source, old_target, env);
+    if (status != ICC_OK)
+        return forgive(status);
+    status = move_words(&moved, &moving, arrived, &isotopy->words, &old, target, env);
+    if (status == ICC_OK && *arrived)
+        status = draw_cuts(cuts, &moved, &old, &moving, target, env);
+    *arrived = *arrived && status == ICC_OK;
+    iccp_words_free(&moved);
+    iccp_moving_net_free(&moving);
+    iccp_scene_free(&old);
+    return forgive(status);
+}
+
 static icc_status compare_moved(bool *kept, const iccp_words *before, iccp_words *moved,
                                 iccp_moving_net *moving, const iccp_scene *old,
                                 const iccp_plmap *map, const icc_domain *target,
@@ -262,12 +332,8 @@ static icc_status compare_moved(bool *kept, const iccp_words *before, iccp_words
 {
     iccp_words found = {.memory = env->memory};
     iccp_cuts tree;
-    bool arrived = false;
-    icc_status status = copy_words(moved, before, env);
-    if (status == ICC_OK)
-        status = begin_move(moving, old, target, &env->memory);
-    if (status == ICC_OK)
-        status = iccp_words_move(moved, moving, target->vertices, &arrived, env);
+    bool arrived;
+    icc_status status = move_words(moved, moving, &arrived, before, old, target, env);
     if (status != ICC_OK || !arrived)
         return status;
     status = find_tree(&tree, old, env);

@@ -33,6 +33,14 @@ icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const icc_do
                                  const icc_domain *target, const iccp_cuts *cuts,
                                  const iccp_env *env);
 
+/* What becomes of the images when all vertices of the target go straight to their new places: cuts
+ * in the source and in the new target, for a map isotopic to what becomes of the old one. *arrived:
+ * whether there are any; not where vertices meet walls or one another on the way, and where
+ * rounding is in it. The caller frees the cuts in any case. */
+icc_status iccp_isotopy_move(iccp_cuts *cuts, bool *arrived, const iccp_isotopy *isotopy,
+                             const icc_domain *source, const icc_domain *old_target,
+                             const icc_domain *target, const iccp_env *env);
+
 /* Whether a map to `target` is what becomes of one to `old_target`, of which `isotopy` may be NULL,
  * when all vertices of the target go straight to their new places. */
 icc_status iccp_isotopy_follows(bool *kept, const iccp_isotopy *isotopy,

@@ -6,6 +6,7 @@
 #include "chart/chart_create.h"
 #include "domain/features_check.h"
 #include "map/digits.h"
+#include "map/follow.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
@@ -380,6 +381,43 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
+/* Cages that correspond have one map but for how fair it is: a new one will do. Its mesh alone is
+ * of use. */
+static icc_status begin_anew(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
+{
+    const icc_map_options options = {.kind = ICC_MAP_MESH, .iterations = iterations};
+    const icc_chart_options any[2] = {{0}, {0}};
+    icc_map *fresh = NULL;
+    iccp_log(env, "%zu triangles could not be repaired: making a new map", map->info.n_unrepaired);
+    const icc_status status =
+        create(&fresh, map->source_domain, map->target_domain, &options, any, env, err);
+    if (status != ICC_OK)
+        return status;
+    map->info = fresh->info;
+    map->mesh = fresh->mesh;
+    fresh->mesh = NULL;
+    iccp_map_release(fresh);
+    return map->mesh != NULL
+               ? ICC_OK
+               : iccp_fail(err, ICC_ERR_CERTIFICATE,
+                           "%zu triangles could not be repaired, neither from the map to the "
+                           "target before nor from a start of their own",
+                           map->info.n_unrepaired);
+}
+
+static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations,
+                           const iccp_env *env, icc_error *err)
+{
+    const icc_domain *source = map->source_domain, *target = next->target_domain;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    const icc_status status =
+        iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source, map->target_domain,
+                             target, iterations, &next->info, &part[0], err);
+    return status == ICC_OK && next->mesh == NULL ? begin_anew(next, iterations, &part[1], err)
+                                                  : status;
+}
+
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                              int32_t iterations, const iccp_env *env, icc_error *err)
 {
@@ -393,28 +431,23 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     iccp_with_team(&with, &team, env);
     icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
-        status =
-            iccp_mesh_map_follow(&next->mesh, map->mesh, map->source_domain, map->target_domain,
-                                 target, iterations, &next->info, &with, err);
+        status = retarget(next, map, iterations, &with, err);
     iccp_without_team(&with, env);
-    if (status == ICC_OK && next->mesh != NULL)
+    if (status == ICC_OK)
         status = iccp_map_tell_features(next, env);
-    if (status == ICC_OK && next->mesh != NULL && map->info.class_kept) {
+    if (status == ICC_OK && map->info.class_kept) {
         bool kept;
         status = iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &next->mesh->pl,
                                       map->source_domain, target, env);
         next->info.class_kept = kept;
     }
-    if (status == ICC_OK && next->mesh == NULL)
-        status = iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "%zu triangles could not be repaired: the target has moved too far",
-                           next->info.n_unrepaired);
     if (status != ICC_OK) {
         iccp_map_release(next);
         return iccp_explain(err, status);
     }
     next->info.kind = ICC_MAP_MESH;
     next->info.certified = 1;
+    next->info.reason = next->info.reason_side = 0;
     next->info.seconds = iccp_seconds() - start;
     *out = next;
     return ICC_OK;

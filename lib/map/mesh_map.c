@@ -8,78 +8,23 @@
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "domain/features.h"
-#include "map/carry.h"
-#include "map/density.h"
 #include "map/feature_start.h"
+#include "map/fit.h"
 #include "map/isotopy.h"
 #include "map/movable.h"
 #include "map/overlay_start.h"
 #include "map/plmap_certificate.h"
-#include "map/repair.h"
 
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
 
-/* Defaults of icc_improve_options. */
-static const double TOLERANCE = 1e-4;
-enum { ITERATIONS = 60, LEVELS = 16 };
-
-/* Refinements left to us stop at so many times the triangles of the start, or of a SMALL one. */
-static const double MOST_GROWTH = 4, SMALL = 8000;
-
-/* What improvement left to us may cost, in steps times triangles: so much, and so much for each
- * facet. And as shares of that, a repair and a start from an overlay. */
-static const double WORK = 3e5, WORK_PER_FACET = 300, REPAIR_SHARE = 1, OVERLAY_SHARE = 0.5;
-
-/* And what all of them together may cost, with what an overlay costs before the first step: as
- * little as it takes to stay within the time that icc_map_create() names. A step of the repair
- * takes as long as two others. */
-static const double ALL_WORK = 1.6e6, ALL_PER_FACET = 225, REPAIR_WEIGHT = 2;
-
 /* Where an overlay is to be had, this share of a repair's work has to make most of it positive. On
  * random pairs it did whenever the repair came to an end. */
 static const double TRIAL_SHARE = 0.05;
 
-/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
- * next frame continues from here. */
-enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = 1 };
-
 /* Of a start between domains with features: the energy from which on it counts as entangled. */
 static const double ENTANGLED = 20;
-
-/* Cells along the longest side of a target with features that move: what is carried along has no
- * longer edges, for a map as coarse as it may be cannot follow. */
-enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500 };
-
-typedef struct allowance {
-    iccp_work repair, overlay, improvement;
-    double overlay_steps; /* part of the overlay's */
-    double all, trial;
-} allowance;
-
-static allowance allow(size_t n_facets)
-{
-    const double work = WORK + WORK_PER_FACET * (double)n_facets;
-    return (allowance){.trial = HUGE_VAL,
-                       .repair.left = REPAIR_SHARE * work,
-                       .overlay.left = HUGE_VAL,
-                       .overlay_steps = OVERLAY_SHARE * work,
-                       .improvement.left = work,
-                       .all = ALL_WORK + ALL_PER_FACET * (double)n_facets};
-}
-
-static double spent(const allowance *work)
-{
-    return REPAIR_WEIGHT * work->repair.spent + work->overlay.spent + work->improvement.spent;
-}
-
-/* Before a part begins: no more than is left of all, where a step counts `weight` times. */
-static iccp_work *bound(iccp_work *part, double weight, const allowance *work)
-{
-    part->left = iccp_min(part->left, iccp_max(0, work->all - spent(work)) / weight);
-    return part;
-}
 
 /* ---- start ---- */
 
@@ -219,80 +164,11 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     return status;
 }
 
-/* How: the rest of a schedule is up to options. */
-static const iccp_schedule PLAIN = {0}, RELAXED = {.is_relaxed = true},
-                           BOTH_SIDES = {.both_sides = true, .is_relaxed = true};
-
-/* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
-static icc_status improve(iccp_plmap *pl, const icc_improve_options *options,
-                          const iccp_schedule *how, iccp_work *work, bool *cancelled,
-                          iccp_improvement *improvement, const iccp_env *env)
-{
-    const bool is_limited = work->left < HUGE_VAL;
-    const iccp_schedule schedule = {
-        .iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
-        .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
-        .levels = options->levels < 0    ? 0
-                  : options->levels == 0 ? LEVELS
-                                         : (size_t)options->levels,
-        .most =
-            is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL,
-        .both_sides = how->both_sides,
-        .is_relaxed = how->is_relaxed};
-    const iccp_env part = iccp_part(env, "improve", 0, 1);
-    const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
-    *cancelled = status == ICC_ERR_CANCELLED;
-    return *cancelled ? ICC_OK : status;
-}
-
-/* Improves and certifies what is in map->pl, which is one-to-one. */
-static icc_status complete(iccp_mesh_map *map, const icc_improve_options *options,
-                           const iccp_schedule *how, iccp_work *work, icc_map_info *info,
-                           const iccp_env *env, icc_error *err)
-{
-    const double begin = iccp_seconds();
-    icc_status status = ICC_OK;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){4, 1}, env);
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
-    info->energy_start = info->energy = iccp_simplicial_energy_at_once(&simplicial, env);
-    if (options->iterations >= 0) {
-        iccp_improvement improvement;
-        bool cancelled;
-        status = improve(&map->pl, options, how, work, &cancelled, &improvement, &part[0]);
-        if (status == ICC_OK && cancelled)
-            status = ICC_ERR_CANCELLED;
-        info->energy = improvement.energy;
-        info->n_iterations = improvement.n_iterations;
-        info->n_levels = (int32_t)improvement.n_levels;
-    }
-    info->seconds_improve = iccp_seconds() - begin;
-    return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1], err) : status;
-}
-
-/* Repairs, improves and certifies what is in map->pl. */
-static icc_status refit(iccp_mesh_map *map, const icc_improve_options *options, allowance *work,
-                        icc_map_info *info, const iccp_env *env, icc_error *err)
-{
-    const double begin = iccp_seconds();
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 5}, env);
-    const iccp_simplicial_map before = iccp_plmap_simplicial(&map->pl);
-    info->n_inverted = iccp_simplicial_count_at_once(&before, env);
-    icc_status status =
-        iccp_repair(&map->pl, work->trial, bound(&work->repair, REPAIR_WEIGHT, work),
-                    &info->n_unrepaired, &part[0]);
-    info->seconds_repair = iccp_seconds() - begin;
-    if (status != ICC_OK || info->n_unrepaired > 0)
-        return status;
-    return complete(map, options, &PLAIN, bound(&work->improvement, 1, work), info, &part[1], err);
-}
-
 /* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
  * it comes to a certified map. */
 static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
                               const icc_domain *target, const icc_improve_options *options,
-                              allowance *work, icc_map_info *info, const iccp_env *env)
+                              iccp_allowance *work, icc_map_info *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     icc_map_info own = *info;
@@ -302,26 +178,17 @@ static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     icc_status status = iccp_overlay_start(&map->pl, source, target, work->overlay_steps,
-                                           bound(&work->overlay, 1, work), &part[0]);
+                                           iccp_bound(&work->overlay, 1, work), &part[0]);
     const double seconds = iccp_seconds() - begin;
     if (status == ICC_ERR_RESOLUTION)
         iccp_log(env, "the two triangulations cross too often");
     if (status == ICC_OK)
-        status = refit(map, options, work, &own, &part[1], NULL);
+        status = iccp_refit(map, options, work, &own, &part[1], NULL);
     own.n_inverted = info->n_inverted;
     own.seconds_repair += info->seconds_repair + seconds;
     if (status == ICC_OK)
         *info = own;
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
-}
-
-/* Passes the plan on to a map whose mesh has not changed. */
-static void keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)
-{
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
-    map->pl.plan = NULL;
-    if (plan != NULL && iccp_newton_plan_fits(plan, &simplicial))
-        (void)iccp_once_keep(&map->plan, iccp_newton_plan_retain(plan));
 }
 
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
@@ -333,20 +200,20 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     if (map == NULL)
         return ICC_ERR_MEMORY;
     const icc_improve_options options = {.iterations = iterations};
-    allowance work = allow(source->domain->n_facets);
+    iccp_allowance work = iccp_allow(source->domain->n_facets);
     if (overlay)
-        work.trial = TRIAL_SHARE * bound(&work.repair, REPAIR_WEIGHT, &work)->left;
+        work.trial = TRIAL_SHARE * iccp_bound(&work.repair, ICCP_REPAIR_WEIGHT, &work)->left;
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 7, 1}, env);
     iccp_newton_plan *plan;
     icc_status status = start(&map->pl, &plan, source, target, iterations >= 0, &part[0], err);
     if (status == ICC_OK)
-        status = refit(map, &options, &work, info, &part[1], err);
+        status = iccp_refit(map, &options, &work, info, &part[1], err);
     if (status == ICC_OK && info->n_unrepaired > 0 && overlay)
         status = try_overlay(map, source->domain, target->domain, &options, &work, info, &part[2]);
-    keep_plan(map, plan);
+    iccp_fit_keep_plan(map, plan);
     iccp_newton_plan_release(plan);
-    map->work = spent(&work);
+    map->work = iccp_spent(&work);
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = map;
     else
@@ -364,7 +231,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = improve(pl, options, &BOTH_SIDES, &half, &cancelled, &ignored, env);
+        status = iccp_fit_improve(pl, options, &ICCP_BOTH_SIDES, &half, &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;
@@ -380,7 +247,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     if (map == NULL)
         return ICC_ERR_MEMORY;
     const icc_improve_options improvement = {.iterations = options->iterations};
-    allowance work = allow(source->features->n_places);
+    iccp_allowance work = iccp_allow(source->features->n_places);
     iccp_feature_report report;
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 1, 3}, env);
@@ -392,14 +259,15 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
     map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
-        status = complete(map, &improvement, &RELAXED, &work.improvement, info, &part[2], err);
+        status = iccp_fit_complete(map, &improvement, &ICCP_RELAXED, &work.improvement, info,
+                                   &part[2], err);
     bool kept = false;
     if (status == ICC_OK)
         status = iccp_isotopy_has_cuts(&kept, &map->pl, source, target, &report.cuts, env);
     info->class_kept = kept;
     info->n_trees = (int32_t)report.n_trees;
     iccp_cuts_free(&report.cuts);
-    map->work = spent(&work);
+    map->work = iccp_spent(&work);
     if (status == ICC_OK)
         *out = map;
     else
@@ -417,14 +285,15 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
         return ICC_ERR_MEMORY;
     memcpy(better->reach, map->reach, sizeof better->reach);
     const bool is_free = options->iterations > 0 || options->levels != 0 || options->tolerance > 0;
-    iccp_work work = is_free ? iccp_work_unlimited() : allow(n_facets).improvement;
+    iccp_work work = is_free ? iccp_work_unlimited() : iccp_allow(n_facets).improvement;
     iccp_improvement improvement = {0};
     bool cancelled = false;
     icc_map_info info = {0};
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = improve(&better->pl, options, &PLAIN, &work, &cancelled, &improvement, env);
+        status = iccp_fit_improve(&better->pl, options, &ICCP_PLAIN, &work, &cancelled,
+                                  &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -442,116 +311,6 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     report->cancelled = cancelled;
     *out = better;
     return ICC_OK;
-}
-
-/* Images in the local coordinates of one target become those in another's; where the inside goes
- * from there is up to the repair. */
-static void change_frame(iccp_plmap *pl, const iccp_frame *from, const iccp_frame *to)
-{
-    for (size_t v = 0; v < pl->n_vertices; ++v) {
-        double own[2];
-        iccp_frame_out(from, 2, pl->images + 2 * v, own);
-        iccp_frame_in(to, 2, own, pl->images + 2 * v);
-    }
-}
-
-/* Moves the boundary's images to where another target wants them. */
-static void move_boundary(iccp_plmap *pl, const icc_domain *target)
-{
-    for (size_t v = 0; v < pl->n_vertices; ++v)
-        if (pl->fixed[v] != ICCP_FREE)
-            iccp_carry_place(pl, target, v, pl->images + 2 * v);
-}
-
-/* Features must not be torn from one another: no state between is repaired. */
-static icc_status carry(iccp_mesh_map *map, const icc_domain *target,
-                        const icc_improve_options *options, allowance *work, icc_map_info *info,
-                        const iccp_env *env, icc_error *err)
-{
-    const double begin = iccp_seconds(), stretch = map->pl.stretch;
-    bool reached = false;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){3, 1}, env);
-    icc_status status = ICC_OK;
-    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
-        status = iccp_limit_edges(&map->pl, iccp_planar_step(target, CARRIED_CELLS), &part[0]);
-    if (status == ICC_OK)
-        status = iccp_carry(&map->pl, target, &work->repair, &reached, &part[0]);
-    map->pl.stretch = stretch;
-    info->seconds_repair = iccp_seconds() - begin;
-    if (status == ICC_OK && !reached)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                         "features moved straight to their new places would meet, or the work "
-                         "allowed is not enough: go there in several steps, or make a new map");
-    if (status == ICC_OK)
-        status = complete(map, options, &PLAIN, &work->improvement, info, &part[1], err);
-    return status;
-}
-
-static bool same_memory(const iccp_memory *a, const iccp_memory *b)
-{
-    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
-}
-
-/* The plan of Newton's method for the map's mesh, which maps that follow it share; it is made when
- * the first one does. NULL where they may not live on the same memory. */
-static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
-{
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
-    iccp_newton_plan *fresh;
-    *plan = NULL;
-    if (!same_memory(&map->pl.memory, &env->memory))
-        return ICC_OK;
-    *plan = iccp_once_get(&map->plan);
-    if (*plan != NULL)
-        return ICC_OK;
-    const icc_status status = iccp_newton_plan_create(&fresh, &simplicial, env);
-    if (status != ICC_OK)
-        return status;
-    *plan = iccp_once_keep(&map->plan, fresh);
-    if (*plan != fresh)
-        iccp_newton_plan_release(fresh);
-    return ICC_OK;
-}
-
-icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
-                                const icc_domain *source, const icc_domain *old_target,
-                                const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err)
-{
-    iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
-    *out = NULL;
-    if (next == NULL)
-        return ICC_ERR_MEMORY;
-    iccp_newton_plan *plan = NULL;
-    icc_status status = iccp_plmap_copy(&next->pl, &map->pl, &env->memory);
-    if (status == ICC_OK && iterations >= 0)
-        status = plan_of(&plan, map, env);
-    if (status == ICC_OK) {
-        const icc_improve_options options = {.iterations = iterations != 0 ? iterations
-                                                           : source->features != NULL
-                                                               ? CARRY_ITERATIONS
-                                                               : FOLLOW_ITERATIONS,
-                                             .levels = -1};
-        allowance work = allow(source->n_facets);
-        work.improvement = iccp_work_unlimited();
-        work.all = HUGE_VAL;
-        next->pl.plan = plan;
-        change_frame(&next->pl, &old_target->frame, &target->frame);
-        next->pl.stretch = sqrt(target->measure / source->measure);
-        if (source->features == NULL) {
-            move_boundary(&next->pl, target);
-            status = refit(next, &options, &work, info, env, err);
-        } else
-            status = carry(next, target, &options, &work, info, env, err);
-        next->work = spent(&work);
-        keep_plan(next, plan);
-    }
-    if (status == ICC_OK && info->n_unrepaired == 0)
-        *out = next;
-    else
-        iccp_mesh_map_free(next, &env->memory);
-    return status;
 }
 
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)

@@ -40,13 +40,6 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
                                  const icc_improve_options *options, icc_improve_report *report,
                                  const iccp_env *env, icc_error *err);
 
-/* The map to another target from the one to `old_target`; see icc_map_retarget(). Otherwise as
- * iccp_mesh_map_create(). */
-icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
-                                const icc_domain *source, const icc_domain *old_target,
-                                const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err);
-
 /* The rest of a map whose `pl` is there: certifies it, ICC_ERR_CERTIFICATE if that fails, and fills
  * in the members of `info` about the mesh's size. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,

@@ -17,9 +17,6 @@
 /* Of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.9;
 
-/* Share of a motion by which a gradient is differentiated. */
-static const double DIFFERENCE = 1e-6;
-
 /* Sufficient decrease (Armijo), and how often a step is halved. */
 static const double DECREASE = 1e-4;
 enum { MAX_HALVINGS = 40 };
@@ -311,30 +308,53 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
     return s->map.dim == 3 || *slope <= 0 ? ICC_OK : ICC_ERR_SOLVER;
 }
 
-/* The change of the gradient along the motion is a difference of two; images come back bit for bit
- * from `images`. */
-icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *images,
+/* What the motion of an element's fixed corners is felt as by its free ones. */
+static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pull)
+{
+    const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
+    const double *image[3], *element = corner_images(2, s, e, image);
+    double moved[6], most = 0;
+    iccp_local local;
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t d = 0; d < 2; ++d) {
+            const bool is_free = s->assembly.slot[v[k]] != UINT32_MAX;
+            moved[2 * k + d] = is_free ? 0 : motion[2 * (size_t)v[k] + d];
+            most = iccp_max(most, fabs(moved[2 * k + d]));
+        }
+    if (!(most > 0))
+        return;
+    iccp_dirichlet_local(2, element, image, false, &local);
+    for (size_t i = 0; i < 6; ++i) {
+        const uint32_t slot = s->assembly.slot[v[i / 2]];
+        for (size_t k = 0; k < 6 && slot != UINT32_MAX; ++k)
+            pull[2 * (size_t)slot + i % 2] -= local.hessian[6 * i + k] * moved[k];
+    }
+}
+
+/* With one factorisation for both. */
+icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env)
 {
     iccp_newton *s = newton;
-    const size_t n = 2 * s->map.n_points, n_free = 2 * s->assembly.n_free;
-    memcpy(images, s->map.images, n * sizeof *images);
-    for (size_t i = 0; i < n; ++i)
-        s->map.images[i] += DIFFERENCE * motion[i];
-    assemble(s, ICCP_DIRICHLET, 0);
-    memcpy(s->saved, s->assembly.gradient, n_free * sizeof *s->saved);
-    memcpy(s->map.images, images, n * sizeof *images);
+    const size_t n = 2 * s->assembly.n_free;
+    double *const answer[2] = {s->saved, s->step}, *const to[2] = {motion, rest};
     assemble(s, ICCP_DIRICHLET, 0);
     const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
     const icc_status status = iccp_ldlt_factorise(&s->factor, &hessian, env);
     if (status != ICC_OK)
         return status;
-    for (size_t i = 0; i < n_free; ++i)
-        s->step[i] =
-            -s->assembly.gradient[i] - (s->saved[i] - s->assembly.gradient[i]) / DIFFERENCE;
-    iccp_ldlt_solve(&s->factor, 1, s->step, s->work);
-    for (size_t i = 0; i < s->assembly.n_free; ++i)
-        memcpy(motion + 2 * (size_t)s->assembly.free_point[i], s->step + 2 * i, 2 * sizeof *motion);
+    memset(s->saved, 0, n * sizeof *s->saved);
+    for (size_t e = 0; e < s->assembly.n_elements; ++e)
+        add_pull(s, e, motion, s->saved);
+    for (size_t i = 0; i < n; ++i)
+        s->step[i] = -s->assembly.gradient[i];
+    memset(rest, 0, 2 * s->map.n_points * sizeof *rest);
+    for (int k = 0; k < 2; ++k) {
+        iccp_ldlt_solve(&s->factor, 1, answer[k], s->work);
+        for (size_t i = 0; i < s->assembly.n_free; ++i)
+            memcpy(to[k] + 2 * (size_t)s->assembly.free_point[i], answer[k] + 2 * i,
+                   2 * sizeof *rest);
+    }
     return ICC_OK;
 }
 

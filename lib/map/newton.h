@@ -57,9 +57,9 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
                         double slope);
 
 /* In the plane: fills in how free points answer a motion of fixed ones, 2 n_points displacements of
- * which theirs are 0, where the symmetric Dirichlet energy is least by its model. `images` has room
- * for 2 n_points. ICC_ERR_SOLVER when there is no answer. */
-icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *images,
+ * which theirs are 0, by a quadratic model of the symmetric Dirichlet energy; and `rest`, as many,
+ * the step to where that is least when nothing else moves. ICC_ERR_SOLVER when there is none. */
+icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env);
 
 /* In the plane: which share of a motion of all points there is before the first triangle's image

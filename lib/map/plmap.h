@@ -2,7 +2,9 @@
 #ifndef ICCP_PLMAP_H
 #define ICCP_PLMAP_H
 
+#include "base/minmax.h"
 #include "map/simplicial_map.h"
+#include "math/vec.h"
 #include "mesh/corners.h"
 #include "mesh/planar.h"
 
@@ -50,6 +52,16 @@ static inline const double *iccp_plmap_image(const iccp_plmap *map, uint32_t cor
 static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t corner)
 {
     return map->points + 2 * (size_t)map->corners.vertex[corner];
+}
+
+/* The square of the distance of two vertices after the map, or before it and stretched: the longer
+ * one. */
+static inline double iccp_plmap_length2(const iccp_plmap *map, uint32_t a, uint32_t b)
+{
+    const size_t i = 2 * (size_t)a, j = 2 * (size_t)b;
+    return iccp_max(map->stretch * map->stretch *
+                        iccp_vec_distance2(2, map->points + i, map->points + j),
+                    iccp_vec_distance2(2, map->images + i, map->images + j));
 }
 
 /* The map without its neighbours, until its mesh changes. */

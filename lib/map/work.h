@@ -2,7 +2,7 @@
  * counted as so many of them. No clock is read, so that the same input gives the same bits; in the
  * plane each takes half a microsecond, a microsecond in untangling.
  *
- * All that makes a mesh map of the plane from its start comes out of one budget (map/mesh_map.c):
+ * All that makes a mesh map of the plane from its start comes out of one budget (map/fit.c):
  * untangling; the crossings of an overlay, which have to be found and merged; steps on it; and
  * improvement. */
 #ifndef ICCP_WORK_H

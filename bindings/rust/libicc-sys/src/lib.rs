@@ -1458,7 +1458,7 @@ extern "C" {
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns as `icc_map_create()`; `ICC_ERR_CERTIFICATE` when the target has moved too far: make a new map
+    /// Returns as `icc_map_create()`; `ICC_ERR_CERTIFICATE` when the target cannot be reached
     pub fn icc_map_retarget(
         out: *mut *mut icc_map,
         map: *const icc_map,

@@ -214,7 +214,7 @@ impl Map {
     /// steps (0: 8; -1: none). For dragging.
     ///
     /// # Errors
-    /// [`Status::CERTIFICATE`] when the target has moved too far.
+    /// [`Status::CERTIFICATE`] when the target cannot be reached.
     pub fn retarget(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
         Map::make(env, |out, env, err| {
             // SAFETY: valid objects.
