@@ -8,13 +8,10 @@
 #include "map/carry.h"
 
 #include "base/minmax.h"
-#include "map/flips.h"
-#include "map/improve.h"
+#include "map/descent.h"
 #include "map/newton.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Of the way to the first flip. */
@@ -22,11 +19,7 @@ static const double SHARE_OF_FLIP = 0.7;
 
 /* Parts that get less far than this are blocked; so many blocked ones in turn are the end of it. */
 static const double BLOCKED = 0.2;
-enum { MOST_BLOCKED = 12, MOST_HALVINGS = 30 };
-
-/* Of a new mesh. */
-enum { ROUNDS = 2 };
-static const iccp_descent RELAXATION = {0, 4, 1e-2, 0, false};
+enum { MOST_BLOCKED = 2, MOST_HALVINGS = 30 };
 
 /* After each part. */
 static const iccp_descent CORRECTION = {0, 2, 1e-2, 0, false};
@@ -134,27 +127,6 @@ static icc_status advance(carry *c, double *share, const iccp_env *env)
     return ICC_OK;
 }
 
-/* A mesh that fits better: finer where it is strained most; other edges; and points and images both
- * go where they have more room. */
-static icc_status remesh(iccp_plmap *map, iccp_work *work, const iccp_env *env)
-{
-    size_t n_cut;
-    icc_status status = iccp_refine(map, &n_cut, env);
-    map->plan = NULL;
-    for (int round = 0; status == ICC_OK && round < ROUNDS; ++round) {
-        size_t n_flips;
-        status = iccp_flip_edges(map, &n_flips, env);
-        for (int side = 0; side < 2; ++side) {
-            const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-            iccp_improvement ignored = {0};
-            if (status == ICC_OK)
-                status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
-            iccp_plmap_swap(map);
-        }
-    }
-    return status;
-}
-
 static icc_status correct(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
@@ -162,8 +134,8 @@ static icc_status correct(iccp_plmap *map, iccp_work *work, const iccp_env *env)
     return iccp_improve_images(&simplicial, &CORRECTION, work, &ignored, env);
 }
 
-icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work, bool *reached,
-                      const iccp_env *env)
+icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
+                      iccp_work *work, bool *reached, const iccp_env *env)
 {
     carry c = {.map = map, .target = target};
     size_t n_blocked = 0;
@@ -175,9 +147,9 @@ icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work
         status = advance(&c, &share, env);
         *reached = share >= 1;
         n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
-        if (getenv("CARRY") && share<1) fprintf(stderr,"        share %g status %d n %zu E %g\n",share,(int)status,map->corners.n_triangles,iccp_plmap_energy(map));
         if (status == ICC_OK && !*reached)
-            status = n_blocked > 0 ? remesh(map, work, env) : correct(map, work, env);
+            status =
+                n_blocked > 0 ? iccp_tend(map, grain, true, work, env) : correct(map, work, env);
         if (status == ICC_OK && !*reached)
             status = make_room(&c, env);
         if (status == ICC_OK && !*reached)

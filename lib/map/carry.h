@@ -2,18 +2,17 @@
 #ifndef ICCP_CARRY_H
 #define ICCP_CARRY_H
 
-#include "map/plmap.h"
-#include "map/work.h"
+#include "map/tend.h"
 
 /* Moves the images of fixed vertices, all at once and straight, to where a target wants them, in as
- * many parts as that takes. After each one every triangle is
- * positive before and after the map, exactly; so what went round something still does. The mesh is
- * left as it is unless the way is blocked; then edges flip, vertices merge and edges are cut.
+ * many parts as that takes. After each one every triangle is positive before and after the map,
+ * exactly; so what went round something still does. The mesh is left as it is unless the way is
+ * blocked: then iccp_tend() changes it.
  *
  * `reached`: whether they are there; not so when images would meet on the way, or when there is no
  * work left. The map is valid in any case. */
-icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, iccp_work *work, bool *reached,
-                      const iccp_env *env);
+icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
+                      iccp_work *work, bool *reached, const iccp_env *env);
 
 /* Where a target wants the image of a fixed vertex. */
 void iccp_carry_place(const iccp_plmap *map, const icc_domain *target, size_t vertex,

@@ -72,8 +72,7 @@ static uint32_t dequeue(coarsening *o)
 
 /* The triangles that are left when the vertex goes to ring vertex j: no energy above `most`, no
  * roundness below `least`, or HUGE_VAL. */
-static double energy_merged(const coarsening *o, const star *s, size_t j, double most,
-                            double least)
+static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
 {
     const iccp_plmap *map = o->map;
     const uint32_t to = s->ring[j];

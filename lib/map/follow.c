@@ -13,12 +13,13 @@
 #include <math.h>
 
 /* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
- * next frame continues from here. */
-enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = 1 };
+ * next frame continues from here. What is carried has made a step on the way. */
+enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = -1 };
 
 /* Cells along the longest side of a target with features that move: what is carried along has no
- * longer edges, for a map as coarse as it may be cannot follow. */
-enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500 };
+ * longer edges, for a map as coarse as it may be cannot follow. It should not have many more
+ * triangles than some, and some for each vertex that is given. */
+enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500, MANY = 2000, MANY_EACH = 8 };
 
 /* Images in the local coordinates of one target become those in another's; where the inside goes
  * from there is up to the repair. */
@@ -80,22 +81,23 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
                         icc_error *err)
 {
     const double begin = iccp_seconds(), stretch = map->pl.stretch;
-    const double longest = iccp_planar_step(j->target, CARRIED_CELLS);
-    bool reached = false, changed;
+    const iccp_grain grain = {iccp_planar_step(j->target, CARRIED_CELLS),
+                              MANY + MANY_EACH * j->source->features->n_places};
+    bool reached = false;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
     icc_status status = ICC_OK;
     if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
-        status = iccp_limit_edges(&map->pl, longest, &part[0]);
+        status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     if (status == ICC_OK)
-        status = iccp_carry(&map->pl, j->target, &work->repair, &reached, &part[0]);
+        status = iccp_carry(&map->pl, j->target, &grain, &work->repair, &reached, &part[0]);
     if (status == ICC_OK && !reached) {
         status = rebuild(&map->pl, j, &work->overlay, &reached, &part[0]);
         if (status == ICC_OK && reached)
-            status = iccp_limit_edges(&map->pl, longest, &part[0]);
+            status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     }
     if (status == ICC_OK && reached)
-        status = iccp_tend(&map->pl, longest, &work->overlay, &changed, env);
+        status = iccp_tend(&map->pl, &grain, false, &work->improvement, &part[0]);
     map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
@@ -141,6 +143,7 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
                               iccp_allowance *work, icc_map_info *info, const iccp_env *env,
                               icc_error *err)
 {
+    const iccp_grain grain = {iccp_planar_step(target, CARRIED_CELLS), SIZE_MAX};
     bool reached = false;
     icc_map_info own = *info;
     const iccp_newton_plan *plan = next->pl.plan;
@@ -151,7 +154,7 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
     iccp_plmap_free(&next->pl);
     status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
     if (status == ICC_OK)
-        status = iccp_carry(&next->pl, target, &work->overlay, &reached, env);
+        status = iccp_carry(&next->pl, target, &grain, &work->overlay, &reached, env);
     if (status == ICC_OK && reached)
         status = iccp_fit_complete(next, options, &ICCP_PLAIN, &work->improvement, &own, env, err);
     if (status == ICC_OK && reached)
@@ -181,6 +184,7 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                              .levels = -1};
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
+        work.overlay.left = work.overlay_steps;
         work.all = HUGE_VAL;
         status = source->features == NULL
                      ? follow_cage(next, map, source, old_target, target, &options, &work, info,

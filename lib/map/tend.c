@@ -1,73 +1,147 @@
+/* Triangles that carry far more energy than others are about to lock: what they hold between them
+ * cannot move on, however much room there is round about. So edges are cut there, which gives the
+ * map more freedom; edges flip where that lowers the energy; and near by, points and images move by
+ * turns. Where a mesh has many triangles, vertices merge that matter little. */
 #include "map/tend.h"
 
 #include "map/coarsen.h"
+#include "map/descent.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
-#include "map/descent.h"
-#include <stdio.h>
 
-#include <stdlib.h>
-static double P(const char *name, double d) { const char *s = getenv(name); return s ? atof(s) : d; }
+#include <string.h>
 
-static double density(const iccp_simplicial_map *map, size_t t)
+/* A triangle is tense from so much energy over its area on, of which an isometry has 4, or from so
+ * many times the mean; and all too tense from some times that on. */
+static const double TENSE = 100, TENSE_TO_MEAN = 3, ALL_TOO = 2;
+
+/* No edge is cut that is shorter than this share of the longest: round a point, energy grows
+ * without end as triangles shrink. */
+static const double SHORTEST = 0.3;
+
+/* What is not so many triangles away from tense ones stays where it is. */
+enum { RINGS = 2 };
+
+/* Vertices merge where the energy near by rises by no more than this share, times the square of how
+ * many times too many triangles there are. */
+static const double RISE = 0.02;
+
+/* On each side. */
+static const iccp_descent RELAXATION = {0, 1, 1e-2, 0, false};
+
+static double density_of(const iccp_simplicial_map *map, size_t triangle)
 {
     const double *image[3];
     double element[ICCP_ELEMENT(2)];
-    iccp_simplicial_images(2, map, t, image);
-    iccp_simplicial_element(map, t, element);
+    iccp_simplicial_images(2, map, triangle, image);
+    iccp_simplicial_element(map, triangle, element);
     return iccp_dirichlet_energy2(element, image) / element[0];
 }
 
-static uint32_t longest_edge(const iccp_plmap *map, uint32_t t)
+/* The corner that faces the longest edge. */
+static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle, double *length2)
 {
     const uint32_t *v = map->corners.vertex;
-    uint32_t best = 3 * t;
-    double most = -1;
-    for (uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
-        const double l = iccp_plmap_length2(map, v[iccp_after(c)], v[iccp_before(c)]);
-        if (l > most) { most = l; best = c; }
+    uint32_t best = 3 * triangle;
+    *length2 = -1;
+    for (uint32_t c = 3 * triangle; c < 3 * triangle + 3; ++c) {
+        const double own = iccp_plmap_length2(map, v[iccp_after(c)], v[iccp_before(c)]);
+        if (own > *length2) {
+            *length2 = own;
+            best = c;
+        }
     }
     return best;
 }
 
-icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *changed,
-                     const iccp_env *env)
+/* Whether a triangle that may be cut is all too tense. */
+static bool any_all_too_tense(const iccp_plmap *map, double tense, double shortest)
 {
-    const double HIGH = iccp_max(P("HIGH", 50), P("REL",0) * iccp_plmap_energy(map)), SHORT = P("SHORT", 0.1) * longest;
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
+        double length2;
+        if (!(density_of(&simplicial, t) > ALL_TOO * tense))
+            continue;
+        (void)longest_of(map, t, &length2);
+        if (length2 > shortest * shortest)
+            return true;
+    }
+    return false;
+}
+
+static icc_status cut_tense(iccp_plmap *map, double tense, double shortest)
+{
+    const size_t n = map->corners.n_triangles;
     icc_status status = ICC_OK;
-    *changed = false;
-    const int ROUNDS = (int)P("ROUNDS", 1);
-    for (int round = 0; status == ICC_OK && round < ROUNDS; ++round) {
-        size_t n_bad = 0, n_cut = 0, n_flips = 0, n_gone = 0;
-        const size_t n = map->corners.n_triangles;
-        for (uint32_t t = 0; status == ICC_OK && t < n; ++t) {
-            const iccp_simplicial_map s = iccp_plmap_simplicial(map);
-            if (!(density(&s, t) > HIGH))
-                continue;
-            ++n_bad;
-            const uint32_t c = longest_edge(map, t), *v = map->corners.vertex;
-            bool done = false;
-            if (iccp_plmap_length2(map, v[iccp_after(c)], v[iccp_before(c)]) > SHORT * SHORT)
-                status = iccp_plmap_cut(map, c, &done);
-            n_cut += done;
-        }
-        if (n_bad == 0)
-            break;
-        *changed = true;
-        map->plan = NULL;
-        if (status == ICC_OK)
-            status = iccp_flip_edges(map, &n_flips, env);
-        if (status == ICC_OK && P("COARSEN", 0.02) > 0)
-            status = iccp_coarsen_within(map, P("COARSEN", 0.02), P("LONG", 1) * longest, &n_gone, env);
-        const iccp_descent descent = {0, (size_t)P("STEPS", 2), 1e-2, 0, false};
-        for (int side = 0; side < 2; ++side) {
-            const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-            iccp_improvement ignored = {0};
-            if (status == ICC_OK)
-                status = iccp_improve_images(&simplicial, &descent, work, &ignored, env);
-            iccp_plmap_swap(map);
-        }
-        if (getenv("TEND")) fprintf(stderr, "      bad %zu cut %zu flips %zu gone %zu -> %zu, E %g\n", n_bad, n_cut, n_flips, n_gone, map->corners.n_triangles, iccp_plmap_energy(map));
+    for (uint32_t t = 0; status == ICC_OK && t < n; ++t) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+        bool done;
+        double length2;
+        if (!(density_of(&simplicial, t) > tense))
+            continue;
+        const uint32_t corner = longest_of(map, t, &length2);
+        if (length2 > shortest * shortest)
+            status = iccp_plmap_cut(map, corner, &done);
     }
     return status;
+}
+
+/* Marks what is to stay: all that is fixed or far from tense triangles. Until the end, marks count
+ * triangles to the next tense one. */
+static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    const uint32_t *v = map->corners.vertex;
+    const size_t n = map->corners.n_triangles;
+    memset(still, RINGS + 1, map->n_vertices);
+    for (size_t t = 0; t < n; ++t)
+        if (density_of(&simplicial, t) > 0.5 * tense)
+            still[v[3 * t]] = still[v[3 * t + 1]] = still[v[3 * t + 2]] = 0;
+    for (uint8_t ring = 0; ring < RINGS; ++ring)
+        for (size_t c = 0; c < 3 * n; ++c)
+            for (size_t k = 0; k < 3 && still[v[c]] == ring; ++k) {
+                uint8_t *other = &still[v[c - c % 3 + k]];
+                if (*other > ring)
+                    *other = (uint8_t)(ring + (v[c - c % 3 + k] != v[c]));
+            }
+    for (size_t i = 0; i < map->n_vertices; ++i)
+        still[i] = map->fixed[i] != ICCP_FREE || still[i] > RINGS;
+}
+
+/* The points of what is not still, then the images. */
+static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const iccp_env *env)
+{
+    uint8_t *still = iccp_alloc(&env->memory, map->n_vertices, 1);
+    icc_status status = still != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        mark_still(map, tense, still);
+    for (int side = 0; status == ICC_OK && side < 2; ++side) {
+        iccp_plmap inverse = *map;
+        if (side == 0)
+            iccp_plmap_swap(&inverse);
+        iccp_simplicial_map simplicial = iccp_plmap_simplicial(&inverse);
+        iccp_improvement ignored = {0};
+        simplicial.fixed = still;
+        status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
+    }
+    iccp_free(&env->memory, still);
+    return status;
+}
+
+icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, bool blocked, iccp_work *work,
+                     const iccp_env *env)
+{
+    const double tense = iccp_max(TENSE, TENSE_TO_MEAN * iccp_plmap_energy(map));
+    const double shortest = SHORTEST * grain->longest;
+    size_t n_flips, n_gone;
+    if (!blocked && !any_all_too_tense(map, tense, shortest))
+        return ICC_OK;
+    map->plan = NULL;
+    icc_status status = cut_tense(map, tense, shortest);
+    if (status == ICC_OK)
+        status = iccp_flip_edges(map, &n_flips, env);
+    const double times = (double)map->corners.n_triangles / (double)grain->many;
+    if (status == ICC_OK && times > 1)
+        status = iccp_coarsen_within(map, RISE * times * times, grain->longest, &n_gone, env);
+    return status == ICC_OK ? relax(map, tense, work, env) : status;
 }

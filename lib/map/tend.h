@@ -5,11 +5,17 @@
 #include "map/plmap.h"
 #include "map/work.h"
 
-/* Where triangles carry far more energy than an isometry's, edges are cut and flipped, and points
- * and images both go where they have more room; elsewhere vertices merge, as long as no edge gets
- * longer than `longest`. All triangles are positive before and after the map, which they stay,
- * exactly. `changed`: whether the mesh is another. */
-icc_status iccp_tend(iccp_plmap *map, double longest, iccp_work *work, bool *changed,
+/* How fine a mesh should be. */
+typedef struct iccp_grain {
+    double longest; /* no edge becomes longer than this, or much shorter */
+    size_t many;    /* triangles: with more of them, vertices merge */
+} iccp_grain;
+
+/* Where triangles carry far more energy than others, cuts and flips edges and moves points and
+ * images; elsewhere merges vertices. Does nothing while no triangle is all too tense, unless the
+ * way is known to be `blocked`. All triangles are positive before and after the map, which they
+ * stay, exactly. O(n) but for steps near tense triangles. */
+icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, bool blocked, iccp_work *work,
                      const iccp_env *env);
 
 #endif
