@@ -27,8 +27,8 @@ enum { TREES = 30, COST = 1 };
  * are longer than straight ones by no more than a factor. */
 static const double GOOD = 8, FAIR = 100, STRAIGHT = 1.2;
 
-/* Trees whose overlay has so many times the triangles of another one are not the best: one in a
- * hundred would have been, by a tenth. */
+/* Trees whose overlay has so many times the triangles of another one are hardly ever better, and
+ * then by a tenth at most. */
 static const double TOO_MANY = 3;
 
 /* Steps on both sides of a start that is GOOD. */
