@@ -481,7 +481,7 @@ START_TEST(starts_are_maps)
             ck_assert_uint_eq(report.cuts.n, p.domain[0]->features->n);
             ck_assert(report.n_trees >= 1 && (i < 2 || report.n_trees == 1));
             ck_assert_int_eq(iccp_plmap_certify(&map[i], &env, NULL), ICC_OK);
-            iccp_cuts_free(&report.cuts);
+            iccp_feature_report_free(&report);
         }
         ck_assert(is_same(&map[0], &map[1]));
         ck_assert_double_le(iccp_plmap_energy(&map[0]), iccp_plmap_energy(&map[2]) * (1 + 1e-9));
