@@ -148,6 +148,16 @@ printf '0 5\n10 0\n3 3\n' >at.txt
 printf '1 5\n10 0\n7 4\n' >expected
 run 0 pose -a region.json -t one.json --spacing 0.5 --certified at.txt images
 close_to images expected 1e-12
+# Small loops of the outline go away when it is followed less closely.
+cat >loop.json <<'END'
+{"handles": [[0, 0], [10, 0], [10, 10], [0, 10]], "edges": [[0, 1], [1, 2], [2, 3], [3, 0]],
+ "regions": [[[0, 0], [10, 0], [10, 10], [0, 10]]]}
+END
+echo '{"moves": [{"handle": 1, "turn": 160}]}' >spin.json
+run 0 pose -a loop.json -t spin.json --spacing 0.5 --certified at.txt images
+holds out 'the posed outline meets itself unless it is followed less closely: by up to '
+run 1 pose -a loop.json -t spin.json --spacing 0.5 --certified --tolerance 0.01 at.txt images
+says 'the posed outline meets itself'
 # What cannot be one-to-one is refused by name.
 echo '{"moves": [{"handle": 1, "move": [-20, 30]}]}' >bad.json
 pose 1 bad.json --certified at.txt images
