@@ -29,6 +29,7 @@ typedef struct feature_mix {
     size_t size[MIX_FEATURES];            /* of each feature: its vertices */
     double vertices[2][2 * MIX_VERTICES]; /* the outer ring's, then the features' */
     double offset;                        /* how far from zero all of it is */
+    double digits;                        /* 0, or features crowd: as near as so many say */
     icc_domain *domain[2];
 } feature_mix;
 
@@ -77,17 +78,30 @@ static inline void mix_draw_outer(double *xy, size_t n, bool is_square, double o
     }
 }
 
-static inline void mix_draw_feature(double *xy, int32_t kind, size_t n, double size, double offset,
+/* Anywhere, or beside one of the first n vertices. */
+static inline void mix_draw_place(double at[2], const feature_mix *m, int side, size_t n,
+                                  random_source *r)
+{
+    at[0] = m->offset + random_between(r, -1, 1);
+    at[1] = m->offset + random_between(r, -1, 1);
+    if (!(m->digits > 0))
+        return;
+    const double *beside = m->vertices[side] + 2 * (size_t)random_below(r, (int)n);
+    const double off = pow(10, -random_between(r, 0, m->digits));
+    for (size_t k = 0; k < 2; ++k)
+        at[k] = beside[k] + off * (at[k] - m->offset);
+}
+
+static inline void mix_draw_feature(double *xy, int32_t kind, size_t n, double size, double at[2],
                                     random_source *r)
 {
-    double at[2] = {offset + random_between(r, -1, 1), offset + random_between(r, -1, 1)};
     if (kind == ICC_FEATURE_HOLE) {
         mix_draw_ring(xy, n, at, size, 0.3, r);
         return;
     }
     double angle = random_between(r, 0, MIX_TURN);
     for (size_t k = 0; k < n; ++k) {
-        memcpy(xy + 2 * k, at, sizeof at);
+        memcpy(xy + 2 * k, at, 2 * sizeof *at);
         angle += random_between(r, -2, 2);
         at[0] += size * cos(angle);
         at[1] += size * sin(angle);
@@ -105,17 +119,21 @@ static inline void mix_draw_side(feature_mix *m, int side, bool is_square, rando
         double size = random_between(r, 0.1, 0.6);
         do {
             icc_domain_free(m->domain[side]);
-            mix_draw_feature(own, m->kind[f], m->size[f], size, m->offset, r);
+            double at[2];
+            mix_draw_place(at, m, side, (size_t)(own - m->vertices[side]) / 2, r);
+            mix_draw_feature(own, m->kind[f], m->size[f], size, at, r);
             size *= 0.9;
         } while (mix_domain(&m->domain[side], m, side, f + 1) != ICC_OK);
     }
 }
 
-static inline void mix_create(feature_mix *m, uint64_t seed)
+/* As far apart as chance has it, or `digits` decimals together. */
+static inline void mix_create_crowded(feature_mix *m, uint64_t seed, double digits)
 {
     random_source r = {seed};
     *m = (feature_mix){.n_outer = 4 + (size_t)random_below(&r, MIX_OUTER - 3),
-                       .offset = random_below(&r, 4) == 0 ? 100 : 0};
+                       .offset = random_below(&r, 4) == 0 ? 100 : 0,
+                       .digits = digits};
     const int n_holes = random_below(&r, MIX_HOLES + 1), n_lines = random_below(&r, MIX_LINES + 1);
     const int n_points = random_below(&r, MIX_POINTS + 1);
     for (int k = 0; k < n_holes + n_lines + n_points; ++k) {
@@ -134,6 +152,11 @@ static inline void mix_create(feature_mix *m, uint64_t seed)
         m->n_vertices += m->size[f];
     for (int side = 0; side < 2; ++side)
         mix_draw_side(m, side, random_below(&r, 2) == 0, &r);
+}
+
+static inline void mix_create(feature_mix *m, uint64_t seed)
+{
+    mix_create_crowded(m, seed, 0);
 }
 
 static inline void mix_free(feature_mix *m)

@@ -1151,9 +1151,10 @@ typedef struct icc_tie_info {
 /**
  * Reports a tie of a map of domains with features: which way round one another the features go. All
  * of them, as icc_map_options::ties, make another map that can be moved to this one while it stays
- * one-to-one. They follow from the map alone: the source's are a shortest tree of straight lines
- * between vertices, in which the ties that it was made with, if any, need not be; the target's are
- * drawn with few bends and do not cross.
+ * one-to-one; where icc_map_info::detour is large, they may be too entangled for doubles, and are
+ * then refused with ::ICC_ERR_RESOLUTION. They follow from the map alone: the source's are a
+ * shortest tree of straight lines between vertices, in which the ties that it was made with, if
+ * any, need not be; the target's are drawn with few bends and do not cross.
  *
  * @param map         the map
  * @param tie         its number, less than icc_map_info::n_ties

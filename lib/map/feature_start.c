@@ -27,8 +27,8 @@ enum { TREES = 30, COST = 1 };
  * are longer than straight ones by no more than a factor. */
 static const double GOOD = 8, FAIR = 100, STRAIGHT = 1.2;
 
-/* Trees whose overlay has so many times the triangles of another one are not the best: one in a
- * hundred would have been, by a tenth. */
+/* Trees whose overlay has so many times the triangles of another one are hardly ever better, and
+ * then by a tenth at most. */
 static const double TOO_MANY = 3;
 
 /* Steps on both sides of a start that is GOOD. */
@@ -185,27 +185,32 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err)
 {
-    iccp_scene scene;
+    iccp_scene *scene = &report->scene;
     iccp_cutter cutter = {.memory = env->memory};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     *map = (iccp_plmap){.memory = env->memory};
     *report = (iccp_feature_report){.cuts.memory = env->memory};
-    icc_status status = iccp_scene_create(&scene, source, target, env);
+    icc_status status = iccp_scene_create(scene, source, target, env);
     if (status == ICC_OK && options->ties != NULL)
-        status = start_from_ties(map, &scene, options, report, &part[0], err);
+        status = start_from_ties(map, scene, options, report, &part[0], err);
     else if (status == ICC_OK) {
-        status = iccp_cutter_create(&cutter, &scene, env);
+        status = iccp_cutter_create(&cutter, scene, env);
         if (status == ICC_OK)
-            status = choose(map, &scene, &cutter, trees, report, &part[0]);
+            status = choose(map, scene, &cutter, trees, report, &part[0]);
         iccp_cutter_free(&cutter);
     }
-    iccp_scene_free(&scene);
     if (status == ICC_ERR_RESOLUTION)
         status = iccp_fail(err, status,
                            "the features are too close together, or too entangled, for "
                            "doubles: no start was found");
     return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
+}
+
+void iccp_feature_report_free(iccp_feature_report *report)
+{
+    iccp_cuts_free(&report->cuts);
+    iccp_scene_free(&report->scene);
 }
 
 icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,

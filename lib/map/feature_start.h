@@ -6,10 +6,11 @@
 #include "map/plmap.h"
 #include "map/work.h"
 
-/* What is known of a start. */
+/* What is known of a start. The caller frees it in any case. */
 typedef struct iccp_feature_report {
-    size_t n_trees; /* of cuts that led to a start */
-    iccp_cuts cuts; /* those that it was made with; the caller frees them in any case */
+    size_t n_trees;   /* of cuts that led to a start */
+    iccp_cuts cuts;   /* those that it was made with */
+    iccp_scene scene; /* of both domains */
 } iccp_feature_report;
 
 /* A map that takes every feature of one domain to the same of the other, vertex by vertex, and is
@@ -21,6 +22,8 @@ typedef struct iccp_feature_report {
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err);
+
+void iccp_feature_report_free(iccp_feature_report *report);
 
 /* The start that cuts lead to, which the caller has. ICC_ERR_RESOLUTION when rounding is in the
  * way. */

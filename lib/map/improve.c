@@ -185,14 +185,17 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
     const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
-    iccp_descent first = {schedule->is_relaxed ? 0 : MAJORISED_STEPS, schedule->iterations,
-                          schedule->tolerance, slow, schedule->is_relaxed};
+    iccp_descent first = {MAJORISED_STEPS, schedule->iterations, schedule->tolerance, slow, false};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};
     if (schedule->levels == 0)
         first.slow = 0;
-    icc_status status = descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
+    icc_status status = ICC_OK;
+    if (schedule->is_relaxed && schedule->levels > 0)
+        improvement->energy = iccp_plmap_energy(map);
+    else
+        status = descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
         status = refine_often(map, schedule, slow, work, improvement, &part[1]);
     if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)

@@ -197,28 +197,23 @@ bool iccp_isotopy_same(const iccp_isotopy *a, const iccp_isotopy *b)
     return a != NULL && b != NULL && iccp_words_same(&a->words, &b->words);
 }
 
-icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const icc_domain *source,
-                                 const icc_domain *target, const iccp_cuts *cuts,
-                                 const iccp_env *env)
+icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const iccp_scene *scene,
+                                 const iccp_cuts *cuts, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    iccp_scene scene;
     iccp_net net = {0};
     iccp_words wanted = {.memory = *memory}, found = {.memory = *memory};
     *kept = false;
-    icc_status status = iccp_scene_create(&scene, source, target, env);
-    if (status != ICC_OK)
-        return forgive(status);
-    status = iccp_net_create(&net, &scene.mesh[1], scene.n, target->vertices, &scene.walls, memory);
+    icc_status status = iccp_net_create(&net, &scene->mesh[1], scene->n, scene->domain[1]->vertices,
+                                        &scene->walls, memory);
     if (status == ICC_OK)
         status = iccp_words_of_cuts(&wanted, cuts, &net, env);
     if (status == ICC_OK)
-        status = iccp_words_of_images(&found, cuts, map, source, &net, env);
+        status = iccp_words_of_images(&found, cuts, map, scene->domain[0], &net, env);
     *kept = status == ICC_OK && iccp_words_same(&wanted, &found);
     iccp_words_free(&wanted);
     iccp_words_free(&found);
     iccp_net_free(&net, memory);
-    iccp_scene_free(&scene);
     return forgive(status);
 }
 

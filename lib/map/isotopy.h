@@ -29,9 +29,8 @@ void iccp_isotopy_free(iccp_isotopy *isotopy);
 bool iccp_isotopy_same(const iccp_isotopy *a, const iccp_isotopy *b);
 
 /* Whether a map takes the source's side of cuts to the target's, up to moving them. */
-icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const icc_domain *source,
-                                 const icc_domain *target, const iccp_cuts *cuts,
-                                 const iccp_env *env);
+icc_status iccp_isotopy_has_cuts(bool *kept, const iccp_plmap *map, const iccp_scene *scene,
+                                 const iccp_cuts *cuts, const iccp_env *env);
 
 /* What becomes of the images when all vertices of the target go straight to their new places: cuts
  * in the source and in the new target, for a map isotopic to what becomes of the old one. *arrived:

@@ -263,10 +263,10 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
                                    &part[2], err);
     bool kept = false;
     if (status == ICC_OK)
-        status = iccp_isotopy_has_cuts(&kept, &map->pl, source, target, &report.cuts, env);
+        status = iccp_isotopy_has_cuts(&kept, &map->pl, &report.scene, &report.cuts, env);
     info->class_kept = kept;
     info->n_trees = (int32_t)report.n_trees;
-    iccp_cuts_free(&report.cuts);
+    iccp_feature_report_free(&report);
     map->work = iccp_spent(&work);
     if (status == ICC_OK)
         *out = map;

@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Of bends, in local coordinates. */
+static const double FARTHEST = 2;
+
 static const char *const SIDES[2] = {"source", "target"};
 
 /* ---- reading ---- */
@@ -41,14 +44,16 @@ static icc_status read_line(iccp_polyline *line, const icc_domain *domain, const
     for (size_t k = 0; status == ICC_OK && k < n; ++k) {
         const double *p = bends + 2 * k;
         double local[2];
-        if (!isfinite(p[0]) || !isfinite(p[1]) || !iccp_frame_holds(&domain->frame, 2, p))
+        iccp_frame_in(&domain->frame, 2, p, local);
+        /* No vertex is farther from zero than 1, and signs are exact for numbers like these. */
+        if (!(fabs(local[0]) <= FARTHEST && fabs(local[1]) <= FARTHEST) ||
+            !iccp_frame_holds(&domain->frame, 2, p))
             return iccp_fail_side(err,
                                   iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_TIE, (int64_t)i,
                                                "tie %zu: bend %zu in the %s is not a number near "
                                                "the domain",
                                                i, k, SIDES[side]),
                                   side + 1);
-        iccp_frame_in(&domain->frame, 2, p, local);
         status = iccp_polyline_add(line, local, memory);
     }
     return status == ICC_OK

@@ -1,7 +1,8 @@
 /* Maps of random pairs of domains with features, from source to target and back: how many are not
  * made or not certified, their energies, and what they cost in processor time. The figures at the
  * end are those of one run; those of several, over parts of the seeds, add up, but for quantiles.
- * usage: bench_features [NUMBER [FIRST_SEED [ITERATIONS]]], the last as icc_map_options has them */
+ * usage: bench_features [NUMBER [FIRST_SEED [ITERATIONS [DIGITS]]]], iterations as icc_map_options
+ * has them; with digits, features crowd, as near to each other as so many decimals say */
 #define _POSIX_C_SOURCE 200809L
 
 #include "bench.h"
@@ -113,12 +114,13 @@ int main(int argc, char **argv)
     const uint64_t n = argc > 1 ? strtoull(argv[1], NULL, 10) : 10000;
     const uint64_t first = argc > 2 ? strtoull(argv[2], NULL, 10) : 0;
     const int32_t iterations = argc > 3 ? (int32_t)strtol(argv[3], NULL, 10) : 0;
+    const double digits = argc > 4 ? strtod(argv[4], NULL) : 0;
     tally t = {.energy = bench_alloc(2 * n, sizeof *t.energy),
                .seconds = bench_alloc(2 * n, sizeof *t.seconds),
                .triangles = bench_alloc(2 * n, sizeof *t.triangles)};
     for (uint64_t seed = first; seed < first + n; ++seed) {
         feature_mix m;
-        mix_create(&m, seed);
+        mix_create_crowded(&m, seed, digits);
         try_map(&t, &m, seed, false, iterations);
         try_map(&t, &m, seed, true, iterations);
         mix_free(&m);

@@ -12,6 +12,7 @@
 
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_CHAINS = 10, MAX_VERTICES = 100 };
 
@@ -84,6 +85,52 @@ static void check_map(const icc_map *map, const input *in)
     require(are_same(2 * n, found, in->vertices[0]));
 }
 
+/* What is saved is loaded, and saved again it is the same. */
+static void check_saved(const icc_map *map)
+{
+    size_t n, again;
+    icc_map *loaded;
+    require(icc_map_save(map, 0, NULL, &n) == ICC_OK);
+    uint8_t *bytes = malloc(2 * n);
+    require(bytes != NULL && icc_map_save(map, n, bytes, &n) == ICC_OK);
+    require(icc_map_load(&loaded, n, bytes, NULL, NULL) == ICC_OK);
+    require(icc_map_save(loaded, n, bytes + n, &again) == ICC_OK);
+    require(again == n && memcmp(bytes, bytes + n, n) == 0);
+    icc_map_free(loaded);
+    free(bytes);
+}
+
+/* A map's own ties make another map, unless rounding is in the way. */
+static void check_ties(const icc_map *map, const icc_domain *source, const icc_domain *target)
+{
+    icc_map_info info = {.size = sizeof info};
+    icc_tie ties[MAX_CHAINS] = {{0}};
+    double *bends[MAX_CHAINS] = {NULL};
+    icc_map *again;
+    require(icc_map_get_info(map, &info) == ICC_OK && info.n_ties <= MAX_CHAINS);
+    require(info.n_ties > 0 || !info.class_kept);
+    for (size_t k = 0; k < info.n_ties; ++k) {
+        icc_tie_info tie = {.size = sizeof tie};
+        require(icc_map_get_tie(map, k, &tie, NULL, NULL) == ICC_OK);
+        bends[k] = malloc(2 * tie.n_target * sizeof **bends + 1);
+        require(bends[k] != NULL && icc_map_get_tie(map, k, &tie, NULL, bends[k]) == ICC_OK);
+        ties[k] = (icc_tie){.size = sizeof *ties,
+                            .vertex = {tie.vertex[0], tie.vertex[1]},
+                            .n_target = tie.n_target,
+                            .target = bends[k]};
+    }
+    const icc_map_options options = {
+        .size = sizeof options, .iterations = -1, .n_ties = info.n_ties, .ties = ties};
+    const icc_status status = info.n_ties > 0
+                                  ? icc_map_create(&again, source, target, &options, NULL, NULL)
+                                  : ICC_ERR_RESOLUTION;
+    require(status == ICC_OK || status == ICC_ERR_RESOLUTION || status == ICC_ERR_TOPOLOGY);
+    if (status == ICC_OK)
+        icc_map_free(again);
+    for (size_t k = 0; k < info.n_ties; ++k)
+        free(bends[k]);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static input in;
@@ -106,8 +153,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         require(status == ICC_OK || err.message[0] != '\0');
         require(status == ICC_OK || status == ICC_ERR_BOUNDARY || status == ICC_ERR_RESOLUTION);
     }
-    if (map != NULL)
+    if (map != NULL) {
         check_map(map, &in);
+        check_saved(map);
+        check_ties(map, domain[0], domain[1]);
+    }
     icc_map_free(map);
     icc_domain_free(domain[0]);
     icc_domain_free(domain[1]);

@@ -49,6 +49,7 @@ static void check_mix(uint64_t seed, int32_t iterations)
         icc_map *map = map_of(&m, swapped, iterations, NULL);
         (void)icc_map_get_info(map, &info);
         ck_assert_msg(info.certified == 1, "seed %d", (int)seed);
+        ck_assert_msg(info.class_kept == (m.n_features > 0), "seed %d", (int)seed);
         ck_assert_msg(info.energy >= 4 - 1e-9 && info.energy < HUGE_VAL, "seed %d", (int)seed);
         ck_assert_uint_eq(mix_count_off(&m, map, swapped), 0);
         ck_assert_uint_eq(mix_count_lost(&m, map, seed), 0);

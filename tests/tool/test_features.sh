@@ -253,6 +253,8 @@ refuses 'target: circle of point 3 of the source has no partner' "$source" "$tar
 refuses 'source: circle of point 3, vertex' "$source" "$target" "$(sized source '[2,8]' 4)" "$(sized target '[2,8]' 1)"
 refuses 'points with a radius and ties do not go together' "$source" "$target" "$(sized source '[2,8]' 1)" \
     "$(sized target '[2,8]' 1)" "$(feature source-tie LineString '[[0,10],[2,8]]' 1)"
+run 1 map -s sized.geojson -p on.txt --ties ties.geojson
+says 'points with a radius and ties do not go together'
 collection "$source" "$target" "$(sized source '[2,8]' 0)" "$(sized target '[3,8]' null)" >none.geojson
 printf '2 8\n' >on.txt
 run 0 map -s none.geojson -p on.txt

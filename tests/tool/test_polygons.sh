@@ -134,6 +134,8 @@ run 1 check -s one.geojson
 says 'the MultiPolygon has 2 parts; only maps take several, and --target FILE is missing'
 run 1 info -s case.geojson -t case.geojson
 says 'the MultiPolygon has 3 parts; make one map per part for libicc info'
+run 1 map -s case.geojson -p points.txt --ties ties.geojson
+says '--ties is for cages of a single polygon'
 run 1 check -s case.geojson --repair mended.geojson
 says '--repair is for cages'
 printf '0 0\n4 0\n4 4\n0 4\n' >text.txt

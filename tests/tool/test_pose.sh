@@ -116,7 +116,7 @@ pins() { # EXPECTED POSE ARGUMENT...
     expected=$1
     moves=$2
     shift 2
-    run "$expected" pose -a pins.json -t "$moves" --spacing 0.25 "$@"
+    run "$expected" pose -a pins.json -t "$moves" --spacing 0.5 "$@"
 }
 echo '{"moves": [{"handle": 4, "move": [3, 2]}, {"handle": 5, "move": [-3, -2], "turn": 30}]}' >pass.json
 printf '0 0\n10 10\n3 5\n7 5\n10 4\n' >at.txt
@@ -146,8 +146,18 @@ echo '{"handles": [[0, 5], [10, 0], [3, 3], [0, 0]], "regions": [[[0, 0], [10, 0
 echo '{"moves": [{"handle": 0, "move": [1, 0]}, {"handle": 2, "move": [4, 1]}]}' >one.json
 printf '0 5\n10 0\n3 3\n' >at.txt
 printf '1 5\n10 0\n7 4\n' >expected
-run 0 pose -a region.json -t one.json --spacing 0.25 --certified at.txt images
+run 0 pose -a region.json -t one.json --spacing 0.5 --certified at.txt images
 close_to images expected 1e-12
+# Small loops of the outline go away when it is followed less closely.
+cat >loop.json <<'END'
+{"handles": [[0, 0], [10, 0], [10, 10], [0, 10]], "edges": [[0, 1], [1, 2], [2, 3], [3, 0]],
+ "regions": [[[0, 0], [10, 0], [10, 10], [0, 10]]]}
+END
+echo '{"moves": [{"handle": 1, "turn": 160}]}' >spin.json
+run 0 pose -a loop.json -t spin.json --spacing 0.5 --certified at.txt images
+holds out 'the posed outline meets itself unless it is followed less closely: by up to '
+run 1 pose -a loop.json -t spin.json --spacing 0.5 --certified --tolerance 0.01 at.txt images
+says 'the posed outline meets itself'
 # What cannot be one-to-one is refused by name.
 echo '{"moves": [{"handle": 1, "move": [-20, 30]}]}' >bad.json
 pose 1 bad.json --certified at.txt images

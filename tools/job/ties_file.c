@@ -49,6 +49,10 @@ int ties_check(job *j)
     if (j->args->ties == NULL)
         return DONE;
     int result = job_read_plane(j, "--ties");
+    if (result == DONE && j->n_parts > 0)
+        return failed(j->args->source, 0, "--ties is for cages of a single polygon");
+    if (result == DONE && cage_count(&j->cages[0], CAGE_CIRCLE) > 0)
+        return failed(j->args->source, 0, "points with a radius and ties do not go together");
     return result == DONE && j->cages[0].n_features == 0
                ? failed(j->args->source, 0,
                         "nothing is inside the cage, so that there are no ties to write")

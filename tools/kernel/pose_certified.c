@@ -18,6 +18,10 @@
  * otherwise. */
 static const double TOLERANCE = 1e-3;
 
+/* Where it meets itself, small loops may go away when it is followed less closely: by so many times
+ * each, up to so much. */
+static const double COARSER = 4, COARSEST = 0.2;
+
 /* The shape must be one region: a map goes from one polygon to another. */
 int pose_certified_check(const pose *p)
 {
@@ -159,6 +163,22 @@ static int compare(pose *p, const posed_samples *s)
     return result;
 }
 
+static int make_outline(posed_outline *out, pose *p, const icc_domain *region, size_t n,
+                        const double *ring, bool *on_ring)
+{
+    double given = p->kernel.job.args->tolerance, size = ring_size(n, ring);
+    double tolerance = given > 0 ? given : TOLERANCE * size;
+    int result = posed_outline_make(out, p, region, n, ring, tolerance, on_ring);
+    while (result == DONE && !(given > 0) && tolerance < COARSEST * size &&
+           !posed_outline_is_simple(out, p)) {
+        tolerance *= COARSER;
+        p->outline_off = tolerance;
+        posed_outline_free(out);
+        result = posed_outline_make(out, p, region, n, ring, tolerance, on_ring);
+    }
+    return result == DONE ? posed_outline_check(out, p) : result;
+}
+
 int pose_certified_make(pose *p)
 {
     const kernel_job *k = &p->kernel;
@@ -169,11 +189,7 @@ int pose_certified_make(pose *p)
     bool *on_ring = need(k->set.n_handles, sizeof *on_ring);
     posed_outline posed;
     posed_samples samples = {0};
-    double given = k->job.args->tolerance;
-    double tolerance = given > 0 ? given : TOLERANCE * ring_size(n, ring);
-    int result = posed_outline_make(&posed, p, region, n, ring, tolerance, on_ring);
-    if (result == DONE)
-        result = posed_outline_check(&posed, p);
+    int result = make_outline(&posed, p, region, n, ring, on_ring);
     if (result == DONE)
         result = posed_samples_make(&samples, p);
     if (result == DONE)
@@ -226,6 +242,12 @@ void pose_certified_say(const pose *p)
              "alone %.2g %% of the shape is turned over, and is %.3g away on average, %.3g at most",
              info.n_simplices, p->n_followed, 100 * p->folded, p->off_mean, p->off_most);
     pose_say(p, text);
+    if (p->outline_off > 0) {
+        snprintf(text, sizeof text,
+                 "the posed outline meets itself unless it is followed less closely: by up to %.3g",
+                 p->outline_off);
+        pose_say(p, text);
+    }
 }
 
 void pose_certified_report(const pose *p, json *out)
@@ -238,6 +260,8 @@ void pose_certified_report(const pose *p, json *out)
     json_count(out, "triangles", info.n_simplices);
     json_number(out, "energy", info.energy);
     json_count(out, "followed", p->n_followed);
+    if (p->outline_off > 0)
+        json_number(out, "outline_off", p->outline_off);
     json_number(out, "folded_pose", p->folded);
     json_number(out, "off_mean", p->off_mean);
     json_number(out, "off_most", p->off_most);

@@ -13,8 +13,8 @@ typedef struct pose {
     icc_domain *sides[2]; /* the shape and what it becomes, with the handles inside as points */
     icc_map *map;
     carrier carrier;
-    double energy;
-    size_t n_followed;                 /* places of the pose besides the handles */
+    double energy, outline_off; /* where the outline met itself: how far it may be off instead */
+    size_t n_followed;          /* places of the pose besides the handles */
     double folded, off_mean, off_most; /* of the pose by weights alone: the share of the shape that
                                           is turned over, how far it is from the map */
 } pose;

@@ -157,6 +157,14 @@ void posed_outline_free(posed_outline *o)
 
 /* -------------------------------------------------------------------- check */
 
+bool posed_outline_is_simple(const posed_outline *o, const pose *p)
+{
+    size_t n_defects;
+    return icc_boundary_defects(o->n, o->posed, 0, NULL, NULL, &n_defects, &p->kernel.job.env,
+                                NULL) == ICC_OK &&
+           n_defects == 0 && ring_area(o->n, o->posed, 2) * ring_area(o->n, o->rest, 2) > 0;
+}
+
 int posed_outline_check(const posed_outline *o, pose *p)
 {
     const char *name = p->kernel.job.args->pose;

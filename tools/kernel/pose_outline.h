@@ -20,6 +20,9 @@ double ring_size(size_t n, const double *ring);
 
 void posed_outline_free(posed_outline *out);
 
+/* Whether it is a simple polygon that turns as at rest. */
+bool posed_outline_is_simple(const posed_outline *out, const pose *p);
+
 /* DONE, or FAILED with a line on stderr that says what keeps the posed outline from being a simple
  * polygon, by edges of the shape. */
 int posed_outline_check(const posed_outline *out, pose *p);

@@ -38,13 +38,18 @@ static void write_path(const panel *p, size_t n, const double *points, bool clos
     free(path);
 }
 
+static bool is_line(const cage_feature *f)
+{
+    return f->kind == ICC_FEATURE_LINE || f->kind == CAGE_CIRCLE;
+}
+
 /* The outer ring and the holes; with `lines` those too. */
 static void write_outline(const panel *p, const cage *c, bool lines)
 {
     write_path(p, c->n, c->points, true);
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        if (f->kind == ICC_FEATURE_HOLE || (f->kind == ICC_FEATURE_LINE && lines))
+        if (f->kind == ICC_FEATURE_HOLE || (is_line(f) && lines))
             write_path(p, f->n, f->points, f->kind == ICC_FEATURE_HOLE);
     }
 }
@@ -77,7 +82,7 @@ static void draw_lines(const panel *p, const cage *c)
     for (size_t i = 0; i < c->n_ties; i++)
         write_path(p, c->ties[i].n, c->ties[i].points, false);
     for (size_t i = 0; i < c->n_features; i++)
-        if (c->features[i].kind == ICC_FEATURE_LINE)
+        if (is_line(&c->features[i]))
             write_path(p, c->features[i].n, c->features[i].points, false);
     fputs("\"/>\n", p->svg);
     for (size_t i = 0; i < c->n_ties; i++) {
@@ -105,7 +110,7 @@ static void draw_cage(const panel *p, const cage *c)
         draw_vertices(p, c->n, c->points, 2.4, false);
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        if (f->kind == ICC_FEATURE_POINT || n <= MAX_HANDLES)
+        if (f->kind == ICC_FEATURE_POINT || (f->kind != CAGE_CIRCLE && n <= MAX_HANDLES))
             draw_vertices(p, f->n, f->points, f->kind == ICC_FEATURE_POINT ? 3.6 : 2.4,
                           f->kind == ICC_FEATURE_POINT);
     }

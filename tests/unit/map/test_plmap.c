@@ -17,7 +17,7 @@ static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
 static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
                           iccp_improvement *improvement, const iccp_env *env)
 {
-    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL, false};
+    const iccp_schedule schedule = {iterations, tolerance, levels, HUGE_VAL, false, false};
     iccp_work work = iccp_work_unlimited();
     return iccp_improve(map, &schedule, &work, improvement, env);
 }
@@ -397,7 +397,7 @@ START_TEST(work_is_never_exceeded)
     const double limits[] = {0, n - 1, n, 2.5 * n, 10 * n, 100 * n, 1000 * n, HUGE_VAL};
     double last = energy;
     for (size_t k = 0; k < sizeof limits / sizeof *limits; ++k) {
-        const iccp_schedule schedule = {60, 1e-6, 16, 4 * n, false};
+        const iccp_schedule schedule = {60, 1e-6, 16, 4 * n, false, false};
         iccp_work work = {.left = limits[k]};
         iccp_plmap map;
         iccp_improvement improvement;

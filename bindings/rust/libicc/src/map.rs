@@ -263,7 +263,9 @@ impl Map {
         unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, nothing, nothing) };
         let (mut source, mut target) = (vec![0.0; 2 * info.n_source], vec![0.0; 2 * info.n_target]);
         // SAFETY: there is room for all bends.
-        unsafe { sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, source.as_mut_ptr(), target.as_mut_ptr()) };
+        unsafe {
+            sys::icc_map_get_tie(self.as_ptr(), tie, &mut info, source.as_mut_ptr(), target.as_mut_ptr())
+        };
         OwnedTie { vertices: info.vertex, source, target }
     }
 
