@@ -41,8 +41,8 @@ iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work
     return part;
 }
 
-const iccp_schedule ICCP_PLAIN = {0}, ICCP_RELAXED = {.is_relaxed = true},
-                    ICCP_BOTH_SIDES = {.both_sides = true, .is_relaxed = true};
+const iccp_schedule iccp_fit_plain = {0}, iccp_fit_relaxed = {.is_relaxed = true},
+                    iccp_fit_both_sides = {.both_sides = true, .is_relaxed = true};
 
 icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
                             const iccp_schedule *how, iccp_work *work, bool *cancelled,
@@ -103,7 +103,7 @@ icc_status iccp_refit(iccp_mesh_map *map, const icc_improve_options *options, ic
     info->seconds_repair = iccp_seconds() - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
         return status;
-    return iccp_fit_complete(map, options, &ICCP_PLAIN, iccp_bound(&work->improvement, 1, work),
+    return iccp_fit_complete(map, options, &iccp_fit_plain, iccp_bound(&work->improvement, 1, work),
                              info, &part[1], err);
 }
 

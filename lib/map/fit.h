@@ -24,7 +24,7 @@ double iccp_spent(const iccp_allowance *work);
 iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work);
 
 /* How: the rest of a schedule is up to options. */
-extern const iccp_schedule ICCP_PLAIN, ICCP_RELAXED, ICCP_BOTH_SIDES;
+extern const iccp_schedule iccp_fit_plain, iccp_fit_relaxed, iccp_fit_both_sides;
 
 /* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
 icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,

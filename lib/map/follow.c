@@ -105,8 +105,8 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
                          "features moved straight to their new places would meet or come too "
                          "close: go there another way, in several steps, or make a new map");
     if (status == ICC_OK)
-        status =
-            iccp_fit_complete(map, options, &ICCP_PLAIN, &work->improvement, info, &part[1], err);
+        status = iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info,
+                                   &part[1], err);
     return status;
 }
 
@@ -156,7 +156,8 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
     if (status == ICC_OK)
         status = iccp_carry(&next->pl, target, &grain, &work->overlay, &reached, env);
     if (status == ICC_OK && reached)
-        status = iccp_fit_complete(next, options, &ICCP_PLAIN, &work->improvement, &own, env, err);
+        status =
+            iccp_fit_complete(next, options, &iccp_fit_plain, &work->improvement, &own, env, err);
     if (status == ICC_OK && reached)
         *info = own;
     return status;

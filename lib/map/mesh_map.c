@@ -231,7 +231,8 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = iccp_fit_improve(pl, options, &ICCP_BOTH_SIDES, &half, &cancelled, &ignored, env);
+        status =
+            iccp_fit_improve(pl, options, &iccp_fit_both_sides, &half, &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;
@@ -259,7 +260,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
     map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
-        status = iccp_fit_complete(map, &improvement, &ICCP_RELAXED, &work.improvement, info,
+        status = iccp_fit_complete(map, &improvement, &iccp_fit_relaxed, &work.improvement, info,
                                    &part[2], err);
     bool kept = false;
     if (status == ICC_OK)
@@ -292,7 +293,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = iccp_fit_improve(&better->pl, options, &ICCP_PLAIN, &work, &cancelled,
+        status = iccp_fit_improve(&better->pl, options, &iccp_fit_plain, &work, &cancelled,
                                   &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
