@@ -521,7 +521,8 @@ private:
 /** A tie of a map between domains with features: map::ties(). */
 struct tie {
     std::array<std::uint32_t, 2> vertices{}; /**< where it begins and ends */
-    std::vector<double> source, target;      /**< its bends, 2 coordinates each */
+    std::vector<double> source;              /**< its bends there, 2 coordinates each */
+    std::vector<double> target;              /**< and in the target */
 
     /** As icc_map_options takes it, in an array; points into this. */
     icc_tie raw() const noexcept
