@@ -675,8 +675,8 @@ int main(void)
     tcase_add_test(tests, both_ways_lead_to_the_same_function);
     tcase_add_test(tests, coarse_to_fine_leads_there_too);
     tcase_add_test(tests, grids_that_lose_the_shape_are_not_used);
-    tcase_add_loop_test(tests, large_problems_hold_every_inequality, 0, 2);
-    tcase_add_loop_test(tests, a_letter_c_has_one_critical_point, 0, 2);
+    tcase_add_loop_test(tests, large_problems_hold_every_inequality, 0, share_of(2));
+    tcase_add_loop_test(tests, a_letter_c_has_one_critical_point, 0, share_of(2));
     tcase_add_test(tests, bounds_without_room_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
