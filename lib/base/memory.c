@@ -48,6 +48,16 @@ void *iccp_grow(const iccp_memory *memory, void *old, size_t n_old, size_t n_new
     return pointer;
 }
 
+bool iccp_enlarge(const iccp_memory *memory, void *array, size_t n_old, size_t n_new, size_t size)
+{
+    void *old;
+    memcpy(&old, array, sizeof old);
+    void *larger = iccp_grow(memory, old, n_old, n_new, size);
+    if (larger != NULL)
+        memcpy(array, &larger, sizeof larger);
+    return larger != NULL;
+}
+
 void iccp_free(const iccp_memory *memory, void *pointer)
 {
     if (pointer != NULL)

@@ -3,6 +3,7 @@
 #ifndef ICCP_MEMORY_H
 #define ICCP_MEMORY_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef struct iccp_memory {
@@ -24,6 +25,9 @@ void *iccp_alloc_zero(const iccp_memory *memory, size_t n, size_t size);
 /* Moves an array of n_old elements into a new one of n_new >= n_old and frees the old one (which
  * may be NULL). On failure returns NULL and leaves the old one as it was. */
 void *iccp_grow(const iccp_memory *memory, void *old, size_t n_old, size_t n_new, size_t size);
+
+/* The same for the pointer to an array that `array` points to. Whether there is memory. */
+bool iccp_enlarge(const iccp_memory *memory, void *array, size_t n_old, size_t n_new, size_t size);
 
 /* NULL is a no-op. */
 void iccp_free(const iccp_memory *memory, void *pointer);

@@ -9,7 +9,6 @@
 
 #include "base/minmax.h"
 #include "base/random.h"
-#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,12 +33,6 @@ typedef struct iccp_candidate_cut {
     double first_key; /* by the straight lines */
 } candidate;
 
-static double length_between(const double *points, uint32_t a, uint32_t b)
-{
-    const double *p = points + 2 * (size_t)a, *q = points + 2 * (size_t)b;
-    return iccp_hypot(q[0] - p[0], q[1] - p[1]);
-}
-
 /* ---- candidates: edges of either triangulation between components ---- */
 
 static void visit_edges(iccp_cutter *k, int side, bool enters)
@@ -54,11 +47,11 @@ static void visit_edges(iccp_cutter *k, int side, bool enters)
         if (!enters)
             ++k->first[s->component[a]];
         else
-            k->candidate[--k->first[s->component[a]]] =
-                (candidate){.from = a,
-                            .to = b,
-                            .length = {length_between(s->domain[0]->vertices, a, b),
-                                       s->scale * length_between(s->domain[1]->vertices, a, b)}};
+            k->candidate[--k->first[s->component[a]]] = (candidate){
+                .from = a,
+                .to = b,
+                .length = {iccp_distance_between(s->domain[0]->vertices, a, b),
+                           s->scale * iccp_distance_between(s->domain[1]->vertices, a, b)}};
     }
 }
 
@@ -194,20 +187,13 @@ static icc_status grow(iccp_cutter *k, uint64_t tree, const iccp_env *env)
 
 /* ---- polylines ---- */
 
-static double length_of(const iccp_polyline *line)
-{
-    double sum = 0;
-    for (uint32_t i = 1; i < line->n; ++i)
-        sum += length_between(line->points, i - 1, i);
-    return sum;
-}
-
 /* Puts one more bend on the longest piece. */
 static icc_status bend_once(iccp_polyline *line, const iccp_memory *memory)
 {
     uint32_t at = 1;
     for (uint32_t i = 2; i < line->n; ++i)
-        if (length_between(line->points, i - 1, i) > length_between(line->points, at - 1, at))
+        if (iccp_distance_between(line->points, i - 1, i) >
+            iccp_distance_between(line->points, at - 1, at))
             at = i;
     const double *p = line->points + 2 * (size_t)(at - 1);
     const double middle[2] = {0.5 * (p[0] + p[2]), 0.5 * (p[1] + p[3])};
@@ -232,8 +218,8 @@ icc_status iccp_cuts_add(iccp_cuts *cuts, size_t cut, const uint32_t ends[2], ic
 {
     icc_status status = ICC_OK;
     for (int k = 0; k < 2; ++k) {
-        cuts->length[k] += length_of(&line[k]);
-        cuts->straight[k] += length_between(line[k].points, 0, (uint32_t)line[k].n - 1);
+        cuts->length[k] += iccp_polyline_length(&line[k]);
+        cuts->straight[k] += iccp_distance_between(line[k].points, 0, (uint32_t)line[k].n - 1);
     }
     while (status == ICC_OK && line[0].n != line[1].n)
         status = bend_once(&line[line[0].n < line[1].n ? 0 : 1], &cuts->memory);

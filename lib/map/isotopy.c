@@ -6,7 +6,6 @@
 #include "base/sort.h"
 #include "map/strands.h"
 #include "map/word_motion.h"
-#include "math/elementary.h"
 
 #include <string.h>
 
@@ -16,12 +15,6 @@ typedef struct joint {
     double length;
     uint32_t ends[2];
 } joint;
-
-static double length_between(const double *points, uint32_t a, uint32_t b)
-{
-    const double *p = points + 2 * (size_t)a, *q = points + 2 * (size_t)b;
-    return iccp_hypot(q[0] - p[0], q[1] - p[1]);
-}
 
 /* Shorter ones first, then those of smaller vertices. */
 static int compare(const void *x, const void *y)
@@ -43,7 +36,7 @@ static size_t list_joints(joint *joints, const iccp_scene *scene)
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         const uint32_t a = mesh->vertex[iccp_after(c)], b = mesh->vertex[iccp_before(c)];
         if (a < b && scene->component[a] != scene->component[b])
-            joints[n++] = (joint){length_between(scene->domain[0]->vertices, a, b), {a, b}};
+            joints[n++] = (joint){iccp_distance_between(scene->domain[0]->vertices, a, b), {a, b}};
     }
     return n;
 }
@@ -92,21 +85,13 @@ static icc_status find_tree(iccp_cuts *tree, const iccp_scene *scene, const iccp
 
 /* ---- an isotopy class ---- */
 
-static double length_of(const iccp_polyline *line)
-{
-    double length = 0;
-    for (uint32_t k = 1; k < line->n; ++k)
-        length += length_between(line->points, k - 1, k);
-    return length;
-}
-
 static double detour_of(const iccp_isotopy *isotopy)
 {
     double length = 0, straight = 0;
     for (size_t i = 0; i < isotopy->n; ++i) {
         const iccp_polyline *line = &isotopy->line[i];
-        length += length_of(line);
-        straight += length_between(line->points, 0, (uint32_t)line->n - 1);
+        length += iccp_polyline_length(line);
+        straight += iccp_distance_between(line->points, 0, (uint32_t)line->n - 1);
     }
     return straight > 0 ? length / straight : 1;
 }
@@ -118,8 +103,9 @@ icc_tie_info iccp_isotopy_tie(const iccp_isotopy *isotopy, size_t tie, const icc
     const uint32_t *ends = isotopy->words.word[tie].ends;
     const double *scale[2] = {source->frame.out, target->frame.out};
     icc_tie_info info = {.vertex = {ends[0], ends[1]}, .n_target = line->n - 2};
-    info.length[0] = length_between(source->vertices, ends[0], ends[1]) * scale[0][0] * scale[0][1];
-    info.length[1] = length_of(line) * scale[1][0] * scale[1][1];
+    info.length[0] =
+        iccp_distance_between(source->vertices, ends[0], ends[1]) * scale[0][0] * scale[0][1];
+    info.length[1] = iccp_polyline_length(line) * scale[1][0] * scale[1][1];
     for (size_t k = 0; bends != NULL && k < info.n_target; ++k)
         iccp_frame_out(&target->frame, 2, line->points + 2 * (k + 1), bends + 2 * k);
     return info;

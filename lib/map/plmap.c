@@ -4,43 +4,31 @@
 
 #include <string.h>
 
-/* Replaces *array by a copy with more room, and leaves it alone on failure. */
-static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size_t room,
-                          size_t size)
-{
-    void *old;
-    memcpy(&old, array, sizeof old);
-    void *larger = iccp_grow(memory, old, n, room, size);
-    if (larger == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(array, &larger, sizeof larger);
-    return ICC_OK;
-}
-
 /* Half as much again as is needed, so that n cuts cost O(n). On failure the map is as before. */
 static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
 {
     const iccp_memory *memory = &map->memory;
     const size_t n = map->n_vertices, n_corners = 3 * map->corners.n_triangles;
-    icc_status status = ICC_OK;
+    bool is_there = true;
     if (n_vertices > map->vertex_room) {
         const size_t room = n_vertices + n_vertices / 2;
-        status |= enlarge(memory, &map->points, n, room, 2 * sizeof *map->points);
-        status |= enlarge(memory, &map->images, n, room, 2 * sizeof *map->images);
-        status |= enlarge(memory, &map->fixed, n, room, sizeof *map->fixed);
-        status |= enlarge(memory, &map->facet, n, room, sizeof *map->facet);
-        status |= enlarge(memory, &map->along, n, room, sizeof *map->along);
-        if (status == ICC_OK)
+        is_there &= iccp_enlarge(memory, &map->points, n, room, 2 * sizeof *map->points);
+        is_there &= iccp_enlarge(memory, &map->images, n, room, 2 * sizeof *map->images);
+        is_there &= iccp_enlarge(memory, &map->fixed, n, room, sizeof *map->fixed);
+        is_there &= iccp_enlarge(memory, &map->facet, n, room, sizeof *map->facet);
+        is_there &= iccp_enlarge(memory, &map->along, n, room, sizeof *map->along);
+        if (is_there)
             map->vertex_room = room;
     }
     if (n_triangles > map->triangle_room) {
         const size_t room = n_triangles + n_triangles / 2;
-        status |= enlarge(memory, &map->corners.vertex, n_corners, 3 * room, sizeof(uint32_t));
-        status |= enlarge(memory, &map->corners.twin, n_corners, 3 * room, sizeof(uint32_t));
-        if (status == ICC_OK)
+        is_there &=
+            iccp_enlarge(memory, &map->corners.vertex, n_corners, 3 * room, sizeof(uint32_t));
+        is_there &= iccp_enlarge(memory, &map->corners.twin, n_corners, 3 * room, sizeof(uint32_t));
+        if (is_there)
             map->triangle_room = room;
     }
-    return status == ICC_OK ? ICC_OK : ICC_ERR_MEMORY;
+    return is_there ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,

@@ -230,47 +230,29 @@ icc_status iccp_routes_find(iccp_routes *r, uint32_t from, uint32_t from_sector,
 
 /* ---- laying ---- */
 
-static icc_status enlarge(const iccp_memory *memory, void *array, size_t n, size_t room,
-                          size_t size)
-{
-    void *old;
-    memcpy(&old, array, sizeof old);
-    void *larger = iccp_grow(memory, old, n, room, size);
-    if (larger == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(array, &larger, sizeof larger);
-    return ICC_OK;
-}
-
 static icc_status enlarge_vertices(iccp_routes *r, size_t room)
 {
+    const iccp_memory *memory = &r->memory;
     const size_t n = r->n_vertices, n_bare = r->scene->n;
-    icc_status status = enlarge(&r->memory, &r->points, n, room, 2 * sizeof *r->points);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->corner, n, room, sizeof *r->corner);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->crossing, n - n_bare, room - n_bare, sizeof *r->crossing);
-    if (status == ICC_OK)
-        r->vertex_room = room;
-    return status;
+    if (!iccp_enlarge(memory, &r->points, n, room, 2 * sizeof *r->points) ||
+        !iccp_enlarge(memory, &r->corner, n, room, sizeof *r->corner) ||
+        !iccp_enlarge(memory, &r->crossing, n - n_bare, room - n_bare, sizeof *r->crossing))
+        return ICC_ERR_MEMORY;
+    r->vertex_room = room;
+    return ICC_OK;
 }
 
 static icc_status enlarge_triangles(iccp_routes *r, size_t room)
 {
+    const iccp_memory *memory = &r->memory;
     const size_t n = 3 * r->mesh.n_triangles, m = 3 * room;
-    icc_status status = enlarge(&r->memory, &r->mesh.vertex, n, m, sizeof *r->mesh.vertex);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->mesh.twin, n, m, sizeof *r->mesh.twin);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->distance, 0, m, sizeof *r->distance);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->previous, 0, m, sizeof *r->previous);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->stamp, 0, m, sizeof *r->stamp);
-    if (status == ICC_OK)
-        status = enlarge(&r->memory, &r->is_goal, 0, m, sizeof *r->is_goal);
-    if (status != ICC_OK)
-        return status;
+    if (!iccp_enlarge(memory, &r->mesh.vertex, n, m, sizeof *r->mesh.vertex) ||
+        !iccp_enlarge(memory, &r->mesh.twin, n, m, sizeof *r->mesh.twin) ||
+        !iccp_enlarge(memory, &r->distance, 0, m, sizeof *r->distance) ||
+        !iccp_enlarge(memory, &r->previous, 0, m, sizeof *r->previous) ||
+        !iccp_enlarge(memory, &r->stamp, 0, m, sizeof *r->stamp) ||
+        !iccp_enlarge(memory, &r->is_goal, 0, m, sizeof *r->is_goal))
+        return ICC_ERR_MEMORY;
     memset(r->stamp, 0, m * sizeof *r->stamp);
     memset(r->is_goal, 0, m);
     r->search = 0;

@@ -4,6 +4,7 @@
  * edge's ends; so paths neither meet one another nor a vertex. */
 #include "map/taut.h"
 
+#include "math/elementary.h"
 #include "math/predicates.h"
 
 #include <string.h>
@@ -50,6 +51,20 @@ icc_status iccp_polyline_add(iccp_polyline *line, const double p[2], const iccp_
     }
     memcpy(line->points + 2 * line->n++, p, 2 * sizeof *p);
     return ICC_OK;
+}
+
+double iccp_distance_between(const double *points, uint32_t a, uint32_t b)
+{
+    const double *p = points + 2 * (size_t)a, *q = points + 2 * (size_t)b;
+    return iccp_hypot(q[0] - p[0], q[1] - p[1]);
+}
+
+double iccp_polyline_length(const iccp_polyline *line)
+{
+    double length = 0;
+    for (uint32_t k = 1; k < line->n; ++k)
+        length += iccp_distance_between(line->points, k - 1, k);
+    return length;
 }
 
 void iccp_polyline_free(iccp_polyline *line, const iccp_memory *memory)

@@ -9,6 +9,9 @@ typedef struct iccp_polyline {
     double *points; /* 2 n */
 } iccp_polyline;
 
+/* Between two of many points in the plane. */
+double iccp_distance_between(const double *points, uint32_t a, uint32_t b);
+
 /* Where on the edges of the bare triangulation each crossing may lie: shares low and high of the
  * way along the edge. */
 typedef struct iccp_lanes {
@@ -24,6 +27,7 @@ icc_status iccp_taut(iccp_polyline *line, const iccp_routes *routes, const iccp_
                      size_t path);
 
 icc_status iccp_polyline_add(iccp_polyline *line, const double p[2], const iccp_memory *memory);
+double iccp_polyline_length(const iccp_polyline *line);
 void iccp_polyline_free(iccp_polyline *line, const iccp_memory *memory);
 
 #endif
