@@ -18,7 +18,7 @@
 static const double SHARE_OF_FLIP = 0.7;
 
 /* Parts that get less far than this are blocked; so many blocked ones in turn are the end of it. */
-static const double BLOCKED = 0.2;
+static const double BLOCKED = 0.35;
 enum { MOST_BLOCKED = 2, MOST_HALVINGS = 30 };
 
 /* After each part. */
@@ -101,13 +101,13 @@ static double go_along(carry *c, double length)
 }
 
 /* One part: to the end and to rest, where nothing is in the way of that; else as far as nothing
- * flips. */
-static icc_status advance(carry *c, double *share, const iccp_env *env)
+ * flips. *limit: where something would. */
+static icc_status advance(carry *c, double *share, double *limit, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(c->map);
     const size_t n = 2 * c->map->n_vertices;
     iccp_newton newton;
-    *share = 0;
+    *share = *limit = 0;
     icc_status status = iccp_newton_create(&newton, &simplicial, NULL, env);
     if (status != ICC_OK)
         return status;
@@ -118,12 +118,15 @@ static icc_status advance(carry *c, double *share, const iccp_env *env)
     memcpy(c->images, c->map->images, n * sizeof *c->images);
     for (size_t i = 0; i < n; ++i)
         c->rest[i] += c->motion[i];
-    if (SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->rest) >= 1) {
+    *limit = iccp_newton_limit(&simplicial, c->rest);
+    if (SHARE_OF_FLIP * *limit >= 1) {
         double *const motion = c->motion;
         c->motion = c->rest;
         c->rest = motion;
+    } else {
+        *limit = iccp_newton_limit(&simplicial, c->motion);
     }
-    *share = go_along(c, iccp_min(1, SHARE_OF_FLIP * iccp_newton_limit(&simplicial, c->motion)));
+    *share = go_along(c, iccp_min(1, SHARE_OF_FLIP * *limit));
     return ICC_OK;
 }
 
@@ -135,21 +138,21 @@ static icc_status correct(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 }
 
 icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
-                      iccp_work *work, bool *reached, const iccp_env *env)
+                      iccp_work *work, bool *reached, double *room, const iccp_env *env)
 {
     carry c = {.map = map, .target = target};
     size_t n_blocked = 0;
     icc_status status = make_room(&c, env);
     *reached = status == ICC_OK && !find_motion(&c);
+    *room = HUGE_VAL;
     while (status == ICC_OK && !*reached && n_blocked < MOST_BLOCKED &&
            iccp_work_take(work, 2 * map->corners.n_triangles)) {
         double share;
-        status = advance(&c, &share, env);
+        status = advance(&c, &share, room, env);
         *reached = share >= 1;
         n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
         if (status == ICC_OK && !*reached)
-            status =
-                n_blocked > 0 ? iccp_tend(map, grain, true, work, env) : correct(map, work, env);
+            status = n_blocked > 0 ? iccp_tend(map, grain, 0, work, env) : correct(map, work, env);
         if (status == ICC_OK && !*reached)
             status = make_room(&c, env);
         if (status == ICC_OK && !*reached)

@@ -10,9 +10,9 @@
  * blocked: then iccp_tend() changes it.
  *
  * `reached`: whether they are there; not so when images would meet on the way, or when there is no
- * work left. The map is valid in any case. */
+ * work left. The map is valid in any case. `room`: of the last part, as iccp_tend() wants it. */
 icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
-                      iccp_work *work, bool *reached, const iccp_env *env);
+                      iccp_work *work, bool *reached, double *room, const iccp_env *env);
 
 /* Where a target wants the image of a fixed vertex. */
 void iccp_carry_place(const iccp_plmap *map, const icc_domain *target, size_t vertex,

@@ -19,7 +19,7 @@ enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = -1 };
 /* Cells along the longest side of a target with features that move: what is carried along has no
  * longer edges, for a map as coarse as it may be cannot follow. It should not have many more
  * triangles than some, and some for each vertex that is given. */
-enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500, MANY = 2000, MANY_EACH = 8 };
+enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500, MANY = 1400, MANY_EACH = 8 };
 
 /* Images in the local coordinates of one target become those in another's; where the inside goes
  * from there is up to the repair. */
@@ -84,20 +84,22 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
     const iccp_grain grain = {iccp_planar_step(j->target, CARRIED_CELLS),
                               MANY + MANY_EACH * j->source->features->n_places};
     bool reached = false;
+    double room = 0;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
     icc_status status = ICC_OK;
     if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
         status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     if (status == ICC_OK)
-        status = iccp_carry(&map->pl, j->target, &grain, &work->repair, &reached, &part[0]);
+        status = iccp_carry(&map->pl, j->target, &grain, &work->repair, &reached, &room,
+                            &part[0]);
     if (status == ICC_OK && !reached) {
         status = rebuild(&map->pl, j, &work->overlay, &reached, &part[0]);
         if (status == ICC_OK && reached)
             status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     }
     if (status == ICC_OK && reached)
-        status = iccp_tend(&map->pl, &grain, false, &work->improvement, &part[0]);
+        status = iccp_tend(&map->pl, &grain, room, &work->improvement, &part[0]);
     map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
@@ -145,6 +147,7 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
 {
     const iccp_grain grain = {iccp_planar_step(target, CARRIED_CELLS), SIZE_MAX};
     bool reached = false;
+    double room;
     icc_map_info own = *info;
     const iccp_newton_plan *plan = next->pl.plan;
     move_boundary(&next->pl, target);
@@ -154,7 +157,7 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
     iccp_plmap_free(&next->pl);
     status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
     if (status == ICC_OK)
-        status = iccp_carry(&next->pl, target, &grain, &work->overlay, &reached, env);
+        status = iccp_carry(&next->pl, target, &grain, &work->overlay, &reached, &room, env);
     if (status == ICC_OK && reached)
         status =
             iccp_fit_complete(next, options, &iccp_fit_plain, &work->improvement, &own, env, err);

@@ -12,10 +12,11 @@ typedef struct iccp_grain {
 } iccp_grain;
 
 /* Where triangles carry far more energy than others, cuts and flips edges and moves points and
- * images; elsewhere merges vertices. Does nothing while no triangle is all too tense, unless the
- * way is known to be `blocked`. All triangles are positive before and after the map, which they
- * stay, exactly. O(n) but for steps near tense triangles. */
-icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, bool blocked, iccp_work *work,
+ * images; elsewhere merges vertices. `room`: how many motions like the last one would fit in before
+ * the first triangle flips. Does nothing while that is enough, unless a triangle is all too tense.
+ * All triangles are positive before and after the map, which they stay, exactly. O(n) but for steps
+ * near tense triangles. */
+icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, double room, iccp_work *work,
                      const iccp_env *env);
 
 #endif

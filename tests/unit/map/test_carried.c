@@ -65,12 +65,14 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     const iccp_grain grain = {iccp_planar_step(target, 15), 1000};
     iccp_work steps = {.left = work};
     bool reached, kept = false;
+    double room;
     ck_assert_int_eq(iccp_plmap_copy(&copy, &map->mesh->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, grain.longest, &env), ICC_OK);
-    ck_assert_int_eq(iccp_carry(&copy, target, &grain, &steps, &reached, &env), ICC_OK);
+    ck_assert_int_eq(iccp_carry(&copy, target, &grain, &steps, &reached, &room, &env), ICC_OK);
     check_there(&copy, target, reached);
     ck_assert(steps.left >= 0 || steps.spent > 0);
+    ck_assert(room >= 0);
     if (reached) {
         ck_assert_int_eq(iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &copy,
                                               map->source_domain, target, &env),
