@@ -17,9 +17,10 @@
 /* Of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.7;
 
-/* Parts that get less far than this are blocked; so many blocked ones in turn are the end of it. */
+/* Parts that get less far than this are blocked. */
 static const double BLOCKED = 0.35;
-enum { MOST_BLOCKED = 2, MOST_HALVINGS = 30 };
+
+enum { MOST_HALVINGS = 30 };
 
 /* After each part. */
 static const iccp_descent CORRECTION = {0, 2, 1e-2, 0, false};
@@ -138,24 +139,26 @@ static icc_status correct(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 }
 
 icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
-                      iccp_work *work, bool *reached, double *room, const iccp_env *env)
+                      size_t patience, iccp_work *work, bool *reached, double *room,
+                      const iccp_env *env)
 {
     carry c = {.map = map, .target = target};
     size_t n_blocked = 0;
     icc_status status = make_room(&c, env);
     *reached = status == ICC_OK && !find_motion(&c);
     *room = HUGE_VAL;
-    while (status == ICC_OK && !*reached && n_blocked < MOST_BLOCKED &&
+    while (status == ICC_OK && !*reached && n_blocked <= patience &&
            iccp_work_take(work, 2 * map->corners.n_triangles)) {
         double share;
         status = advance(&c, &share, room, env);
         *reached = share >= 1;
         n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
-        if (status == ICC_OK && !*reached)
-            status = n_blocked > 0 ? iccp_tend(map, grain, 0, work, env) : correct(map, work, env);
-        if (status == ICC_OK && !*reached)
+        if (status != ICC_OK || *reached || n_blocked > patience)
+            break;
+        status = n_blocked > 0 ? iccp_tend(map, grain, 0, work, env) : correct(map, work, env);
+        if (status == ICC_OK)
             status = make_room(&c, env);
-        if (status == ICC_OK && !*reached)
+        if (status == ICC_OK)
             *reached = !find_motion(&c);
     }
     iccp_free(&env->memory, c.motion);

@@ -4,6 +4,9 @@
  * on which edges grow. */
 #include "map/density.h"
 
+/* Bounds fall from so many times the last one, by this factor. */
+static const double FIRST_BOUND = 16, FALL = 0.85;
+
 static double length2(const iccp_plmap *map, uint32_t corner)
 {
     const uint32_t *v = map->corners.vertex;
@@ -44,5 +47,14 @@ icc_status iccp_limit_edges(iccp_plmap *map, double longest, const iccp_env *env
         if (status == ICC_OK && t % 4096 == 0)
             status = iccp_progress(env, "mesh", (double)t / (double)map->corners.n_triangles);
     }
+    return status;
+}
+
+icc_status iccp_refine_longest(iccp_plmap *map, double longest, size_t enough, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (double times = FIRST_BOUND;
+         status == ICC_OK && times >= 1 && map->corners.n_triangles < enough; times *= FALL)
+        status = iccp_limit_edges(map, times * longest, env);
     return status;
 }

@@ -9,4 +9,8 @@
  * meshes without slivers. */
 icc_status iccp_limit_edges(iccp_plmap *map, double longest, const iccp_env *env);
 
+/* The same with bounds that fall to `longest`, until there are `enough` triangles: the longest
+ * edges are cut first. */
+icc_status iccp_refine_longest(iccp_plmap *map, double longest, size_t enough, const iccp_env *env);
+
 #endif

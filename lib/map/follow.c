@@ -16,10 +16,14 @@
  * next frame continues from here. What is carried has made a step on the way. */
 enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = -1 };
 
-/* Cells along the longest side of a target with features that move: what is carried along has no
- * longer edges, for a map as coarse as it may be cannot follow. It should not have many more
- * triangles than some, and some for each vertex that is given. */
-enum { CARRIED_CELLS = 15, CARRIED_TRIANGLES = 1500, MANY = 1400, MANY_EACH = 8 };
+/* A map as coarse as it may be cannot follow. So what is carried along has so many triangles or, in
+ * a square, no edge that is longer than one of so many cells along a side. It should not have many
+ * more triangles than some, and some for each vertex that is given. */
+enum { CARRIED_TRIANGLES = 1000, CARRIED_CELLS = 15, MANY = 1400, MANY_EACH = 8 };
+
+/* Where the way is blocked, times that the mesh is mended before the map is made anew; and where
+ * that cannot be done, or is not, because nothing but the boundary moves. */
+enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
 /* Images in the local coordinates of one target become those in another's; where the inside goes
  * from there is up to the repair. */
@@ -59,19 +63,27 @@ typedef struct journey {
     const icc_domain *source, *old_target, *target;
 } journey;
 
-/* What the map would have become, but made anew. *made: whether that could be done. */
-static icc_status rebuild(iccp_plmap *pl, const journey *j, iccp_work *work, bool *made,
-                          const iccp_env *env)
+/* What the map would have become, but made anew. *made: whether that could be done; else it stays
+ * as it is. */
+static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
+                          bool *made, const iccp_env *env)
 {
     iccp_cuts cuts;
+    iccp_plmap fresh = {.memory = env->memory};
     icc_status status =
         iccp_isotopy_move(&cuts, made, j->isotopy, j->source, j->old_target, j->target, env);
-    if (status == ICC_OK && *made) {
-        iccp_plmap_free(pl);
-        status = iccp_feature_start_from(pl, j->source, j->target, &cuts, work, env);
-        *made = status == ICC_OK;
-    }
+    if (status == ICC_OK && *made)
+        status = iccp_feature_start_from(&fresh, j->source, j->target, &cuts, work, env);
+    if (status == ICC_OK && *made)
+        status = iccp_refine_longest(&fresh, longest, CARRIED_TRIANGLES, env);
     iccp_cuts_free(&cuts);
+    *made = *made && status == ICC_OK;
+    if (*made) {
+        iccp_plmap_free(pl);
+        *pl = fresh;
+    } else {
+        iccp_plmap_free(&fresh);
+    }
     return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
 }
 
@@ -91,13 +103,13 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
     if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
         status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     if (status == ICC_OK)
-        status = iccp_carry(&map->pl, j->target, &grain, &work->repair, &reached, &room,
+        status = iccp_carry(&map->pl, j->target, &grain, PATIENCE, &work->repair, &reached, &room,
                             &part[0]);
-    if (status == ICC_OK && !reached) {
-        status = rebuild(&map->pl, j, &work->overlay, &reached, &part[0]);
-        if (status == ICC_OK && reached)
-            status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
-    }
+    if (status == ICC_OK && !reached)
+        status = rebuild(&map->pl, j, grain.longest, &work->overlay, &reached, &part[0]);
+    if (status == ICC_OK && !reached)
+        status = iccp_carry(&map->pl, j->target, &grain, LAST_PATIENCE, &work->repair, &reached,
+                            &room, &part[0]);
     if (status == ICC_OK && reached)
         status = iccp_tend(&map->pl, &grain, room, &work->improvement, &part[0]);
     map->pl.stretch = stretch;
@@ -157,7 +169,8 @@ static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
     iccp_plmap_free(&next->pl);
     status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
     if (status == ICC_OK)
-        status = iccp_carry(&next->pl, target, &grain, &work->overlay, &reached, &room, env);
+        status = iccp_carry(&next->pl, target, &grain, LAST_PATIENCE, &work->overlay, &reached,
+                            &room, env);
     if (status == ICC_OK && reached)
         status =
             iccp_fit_complete(next, options, &iccp_fit_plain, &work->improvement, &own, env, err);

@@ -69,7 +69,7 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     ck_assert_int_eq(iccp_plmap_copy(&copy, &map->mesh->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, grain.longest, &env), ICC_OK);
-    ck_assert_int_eq(iccp_carry(&copy, target, &grain, &steps, &reached, &room, &env), ICC_OK);
+    ck_assert_int_eq(iccp_carry(&copy, target, &grain, 1, &steps, &reached, &room, &env), ICC_OK);
     check_there(&copy, target, reached);
     ck_assert(steps.left >= 0 || steps.spent > 0);
     ck_assert(room >= 0);
