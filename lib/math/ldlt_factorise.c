@@ -44,7 +44,7 @@ typedef struct factorisation {
     queue leaving;
     iccp_labour labour;
     uint32_t *local; /* n: by row of the factor, where it is in the current panel */
-    size_t *offset;  /* by row of the updating panel: where it is in the updated one */
+    uint32_t *place;  /* by row of the updating panel: where it is in the updated one */
     double *packed;  /* see iccp_panel_pack() */
 } factorisation;
 
@@ -86,21 +86,51 @@ typedef struct update {
     size_t begin, end;
     double *value;           /* of the later panel */
     uint32_t first;          /* its first column */
+    size_t columns;
     size_t block, block_end; /* the rows among those that are packed */
 } update;
 
-/* Takes a tile away: rows [low, high) of `from`, columns from row j on. */
-static void scatter(const update *u, const double *tile, size_t strip, size_t n_strips, size_t j,
-                    size_t width)
+/* Takes n entries of a column away, n constant. */
+static ICCP_INLINE void take(double *restrict column, const double *restrict entry, size_t n)
 {
-    const size_t start = STRIP * strip, low = start < u->begin ? u->begin - start : 0;
-    const size_t left = u->from.rows - start, most = STRIP * n_strips;
-    const size_t high = left < most ? left : most;
-    const size_t *offset = u->f->offset + start;
-    for (size_t c = 0; c < width; ++c) {
-        double *column = u->value + STRIP * (u->below[j + c - u->from.columns] - u->first);
-        for (size_t i = low; i < high; ++i)
-            column[offset[i]] -= tile[i / STRIP * STRIP * ICCP_TILE + STRIP * c + i % STRIP];
+    for (size_t i = 0; i < n; ++i)
+        column[i] -= entry[i];
+}
+
+/* Rows in a row in the later panel: from row `rest` of its strip on at `value`, `most` of them, and
+ * the others at the top of the next strip. */
+static ICCP_INLINE void take_run(double *value, size_t stride, const size_t *column, size_t width,
+                                 const double *tile, size_t rest)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        take(value + column[c] + rest, tile, STRIP - rest);
+        take(value + column[c] + stride, tile + STRIP - rest, rest);
+    }
+}
+
+/* Takes one strip of a tile away, columns from row j on. Most strips are four rows in a row in the
+ * later panel, too. */
+static void scatter(const update *u, const double *tile, size_t strip, size_t j, size_t width)
+{
+    const size_t start = STRIP * strip, stride = STRIP * u->columns;
+    const uint32_t *place = u->f->place + start;
+    size_t column[ICCP_TILE];
+    for (size_t c = 0; c < width; ++c)
+        column[c] = STRIP * (u->below[j + c - u->from.columns] - u->first);
+    if (start >= u->begin && start + STRIP <= u->from.rows && place[STRIP - 1] - place[0] == 3) {
+        double *value = u->value + place[0] / STRIP * stride;
+        switch (place[0] % STRIP) {
+        case 0: take_run(value, stride, column, width, tile, 0); return;
+        case 1: take_run(value, stride, column, width, tile, 1); return;
+        case 2: take_run(value, stride, column, width, tile, 2); return;
+        default: take_run(value, stride, column, width, tile, 3); return;
+        }
+    }
+    for (size_t i = start < u->begin ? u->begin - start : 0;
+         i < STRIP && start + i < u->from.rows; ++i) {
+        double *row = u->value + place[i] / STRIP * stride + place[i] % STRIP;
+        for (size_t c = 0; c < width; ++c)
+            row[column[c]] -= tile[STRIP * c + i];
     }
 }
 
@@ -117,7 +147,8 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
             const size_t left = u->block_end - j, width = iccp_panel_width(left);
             double tile[2 * ICCP_TILE * ICCP_STRIP];
             u->f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
-            scatter(u, tile, strip, n, j, left < width ? left : width);
+            for (size_t t = 0; t < n; ++t)
+                scatter(u, tile + t * ICCP_TILE * STRIP, strip + t, j, left < width ? left : width);
             b += width * depth;
         }
     }
@@ -176,8 +207,8 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     while (end < panel.rows && below[end - panel.columns] < nodes->column[to + 1])
         ++end;
     for (size_t i = begin; i < panel.rows; ++i)
-        f->offset[i] = iccp_panel_row(&target, f->local[below[i - panel.columns]]);
-    update u = {f, panel, below, begin, end, target.value, nodes->column[to], 0, 0};
+        f->place[i] = f->local[below[i - panel.columns]];
+    update u = {f, panel, below, begin, end, target.value, nodes->column[to], target.columns, 0, 0};
     const icc_status status = apply_update(f, &u);
     enlist(f, from, end);
     return status;
@@ -229,16 +260,16 @@ static icc_status make_space(factorisation *f)
     const iccp_supernodes *nodes = &f->l->nodes;
     const iccp_memory *memory = &f->labour.env->memory;
     f->local = iccp_alloc(memory, f->l->n, sizeof *f->local);
-    f->offset = iccp_alloc(memory, nodes->most_rows, sizeof *f->offset);
+    f->place = iccp_alloc(memory, nodes->most_rows, sizeof *f->place);
     f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f->packed);
-    return f->local != NULL && f->offset != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    return f->local != NULL && f->place != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 static void free_space(const factorisation *f)
 {
     const iccp_memory *memory = &f->labour.env->memory;
     iccp_free(memory, f->local);
-    iccp_free(memory, f->offset);
+    iccp_free(memory, f->place);
     iccp_free(memory, f->packed);
 }
 
