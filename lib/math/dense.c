@@ -23,11 +23,13 @@ static ICCP_INLINE void multiply_strip(double *tile, size_t width, const double 
             tile[STRIP * c + r] = sum[c][r];
 }
 
-void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
-                            size_t stride, const double *b, size_t depth)
+static void multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
+                              size_t stride, const double *b, size_t depth)
 {
     for (size_t t = 0; t < n_strips; ++t, a += stride, tile += ICCP_TILE * STRIP)
-        if (width == 4)
+        if (width == 6)
+            multiply_strip(tile, 6, a, b, depth);
+        else if (width == 4)
             multiply_strip(tile, 4, a, b, depth);
         else if (width == 2)
             multiply_strip(tile, 2, a, b, depth);
@@ -35,11 +37,49 @@ void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const d
             multiply_strip(tile, 1, a, b, depth);
 }
 
+static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
+                                     const double *scaled)
+{
+    double column[ICCP_SQUARE][STRIP];
+    for (size_t c = 0; c < width; ++c) {
+        for (size_t r = 0; r < STRIP; ++r)
+            column[c][r] = strip[STRIP * c + r];
+        for (size_t k = 0; k < c; ++k)
+            for (size_t r = 0; r < STRIP; ++r)
+                column[c][r] -= column[k][r] * scaled[ICCP_SQUARE * k + c];
+        for (size_t r = 0; r < STRIP; ++r)
+            column[c][r] /= pivot[c];
+        for (size_t r = 0; r < STRIP; ++r)
+            strip[STRIP * c + r] = column[c][r];
+    }
+}
+
+static ICCP_INLINE void divide(double *strip, size_t n_strips, size_t stride, size_t width,
+                               const double *pivot, const double *scaled)
+{
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        if (width == ICCP_SQUARE)
+            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
+        else
+            divide_strip(strip, width, pivot, scaled);
+}
+
+static void divide_portable(double *strip, size_t n_strips, size_t stride, size_t width,
+                            const double *pivot, const double *scaled)
+{
+    divide(strip, n_strips, stride, width, pivot, scaled);
+}
+
+iccp_dense iccp_dense_portable(void)
+{
+    return (iccp_dense){multiply_portable, divide_portable};
+}
+
 #ifdef ICCP_HAS_SIMD
 
 #include <immintrin.h>
 
-ICCP_AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t width,
+ICCP_AVX2 static ICCP_INLINE void multiply_tile(double *tile, size_t n_strips, size_t width,
                                                 const double *a, size_t stride, const double *b,
                                                 size_t depth)
 {
@@ -47,46 +87,61 @@ ICCP_AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, s
     for (size_t t = 0; t < n_strips; ++t)
         for (size_t c = 0; c < width; ++c)
             sum[t][c] = _mm256_setzero_pd();
-    for (size_t k = 0; k < depth; ++k)
-        for (size_t t = 0; t < n_strips; ++t) {
-            const __m256d rows = _mm256_loadu_pd(a + t * stride + STRIP * k);
-            for (size_t c = 0; c < width; ++c) {
-                const __m256d entry = _mm256_broadcast_sd(b + width * k + c);
-                sum[t][c] = _mm256_add_pd(sum[t][c], _mm256_mul_pd(rows, entry));
-            }
+    for (size_t k = 0; k < depth; ++k) {
+        __m256d rows[2];
+        for (size_t t = 0; t < n_strips; ++t)
+            rows[t] = _mm256_loadu_pd(a + t * stride + STRIP * k);
+        for (size_t c = 0; c < width; ++c) {
+            const __m256d entry = _mm256_broadcast_sd(b + width * k + c);
+            for (size_t t = 0; t < n_strips; ++t)
+                sum[t][c] = _mm256_add_pd(sum[t][c], _mm256_mul_pd(rows[t], entry));
         }
+    }
     for (size_t t = 0; t < n_strips; ++t)
         for (size_t c = 0; c < width; ++c)
             _mm256_storeu_pd(tile + STRIP * (ICCP_TILE * t + c), sum[t][c]);
 }
 
-ICCP_AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const double *a,
-                                   size_t stride, const double *b, size_t depth)
+ICCP_AVX2 static ICCP_INLINE void multiply_width(double *tile, size_t n_strips, size_t width,
+                                                 const double *a, size_t stride, const double *b,
+                                                 size_t depth)
 {
-    if (width == 4 && n_strips == 2)
-        multiply_avx2(tile, 2, 4, a, stride, b, depth);
+    if (width == 6)
+        multiply_tile(tile, n_strips, 6, a, stride, b, depth);
     else if (width == 4)
-        multiply_avx2(tile, 1, 4, a, stride, b, depth);
-    else if (width == 2 && n_strips == 2)
-        multiply_avx2(tile, 2, 2, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 4, a, stride, b, depth);
     else if (width == 2)
-        multiply_avx2(tile, 1, 2, a, stride, b, depth);
-    else if (n_strips == 2)
-        multiply_avx2(tile, 2, 1, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 2, a, stride, b, depth);
     else
-        multiply_avx2(tile, 1, 1, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 1, a, stride, b, depth);
 }
 
-iccp_multiply iccp_multiply_choose(void)
+ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width, const double *a,
+                                    size_t stride, const double *b, size_t depth)
 {
-    return iccp_simd() == ICCP_SIMD_AVX2 ? choose_width : iccp_multiply_portable;
+    if (n_strips == 2)
+        multiply_width(tile, 2, width, a, stride, b, depth);
+    else
+        multiply_width(tile, 1, width, a, stride, b, depth);
+}
+
+ICCP_AVX2 static void divide_avx2(double *strip, size_t n_strips, size_t stride, size_t width,
+                                  const double *pivot, const double *scaled)
+{
+    divide(strip, n_strips, stride, width, pivot, scaled);
+}
+
+iccp_dense iccp_dense_choose(void)
+{
+    return iccp_simd() == ICCP_SIMD_AVX2 ? (iccp_dense){multiply_avx2, divide_avx2}
+                                         : iccp_dense_portable();
 }
 
 #else
 
-iccp_multiply iccp_multiply_choose(void)
+iccp_dense iccp_dense_choose(void)
 {
-    return iccp_multiply_portable;
+    return iccp_dense_portable();
 }
 
 #endif

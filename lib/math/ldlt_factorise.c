@@ -36,7 +36,7 @@ typedef struct factorisation {
     iccp_ldlt *l;
     const iccp_symmetric *matrix;
     int8_t *sign; /* in eliminated numbering, or NULL */
-    iccp_multiply multiply;
+    iccp_dense dense;
     uint32_t *waiting; /* by panel: the first panel that waits for it, or NONE */
     uint32_t *next;    /* by panel: the one that waits behind it */
     size_t *done;      /* by panel: its first row that has not been used yet */
@@ -146,7 +146,7 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
         for (size_t j = u->block; j < u->block_end && j < STRIP * (strip + n); j += ICCP_TILE) {
             const size_t left = u->block_end - j, width = iccp_panel_width(left);
             double tile[2 * ICCP_TILE * ICCP_STRIP];
-            u->f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
+            u->f->dense.multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
             for (size_t t = 0; t < n; ++t)
                 scatter(u, tile + t * ICCP_TILE * STRIP, strip + t, j, left < width ? left : width);
             b += width * depth;
@@ -160,7 +160,7 @@ static icc_status apply_update(factorisation *f, update *u)
     const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP, depth = u->from.columns;
     icc_status status = ICC_OK;
     for (u->block = u->begin; status == ICC_OK && u->block < u->end; u->block = u->block_end) {
-        u->block_end = u->end - u->block < ICCP_BLOCK ? u->end : u->block + ICCP_BLOCK;
+        u->block_end = u->end - u->block < ICCP_AT_ONCE ? u->end : u->block + ICCP_AT_ONCE;
         iccp_panel_pack(f->packed, &u->from, u->block, u->block_end, 0, depth);
         status = iccp_labour_strips(&f->labour, u->block / STRIP, n_strips,
                                     (double)(STRIP * (u->block_end - u->block)) * (double)depth,
@@ -237,7 +237,7 @@ static icc_status factorise_panel(factorisation *f, uint32_t s)
         status = update_from(f, from, s);
     }
     if (status == ICC_OK)
-        status = iccp_panel_factorise(&panel, sign, f->multiply, f->packed, &f->labour);
+        status = iccp_panel_factorise(&panel, sign, &f->dense, f->packed, &f->labour);
     if (status == ICC_OK)
         status = iccp_labour_add(&f->labour, PER_PANEL);
     if (status == ICC_OK)
@@ -261,7 +261,7 @@ static icc_status make_space(factorisation *f)
     const iccp_memory *memory = &f->labour.env->memory;
     f->local = iccp_alloc(memory, f->l->n, sizeof *f->local);
     f->place = iccp_alloc(memory, nodes->most_rows, sizeof *f->place);
-    f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f->packed);
+    f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_AT_ONCE * sizeof *f->packed);
     return f->local != NULL && f->place != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
@@ -403,7 +403,7 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
     const iccp_memory *memory = &env->memory;
     factorisation f = {.l = factor,
                        .matrix = matrix,
-                       .multiply = iccp_multiply_choose(),
+                       .dense = iccp_dense_choose(),
                        .end = (uint32_t)nodes->n,
                        .leaving = {NONE, NONE},
                        .labour = {.env = env, .quiet = *env}};
