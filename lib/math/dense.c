@@ -37,42 +37,35 @@ static void multiply_portable(double *tile, size_t n_strips, size_t width, const
             multiply_strip(tile, 1, a, b, depth);
 }
 
-static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
-                                     const double *scaled)
-{
-    double column[ICCP_SQUARE][STRIP];
-    for (size_t c = 0; c < width; ++c) {
-        for (size_t r = 0; r < STRIP; ++r)
-            column[c][r] = strip[STRIP * c + r];
-        for (size_t k = 0; k < c; ++k)
-            for (size_t r = 0; r < STRIP; ++r)
-                column[c][r] -= column[k][r] * scaled[ICCP_SQUARE * k + c];
-        for (size_t r = 0; r < STRIP; ++r)
-            column[c][r] /= pivot[c];
-        for (size_t r = 0; r < STRIP; ++r)
-            strip[STRIP * c + r] = column[c][r];
-    }
-}
-
-static ICCP_INLINE void divide(double *strip, size_t n_strips, size_t stride, size_t width,
-                               const double *pivot, const double *scaled)
-{
-    for (size_t t = 0; t < n_strips; ++t, strip += stride)
-        if (width == ICCP_SQUARE)
-            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
-        else
-            divide_strip(strip, width, pivot, scaled);
-}
-
 static void divide_portable(double *strip, size_t n_strips, size_t stride, size_t width,
                             const double *pivot, const double *scaled)
 {
-    divide(strip, n_strips, stride, width, pivot, scaled);
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        for (size_t c = 0; c < width; ++c) {
+            double *column = strip + STRIP * c;
+            for (size_t k = 0; k < c; ++k)
+                for (size_t r = 0; r < STRIP; ++r)
+                    column[r] -= strip[STRIP * k + r] * scaled[ICCP_SQUARE * k + c];
+            for (size_t r = 0; r < STRIP; ++r)
+                column[r] /= pivot[c];
+        }
+}
+
+static void subtract_portable(double *value, size_t low, size_t stride, const size_t *column,
+                              size_t width, const double *tile)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        double *here = value + column[c] + low, *next = value + column[c] + stride;
+        for (size_t r = 0; r < STRIP - low; ++r)
+            here[r] -= tile[r];
+        for (size_t r = 0; r < low; ++r)
+            next[r] -= tile[STRIP - low + r];
+    }
 }
 
 iccp_dense iccp_dense_portable(void)
 {
-    return (iccp_dense){multiply_portable, divide_portable};
+    return (iccp_dense){multiply_portable, divide_portable, subtract_portable};
 }
 
 #ifdef ICCP_HAS_SIMD
@@ -125,16 +118,69 @@ ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width,
         multiply_width(tile, 1, width, a, stride, b, depth);
 }
 
+ICCP_AVX2 static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
+                                               const double *scaled)
+{
+    __m256d column[ICCP_SQUARE];
+    for (size_t c = 0; c < width; ++c) {
+        column[c] = _mm256_loadu_pd(strip + STRIP * c);
+        for (size_t k = 0; k < c; ++k) {
+            const __m256d entry = _mm256_broadcast_sd(scaled + ICCP_SQUARE * k + c);
+            column[c] = _mm256_sub_pd(column[c], _mm256_mul_pd(column[k], entry));
+        }
+        column[c] = _mm256_div_pd(column[c], _mm256_broadcast_sd(pivot + c));
+        _mm256_storeu_pd(strip + STRIP * c, column[c]);
+    }
+}
+
 ICCP_AVX2 static void divide_avx2(double *strip, size_t n_strips, size_t stride, size_t width,
                                   const double *pivot, const double *scaled)
 {
-    divide(strip, n_strips, stride, width, pivot, scaled);
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        if (width == ICCP_SQUARE)
+            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
+        else
+            divide_strip(strip, width, pivot, scaled);
+}
+
+ICCP_AVX2 static ICCP_INLINE void subtract_four(double *to, const double *from)
+{
+    _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(from)));
+}
+
+ICCP_AVX2 static ICCP_INLINE void subtract_two(double *to, const double *from)
+{
+    _mm_storeu_pd(to, _mm_sub_pd(_mm_loadu_pd(to), _mm_loadu_pd(from)));
+}
+
+/* Only the rows that are meant are written: others may be another thread's. */
+ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride, const size_t *column,
+                                    size_t width, const double *tile)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        double *here = value + column[c], *next = here + stride;
+        if (low == 0) {
+            subtract_four(here, tile);
+        } else if (low == 1) {
+            here[1] -= tile[0];
+            subtract_two(here + 2, tile + 1);
+            next[0] -= tile[3];
+        } else if (low == 2) {
+            subtract_two(here + 2, tile);
+            subtract_two(next, tile + 2);
+        } else {
+            here[3] -= tile[0];
+            subtract_two(next, tile + 1);
+            next[2] -= tile[3];
+        }
+    }
 }
 
 iccp_dense iccp_dense_choose(void)
 {
-    return iccp_simd() == ICCP_SIMD_AVX2 ? (iccp_dense){multiply_avx2, divide_avx2}
-                                         : iccp_dense_portable();
+    return iccp_simd() == ICCP_SIMD_AVX2
+               ? (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2}
+               : iccp_dense_portable();
 }
 
 #else

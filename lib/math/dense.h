@@ -19,10 +19,17 @@ typedef void (*iccp_multiply)(double *tile, size_t n_strips, size_t width, const
 typedef void (*iccp_divide)(double *strip, size_t n_strips, size_t stride, size_t width,
                             const double *pivot, const double *scaled);
 
+/* Takes one strip of a tile away from four rows in a row, `width` columns at value + column[c]:
+ * from row `low` of a strip on and from the top of the next one, which is `stride` further on. No
+ * other rows are written. */
+typedef void (*iccp_subtract)(double *value, size_t low, size_t stride, const size_t *column,
+                              size_t width, const double *tile);
+
 /* The same bits from every implementation: lanes are rows, and nothing is contracted. */
 typedef struct iccp_dense {
     iccp_multiply multiply;
     iccp_divide divide;
+    iccp_subtract subtract;
 } iccp_dense;
 
 /* For every machine. */

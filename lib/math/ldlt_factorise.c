@@ -90,24 +90,6 @@ typedef struct update {
     size_t block, block_end; /* the rows among those that are packed */
 } update;
 
-/* Takes n entries of a column away, n constant. */
-static ICCP_INLINE void take(double *restrict column, const double *restrict entry, size_t n)
-{
-    for (size_t i = 0; i < n; ++i)
-        column[i] -= entry[i];
-}
-
-/* Rows in a row in the later panel: from row `rest` of its strip on at `value`, `most` of them, and
- * the others at the top of the next strip. */
-static ICCP_INLINE void take_run(double *value, size_t stride, const size_t *column, size_t width,
-                                 const double *tile, size_t rest)
-{
-    for (size_t c = 0; c < width; ++c, tile += STRIP) {
-        take(value + column[c] + rest, tile, STRIP - rest);
-        take(value + column[c] + stride, tile + STRIP - rest, rest);
-    }
-}
-
 /* Takes one strip of a tile away, columns from row j on. Most strips are four rows in a row in the
  * later panel, too. */
 static void scatter(const update *u, const double *tile, size_t strip, size_t j, size_t width)
@@ -118,13 +100,9 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
     for (size_t c = 0; c < width; ++c)
         column[c] = STRIP * (u->below[j + c - u->from.columns] - u->first);
     if (start >= u->begin && start + STRIP <= u->from.rows && place[STRIP - 1] - place[0] == 3) {
-        double *value = u->value + place[0] / STRIP * stride;
-        switch (place[0] % STRIP) {
-        case 0: take_run(value, stride, column, width, tile, 0); return;
-        case 1: take_run(value, stride, column, width, tile, 1); return;
-        case 2: take_run(value, stride, column, width, tile, 2); return;
-        default: take_run(value, stride, column, width, tile, 3); return;
-        }
+        u->f->dense.subtract(u->value + place[0] / STRIP * stride, place[0] % STRIP, stride, column,
+                             width, tile);
+        return;
     }
     for (size_t i = start < u->begin ? u->begin - start : 0;
          i < STRIP && start + i < u->from.rows; ++i) {
