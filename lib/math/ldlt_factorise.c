@@ -8,6 +8,7 @@
 #include "math/panel.h"
 
 #include "base/budget.h"
+#include "base/compiler.h"
 
 #include <string.h>
 
@@ -59,6 +60,23 @@ static void find_local(const factorisation *f, uint32_t s)
         f->local[row[i]] = columns + i;
 }
 
+/* Rows of the matrix lie anywhere in memory: asks for the one that is due AHEAD rows later. */
+static void fetch_ahead(const factorisation *f, size_t k)
+{
+    enum { AHEAD = 8, PER_LINE = 8 };
+    const iccp_symmetric *m = f->matrix;
+    const uint32_t *order = f->l->order + k;
+    if (k + 2 * AHEAD >= m->n)
+        return;
+    const size_t begin = m->first[order[AHEAD]], end = m->first[order[AHEAD] + 1];
+    ICCP_PREFETCH(m->first + order[2 * AHEAD]);
+    ICCP_PREFETCH(m->diagonal + order[AHEAD]);
+    for (size_t q = begin; q < end; q += PER_LINE) {
+        ICCP_PREFETCH(m->column + q);
+        ICCP_PREFETCH(m->value + q);
+    }
+}
+
 /* The entries of the matrix. */
 static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p)
 {
@@ -69,6 +87,7 @@ static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p
     for (uint32_t k = 0; k < p->columns; ++k) {
         const uint32_t row = l->order[first + k];
         double *column = p->value + STRIP * k;
+        fetch_ahead(f, first + k);
         column[iccp_panel_row(p, k)] = m->diagonal[row];
         for (size_t q = m->first[row]; q < m->first[row + 1]; ++q) {
             const uint32_t i = l->position[m->column[q]];

@@ -60,17 +60,28 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
     return status;
 }
 
+/* With a constant width the loop over rows is unrolled. */
+static ICCP_INLINE void pack_group(double *packed, const iccp_panel *panel, size_t i, size_t left,
+                                   size_t width, size_t first, size_t last)
+{
+    const double *row[ICCP_TILE];
+    for (size_t c = 0; c < width; ++c)
+        row[c] = panel->value + iccp_panel_row(panel, c < left ? i + c : i);
+    for (size_t k = first; k < last; ++k, packed += width)
+        for (size_t c = 0; c < width; ++c)
+            packed[c] = row[c][STRIP * k] * panel->pivot[k];
+}
+
 void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end,
                      size_t first, size_t last)
 {
-    for (size_t i = begin; i < end; i += ICCP_TILE) {
-        const size_t left = end - i, width = iccp_panel_width(left);
-        for (size_t c = 0; c < width; ++c) {
-            const double *row = panel->value + iccp_panel_row(panel, i + c);
-            for (size_t k = first; k < last; ++k)
-                packed[(k - first) * width + c] = c < left ? row[STRIP * k] * panel->pivot[k] : 0.0;
-        }
-        packed += width * (last - first);
+    for (size_t i = begin, width; i < end; i += width, packed += width * (last - first)) {
+        const size_t left = end - i;
+        width = iccp_panel_width(left);
+        if (width == ICCP_TILE)
+            pack_group(packed, panel, i, left, ICCP_TILE, first, last);
+        else
+            pack_group(packed, panel, i, left, width, first, last);
     }
 }
 
