@@ -63,9 +63,17 @@ static void subtract_portable(double *value, size_t low, size_t stride, const si
     }
 }
 
+static void spread_portable(double *x, size_t width, const double *a, const double *y, size_t depth)
+{
+    const double *const y1 = y + width, *const y2 = y1 + width, *const y3 = y2 + width;
+    for (size_t k = 0; k < depth; ++k, a += STRIP, x += width)
+        for (size_t s = 0; s < width; ++s)
+            x[s] -= (a[0] * y[s] + a[1] * y1[s]) + (a[2] * y2[s] + a[3] * y3[s]);
+}
+
 iccp_dense iccp_dense_portable(void)
 {
-    return (iccp_dense){multiply_portable, divide_portable, subtract_portable};
+    return (iccp_dense){multiply_portable, divide_portable, subtract_portable, spread_portable};
 }
 
 #ifdef ICCP_HAS_SIMD
@@ -176,10 +184,51 @@ ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride, co
     }
 }
 
+/* Four columns at a time; the products of each are added within pairs of lanes. */
+ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, size_t depth)
+{
+    const __m256d rows = _mm256_loadu_pd(y);
+    size_t k = 0;
+    for (; k + 4 <= depth; k += 4, a += 4 * STRIP) {
+        const __m256d p0 = _mm256_mul_pd(_mm256_loadu_pd(a), rows);
+        const __m256d p1 = _mm256_mul_pd(_mm256_loadu_pd(a + STRIP), rows);
+        const __m256d p2 = _mm256_mul_pd(_mm256_loadu_pd(a + 2 * STRIP), rows);
+        const __m256d p3 = _mm256_mul_pd(_mm256_loadu_pd(a + 3 * STRIP), rows);
+        const __m256d p01 = _mm256_hadd_pd(p0, p1), p23 = _mm256_hadd_pd(p2, p3);
+        const __m256d sum = _mm256_add_pd(_mm256_permute2f128_pd(p01, p23, 0x20),
+                                          _mm256_permute2f128_pd(p01, p23, 0x31));
+        _mm256_storeu_pd(x + k, _mm256_sub_pd(_mm256_loadu_pd(x + k), sum));
+    }
+    spread_portable(x + k, 1, a, y, depth - k);
+}
+
+ICCP_AVX2 static void spread_four(double *x, const double *a, const double *y, size_t depth)
+{
+    __m256d row[STRIP], term[STRIP];
+    for (size_t r = 0; r < STRIP; ++r)
+        row[r] = _mm256_loadu_pd(y + 4 * r);
+    for (size_t k = 0; k < depth; ++k, a += STRIP, x += 4) {
+        for (size_t r = 0; r < STRIP; ++r)
+            term[r] = _mm256_mul_pd(_mm256_broadcast_sd(a + r), row[r]);
+        const __m256d sum =
+            _mm256_add_pd(_mm256_add_pd(term[0], term[1]), _mm256_add_pd(term[2], term[3]));
+        _mm256_storeu_pd(x, _mm256_sub_pd(_mm256_loadu_pd(x), sum));
+    }
+}
+
+ICCP_AVX2 static void spread_avx2(double *x, size_t width, const double *a, const double *y,
+                                  size_t depth)
+{
+    if (width == 4)
+        spread_four(x, a, y, depth);
+    else
+        spread_one(x, a, y, depth);
+}
+
 iccp_dense iccp_dense_choose(void)
 {
     return iccp_simd() == ICCP_SIMD_AVX2
-               ? (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2}
+               ? (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2, spread_avx2}
                : iccp_dense_portable();
 }
 

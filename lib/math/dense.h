@@ -1,5 +1,5 @@
 /* Products and quotients of dense strips of rows (math/supernodes.h), the inner loops of the
- * factorisation. */
+ * factorisation and of solves. */
 #ifndef ICCP_DENSE_H
 #define ICCP_DENSE_H
 
@@ -25,11 +25,17 @@ typedef void (*iccp_divide)(double *strip, size_t n_strips, size_t stride, size_
 typedef void (*iccp_subtract)(double *value, size_t low, size_t stride, const size_t *column,
                               size_t width, const double *tile);
 
+/* x[width * k + s] -= (p0 + p1) + (p2 + p3), pr = a[4 k + r] * y[width * r + s], for k < depth and
+ * s < width (1 or 4): what the rows of a strip do to the columns of a system. */
+typedef void (*iccp_spread)(double *x, size_t width, const double *a, const double *y,
+                            size_t depth);
+
 /* The same bits from every implementation: lanes are rows, and nothing is contracted. */
 typedef struct iccp_dense {
     iccp_multiply multiply;
     iccp_divide divide;
     iccp_subtract subtract;
+    iccp_spread spread;
 } iccp_dense;
 
 /* For every machine. */

@@ -45,7 +45,7 @@ typedef struct factorisation {
     queue leaving;
     iccp_labour labour;
     uint32_t *local; /* n: by row of the factor, where it is in the current panel */
-    uint32_t *place;  /* by row of the updating panel: where it is in the updated one */
+    uint32_t *place; /* by row of the updating panel: where it is in the updated one */
     double *packed;  /* see iccp_panel_pack() */
 } factorisation;
 
@@ -103,8 +103,8 @@ typedef struct update {
     iccp_panel from;
     const uint32_t *below; /* rows of `from` below its columns */
     size_t begin, end;
-    double *value;           /* of the later panel */
-    uint32_t first;          /* its first column */
+    double *value;  /* of the later panel */
+    uint32_t first; /* its first column */
     size_t columns;
     size_t block, block_end; /* the rows among those that are packed */
 } update;
@@ -123,8 +123,8 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
                              width, tile);
         return;
     }
-    for (size_t i = start < u->begin ? u->begin - start : 0;
-         i < STRIP && start + i < u->from.rows; ++i) {
+    for (size_t i = start < u->begin ? u->begin - start : 0; i < STRIP && start + i < u->from.rows;
+         ++i) {
         double *row = u->value + place[i] / STRIP * stride + place[i] % STRIP;
         for (size_t c = 0; c < width; ++c)
             row[column[c]] -= tile[STRIP * c + i];
