@@ -51,11 +51,11 @@ static void divide_portable(double *strip, size_t n_strips, size_t stride, size_
         }
 }
 
-static void subtract_portable(double *value, size_t low, size_t stride, const size_t *column,
+static void subtract_portable(double *value, size_t low, size_t stride, const uint32_t *column,
                               size_t width, const double *tile)
 {
     for (size_t c = 0; c < width; ++c, tile += STRIP) {
-        double *here = value + column[c] + low, *next = value + column[c] + stride;
+        double *here = value + STRIP * column[c] + low, *next = value + STRIP * column[c] + stride;
         for (size_t r = 0; r < STRIP - low; ++r)
             here[r] -= tile[r];
         for (size_t r = 0; r < low; ++r)
@@ -162,11 +162,11 @@ ICCP_AVX2 static ICCP_INLINE void subtract_two(double *to, const double *from)
 }
 
 /* Only the rows that are meant are written: others may be another thread's. */
-ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride, const size_t *column,
-                                    size_t width, const double *tile)
+ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride,
+                                    const uint32_t *column, size_t width, const double *tile)
 {
     for (size_t c = 0; c < width; ++c, tile += STRIP) {
-        double *here = value + column[c], *next = here + stride;
+        double *here = value + STRIP * column[c], *next = here + stride;
         if (low == 0) {
             subtract_four(here, tile);
         } else if (low == 1) {

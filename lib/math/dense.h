@@ -4,6 +4,7 @@
 #define ICCP_DENSE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 /* Columns of a tile, and of one that is divided by. */
 enum { ICCP_TILE = 6, ICCP_SQUARE = 4 };
@@ -19,10 +20,10 @@ typedef void (*iccp_multiply)(double *tile, size_t n_strips, size_t width, const
 typedef void (*iccp_divide)(double *strip, size_t n_strips, size_t stride, size_t width,
                             const double *pivot, const double *scaled);
 
-/* Takes one strip of a tile away from four rows in a row, `width` columns at value + column[c]:
+/* Takes one strip of a tile away from four rows in a row, `width` columns at value + 4 * column[c]:
  * from row `low` of a strip on and from the top of the next one, which is `stride` further on. No
  * other rows are written. */
-typedef void (*iccp_subtract)(double *value, size_t low, size_t stride, const size_t *column,
+typedef void (*iccp_subtract)(double *value, size_t low, size_t stride, const uint32_t *column,
                               size_t width, const double *tile);
 
 /* x[width * k + s] -= (p0 + p1) + (p2 + p3), pr = a[4 k + r] * y[width * r + s], for k < depth and

@@ -101,10 +101,8 @@ static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p
 typedef struct update {
     const factorisation *f;
     iccp_panel from;
-    const uint32_t *below; /* rows of `from` below its columns */
     size_t begin, end;
-    double *value;  /* of the later panel */
-    uint32_t first; /* its first column */
+    double *value; /* of the later panel */
     size_t columns;
     size_t block, block_end; /* the rows among those that are packed */
 } update;
@@ -115,9 +113,7 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
 {
     const size_t start = STRIP * strip, stride = STRIP * u->columns;
     const uint32_t *place = u->f->place + start;
-    size_t column[ICCP_TILE];
-    for (size_t c = 0; c < width; ++c)
-        column[c] = STRIP * (u->below[j + c - u->from.columns] - u->first);
+    const uint32_t *column = u->f->place + j;
     if (start >= u->begin && start + STRIP <= u->from.rows && place[STRIP - 1] - place[0] == 3) {
         u->f->dense.subtract(u->value + place[0] / STRIP * stride, place[0] % STRIP, stride, column,
                              width, tile);
@@ -127,7 +123,7 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
          ++i) {
         double *row = u->value + place[i] / STRIP * stride + place[i] % STRIP;
         for (size_t c = 0; c < width; ++c)
-            row[column[c]] -= tile[STRIP * c + i];
+            row[STRIP * column[c]] -= tile[STRIP * c + i];
     }
 }
 
@@ -205,7 +201,7 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
         ++end;
     for (size_t i = begin; i < panel.rows; ++i)
         f->place[i] = f->local[below[i - panel.columns]];
-    update u = {f, panel, below, begin, end, target.value, nodes->column[to], target.columns, 0, 0};
+    update u = {f, panel, begin, end, target.value, target.columns, 0, 0};
     const icc_status status = apply_update(f, &u);
     enlist(f, from, end);
     return status;

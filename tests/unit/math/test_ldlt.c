@@ -151,20 +151,20 @@ START_TEST(differences_have_the_same_bits_everywhere)
     random_source r = {3};
     for (int k = 0; k < 3000; ++k) {
         double x[N], y[N], z[N], tile[STRIP];
-        size_t column[ICCP_TILE];
+        uint32_t column[ICCP_TILE];
         const size_t width = 1 + (size_t)random_below(&r, ICCP_TILE);
         const size_t low = (size_t)random_below(&r, 4);
         fill(x, N, &r);
         fill(tile, STRIP, &r);
         for (size_t c = 0; c < width; ++c)
-            column[c] = 4 * (c + (size_t)random_below(&r, 2) * (STRIDE / 4 - ICCP_TILE));
+            column[c] = (uint32_t)c + (uint32_t)random_below(&r, 2) * (STRIDE / 4 - ICCP_TILE);
         memcpy(y, x, sizeof x);
         memcpy(z, x, sizeof x);
         portable.subtract(x, low, STRIDE, column, width, tile);
         fast.subtract(y, low, STRIDE, column, width, tile);
         for (size_t c = 0; c < width; ++c)
             for (size_t i = 0; i < 4; ++i)
-                z[(low + i) / 4 * STRIDE + column[c] + (low + i) % 4] -= tile[4 * c + i];
+                z[(low + i) / 4 * STRIDE + 4 * column[c] + (low + i) % 4] -= tile[4 * c + i];
         ck_assert(memcmp(x, z, sizeof x) == 0);
         ck_assert(memcmp(y, z, sizeof x) == 0);
     }
