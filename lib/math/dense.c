@@ -23,11 +23,13 @@ static ICCP_INLINE void multiply_strip(double *tile, size_t width, const double 
             tile[STRIP * c + r] = sum[c][r];
 }
 
-void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
-                            size_t stride, const double *b, size_t depth)
+static void multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
+                              size_t stride, const double *b, size_t depth)
 {
     for (size_t t = 0; t < n_strips; ++t, a += stride, tile += ICCP_TILE * STRIP)
-        if (width == 4)
+        if (width == 6)
+            multiply_strip(tile, 6, a, b, depth);
+        else if (width == 4)
             multiply_strip(tile, 4, a, b, depth);
         else if (width == 2)
             multiply_strip(tile, 2, a, b, depth);
@@ -35,11 +37,50 @@ void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const d
             multiply_strip(tile, 1, a, b, depth);
 }
 
+static void divide_portable(double *strip, size_t n_strips, size_t stride, size_t width,
+                            const double *pivot, const double *scaled)
+{
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        for (size_t c = 0; c < width; ++c) {
+            double *column = strip + STRIP * c;
+            for (size_t k = 0; k < c; ++k)
+                for (size_t r = 0; r < STRIP; ++r)
+                    column[r] -= strip[STRIP * k + r] * scaled[ICCP_SQUARE * k + c];
+            for (size_t r = 0; r < STRIP; ++r)
+                column[r] /= pivot[c];
+        }
+}
+
+static void subtract_portable(double *value, size_t low, size_t stride, const uint32_t *column,
+                              size_t width, const double *tile)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        double *here = value + STRIP * column[c] + low, *next = value + STRIP * column[c] + stride;
+        for (size_t r = 0; r < STRIP - low; ++r)
+            here[r] -= tile[r];
+        for (size_t r = 0; r < low; ++r)
+            next[r] -= tile[STRIP - low + r];
+    }
+}
+
+static void spread_portable(double *x, size_t width, const double *a, const double *y, size_t depth)
+{
+    const double *const y1 = y + width, *const y2 = y1 + width, *const y3 = y2 + width;
+    for (size_t k = 0; k < depth; ++k, a += STRIP, x += width)
+        for (size_t s = 0; s < width; ++s)
+            x[s] -= (a[0] * y[s] + a[1] * y1[s]) + (a[2] * y2[s] + a[3] * y3[s]);
+}
+
+iccp_dense iccp_dense_portable(void)
+{
+    return (iccp_dense){multiply_portable, divide_portable, subtract_portable, spread_portable};
+}
+
 #ifdef ICCP_HAS_SIMD
 
 #include <immintrin.h>
 
-ICCP_AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, size_t width,
+ICCP_AVX2 static ICCP_INLINE void multiply_tile(double *tile, size_t n_strips, size_t width,
                                                 const double *a, size_t stride, const double *b,
                                                 size_t depth)
 {
@@ -47,46 +88,155 @@ ICCP_AVX2 static ICCP_INLINE void multiply_avx2(double *tile, size_t n_strips, s
     for (size_t t = 0; t < n_strips; ++t)
         for (size_t c = 0; c < width; ++c)
             sum[t][c] = _mm256_setzero_pd();
-    for (size_t k = 0; k < depth; ++k)
-        for (size_t t = 0; t < n_strips; ++t) {
-            const __m256d rows = _mm256_loadu_pd(a + t * stride + STRIP * k);
-            for (size_t c = 0; c < width; ++c) {
-                const __m256d entry = _mm256_broadcast_sd(b + width * k + c);
-                sum[t][c] = _mm256_add_pd(sum[t][c], _mm256_mul_pd(rows, entry));
-            }
+    for (size_t k = 0; k < depth; ++k) {
+        __m256d rows[2];
+        for (size_t t = 0; t < n_strips; ++t)
+            rows[t] = _mm256_loadu_pd(a + t * stride + STRIP * k);
+        for (size_t c = 0; c < width; ++c) {
+            const __m256d entry = _mm256_broadcast_sd(b + width * k + c);
+            for (size_t t = 0; t < n_strips; ++t)
+                sum[t][c] = _mm256_add_pd(sum[t][c], _mm256_mul_pd(rows[t], entry));
         }
+    }
     for (size_t t = 0; t < n_strips; ++t)
         for (size_t c = 0; c < width; ++c)
             _mm256_storeu_pd(tile + STRIP * (ICCP_TILE * t + c), sum[t][c]);
 }
 
-ICCP_AVX2 static void choose_width(double *tile, size_t n_strips, size_t width, const double *a,
-                                   size_t stride, const double *b, size_t depth)
+ICCP_AVX2 static ICCP_INLINE void multiply_width(double *tile, size_t n_strips, size_t width,
+                                                 const double *a, size_t stride, const double *b,
+                                                 size_t depth)
 {
-    if (width == 4 && n_strips == 2)
-        multiply_avx2(tile, 2, 4, a, stride, b, depth);
+    if (width == 6)
+        multiply_tile(tile, n_strips, 6, a, stride, b, depth);
     else if (width == 4)
-        multiply_avx2(tile, 1, 4, a, stride, b, depth);
-    else if (width == 2 && n_strips == 2)
-        multiply_avx2(tile, 2, 2, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 4, a, stride, b, depth);
     else if (width == 2)
-        multiply_avx2(tile, 1, 2, a, stride, b, depth);
-    else if (n_strips == 2)
-        multiply_avx2(tile, 2, 1, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 2, a, stride, b, depth);
     else
-        multiply_avx2(tile, 1, 1, a, stride, b, depth);
+        multiply_tile(tile, n_strips, 1, a, stride, b, depth);
 }
 
-iccp_multiply iccp_multiply_choose(void)
+ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width, const double *a,
+                                    size_t stride, const double *b, size_t depth)
 {
-    return iccp_simd() == ICCP_SIMD_AVX2 ? choose_width : iccp_multiply_portable;
+    if (n_strips == 2)
+        multiply_width(tile, 2, width, a, stride, b, depth);
+    else
+        multiply_width(tile, 1, width, a, stride, b, depth);
+}
+
+ICCP_AVX2 static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
+                                               const double *scaled)
+{
+    __m256d column[ICCP_SQUARE];
+    for (size_t c = 0; c < width; ++c) {
+        column[c] = _mm256_loadu_pd(strip + STRIP * c);
+        for (size_t k = 0; k < c; ++k) {
+            const __m256d entry = _mm256_broadcast_sd(scaled + ICCP_SQUARE * k + c);
+            column[c] = _mm256_sub_pd(column[c], _mm256_mul_pd(column[k], entry));
+        }
+        column[c] = _mm256_div_pd(column[c], _mm256_broadcast_sd(pivot + c));
+        _mm256_storeu_pd(strip + STRIP * c, column[c]);
+    }
+}
+
+ICCP_AVX2 static void divide_avx2(double *strip, size_t n_strips, size_t stride, size_t width,
+                                  const double *pivot, const double *scaled)
+{
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        if (width == ICCP_SQUARE)
+            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
+        else
+            divide_strip(strip, width, pivot, scaled);
+}
+
+ICCP_AVX2 static ICCP_INLINE void subtract_four(double *to, const double *from)
+{
+    _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(from)));
+}
+
+ICCP_AVX2 static ICCP_INLINE void subtract_two(double *to, const double *from)
+{
+    _mm_storeu_pd(to, _mm_sub_pd(_mm_loadu_pd(to), _mm_loadu_pd(from)));
+}
+
+/* Only the rows that are meant are written: others may be another thread's. */
+ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride,
+                                    const uint32_t *column, size_t width, const double *tile)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        double *here = value + STRIP * column[c], *next = here + stride;
+        if (low == 0) {
+            subtract_four(here, tile);
+        } else if (low == 1) {
+            here[1] -= tile[0];
+            subtract_two(here + 2, tile + 1);
+            next[0] -= tile[3];
+        } else if (low == 2) {
+            subtract_two(here + 2, tile);
+            subtract_two(next, tile + 2);
+        } else {
+            here[3] -= tile[0];
+            subtract_two(next, tile + 1);
+            next[2] -= tile[3];
+        }
+    }
+}
+
+/* Four columns at a time; the products of each are added within pairs of lanes. */
+ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, size_t depth)
+{
+    const __m256d rows = _mm256_loadu_pd(y);
+    size_t k = 0;
+    for (; k + 4 <= depth; k += 4, a += 4 * STRIP) {
+        const __m256d p0 = _mm256_mul_pd(_mm256_loadu_pd(a), rows);
+        const __m256d p1 = _mm256_mul_pd(_mm256_loadu_pd(a + STRIP), rows);
+        const __m256d p2 = _mm256_mul_pd(_mm256_loadu_pd(a + 2 * STRIP), rows);
+        const __m256d p3 = _mm256_mul_pd(_mm256_loadu_pd(a + 3 * STRIP), rows);
+        const __m256d p01 = _mm256_hadd_pd(p0, p1), p23 = _mm256_hadd_pd(p2, p3);
+        const __m256d sum = _mm256_add_pd(_mm256_permute2f128_pd(p01, p23, 0x20),
+                                          _mm256_permute2f128_pd(p01, p23, 0x31));
+        _mm256_storeu_pd(x + k, _mm256_sub_pd(_mm256_loadu_pd(x + k), sum));
+    }
+    spread_portable(x + k, 1, a, y, depth - k);
+}
+
+ICCP_AVX2 static void spread_four(double *x, const double *a, const double *y, size_t depth)
+{
+    __m256d row[STRIP], term[STRIP];
+    for (size_t r = 0; r < STRIP; ++r)
+        row[r] = _mm256_loadu_pd(y + 4 * r);
+    for (size_t k = 0; k < depth; ++k, a += STRIP, x += 4) {
+        for (size_t r = 0; r < STRIP; ++r)
+            term[r] = _mm256_mul_pd(_mm256_broadcast_sd(a + r), row[r]);
+        const __m256d sum =
+            _mm256_add_pd(_mm256_add_pd(term[0], term[1]), _mm256_add_pd(term[2], term[3]));
+        _mm256_storeu_pd(x, _mm256_sub_pd(_mm256_loadu_pd(x), sum));
+    }
+}
+
+ICCP_AVX2 static void spread_avx2(double *x, size_t width, const double *a, const double *y,
+                                  size_t depth)
+{
+    if (width == 4)
+        spread_four(x, a, y, depth);
+    else
+        spread_one(x, a, y, depth);
+}
+
+iccp_dense iccp_dense_choose(void)
+{
+    return iccp_simd() == ICCP_SIMD_AVX2
+               ? (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2, spread_avx2}
+               : iccp_dense_portable();
 }
 
 #else
 
-iccp_multiply iccp_multiply_choose(void)
+iccp_dense iccp_dense_choose(void)
 {
-    return iccp_multiply_portable;
+    return iccp_dense_portable();
 }
 
 #endif

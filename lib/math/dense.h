@@ -1,23 +1,48 @@
-/* Products of dense strips of rows (math/supernodes.h), the inner loop of the factorisation. */
+/* Products and quotients of dense strips of rows (math/supernodes.h), the inner loops of the
+ * factorisation and of solves. */
 #ifndef ICCP_DENSE_H
 #define ICCP_DENSE_H
 
 #include <stddef.h>
+#include <stdint.h>
 
-/* Columns of a tile. */
-enum { ICCP_TILE = 4 };
+/* Columns of a tile, and of one that is divided by. */
+enum { ICCP_TILE = 6, ICCP_SQUARE = 4 };
 
-/* tile[16 t + 4 c + r] = the sum over k < depth, in this order, of
- * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (1 or 2), c < width (1, 2 or
- * 4) and r < 4. The same bits from every implementation: lanes are rows, and nothing is
- *    contracted. */
+/* tile[24 t + 4 c + r] = the sum over k < depth, in this order, of
+ * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (1 or 2), c < width (1, 2, 4
+ * or 6) and r < 4. */
 typedef void (*iccp_multiply)(double *tile, size_t n_strips, size_t width, const double *a,
                               size_t stride, const double *b, size_t depth);
 
-void iccp_multiply_portable(double *tile, size_t n_strips, size_t width, const double *a,
-                            size_t stride, const double *b, size_t depth);
+/* Solves x L' D = strip for x in place: `width` columns, 4 at most, of n_strips strips.
+ * scaled[4 k + c] = d_k L(c, k). */
+typedef void (*iccp_divide)(double *strip, size_t n_strips, size_t stride, size_t width,
+                            const double *pivot, const double *scaled);
 
-/* The fastest one on this machine. */
-iccp_multiply iccp_multiply_choose(void);
+/* Takes one strip of a tile away from four rows in a row, `width` columns at value + 4 * column[c]:
+ * from row `low` of a strip on and from the top of the next one, which is `stride` further on. No
+ * other rows are written. */
+typedef void (*iccp_subtract)(double *value, size_t low, size_t stride, const uint32_t *column,
+                              size_t width, const double *tile);
+
+/* x[width * k + s] -= (p0 + p1) + (p2 + p3), pr = a[4 k + r] * y[width * r + s], for k < depth and
+ * s < width (1 or 4): what the rows of a strip do to the columns of a system. */
+typedef void (*iccp_spread)(double *x, size_t width, const double *a, const double *y,
+                            size_t depth);
+
+/* The same bits from every implementation: lanes are rows, and nothing is contracted. */
+typedef struct iccp_dense {
+    iccp_multiply multiply;
+    iccp_divide divide;
+    iccp_subtract subtract;
+    iccp_spread spread;
+} iccp_dense;
+
+/* For every machine. */
+iccp_dense iccp_dense_portable(void);
+
+/* The fastest on this machine. */
+iccp_dense iccp_dense_choose(void);
 
 #endif

@@ -40,7 +40,7 @@ icc_status iccp_ldlt_analyse_ordered(iccp_ldlt *factor, const iccp_symmetric *ma
  * only read, and several may share it. */
 void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_memory *memory);
 
-/* Bytes of L and D: all that a factorisation takes but for a few words per row and 32 doubles per
+/* Bytes of L and D: all that a factorisation takes but for a few words per row and 36 doubles per
  * column of the widest supernode. */
 double iccp_ldlt_bytes(const iccp_ldlt *factor);
 

@@ -8,6 +8,7 @@
 #include "math/panel.h"
 
 #include "base/budget.h"
+#include "base/compiler.h"
 
 #include <string.h>
 
@@ -36,7 +37,7 @@ typedef struct factorisation {
     iccp_ldlt *l;
     const iccp_symmetric *matrix;
     int8_t *sign; /* in eliminated numbering, or NULL */
-    iccp_multiply multiply;
+    iccp_dense dense;
     uint32_t *waiting; /* by panel: the first panel that waits for it, or NONE */
     uint32_t *next;    /* by panel: the one that waits behind it */
     size_t *done;      /* by panel: its first row that has not been used yet */
@@ -44,7 +45,7 @@ typedef struct factorisation {
     queue leaving;
     iccp_labour labour;
     uint32_t *local; /* n: by row of the factor, where it is in the current panel */
-    size_t *offset;  /* by row of the updating panel: where it is in the updated one */
+    uint32_t *place; /* by row of the updating panel: where it is in the updated one */
     double *packed;  /* see iccp_panel_pack() */
 } factorisation;
 
@@ -59,6 +60,23 @@ static void find_local(const factorisation *f, uint32_t s)
         f->local[row[i]] = columns + i;
 }
 
+/* Rows of the matrix lie anywhere in memory: asks for the one that is due AHEAD rows later. */
+static void fetch_ahead(const factorisation *f, size_t k)
+{
+    enum { AHEAD = 8, PER_LINE = 8 };
+    const iccp_symmetric *m = f->matrix;
+    const uint32_t *order = f->l->order + k;
+    if (k + 2 * AHEAD >= m->n)
+        return;
+    const size_t begin = m->first[order[AHEAD]], end = m->first[order[AHEAD] + 1];
+    ICCP_PREFETCH(m->first + order[2 * AHEAD]);
+    ICCP_PREFETCH(m->diagonal + order[AHEAD]);
+    for (size_t q = begin; q < end; q += PER_LINE) {
+        ICCP_PREFETCH(m->column + q);
+        ICCP_PREFETCH(m->value + q);
+    }
+}
+
 /* The entries of the matrix. */
 static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p)
 {
@@ -69,6 +87,7 @@ static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p
     for (uint32_t k = 0; k < p->columns; ++k) {
         const uint32_t row = l->order[first + k];
         double *column = p->value + STRIP * k;
+        fetch_ahead(f, first + k);
         column[iccp_panel_row(p, k)] = m->diagonal[row];
         for (size_t q = m->first[row]; q < m->first[row + 1]; ++q) {
             const uint32_t i = l->position[m->column[q]];
@@ -82,25 +101,29 @@ static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p
 typedef struct update {
     const factorisation *f;
     iccp_panel from;
-    const uint32_t *below; /* rows of `from` below its columns */
     size_t begin, end;
-    double *value;           /* of the later panel */
-    uint32_t first;          /* its first column */
+    double *value; /* of the later panel */
+    size_t columns;
     size_t block, block_end; /* the rows among those that are packed */
 } update;
 
-/* Takes a tile away: rows [low, high) of `from`, columns from row j on. */
-static void scatter(const update *u, const double *tile, size_t strip, size_t n_strips, size_t j,
-                    size_t width)
+/* Takes one strip of a tile away, columns from row j on. Most strips are four rows in a row in the
+ * later panel, too. */
+static void scatter(const update *u, const double *tile, size_t strip, size_t j, size_t width)
 {
-    const size_t start = STRIP * strip, low = start < u->begin ? u->begin - start : 0;
-    const size_t left = u->from.rows - start, most = STRIP * n_strips;
-    const size_t high = left < most ? left : most;
-    const size_t *offset = u->f->offset + start;
-    for (size_t c = 0; c < width; ++c) {
-        double *column = u->value + STRIP * (u->below[j + c - u->from.columns] - u->first);
-        for (size_t i = low; i < high; ++i)
-            column[offset[i]] -= tile[i / STRIP * STRIP * ICCP_TILE + STRIP * c + i % STRIP];
+    const size_t start = STRIP * strip, stride = STRIP * u->columns;
+    const uint32_t *place = u->f->place + start;
+    const uint32_t *column = u->f->place + j;
+    if (start >= u->begin && start + STRIP <= u->from.rows && place[STRIP - 1] - place[0] == 3) {
+        u->f->dense.subtract(u->value + place[0] / STRIP * stride, place[0] % STRIP, stride, column,
+                             width, tile);
+        return;
+    }
+    for (size_t i = start < u->begin ? u->begin - start : 0; i < STRIP && start + i < u->from.rows;
+         ++i) {
+        double *row = u->value + place[i] / STRIP * stride + place[i] % STRIP;
+        for (size_t c = 0; c < width; ++c)
+            row[STRIP * column[c]] -= tile[STRIP * c + i];
     }
 }
 
@@ -116,8 +139,9 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
         for (size_t j = u->block; j < u->block_end && j < STRIP * (strip + n); j += ICCP_TILE) {
             const size_t left = u->block_end - j, width = iccp_panel_width(left);
             double tile[2 * ICCP_TILE * ICCP_STRIP];
-            u->f->multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
-            scatter(u, tile, strip, n, j, left < width ? left : width);
+            u->f->dense.multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
+            for (size_t t = 0; t < n; ++t)
+                scatter(u, tile + t * ICCP_TILE * STRIP, strip + t, j, left < width ? left : width);
             b += width * depth;
         }
     }
@@ -129,7 +153,7 @@ static icc_status apply_update(factorisation *f, update *u)
     const size_t n_strips = (u->from.rows + STRIP - 1) / STRIP, depth = u->from.columns;
     icc_status status = ICC_OK;
     for (u->block = u->begin; status == ICC_OK && u->block < u->end; u->block = u->block_end) {
-        u->block_end = u->end - u->block < ICCP_BLOCK ? u->end : u->block + ICCP_BLOCK;
+        u->block_end = u->end - u->block < ICCP_AT_ONCE ? u->end : u->block + ICCP_AT_ONCE;
         iccp_panel_pack(f->packed, &u->from, u->block, u->block_end, 0, depth);
         status = iccp_labour_strips(&f->labour, u->block / STRIP, n_strips,
                                     (double)(STRIP * (u->block_end - u->block)) * (double)depth,
@@ -176,8 +200,8 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     while (end < panel.rows && below[end - panel.columns] < nodes->column[to + 1])
         ++end;
     for (size_t i = begin; i < panel.rows; ++i)
-        f->offset[i] = iccp_panel_row(&target, f->local[below[i - panel.columns]]);
-    update u = {f, panel, below, begin, end, target.value, nodes->column[to], 0, 0};
+        f->place[i] = f->local[below[i - panel.columns]];
+    update u = {f, panel, begin, end, target.value, target.columns, 0, 0};
     const icc_status status = apply_update(f, &u);
     enlist(f, from, end);
     return status;
@@ -206,7 +230,7 @@ static icc_status factorise_panel(factorisation *f, uint32_t s)
         status = update_from(f, from, s);
     }
     if (status == ICC_OK)
-        status = iccp_panel_factorise(&panel, sign, f->multiply, f->packed, &f->labour);
+        status = iccp_panel_factorise(&panel, sign, &f->dense, f->packed, &f->labour);
     if (status == ICC_OK)
         status = iccp_labour_add(&f->labour, PER_PANEL);
     if (status == ICC_OK)
@@ -229,16 +253,16 @@ static icc_status make_space(factorisation *f)
     const iccp_supernodes *nodes = &f->l->nodes;
     const iccp_memory *memory = &f->labour.env->memory;
     f->local = iccp_alloc(memory, f->l->n, sizeof *f->local);
-    f->offset = iccp_alloc(memory, nodes->most_rows, sizeof *f->offset);
-    f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_BLOCK * sizeof *f->packed);
-    return f->local != NULL && f->offset != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    f->place = iccp_alloc(memory, nodes->most_rows, sizeof *f->place);
+    f->packed = iccp_alloc(memory, nodes->most_columns, ICCP_AT_ONCE * sizeof *f->packed);
+    return f->local != NULL && f->place != NULL && f->packed != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 static void free_space(const factorisation *f)
 {
     const iccp_memory *memory = &f->labour.env->memory;
     iccp_free(memory, f->local);
-    iccp_free(memory, f->offset);
+    iccp_free(memory, f->place);
     iccp_free(memory, f->packed);
 }
 
@@ -372,7 +396,7 @@ icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *m
     const iccp_memory *memory = &env->memory;
     factorisation f = {.l = factor,
                        .matrix = matrix,
-                       .multiply = iccp_multiply_choose(),
+                       .dense = iccp_dense_choose(),
                        .end = (uint32_t)nodes->n,
                        .leaving = {NONE, NONE},
                        .labour = {.env = env, .quiet = *env}};

@@ -1,7 +1,7 @@
 /* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip: what a strip
  * of rows needs of the columns before its own is one product, then come the few entries beside the
  * diagonal. */
-#include "base/simd.h"
+#include "base/compiler.h"
 #include "base/threads.h"
 #include "math/ldlt.h"
 #include "math/panel.h"
@@ -19,6 +19,9 @@ typedef struct group {
 } group;
 
 enum { MOST_COLUMNS = 4 };
+
+/* Doubles of a line of the cache, and bytes from which on memory is asked for. */
+enum { LINE = 8, AHEAD = 8192 };
 
 /* Rows of a panel that are to be passed on to; all of them on the way back, where it is NULL. */
 typedef struct range {
@@ -40,30 +43,35 @@ static double *entries(const group *x, const iccp_panel *p, uint32_t first, cons
     return x->value + (i < p->columns ? first + i : below[i - p->columns]) * width;
 }
 
-/* With a constant width the loops over columns and rows are unrolled and run in vector
- * registers. */
-static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t first,
-                                const uint32_t *below, const range *rows, size_t width)
+/* Panels lie in memory one after the other; the next page is asked for in time. */
+static ICCP_INLINE void fetch(const double *strip, size_t n, intptr_t ahead)
 {
-    const size_t start = rows->begin / STRIP * STRIP;
+    const uintptr_t there = (uintptr_t)strip + (uintptr_t)ahead;
+    for (size_t k = 0; k < n; k += LINE)
+        ICCP_PREFETCH((const double *)(there + k * sizeof *strip));
+}
+
+/* Two strips at a time below the square. */
+static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t first,
+                                const uint32_t *below, const range *rows, size_t width,
+                                const iccp_dense *dense)
+{
+    const size_t start = rows->begin / STRIP * STRIP, stride = STRIP * p->columns;
     const double *own = x->value + first * width, *strip = p->value + start * p->columns;
-    for (size_t i = start; i < rows->end; i += STRIP, strip += STRIP * p->columns) {
+    for (size_t i = start, n; i < rows->end; i += STRIP * n, strip += stride * n) {
         const size_t depth = least(i, p->columns);
-        double sum[MOST_COLUMNS][ICCP_STRIP];
-        for (size_t s = 0; s < width; ++s)
-            for (size_t r = 0; r < STRIP; ++r)
-                sum[s][r] = 0;
-        for (size_t k = 0; k < depth; ++k)
-            for (size_t s = 0; s < width; ++s)
-                for (size_t r = 0; r < STRIP; ++r)
-                    sum[s][r] += strip[STRIP * k + r] * own[k * width + s];
-        for (size_t r = i < rows->begin ? rows->begin - i : 0; r < least(STRIP, rows->end - i);
+        double sum[2 * ICCP_TILE * ICCP_STRIP];
+        n = i >= p->columns && i + STRIP < rows->end ? 2 : 1;
+        fetch(strip, n * stride, AHEAD);
+        dense->multiply(sum, n, width, strip, stride, own, depth);
+        for (size_t r = i < rows->begin ? rows->begin - i : 0; r < least(STRIP * n, rows->end - i);
              ++r) {
             double *row = entries(x, p, first, below, i + r, width);
+            double *sums = sum + r / STRIP * STRIP * ICCP_TILE + r % STRIP;
             for (size_t s = 0; s < width; ++s) {
                 for (size_t k = depth; k < least(i + r, p->columns); ++k)
-                    sum[s][r] += strip[STRIP * k + r] * own[k * width + s];
-                row[s] -= sum[s][r];
+                    sums[STRIP * s] += strip[STRIP * k + r] * own[k * width + s];
+                row[s] -= sums[STRIP * s];
             }
         }
     }
@@ -73,7 +81,7 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
  * each adding to the columns left of it; within the strip on the diagonal, the last row comes
  * first. */
 static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t first,
-                                 const uint32_t *below, size_t width)
+                                 const uint32_t *below, size_t width, const iccp_dense *dense)
 {
     double *own = x->value + first * width;
     for (size_t k = 0; k < p->columns * width; ++k)
@@ -82,69 +90,38 @@ static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t f
         i -= STRIP;
         const double *strip = p->value + i * p->columns;
         const size_t depth = least(i, p->columns);
-        double y[ICCP_STRIP][MOST_COLUMNS];
+        fetch(strip, STRIP * p->columns, -AHEAD);
+        double y[ICCP_STRIP * MOST_COLUMNS];
         for (size_t s = 0; s < STRIP * width; ++s)
-            y[s / width][s % width] = 0;
+            y[s] = 0;
         for (size_t r = least(STRIP, p->rows - i); r-- > 0;) {
             const double *row = entries(x, p, first, below, i + r, width);
             for (size_t s = 0; s < width; ++s) {
-                y[r][s] = row[s];
+                y[r * width + s] = row[s];
                 for (size_t k = depth; k < least(i + r, p->columns); ++k)
-                    own[k * width + s] -= strip[STRIP * k + r] * y[r][s];
+                    own[k * width + s] -= strip[STRIP * k + r] * row[s];
             }
         }
-        for (size_t k = 0; k < depth; ++k, strip += STRIP)
-            for (size_t s = 0; s < width; ++s)
-                own[k * width + s] -= (strip[0] * y[0][s] + strip[1] * y[1][s]) +
-                                      (strip[2] * y[2][s] + strip[3] * y[3][s]);
+        dense->spread(own, width, strip, y, depth);
     }
 }
 
-static ICCP_INLINE void pass_inline(const iccp_ldlt *factor, size_t s, const group *x,
-                                    const range *rows)
+/* With a constant width the loops over columns are unrolled. */
+static void pass(const iccp_ldlt *factor, size_t s, const group *x, const range *rows,
+                 const iccp_dense *dense)
 {
     const iccp_supernodes *nodes = &factor->nodes;
     const iccp_panel panel = iccp_panel_of(nodes, s, factor->value, factor->pivot);
     const uint32_t first = nodes->column[s], *below = nodes->row + nodes->first_row[s];
     if (x->width == MOST_COLUMNS && rows != NULL)
-        forward(x, &panel, first, below, rows, MOST_COLUMNS);
+        forward(x, &panel, first, below, rows, MOST_COLUMNS, dense);
     else if (x->width == MOST_COLUMNS)
-        backward(x, &panel, first, below, MOST_COLUMNS);
+        backward(x, &panel, first, below, MOST_COLUMNS, dense);
     else if (rows != NULL)
-        forward(x, &panel, first, below, rows, 1);
+        forward(x, &panel, first, below, rows, 1, dense);
     else
-        backward(x, &panel, first, below, 1);
+        backward(x, &panel, first, below, 1, dense);
 }
-
-typedef void (*pass)(const iccp_ldlt *factor, size_t s, const group *x, const range *rows);
-
-static void pass_portable(const iccp_ldlt *factor, size_t s, const group *x, const range *rows)
-{
-    pass_inline(factor, s, x, rows);
-}
-
-#ifdef ICCP_HAS_SIMD
-
-/* The same bits: lanes are rows or columns, and nothing is contracted. */
-ICCP_AVX2 static void pass_avx2(const iccp_ldlt *factor, size_t s, const group *x,
-                                const range *rows)
-{
-    pass_inline(factor, s, x, rows);
-}
-
-static pass choose_pass(void)
-{
-    return iccp_simd() == ICCP_SIMD_AVX2 ? pass_avx2 : pass_portable;
-}
-
-#else
-
-static pass choose_pass(void)
-{
-    return pass_portable;
-}
-
-#endif
 
 /* The group that begins with column `done`: as wide as can be, or one column alone. */
 static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double *work)
@@ -154,7 +131,7 @@ static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double
 
 /* A system to be solved; and the subtrees that are done at the same time, if any. */
 typedef struct solution {
-    pass run;
+    iccp_dense dense;
     const iccp_ldlt *factor;
     const iccp_subtrees *subtrees;
     size_t n_rhs;
@@ -166,7 +143,7 @@ static void pass_all(const solution *x, size_t s, const range *rows)
 {
     for (size_t done = 0; done < x->n_rhs;) {
         const group g = group_at(x->factor, x->n_rhs, done, x->work);
-        x->run(x->factor, s, &g, rows);
+        pass(x->factor, s, &g, rows, &x->dense);
         done += g.width;
     }
 }
@@ -250,7 +227,7 @@ static void solve_in_turn(const solution *x)
 static void solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
                   const iccp_env *env)
 {
-    const solution all = {choose_pass(), factor, &factor->small, n_rhs, work};
+    const solution all = {iccp_dense_choose(), factor, &factor->small, n_rhs, work};
     for (size_t done = 0, width; done < n_rhs; done += width) {
         const group x = group_at(factor, n_rhs, done, work);
         width = x.width;

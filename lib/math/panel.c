@@ -1,6 +1,7 @@
 /* Blocked L D L^T of a tall dense panel, by columns and left-looking: G. Golub, C. Van Loan, Matrix
  * Computations, section 4.2. Blocks of ICCP_BLOCK columns get the product of all columns before
- * them at once; within a block the same is done for ICCP_TILE columns at a time. */
+ * them at once; within a block the same is done for ICCP_SQUARE columns at a time, first for the
+ * rows of the block itself, then for two strips after the other, which stay in the cache. */
 #include "math/panel.h"
 
 #include "base/minmax.h"
@@ -59,17 +60,28 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
     return status;
 }
 
+/* With a constant width the loop over rows is unrolled. */
+static ICCP_INLINE void pack_group(double *packed, const iccp_panel *panel, size_t i, size_t left,
+                                   size_t width, size_t first, size_t last)
+{
+    const double *row[ICCP_TILE];
+    for (size_t c = 0; c < width; ++c)
+        row[c] = panel->value + iccp_panel_row(panel, c < left ? i + c : i);
+    for (size_t k = first; k < last; ++k, packed += width)
+        for (size_t c = 0; c < width; ++c)
+            packed[c] = row[c][STRIP * k] * panel->pivot[k];
+}
+
 void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end,
                      size_t first, size_t last)
 {
-    for (size_t i = begin; i < end; i += ICCP_TILE) {
-        const size_t left = end - i, width = iccp_panel_width(left);
-        for (size_t c = 0; c < width; ++c) {
-            const double *row = panel->value + iccp_panel_row(panel, i + c);
-            for (size_t k = first; k < last; ++k)
-                packed[(k - first) * width + c] = c < left ? row[STRIP * k] * panel->pivot[k] : 0.0;
-        }
-        packed += width * (last - first);
+    for (size_t i = begin, width; i < end; i += width, packed += width * (last - first)) {
+        const size_t left = end - i;
+        width = iccp_panel_width(left);
+        if (width == ICCP_TILE)
+            pack_group(packed, panel, i, left, ICCP_TILE, first, last);
+        else
+            pack_group(packed, panel, i, left, width, first, last);
     }
 }
 
@@ -78,8 +90,24 @@ typedef struct product {
     const iccp_panel *panel;
     size_t first, begin, end;
     const double *packed;
-    iccp_multiply multiply;
+    const iccp_dense *dense;
 } product;
+
+/* Columns [j, j + width) of n strips from `row` on, minus the product of columns [first, last).
+ * Returns the end of what is used of `packed`. */
+static const double *subtract(const iccp_panel *p, const iccp_dense *dense, double *row, size_t n,
+                              size_t j, size_t left, size_t first, size_t last,
+                              const double *packed)
+{
+    const size_t width = iccp_panel_width(left), here = left < width ? left : width;
+    const size_t stride = STRIP * p->columns, depth = last - first;
+    double tile[2 * ICCP_TILE * ICCP_STRIP];
+    dense->multiply(tile, n, width, row + STRIP * first, stride, packed, depth);
+    for (size_t t = 0; t < n; ++t)
+        for (size_t k = 0; k < STRIP * here; ++k)
+            row[t * stride + STRIP * j + k] -= tile[t * ICCP_TILE * STRIP + k];
+    return packed + width * depth;
+}
 
 /* Like update_strips() in ldlt_factorise.c, but the panel updates itself: rows and columns of
  * the tile are those of the panel, so that nothing is scattered. */
@@ -87,35 +115,30 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const product *u = argument;
     const iccp_panel *p = u->panel;
-    const size_t stride = STRIP * p->columns, depth = u->begin - u->first;
     for (size_t n; strip < strips; strip += n) {
-        double *row = p->value + strip * stride;
+        double *row = p->value + strip * STRIP * p->columns;
         const double *b = u->packed;
         n = strip + 1 < strips ? 2 : 1;
-        for (size_t j = u->begin; j < u->end && j < STRIP * (strip + n); j += ICCP_TILE) {
-            const size_t left = u->end - j, width = iccp_panel_width(left);
-            const size_t here = left < width ? left : width;
-            double tile[2 * ICCP_TILE * ICCP_STRIP];
-            u->multiply(tile, n, width, row + STRIP * u->first, stride, b, depth);
-            for (size_t t = 0; t < n; ++t)
-                for (size_t k = 0; k < STRIP * here; ++k)
-                    row[t * stride + STRIP * j + k] -= tile[t * ICCP_TILE * STRIP + k];
-            b += width * depth;
-        }
+        for (size_t j = u->begin; j < u->end && j < STRIP * (strip + n); j += ICCP_TILE)
+            b = subtract(p, u->dense, row, n, j, u->end - j, u->first, u->begin, b);
     }
     return ICC_OK;
 }
 
-static icc_status update(const iccp_panel *p, size_t first, size_t begin, size_t end,
-                         iccp_multiply multiply, double *packed, iccp_labour *labour)
+static size_t n_strips_of(const iccp_panel *p)
 {
-    const size_t n_strips = (p->rows + STRIP - 1) / STRIP, depth = begin - first;
-    product u = {p, first, begin, end, packed, multiply};
-    if (depth == 0)
+    return (p->rows + STRIP - 1) / STRIP;
+}
+
+static icc_status update(const iccp_panel *p, size_t begin, size_t end, const iccp_dense *dense,
+                         double *packed, iccp_labour *labour)
+{
+    product u = {p, 0, begin, end, packed, dense};
+    if (begin == 0)
         return ICC_OK;
-    iccp_panel_pack(packed, p, begin, end, first, begin);
-    return iccp_labour_strips(labour, begin / STRIP, n_strips,
-                              (double)(STRIP * (end - begin)) * (double)depth, update_strips, &u);
+    iccp_panel_pack(packed, p, begin, end, 0, begin);
+    return iccp_labour_strips(labour, begin / STRIP, n_strips_of(p),
+                              (double)(STRIP * (end - begin)) * (double)begin, update_strips, &u);
 }
 
 static bool is_pivot(double pivot, int sign)
@@ -123,69 +146,101 @@ static bool is_pivot(double pivot, int sign)
     return isfinite(pivot) && (sign > 0 ? pivot > 0 : pivot < 0);
 }
 
-/* The square on the diagonal, and the rows that share its strip. scaled[k][c] = d_k L(c, k). */
+/* The square on the diagonal, and the rows that share its strip. scaled: see iccp_divide. */
 static bool eliminate_square(double *strip, size_t width, double *pivot, const int8_t *sign,
-                             double scaled[ICCP_TILE][ICCP_TILE])
+                             double *scaled)
 {
     for (size_t c = 0; c < width; ++c) {
         for (size_t k = 0; k < c; ++k)
             for (size_t r = c; r < STRIP; ++r)
-                strip[STRIP * c + r] -= strip[STRIP * k + r] * scaled[k][c];
+                strip[STRIP * c + r] -= strip[STRIP * k + r] * scaled[ICCP_SQUARE * k + c];
         pivot[c] = strip[STRIP * c + c];
         if (!is_pivot(pivot[c], sign == NULL ? 1 : sign[c]))
             return false;
         for (size_t r = c + 1; r < STRIP; ++r)
             strip[STRIP * c + r] /= pivot[c];
         for (size_t r = c + 1; r < width; ++r)
-            scaled[c][r] = strip[STRIP * c + r] * pivot[c];
+            scaled[ICCP_SQUARE * c + r] = strip[STRIP * c + r] * pivot[c];
     }
     return true;
 }
 
-static void eliminate_strip(double *strip, size_t width, const double *pivot,
-                            double scaled[ICCP_TILE][ICCP_TILE])
+/* Columns [begin, end), which have got the updates of all before them. */
+typedef struct block {
+    const iccp_panel *panel;
+    size_t begin, end;
+    const iccp_dense *dense;
+    double *packed; /* of each square, those of its rows before it in the block */
+    double scaled[ICCP_BLOCK / ICCP_SQUARE][ICCP_SQUARE * ICCP_SQUARE];
+} block;
+
+static size_t width_at(const block *b, size_t j)
 {
-    for (size_t c = 0; c < width; ++c) {
-        double column[ICCP_STRIP];
-        for (size_t r = 0; r < STRIP; ++r)
-            column[r] = strip[STRIP * c + r];
-        for (size_t k = 0; k < c; ++k)
-            for (size_t r = 0; r < STRIP; ++r)
-                column[r] -= strip[STRIP * k + r] * scaled[k][c];
-        for (size_t r = 0; r < STRIP; ++r)
-            strip[STRIP * c + r] = column[r] / pivot[c];
-    }
+    return b->end - j < ICCP_SQUARE ? b->end - j : ICCP_SQUARE;
 }
 
-/* Columns [begin, begin + width), which have got all updates. */
-static bool eliminate(const iccp_panel *p, size_t begin, size_t width, const int8_t *sign)
+/* Columns of the square at j, of n strips, 2 at most. Returns the next square's `packed`. */
+static const double *eliminate_strips(const block *b, size_t j, size_t strip, size_t n,
+                                      const double *packed)
 {
-    const size_t n_strips = (p->rows + STRIP - 1) / STRIP, stride = STRIP * p->columns;
-    double scaled[ICCP_TILE][ICCP_TILE];
-    double *strip = p->value + begin * p->columns + STRIP * begin, *pivot = p->pivot + begin;
-    if (!eliminate_square(strip, width, pivot, sign == NULL ? NULL : sign + begin, scaled))
-        return false;
-    for (size_t s = begin / STRIP + 1; s < n_strips; ++s) {
-        strip += stride;
-        eliminate_strip(strip, width, pivot, scaled);
+    const iccp_panel *p = b->panel;
+    const size_t stride = STRIP * p->columns, width = width_at(b, j);
+    double *row = p->value + strip * stride;
+    if (j > b->begin)
+        packed = subtract(p, b->dense, row, n, j, width, b->begin, j, packed);
+    if (strip > j / STRIP)
+        b->dense->divide(row + STRIP * j, n, stride, width, p->pivot + j,
+                         b->scaled[(j - b->begin) / ICCP_SQUARE]);
+    return packed;
+}
+
+/* The rows of the block itself, which all others need; false for a pivot that is none. */
+static bool eliminate_rows(block *b, const int8_t *sign)
+{
+    const iccp_panel *p = b->panel;
+    double *packed = b->packed;
+    for (size_t j = b->begin; j < b->end; j += ICCP_SQUARE) {
+        const size_t width = width_at(b, j), strip = j / STRIP, end = (b->end + STRIP - 1) / STRIP;
+        iccp_panel_pack(packed, p, j, j + width, b->begin, j);
+        const double *next = eliminate_strips(b, j, strip, 1, packed);
+        if (!eliminate_square(p->value + strip * STRIP * p->columns + STRIP * j, width,
+                              p->pivot + j, sign == NULL ? NULL : sign + j,
+                              b->scaled[(j - b->begin) / ICCP_SQUARE]))
+            return false;
+        for (size_t s = strip + 1; s < end; ++s)
+            (void)eliminate_strips(b, j, s, 1, packed);
+        packed += next - packed;
     }
     return true;
 }
 
-icc_status iccp_panel_factorise(const iccp_panel *panel, const int8_t *sign, iccp_multiply multiply,
-                                double *packed, iccp_labour *labour)
+static icc_status eliminate_below(void *argument, size_t strip, size_t strips)
+{
+    const block *b = argument;
+    for (size_t n; strip < strips; strip += n) {
+        const double *packed = b->packed;
+        n = strip + 1 < strips ? 2 : 1;
+        for (size_t j = b->begin; j < b->end; j += ICCP_SQUARE)
+            packed = eliminate_strips(b, j, strip, n, packed);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_panel_factorise(const iccp_panel *panel, const int8_t *sign,
+                                const iccp_dense *dense, double *packed, iccp_labour *labour)
 {
     const size_t columns = panel->columns;
     icc_status status = ICC_OK;
-    for (size_t block = 0; status == ICC_OK && block < columns; block += ICCP_BLOCK) {
-        const size_t end = columns - block < ICCP_BLOCK ? columns : block + ICCP_BLOCK;
-        status = update(panel, 0, block, end, multiply, packed, labour);
-        for (size_t j = block; status == ICC_OK && j < end; j += ICCP_TILE) {
-            const size_t width = end - j < ICCP_TILE ? end - j : ICCP_TILE;
-            status = update(panel, block, j, j + width, multiply, packed, labour);
-            if (status == ICC_OK && !eliminate(panel, j, width, sign))
-                status = ICC_ERR_SOLVER;
-        }
+    for (size_t begin = 0; status == ICC_OK && begin < columns; begin += ICCP_BLOCK) {
+        const size_t end = columns - begin < ICCP_BLOCK ? columns : begin + ICCP_BLOCK;
+        const double width = (double)(end - begin);
+        block b = {.panel = panel, .begin = begin, .end = end, .dense = dense, .packed = packed};
+        status = update(panel, begin, end, dense, packed, labour);
+        if (status == ICC_OK && !eliminate_rows(&b, sign))
+            status = ICC_ERR_SOLVER;
+        if (status == ICC_OK)
+            status = iccp_labour_strips(labour, (end + STRIP - 1) / STRIP, n_strips_of(panel),
+                                        (double)STRIP * width * width / 2, eliminate_below, &b);
     }
     return status;
 }

@@ -29,8 +29,8 @@ static inline iccp_panel iccp_panel_of(const iccp_supernodes *nodes, size_t s, d
                         value + nodes->first_value[s], pivot + nodes->column[s]};
 }
 
-/* Columns of one block of a product. */
-enum { ICCP_BLOCK = 32 };
+/* Columns of one block of a panel, and columns that another panel updates at once. */
+enum { ICCP_BLOCK = 32, ICCP_AT_ONCE = 6 * ICCP_TILE };
 
 /* How far a factorisation is, in multiplications. */
 typedef struct iccp_labour {
@@ -49,20 +49,20 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
                               iccp_chunk chunk, void *argument);
 
 /* packed = rows [begin, end) of columns [first, last) of L D, for iccp_multiply: by groups of
- * ICCP_TILE rows, the last of them as narrow as it may be. At most ICCP_BLOCK rows. */
+ * ICCP_TILE rows, the last of them as narrow as it may be. At most ICCP_AT_ONCE rows. */
 void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size_t end,
                      size_t first, size_t last);
 
 /* The width of the group that begins `left` rows before the end. */
 static inline size_t iccp_panel_width(size_t left)
 {
-    return left > 2 ? ICCP_TILE : left;
+    return left > 4 ? ICCP_TILE : left > 2 ? 4 : left;
 }
 
 /* Factorises a panel that has got the updates of all other panels: L D L^T of its square, and its
  * other rows divided by it. sign: of each pivot, or NULL when all are positive. packed: room for
- * ICCP_BLOCK times the columns. ICC_ERR_SOLVER when a pivot has not its sign. */
-icc_status iccp_panel_factorise(const iccp_panel *panel, const int8_t *sign, iccp_multiply multiply,
-                                double *packed, iccp_labour *labour);
+ * ICCP_AT_ONCE times the columns. ICC_ERR_SOLVER when a pivot has not its sign. */
+icc_status iccp_panel_factorise(const iccp_panel *panel, const int8_t *sign,
+                                const iccp_dense *dense, double *packed, iccp_labour *labour);
 
 #endif

@@ -89,31 +89,103 @@ static iccp_env plain_env(void)
     return env;
 }
 
+/* Numbers of very different size. */
+static void fill(double *x, size_t n, random_source *r)
+{
+    for (size_t i = 0; i < n; ++i)
+        x[i] = ldexp(random_between(r, -1, 1), random_below(r, 60) - 30);
+}
+
 START_TEST(products_have_the_same_bits_everywhere)
 {
-    enum { DEPTH = 70, STRIDE = 4 * DEPTH + 12 };
-    static const size_t WIDTHS[] = {1, 2, 4};
-    const iccp_multiply fast = iccp_multiply_choose();
+    enum { DEPTH = 70, STRIDE = 4 * DEPTH + 12, STRIP = 4 * ICCP_TILE };
+    static const size_t WIDTHS[] = {1, 2, 4, 6};
+    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
     random_source r = {1};
     for (int k = 0; k < 3000; ++k) {
-        double a[2 * STRIDE], b[4 * DEPTH], x[32], y[32];
-        for (size_t i = 0; i < 2 * STRIDE; ++i)
-            a[i] = ldexp(random_between(&r, -1, 1), random_below(&r, 60) - 30);
-        for (size_t i = 0; i < 4 * DEPTH; ++i)
-            b[i] = ldexp(random_between(&r, -1, 1), random_below(&r, 60) - 30);
-        const size_t width = WIDTHS[random_below(&r, 3)], n = 1 + (size_t)random_below(&r, 2);
+        double a[2 * STRIDE], b[ICCP_TILE * DEPTH], x[2 * STRIP], y[2 * STRIP];
+        fill(a, 2 * STRIDE, &r);
+        fill(b, ICCP_TILE * DEPTH, &r);
+        const size_t width = WIDTHS[random_below(&r, 4)], n = 1 + (size_t)random_below(&r, 2);
         const size_t depth = (size_t)random_below(&r, DEPTH + 1);
-        iccp_multiply_portable(x, n, width, a, STRIDE, b, depth);
-        fast(y, n, width, a, STRIDE, b, depth);
+        portable.multiply(x, n, width, a, STRIDE, b, depth);
+        fast.multiply(y, n, width, a, STRIDE, b, depth);
         for (size_t t = 0; t < n; ++t)
             for (size_t c = 0; c < width; ++c)
                 for (size_t i = 0; i < 4; ++i) {
                     double sum = 0;
                     for (size_t d = 0; d < depth; ++d)
                         sum += a[t * STRIDE + 4 * d + i] * b[width * d + c];
-                    ck_assert(memcmp(&x[16 * t + 4 * c + i], &sum, sizeof sum) == 0);
-                    ck_assert(memcmp(&y[16 * t + 4 * c + i], &sum, sizeof sum) == 0);
+                    ck_assert(memcmp(&x[STRIP * t + 4 * c + i], &sum, sizeof sum) == 0);
+                    ck_assert(memcmp(&y[STRIP * t + 4 * c + i], &sum, sizeof sum) == 0);
                 }
+    }
+}
+END_TEST
+
+START_TEST(quotients_have_the_same_bits_everywhere)
+{
+    enum { STRIPS = 3, STRIDE = 28, N = STRIPS * STRIDE, SQUARE = ICCP_SQUARE * ICCP_SQUARE };
+    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    random_source r = {2};
+    for (int k = 0; k < 3000; ++k) {
+        double x[N], y[N], pivot[ICCP_SQUARE], scaled[SQUARE];
+        fill(x, N, &r);
+        fill(pivot, ICCP_SQUARE, &r);
+        fill(scaled, SQUARE, &r);
+        memcpy(y, x, sizeof x);
+        const size_t width = 1 + (size_t)random_below(&r, ICCP_SQUARE);
+        const size_t n = (size_t)random_below(&r, STRIPS + 1);
+        portable.divide(x, n, STRIDE, width, pivot, scaled);
+        fast.divide(y, n, STRIDE, width, pivot, scaled);
+        ck_assert(memcmp(x, y, sizeof x) == 0);
+    }
+}
+END_TEST
+
+/* Four rows in a row that begin at any row of a strip; the other rows stay as they are. */
+START_TEST(differences_have_the_same_bits_everywhere)
+{
+    enum { STRIDE = 60, N = 2 * STRIDE, STRIP = 4 * ICCP_TILE };
+    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    random_source r = {3};
+    for (int k = 0; k < 3000; ++k) {
+        double x[N], y[N], z[N], tile[STRIP];
+        uint32_t column[ICCP_TILE];
+        const size_t width = 1 + (size_t)random_below(&r, ICCP_TILE);
+        const size_t low = (size_t)random_below(&r, 4);
+        fill(x, N, &r);
+        fill(tile, STRIP, &r);
+        for (size_t c = 0; c < width; ++c)
+            column[c] = (uint32_t)c + (uint32_t)random_below(&r, 2) * (STRIDE / 4 - ICCP_TILE);
+        memcpy(y, x, sizeof x);
+        memcpy(z, x, sizeof x);
+        portable.subtract(x, low, STRIDE, column, width, tile);
+        fast.subtract(y, low, STRIDE, column, width, tile);
+        for (size_t c = 0; c < width; ++c)
+            for (size_t i = 0; i < 4; ++i)
+                z[(low + i) / 4 * STRIDE + 4 * column[c] + (low + i) % 4] -= tile[4 * c + i];
+        ck_assert(memcmp(x, z, sizeof x) == 0);
+        ck_assert(memcmp(y, z, sizeof x) == 0);
+    }
+}
+END_TEST
+
+START_TEST(rows_spread_with_the_same_bits_everywhere)
+{
+    enum { DEPTH = 30 };
+    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    random_source r = {4};
+    for (int k = 0; k < 3000; ++k) {
+        double x[4 * DEPTH], y[4 * DEPTH], a[4 * DEPTH], rows[16];
+        fill(x, 4 * DEPTH, &r);
+        fill(a, 4 * DEPTH, &r);
+        fill(rows, 16, &r);
+        memcpy(y, x, sizeof x);
+        const size_t width = k % 2 == 0 ? 1 : 4, depth = (size_t)random_below(&r, DEPTH + 1);
+        portable.spread(x, width, a, rows, depth);
+        fast.spread(y, width, a, rows, depth);
+        ck_assert(memcmp(x, y, sizeof x) == 0);
     }
 }
 END_TEST
@@ -892,6 +964,9 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 120);
     tcase_add_test(tests, products_have_the_same_bits_everywhere);
+    tcase_add_test(tests, quotients_have_the_same_bits_everywhere);
+    tcase_add_test(tests, differences_have_the_same_bits_everywhere);
+    tcase_add_test(tests, rows_spread_with_the_same_bits_everywhere);
     tcase_add_test(tests, analysis_predicts_the_factor);
     tcase_add_test(tests, factors_are_those_of_dense_elimination);
     tcase_add_test(tests, factorising_again_changes_nothing);
