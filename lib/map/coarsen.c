@@ -70,37 +70,51 @@ static uint32_t dequeue(coarsening *o)
 
 /* ---- merging ---- */
 
-/* The triangles that are left when the vertex goes to ring vertex j: no energy above `most`, no
- * roundness below `least`, or HUGE_VAL. */
-static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
+/* Whether the triangles that are left when the vertex goes to ring vertex j may be there. */
+static bool may_merge(const coarsening *o, const star *s, size_t j)
 {
     const iccp_plmap *map = o->map;
     const uint32_t to = s->ring[j];
-    iccp_candidate merged = iccp_no_candidate();
     for (size_t k = 1; k + 1 < s->n; ++k) {
         const uint32_t a = s->ring[(j + k) % s->n], b = s->ring[(j + k + 1) % s->n];
         if ((k > 1 && ((map->fixed[to] && map->fixed[a]) ||
                        iccp_plmap_length2(map, to, a) > o->longest * o->longest)) ||
             !iccp_candidate_is_positive(map, to, a, b))
-            return HUGE_VAL;
-        iccp_candidate_add(&merged, map, to, a, b);
+            return false;
+    }
+    return true;
+}
+
+/* Of those triangles: no energy above `most`, no roundness below `least`, or HUGE_VAL. */
+static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
+{
+    iccp_candidate merged = iccp_no_candidate();
+    for (size_t k = 1; k + 1 < s->n; ++k) {
+        iccp_candidate_add(&merged, o->map, s->ring[j], s->ring[(j + k) % s->n],
+                           s->ring[(j + k + 1) % s->n]);
         if (!(merged.energy <= most && merged.roundness >= least))
             return HUGE_VAL;
     }
     return merged.energy;
 }
 
-/* The ring vertex to which the vertex of a star had best go; s->n when there is none. */
+/* The ring vertex to which the vertex of a star had best go; s->n when there is none, as with most
+ * stars: what that takes least to find out comes first. */
 static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s)
 {
+    bool may[MOST_NEIGHBOURS];
+    size_t n_may = 0, best = s->n;
+    for (size_t j = 0; j < s->n; ++j)
+        n_may += may[j] = may_merge(o, s, j);
+    if (n_may == 0)
+        return s->n;
     iccp_candidate now = iccp_no_candidate();
     for (size_t k = 0; k < s->n; ++k)
         iccp_candidate_add(&now, o->map, vertex, s->ring[k], s->ring[(k + 1) % s->n]);
     const double least = iccp_min(now.roundness, LEAST_ROUNDNESS);
     double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
-    size_t best = s->n;
     for (size_t j = 0; j < s->n; ++j) {
-        const double energy = energy_merged(o, s, j, most, least);
+        const double energy = may[j] ? energy_merged(o, s, j, most, least) : HUGE_VAL;
         if (energy < HUGE_VAL && (best == s->n || energy < most)) {
             most = energy;
             best = j;
