@@ -8,6 +8,7 @@
 #include "map/descent.h"
 #include "map/dirichlet.h"
 #include "map/flips.h"
+#include "map/newton.h"
 
 #include <string.h>
 
@@ -113,10 +114,12 @@ static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
         still[i] = map->fixed[i] != ICCP_FREE || still[i] > RINGS;
 }
 
-/* The points of what is not still, then the images. */
+/* The points of what is not still, then the images: the same unknowns on the same mesh, so one plan
+ * serves both. */
 static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const iccp_env *env)
 {
     uint8_t *still = iccp_alloc(&env->memory, map->n_vertices, 1);
+    iccp_newton_plan *plan = NULL;
     icc_status status = still != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
         mark_still(map, tense, still);
@@ -127,8 +130,13 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
         iccp_simplicial_map simplicial = iccp_plmap_simplicial(&inverse);
         iccp_improvement ignored = {0};
         simplicial.fixed = still;
-        status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
+        if (plan == NULL)
+            status = iccp_newton_plan_create(&plan, &simplicial, env);
+        simplicial.plan = plan;
+        if (status == ICC_OK)
+            status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
     }
+    iccp_newton_plan_release(plan);
     iccp_free(&env->memory, still);
     return status;
 }
