@@ -207,23 +207,17 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
 
 /* ---- a better one ---- */
 
-/* Without what finds points. */
+/* The mesh of the domain stays there. */
 static icc_status copy_map(iccp_solid_map *copy, const iccp_solid_map *map)
 {
-    const size_t size = map->mesh->n_points * 3 * sizeof *map->images;
+    if (map->own != NULL)
+        return iccp_solid_copy(copy, map);
+    const size_t n = 3 * map->mesh->n_points;
     copy->mesh = map->mesh;
-    copy->stretch = map->stretch;
-    if (map->own != NULL) {
-        const icc_status status = iccp_simplices_copy(&copy->own, map->own, &copy->memory);
-        if (status != ICC_OK)
-            return status;
-        copy->mesh = copy->own;
-    }
-    copy->images = iccp_alloc(&copy->memory, size, 1);
-    if (copy->images == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(copy->images, map->images, size);
-    return ICC_OK;
+    copy->images = iccp_alloc(&copy->memory, n, sizeof *copy->images);
+    if (copy->images != NULL)
+        memcpy(copy->images, map->images, n * sizeof *copy->images);
+    return copy->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
