@@ -26,6 +26,9 @@ enum { MAX_CUTS = 40, MAX_CUTS_IN_SPACE = 60 };
  * SHARE of the energy, so that the step is nearly all about it. */
 static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3, SHARE = 0.5;
 
+/* In space, where a step of 1 lowers the energy by this share, longer ones are tried. */
+static const double LARGE_FALL = 0.3;
+
 /* Elements that a thread takes at once, and rows of a part of the assembly; in space, elements
  * whose gradients and Hessians wait to be summed, and that a thread takes of these. */
 enum { GRAIN = 1024, PART_ROWS = 1024, WAITING = 1024, FEW = 64 };
@@ -326,21 +329,27 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
     return ICC_OK;
 }
 
+/* Whether one simplex has most of the Dirichlet energy. */
+static bool has_worst(const iccp_newton *s)
+{
+    double sum = 0, most = 0;
+    run(s, s->assembly.n_elements, GRAIN, find_terms,
+        &(loop){(iccp_newton *)s, ICCP_DIRICHLET, 0, 0});
+    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
+        sum += s->term[e];
+        most = iccp_max(most, s->term[e]);
+    }
+    return most > SHARE * sum;
+}
+
 /* In space. */
 static icc_status solve_by_directions(iccp_newton *s, const iccp_symmetric *hessian,
                                       iccp_energy energy, const iccp_env *env)
 {
-    double sum = 0, most = 0;
-    if (energy != ICCP_UNTANGLE) {
-        run(s, s->assembly.n_elements, GRAIN, find_terms, &(loop){s, energy, 0, 0});
-        for (size_t e = 0; e < s->assembly.n_elements; ++e) {
-            sum += s->term[e];
-            most = iccp_max(most, s->term[e]);
-        }
-    }
+    const bool untangles = energy == ICCP_UNTANGLE, is_fine = !untangles && has_worst(s);
     return iccp_truncated_cg(hessian, s->assembly.gradient, s->step,
-                             most > SHARE * sum ? FINE_RESIDUAL : RESIDUAL, s->work,
-                             energy == ICCP_UNTANGLE ? "repair" : "improve", env);
+                             is_fine ? FINE_RESIDUAL : RESIDUAL, s->work,
+                             untangles ? "repair" : "improve", env);
 }
 
 icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double epsilon, double *slope,
@@ -525,6 +534,23 @@ static bool all_positive(const iccp_newton *s)
     return atomic_load(&v.is_positive);
 }
 
+/* Beyond a step of 1 as long as the energy falls. Where a simplex is all but flat, Newton's model of
+ * its energy, of which most is 1 / sigma^2, only takes it a third farther from that at a time. */
+static double go_on(iccp_newton *s, iccp_energy energy, double before)
+{
+    double length = 1, after = before;
+    do {
+        before = after;
+        length *= 2;
+        set_images(s, length);
+        round_images(s);
+        after = iccp_newton_energy(s, energy, 0);
+    } while (after < before && all_positive(s));
+    set_images(s, length / 2);
+    round_images(s);
+    return before;
+}
+
 /* In space nothing but the energy, infinite for what is inverted, keeps a first step of 1 from
  * flips. */
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
@@ -545,7 +571,9 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
             round_images(s);
         const double after = iccp_newton_energy(s, energy, epsilon);
         if (after <= before + DECREASE * length * slope && (!guarded || all_positive(s)))
-            return after;
+            return in_space && k == 0 && after < (1 - LARGE_FALL) * before
+                       ? go_on(s, energy, after)
+                       : after;
     }
     set_images(s, 0);
     return before;
