@@ -47,15 +47,15 @@ const iccp_schedule iccp_fit_plain = {0}, iccp_fit_relaxed = {.is_relaxed = true
 iccp_schedule iccp_fit_schedule(const icc_improve_options *options, const iccp_schedule *how,
                                 double most)
 {
-    return (iccp_schedule){
-        .iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
-        .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
-        .levels = options->levels < 0    ? 0
-                  : options->levels == 0 ? LEVELS
-                                         : (size_t)options->levels,
-        .most = most,
-        .both_sides = how->both_sides,
-        .is_relaxed = how->is_relaxed};
+    return (iccp_schedule){.iterations =
+                               options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
+                           .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
+                           .levels = options->levels < 0    ? 0
+                                     : options->levels == 0 ? LEVELS
+                                                            : (size_t)options->levels,
+                           .most = most,
+                           .both_sides = how->both_sides,
+                           .is_relaxed = how->is_relaxed};
 }
 
 iccp_work iccp_fit_work(const icc_improve_options *options, size_t n_facets)

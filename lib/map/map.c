@@ -186,12 +186,11 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
 static icc_status add_mesh(icc_map *map, int32_t iterations, bool overlay, const iccp_env *env,
                            icc_error *err)
 {
-    const icc_status status =
-        is_solid(map->source)
-            ? iccp_solid_map_create(&map->solid, map->source, map->target, iterations,
-                                    &map->info, env)
-            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, overlay,
-                                   &map->info, env, err);
+    const icc_status status = is_solid(map->source)
+                                  ? iccp_solid_map_create(&map->solid, map->source, map->target,
+                                                          iterations, &map->info, env)
+                                  : iccp_mesh_map_create(&map->mesh, map->source, map->target,
+                                                         iterations, overlay, &map->info, env, err);
     if (map->mesh != NULL || map->solid != NULL)
         map->info.kind = ICC_MAP_MESH;
     else if (status == ICC_OK)
@@ -375,8 +374,8 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     }
     better->info.class_kept =
         map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
-    better->info.n_vertices = better->solid != NULL ? better->solid->mesh->n_points
-                                                    : better->mesh->pl.n_vertices;
+    better->info.n_vertices =
+        better->solid != NULL ? better->solid->mesh->n_points : better->mesh->pl.n_vertices;
     better->info.n_simplices = report->n_simplices;
     better->info.energy = report->energy;
     better->info.n_iterations += report->n_iterations;

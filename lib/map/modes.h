@@ -1,4 +1,4 @@
-/* The Hessian of an energy of a tetrahedron that depends on the singular values of its map alone. */
+/* The Hessian of an energy of a tetrahedron by the singular values of its map alone. */
 #ifndef ICCP_MODES_H
 #define ICCP_MODES_H
 

@@ -359,9 +359,8 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
     const double *gradient = s->assembly.gradient;
     assemble(s, energy, epsilon);
     const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
-    const icc_status status =
-        s->map.dim == 2 ? solve_directly(s, &hessian, env)
-                        : solve_by_directions(s, &hessian, energy, env);
+    const icc_status status = s->map.dim == 2 ? solve_directly(s, &hessian, env)
+                                              : solve_by_directions(s, &hessian, energy, env);
     if (status != ICC_OK)
         return status;
     *slope = 0;
@@ -534,8 +533,9 @@ static bool all_positive(const iccp_newton *s)
     return atomic_load(&v.is_positive);
 }
 
-/* Beyond a step of 1 as long as the energy falls. Where a simplex is all but flat, Newton's model of
- * its energy, of which most is 1 / sigma^2, only takes it a third farther from that at a time. */
+/* Beyond a step of 1 as long as the energy falls. Where a simplex is all but flat, Newton's model
+ * of its energy, of which most is 1 / sigma^2, only takes it a third farther from that at a
+ * time. */
 static double go_on(iccp_newton *s, iccp_energy energy, double before)
 {
     double length = 1, after = before;
@@ -571,9 +571,8 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
             round_images(s);
         const double after = iccp_newton_energy(s, energy, epsilon);
         if (after <= before + DECREASE * length * slope && (!guarded || all_positive(s)))
-            return in_space && k == 0 && after < (1 - LARGE_FALL) * before
-                       ? go_on(s, energy, after)
-                       : after;
+            return in_space && k == 0 && after < (1 - LARGE_FALL) * before ? go_on(s, energy, after)
+                                                                           : after;
     }
     set_images(s, 0);
     return before;

@@ -200,8 +200,8 @@ static bool is_flat(const double *points, const uint32_t *v, double six_volumes)
     double most = 0;
     for (size_t i = 0; i < 4; ++i)
         for (size_t j = 0; j < i; ++j)
-            most = iccp_max(most, iccp_vec_distance2(3, points + 3 * (size_t)v[i],
-                                                     points + 3 * (size_t)v[j]));
+            most = iccp_max(
+                most, iccp_vec_distance2(3, points + 3 * (size_t)v[i], points + 3 * (size_t)v[j]));
     return !(six_volumes > FLAT * most * sqrt(most));
 }
 

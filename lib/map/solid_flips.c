@@ -50,8 +50,8 @@ static void triangulate(const iccp_solid_edit *edit, uint32_t a, uint32_t b, con
                 const double parts = t->best[x][z] + t->best[z][y];
                 if (!(parts < *best) || !(parts < limit))
                     continue;
-                const double all = parts + pair_value(edit, a, b, ring->point[x], ring->point[z],
-                                                      ring->point[y]);
+                const double all =
+                    parts + pair_value(edit, a, b, ring->point[x], ring->point[z], ring->point[y]);
                 if (all < *best) {
                     *best = all;
                     t->split[x][y] = (uint8_t)z;

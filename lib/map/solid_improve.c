@@ -1,5 +1,5 @@
-/* docs/theory.md, the mesh map in space. A refinement is made on a copy of the mesh, which takes its
- * place once it is certified. */
+/* docs/theory.md, the mesh map in space. A refinement is made on a copy of the mesh, which takes
+ * its place once it is certified. */
 #include "map/solid_improve.h"
 
 #include "map/solid_cuts.h"

@@ -230,8 +230,8 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
     if (better == NULL)
         return ICC_ERR_MEMORY;
     iccp_work work = iccp_fit_work(options, source->n_facets);
-    const iccp_schedule schedule = iccp_fit_schedule(
-        options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
+    const iccp_schedule schedule =
+        iccp_fit_schedule(options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     iccp_improvement improvement = {0};
     icc_status status = copy_map(better, map);

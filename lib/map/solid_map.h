@@ -25,8 +25,8 @@ static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *ma
 
 /* The images of the source's mesh by two charts on meshes in space, repaired until every
  * tetrahedron is positive, which is checked exactly; where that fails, of a mesh without chords.
- * Then made fairer by so many steps; 0: 8; -1: none. Fills in the mesh's members of `info`. When that fails, too, info->n_unrepaired is not 0 and *out
- * is NULL, with ICC_OK. */
+ * Then made fairer by so many steps; 0: 8; -1: none. Fills in the mesh's members of `info`. When
+ * the repair fails, too, info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, int32_t iterations, icc_map_info *info,
                                  const iccp_env *env);

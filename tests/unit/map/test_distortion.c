@@ -305,13 +305,13 @@ START_TEST(eigenvalues)
                         continue;
                     for (size_t row = 0; row < 3; ++row)
                         for (size_t c = 0; c < 3; ++c)
-                            along[3 * row + c] = (c == j ? rotation[3 * row + i] : 0) +
-                                                 (c == i && i != j ? sign * rotation[3 * row + j]
-                                                                   : 0);
+                            along[3 * row + c] =
+                                (c == j ? rotation[3 * row + i] : 0) +
+                                (c == i && i != j ? sign * rotation[3 * row + j] : 0);
                     const double a = stretch[i], b = stretch[j], p = a * b;
-                    const double wanted = i == j ? 2 + 6 / (a * a * a * a)
-                                                 : 2 + 2 * sign * (a * a + sign * p + b * b) /
-                                                           (p * p * p);
+                    const double wanted =
+                        i == j ? 2 + 6 / (a * a * a * a)
+                               : 2 + 2 * sign * (a * a + sign * p + b * b) / (p * p * p);
                     ck_assert_double_eq_tol(curvature_along(&s, &local, along), fmax(wanted, 0),
                                             1e-9 * (1 + fabs(wanted)));
                 }

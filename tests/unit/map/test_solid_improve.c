@@ -123,8 +123,7 @@ START_TEST(affine_maps_are_found)
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
             const double *d = AFFINE[(i + 1) % 3], *e = AFFINE[(i + 2) % 3];
-            const double minor =
-                d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3];
+            const double minor = d[(k + 1) % 3] * e[(k + 2) % 3] - d[(k + 2) % 3] * e[(k + 1) % 3];
             sum += AFFINE[i][k] * AFFINE[i][k];
             minors += minor * minor;
         }
