@@ -802,9 +802,9 @@ enum {
      *  triangle is exactly positive before and after, and both boundaries are exactly simple.
      *
      *  In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh, with images
-     *  that start from the charts and are repaired and certified likewise, but not made fair. The
-     *  target's mesh serves its chart only. Inner edges of the source's mesh that join boundary
-     *  vertices are cut where that is needed. */
+     *  that start from the charts and are repaired, made fair and certified likewise. The target's
+     *  mesh serves its chart only. Inner edges of the source's mesh that join boundary vertices are
+     *  cut where that is needed. */
     ICC_MAP_MESH = 2
 };
 
