@@ -972,7 +972,7 @@ typedef struct icc_improve_report {
  * (flips), and cuts edges in the middle: those inside from boundary to boundary, and the longest
  * edge of the fifth of the tetrahedra with the most energy. So the map's mesh (icc_map_get_mesh())
  * is no longer the source's inside; its surface stays as it is, and every tetrahedron is exactly
- * positive before and after. Up to 400 bytes a tetrahedron are needed meanwhile.
+ * positive before and after. Some 300 to 500 bytes a tetrahedron are needed meanwhile.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
