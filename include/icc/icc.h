@@ -802,9 +802,9 @@ enum {
      *  triangle is exactly positive before and after, and both boundaries are exactly simple.
      *
      *  In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh, with images
-     *  that start from the charts and are repaired and certified likewise, but not made fair. The
-     *  target's mesh serves its chart only. Inner edges of the source's mesh that join boundary
-     *  vertices are cut where that is needed. */
+     *  that start from the charts and are repaired, made fair and certified likewise. The target's
+     *  mesh serves its chart only. Inner edges of the source's mesh that join boundary vertices are
+     *  cut where that is needed. */
     ICC_MAP_MESH = 2
 };
 
@@ -827,7 +827,8 @@ typedef struct icc_map_options {
                                          both domains have caller-supplied meshes, and for foliation
                                          in 3-D; else curves */
     int32_t iterations;             /**< mesh: improvement steps on each level of refinement; 0: as
-                                         long as they pay off, at most 60; -1: no improvement */
+                                         long as they pay off, at most 60; in 3-D, where the mesh is
+                                         not refined here, at most 8; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's.
                                          For kind mesh method 0 means disc (foliation when a maximum
                                          is given), and cells 0 means 20. */
@@ -855,8 +856,8 @@ typedef struct icc_map_info {
                                  of kind curves */
     size_t n_iterations;    /**< mesh: steps of improvement */
     double energy_start;    /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
-                                 scaled to the source's area, after the repair; 4 for an
-                                 isometry */
+                                 scaled to the source's area or volume, after the repair; 4 for an
+                                 isometry, in 3-D 6 */
     double energy;          /**< the same at the end */
     double seconds;         /**< time to make the map, including the charts */
     double seconds_repair;  /**< mesh: of that, time to repair it */
@@ -951,7 +952,7 @@ typedef struct icc_improve_report {
     double energy_start; /**< as icc_map_info::energy, before */
     double energy;       /**< and after; never more */
     size_t n_iterations; /**< steps */
-    size_t n_simplices;  /**< triangles at the end */
+    size_t n_simplices;  /**< triangles or tetrahedra at the end */
     int32_t n_levels;    /**< refinements */
     int32_t cancelled;   /**< 1: the progress callback stopped it early */
 } icc_improve_report;
@@ -966,8 +967,15 @@ typedef struct icc_improve_report {
  * most four times as many triangles, or 32,000: calling again goes on from there. When any is set,
  * neither is limited.
  *
+ * In 3-D these are tetrahedra, and a step takes about 1.5 microseconds for each. A refinement
+ * replaces tetrahedra by others that fill the same space, before and after, where the energy falls
+ * (flips), and cuts edges in the middle: those inside from boundary to boundary, and the longest
+ * edge of the fifth of the tetrahedra with the most energy. So the map's mesh (icc_map_get_mesh())
+ * is no longer the source's inside; its surface stays as it is, and every tetrahedron is exactly
+ * positive before and after. Some 300 to 500 bytes a tetrahedron are needed meanwhile.
+ *
  * @param[out] out    the map; owned by the caller
- * @param map         a map of kind mesh in 2-D, else ::ICC_ERR_UNSUPPORTED
+ * @param map         a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
  * @param options     may be NULL
  * @param[out] report may be NULL; its `size` is set by the caller
  * @param env         may be NULL

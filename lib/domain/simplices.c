@@ -32,6 +32,30 @@ void iccp_simplices_free(iccp_simplices *mesh)
     iccp_free(&memory, mesh);
 }
 
+icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
+                               const iccp_memory *memory)
+{
+    const size_t n_sides = (mesh->dim + 1) * mesh->n_simplices, n = mesh->dim * mesh->n_points;
+    iccp_simplices *copy = *out = iccp_alloc_zero(memory, 1, sizeof *copy);
+    if (copy == NULL)
+        return ICC_ERR_MEMORY;
+    *copy = *mesh;
+    copy->memory = *memory;
+    copy->given = NULL;
+    copy->points = iccp_alloc(memory, n, sizeof *copy->points);
+    copy->corners = iccp_alloc(memory, n_sides, sizeof *copy->corners);
+    copy->across = iccp_alloc(memory, n_sides, sizeof *copy->across);
+    if (copy->points == NULL || copy->corners == NULL || copy->across == NULL) {
+        iccp_simplices_free(copy);
+        *out = NULL;
+        return ICC_ERR_MEMORY;
+    }
+    memcpy(copy->points, mesh->points, n * sizeof *copy->points);
+    memcpy(copy->corners, mesh->corners, n_sides * sizeof *copy->corners);
+    memcpy(copy->across, mesh->across, n_sides * sizeof *copy->across);
+    return ICC_OK;
+}
+
 /* ---- simplices by themselves ---- */
 
 icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *err)

@@ -32,6 +32,10 @@ typedef struct iccp_simplices {
 
 void iccp_simplices_free(iccp_simplices *mesh);
 
+/* Without the caller's numbers. */
+icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
+                               const iccp_memory *memory);
+
 static inline size_t iccp_simplex_of(const iccp_simplices *mesh, uint32_t side)
 {
     return mesh->dim == 3 ? side / 4 : side / (uint32_t)(mesh->dim + 1);

@@ -36,8 +36,9 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
     iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;
-    const size_t n_free = newton.assembly.n_free;
     double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
+    /* Doubles may take what is positive for flat, and no step is known then. */
+    const size_t n_free = map->dim == 2 || energy < HUGE_VAL ? newton.assembly.n_free : 0;
     size_t n_slow = 0;
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
                        iccp_work_take(work, map->n_simplices);

@@ -3,7 +3,8 @@
  * (SLIM), 2017. */
 #include "map/dirichlet.h"
 
-#include "map/singular.h"
+#include "base/minmax.h"
+#include "map/modes.h"
 
 #include <math.h>
 #include <string.h>
@@ -57,6 +58,26 @@ static ICCP_INLINE void add_newton_modes(size_t dim, const double *element, cons
         }
 }
 
+/* The same in space, where the Hessian is put together from blocks. */
+static void set_newton3(const double *element, const iccp_singular *s, double *hessian)
+{
+    iccp_modes h;
+    memset(&h, 0, sizeof h);
+    for (int k = 0; k < 3; ++k) {
+        const double sigma2 = s->sigma[k] * s->sigma[k];
+        h.singular[k][k] = 2 + 6 / (sigma2 * sigma2);
+        for (int l = 0; l < k; ++l) {
+            const double a = s->sigma[k], b = s->sigma[l], product = a * b;
+            const double cube = product * product * product;
+            const double flip = 2 + 2 * (a * a + a * b + b * b) / cube;
+            const double twist = iccp_max(2 - 2 * (a * a - a * b + b * b) / cube, 0);
+            iccp_modes_set(&h, k, l, flip, twist);
+            iccp_modes_set(&h, l, k, flip, twist);
+        }
+    }
+    iccp_modes_hessian(element, &h, s, hessian);
+}
+
 /* SLIM's weights: |W (J - R)|^2 has the energy's gradient; W^2 = u diag(m) u^T. */
 static ICCP_INLINE void add_majorant(size_t dim, const double *element, const iccp_singular *s,
                                      double *hessian)
@@ -100,6 +121,10 @@ static ICCP_INLINE void set_local(size_t dim, const double *element, const doubl
             }
         }
     iccp_pull_back(dim, element, by_j, element[0], local->gradient);
+    if (dim == 3 && !majorise) {
+        set_newton3(element, &s, local->hessian);
+        return;
+    }
     memset(local->hessian, 0, n * n * sizeof *local->hessian);
     if (majorise)
         add_majorant(dim, element, &s, local->hessian);

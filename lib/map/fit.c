@@ -44,21 +44,37 @@ iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work
 const iccp_schedule iccp_fit_plain = {0}, iccp_fit_relaxed = {.is_relaxed = true},
                     iccp_fit_both_sides = {.both_sides = true, .is_relaxed = true};
 
+iccp_schedule iccp_fit_schedule(const icc_improve_options *options, const iccp_schedule *how,
+                                double most)
+{
+    return (iccp_schedule){.iterations =
+                               options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
+                           .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
+                           .levels = options->levels < 0    ? 0
+                                     : options->levels == 0 ? LEVELS
+                                                            : (size_t)options->levels,
+                           .most = most,
+                           .both_sides = how->both_sides,
+                           .is_relaxed = how->is_relaxed};
+}
+
+iccp_work iccp_fit_work(const icc_improve_options *options, size_t n_facets)
+{
+    const bool is_free = options->iterations > 0 || options->levels != 0 || options->tolerance > 0;
+    return is_free ? iccp_work_unlimited() : iccp_allow(n_facets).improvement;
+}
+
+double iccp_fit_most(const iccp_work *work, size_t n_simplices)
+{
+    return work->left < HUGE_VAL ? MOST_GROWTH * iccp_max(SMALL, (double)n_simplices) : HUGE_VAL;
+}
+
 icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
                             const iccp_schedule *how, iccp_work *work, bool *cancelled,
                             iccp_improvement *improvement, const iccp_env *env)
 {
-    const bool is_limited = work->left < HUGE_VAL;
-    const iccp_schedule schedule = {
-        .iterations = options->iterations > 0 ? (size_t)options->iterations : ITERATIONS,
-        .tolerance = options->tolerance > 0 ? options->tolerance : TOLERANCE,
-        .levels = options->levels < 0    ? 0
-                  : options->levels == 0 ? LEVELS
-                                         : (size_t)options->levels,
-        .most =
-            is_limited ? MOST_GROWTH * iccp_max(SMALL, (double)pl->corners.n_triangles) : HUGE_VAL,
-        .both_sides = how->both_sides,
-        .is_relaxed = how->is_relaxed};
+    const iccp_schedule schedule =
+        iccp_fit_schedule(options, how, iccp_fit_most(work, pl->corners.n_triangles));
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
     *cancelled = status == ICC_ERR_CANCELLED;

@@ -26,6 +26,16 @@ iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work
 /* How: the rest of a schedule is up to options. */
 extern const iccp_schedule iccp_fit_plain, iccp_fit_relaxed, iccp_fit_both_sides;
 
+/* With what is 0 in the options filled in; `how` gives the rest. At most `most` simplices. */
+iccp_schedule iccp_fit_schedule(const icc_improve_options *options, const iccp_schedule *how,
+                                double most);
+
+/* The work that improvement may take, which is limited where the caller has set no limit. */
+iccp_work iccp_fit_work(const icc_improve_options *options, size_t n_facets);
+
+/* The most simplices of a map that has so many. */
+double iccp_fit_most(const iccp_work *work, size_t n_simplices);
+
 /* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
 icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
                             const iccp_schedule *how, iccp_work *work, bool *cancelled,

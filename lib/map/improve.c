@@ -40,8 +40,22 @@ static const double LEAST_GAIN = 0.01, HIGH = 20;
 /* Where a map that was relaxed is as good as this, a refinement in vain can be told beforehand. */
 static const double NEAR = 5;
 
-static icc_status descend(iccp_plmap *map, const iccp_descent *descent, bool both_sides,
-                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+/* ---- in the plane ---- */
+
+static size_t count(const void *map)
+{
+    const iccp_plmap *pl = map;
+    return pl->corners.n_triangles;
+}
+
+static double energy_of(const void *map, const iccp_env *env)
+{
+    (void)env;
+    return iccp_plmap_energy(map);
+}
+
+static icc_status descend(void *map, const iccp_descent *descent, bool both_sides, iccp_work *work,
+                          iccp_improvement *improvement, const iccp_env *env)
 {
     if (both_sides)
         return iccp_improve_both_sides(map, descent, work, improvement, env);
@@ -132,24 +146,46 @@ icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
     return status;
 }
 
-static bool may_refine(const iccp_plmap *map, const iccp_schedule *schedule, const iccp_work *work,
+static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
+{
+    size_t n_flips;
+    const icc_status status = iccp_refine(map, n_cut, env);
+    return status == ICC_OK && *n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
+}
+
+icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
+                        iccp_improvement *improvement, const iccp_env *env)
+{
+    static const iccp_profile PLANE = {.majorised = MAJORISED_STEPS,
+                                       .least_gain = LEAST_GAIN,
+                                       .count = count,
+                                       .energy = energy_of,
+                                       .descend = descend,
+                                       .refine = refine_and_flip};
+    return iccp_improve_by(&PLANE, map, schedule, work, improvement, env);
+}
+
+/* ---- in either ---- */
+
+static bool may_refine(double n_simplices, const iccp_schedule *schedule, const iccp_work *work,
                        const iccp_improvement *improvement)
 {
-    const double n = GROWTH * (double)map->corners.n_triangles;
+    const double n = GROWTH * n_simplices;
     return improvement->n_levels < schedule->levels && n <= schedule->most &&
            STEPS * n <= work->left;
 }
 
 /* Whether the next refinement of a map NEAR an isometry is in vain, as its gain falls short of the
  * last one's by the same share as that of the one before. */
-static bool is_settled(double energy, double gain, double gain_before)
+static bool is_settled(double energy, double least_gain, double gain, double gain_before)
 {
-    return energy < NEAR && gain < gain_before && gain * gain < LEAST_GAIN * gain_before;
+    return energy < NEAR && gain < gain_before && gain * gain < least_gain * gain_before;
 }
 
 /* Refinements, with steps after each, as long as they pay. */
-static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, double slow,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+static icc_status refine_often(const iccp_profile *profile, void *map,
+                               const iccp_schedule *schedule, double slow, iccp_work *work,
+                               iccp_improvement *improvement, const iccp_env *env)
 {
     const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
     const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
@@ -157,21 +193,19 @@ static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, d
     double gain_before = 0;
     icc_status status = ICC_OK;
     while (status == ICC_OK && n_in_vain <= (improvement->energy > HIGH) &&
-           may_refine(map, schedule, work, improvement)) {
+           may_refine((double)profile->count(map), schedule, work, improvement)) {
         const double before = improvement->energy;
         const iccp_env part = iccp_round(env, improvement->n_levels, TYPICAL_LEVELS);
-        size_t n_cut, n_flips;
-        status = iccp_refine(map, &n_cut, env);
-        if (status != ICC_OK || n_cut == 0)
+        size_t n_changes;
+        status = profile->refine(map, &n_changes, env);
+        if (status != ICC_OK || n_changes == 0)
             break;
-        status = iccp_flip_edges(map, &n_flips, env);
-        if (status == ICC_OK)
-            status = descend(map, &descent, schedule->both_sides, work, improvement, &part);
+        status = profile->descend(map, &descent, schedule->both_sides, work, improvement, &part);
         ++improvement->n_levels;
         const double gain = (before - improvement->energy) / before;
-        n_in_vain = gain < LEAST_GAIN ? n_in_vain + 1 : 0;
+        n_in_vain = gain < profile->least_gain ? n_in_vain + 1 : 0;
         if (status == ICC_OK && schedule->is_relaxed &&
-            is_settled(improvement->energy, gain, gain_before)) {
+            is_settled(improvement->energy, profile->least_gain, gain, gain_before)) {
             improvement->is_converged = true;
             break;
         }
@@ -180,12 +214,13 @@ static icc_status refine_often(iccp_plmap *map, const iccp_schedule *schedule, d
     return status;
 }
 
-icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
-                        iccp_improvement *improvement, const iccp_env *env)
+icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_schedule *schedule,
+                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
     const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
-    iccp_descent first = {MAJORISED_STEPS, schedule->iterations, schedule->tolerance, slow, false};
+    iccp_descent first = {profile->majorised, schedule->iterations, schedule->tolerance, slow,
+                          false};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};
@@ -193,12 +228,12 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
         first.slow = 0;
     icc_status status = ICC_OK;
     if (schedule->is_relaxed && schedule->levels > 0)
-        improvement->energy = iccp_plmap_energy(map);
+        improvement->energy = profile->energy(map, env);
     else
-        status = descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
+        status = profile->descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
-        status = refine_often(map, schedule, slow, work, improvement, &part[1]);
+        status = refine_often(profile, map, schedule, slow, work, improvement, &part[1]);
     if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
-        status = descend(map, &last, false, work, improvement, &part[2]);
+        status = profile->descend(map, &last, false, work, improvement, &part[2]);
     return status;
 }

@@ -186,11 +186,11 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
 static icc_status add_mesh(icc_map *map, int32_t iterations, bool overlay, const iccp_env *env,
                            icc_error *err)
 {
-    const icc_status status =
-        is_solid(map->source)
-            ? iccp_solid_map_create(&map->solid, map->source, map->target, &map->info, env)
-            : iccp_mesh_map_create(&map->mesh, map->source, map->target, iterations, overlay,
-                                   &map->info, env, err);
+    const icc_status status = is_solid(map->source)
+                                  ? iccp_solid_map_create(&map->solid, map->source, map->target,
+                                                          iterations, &map->info, env)
+                                  : iccp_mesh_map_create(&map->mesh, map->source, map->target,
+                                                         iterations, overlay, &map->info, env, err);
     if (map->mesh != NULL || map->solid != NULL)
         map->info.kind = ICC_MAP_MESH;
     else if (status == ICC_OK)
@@ -348,22 +348,25 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 {
     const double start = iccp_seconds();
     icc_map *better = NULL;
-    if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "only maps of kind mesh in the plane can be improved");
+    if (map->mesh == NULL && map->solid == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be improved");
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
         iccp_map_add_charts(better, map->source, map->target);
-    if (status == ICC_OK)
+    if (status == ICC_OK && map->solid != NULL)
+        status = iccp_solid_map_improve(&better->solid, map->solid, map->source_domain,
+                                        map->target_domain, options, report, &with);
+    else if (status == ICC_OK)
         status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
                                        options, report, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK) {
         better->info = map->info;
-        status = iccp_map_tell_features(better, env);
+        if (map->mesh != NULL)
+            status = iccp_map_tell_features(better, env);
     }
     if (status != ICC_OK) {
         iccp_map_release(better);
@@ -371,8 +374,9 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     }
     better->info.class_kept =
         map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
-    better->info.n_vertices = better->mesh->pl.n_vertices;
-    better->info.n_simplices = better->mesh->pl.corners.n_triangles;
+    better->info.n_vertices =
+        better->solid != NULL ? better->solid->mesh->n_points : better->mesh->pl.n_vertices;
+    better->info.n_simplices = report->n_simplices;
     better->info.energy = report->energy;
     better->info.n_iterations += report->n_iterations;
     better->info.n_levels += report->n_levels;

@@ -285,8 +285,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     if (better == NULL)
         return ICC_ERR_MEMORY;
     memcpy(better->reach, map->reach, sizeof better->reach);
-    const bool is_free = options->iterations > 0 || options->levels != 0 || options->tolerance > 0;
-    iccp_work work = is_free ? iccp_work_unlimited() : iccp_allow(n_facets).improvement;
+    iccp_work work = iccp_fit_work(options, n_facets);
     iccp_improvement improvement = {0};
     bool cancelled = false;
     icc_map_info info = {0};

@@ -7,9 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the local coordinates, the largest of which is about 1. */
-static const double NEXT_TO_NOTHING = 1e-45;
-
 /* ---- points without an image ---- */
 
 static bool is_placed(const iccp_simplices *mesh, const double *images, uint32_t v)
@@ -92,7 +89,6 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const ic
 
 void iccp_mesh_round(const iccp_simplices *mesh, double *images)
 {
-    for (size_t i = mesh->dim * mesh->n_boundary; i < mesh->dim * mesh->n_points; ++i)
-        if (fabs(images[i]) < NEXT_TO_NOTHING)
-            images[i] = 0;
+    const size_t n = mesh->dim * mesh->n_boundary;
+    iccp_simplicial_round(mesh->dim * mesh->n_points - n, images + n);
 }

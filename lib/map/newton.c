@@ -17,12 +17,21 @@
 /* Of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.9;
 
-/* Sufficient decrease (Armijo), and how often a step is halved. */
-static const double DECREASE = 1e-4;
-enum { MAX_HALVINGS = 40 };
+/* Sufficient decrease (Armijo); by how much a step is shortened, and how often. In space, where
+ * nobody knows beforehand how far it is to the first flip, by less. */
+static const double DECREASE = 1e-4, SHORTER = 0.5, SHORTER_IN_SPACE = 0.7;
+enum { MAX_CUTS = 40, MAX_CUTS_IN_SPACE = 60 };
 
-/* Elements that a thread takes at once, and rows of a part of the assembly. */
-enum { GRAIN = 1024, PART_ROWS = 1024 };
+/* Conjugate gradients end at this residual; at the second one where one simplex has more than this
+ * SHARE of the energy, so that the step is nearly all about it. */
+static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3, SHARE = 0.5;
+
+/* In space, where a step of 1 lowers the energy by this share, longer ones are tried. */
+static const double LARGE_FALL = 0.3;
+
+/* Elements that a thread takes at once, and rows of a part of the assembly; in space, elements
+ * whose gradients and Hessians wait to be summed, and that a thread takes of these. */
+enum { GRAIN = 1024, PART_ROWS = 1024, WAITING = 1024, FEW = 64 };
 
 /* ---- set-up ---- */
 
@@ -133,10 +142,14 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     s->step = iccp_alloc(memory, n, sizeof *s->step);
     s->saved = iccp_alloc(memory, n, sizeof *s->saved);
     s->work = iccp_alloc(memory, n, n_work * sizeof *s->work);
-    if (iccp_has_threads(env))
+    const bool has_terms = map->dim == 3 || iccp_has_threads(env);
+    const bool has_locals = map->dim == 3 && iccp_has_threads(env);
+    if (has_terms)
         s->term = iccp_alloc(memory, s->assembly.n_elements, sizeof *s->term);
+    if (has_locals)
+        s->local = iccp_alloc(memory, WAITING, sizeof *s->local);
     if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
-        (s->term == NULL && iccp_has_threads(env)))
+        (has_terms && s->term == NULL) || (has_locals && s->local == NULL))
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK)
         status = iccp_for_chunks(&s->threads, "improve", s->assembly.n_elements, GRAIN,
@@ -159,6 +172,7 @@ void iccp_newton_free(iccp_newton *newton)
     iccp_free(&memory, s->saved);
     iccp_free(&memory, s->work);
     iccp_free(&memory, s->term);
+    iccp_free(&memory, s->local);
     iccp_ldlt_free(&s->factor);
     iccp_assembly_free(&s->assembly);
     *s = (iccp_newton){.assembly.memory = memory};
@@ -178,6 +192,7 @@ typedef struct loop {
     iccp_newton *s;
     iccp_energy energy;
     double epsilon;
+    size_t first; /* of the elements that wait */
 } loop;
 
 /* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
@@ -208,10 +223,10 @@ static ICCP_INLINE double sum_energy(size_t dim, const iccp_newton *s, iccp_ener
                                      double epsilon)
 {
     const size_t n = s->assembly.n_elements;
-    const bool found = s->term != NULL && n > GRAIN;
+    const bool found = iccp_has_threads(&s->threads) && n > GRAIN;
     double sum = 0;
     if (found)
-        run(s, n, GRAIN, find_terms, &(loop){(iccp_newton *)s, energy, epsilon});
+        run(s, n, GRAIN, find_terms, &(loop){(iccp_newton *)s, energy, epsilon, 0});
     for (size_t e = 0; e < n && sum < HUGE_VAL; ++e)
         sum += found ? s->term[e] : energy_of(dim, s, e, energy, epsilon);
     return sum;
@@ -241,17 +256,21 @@ double iccp_newton_least(const iccp_newton *newton, size_t *n_bad)
     return newton->map.dim == 2 ? find_least(2, newton, n_bad) : find_least(3, newton, n_bad);
 }
 
+static void find_local(const loop *l, size_t e, iccp_local *local)
+{
+    const size_t dim = l->s->map.dim;
+    const double *image[4], *element = corner_images(dim, l->s, e, image);
+    if (l->energy == ICCP_UNTANGLE)
+        iccp_untangling_local(dim, element, image, l->epsilon, local);
+    else
+        iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
+}
+
 static void add_element(const loop *l, size_t part, size_t e)
 {
-    iccp_newton *s = l->s;
-    const size_t dim = s->map.dim;
-    const double *image[4], *element = corner_images(dim, s, e, image);
     iccp_local local;
-    if (l->energy == ICCP_UNTANGLE)
-        iccp_untangling_local(dim, element, image, l->epsilon, &local);
-    else
-        iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, &local);
-    iccp_assembly_add(&s->assembly, part, e, &local);
+    find_local(l, e, &local);
+    iccp_assembly_add(&l->s->assembly, part, e, &local);
 }
 
 static icc_status assemble_parts(void *argument, size_t begin, size_t end)
@@ -264,11 +283,32 @@ static icc_status assemble_parts(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+static icc_status find_locals(void *argument, size_t begin, size_t end)
+{
+    const loop *l = argument;
+    for (size_t k = begin; k < end; ++k)
+        find_local(l, l->first + k, &l->s->local[k]);
+    return ICC_OK;
+}
+
+/* In space most elements would be in several parts. What they add takes long to find, and little to
+ * sum in order. */
+static void assemble_some(loop *l)
+{
+    const size_t left = l->s->assembly.n_elements - l->first, n = left < WAITING ? left : WAITING;
+    run(l->s, n, FEW, find_locals, l);
+    for (size_t k = 0; k < n; ++k)
+        iccp_assembly_add(&l->s->assembly, ICCP_ALL_PARTS, l->first + k, &l->s->local[k]);
+}
+
 static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
 {
-    loop l = {s, energy, epsilon};
+    loop l = {s, energy, epsilon, 0};
     iccp_assembly_begin(&s->assembly);
-    if (s->assembly.n_parts > 1 && iccp_has_threads(&s->threads))
+    if (s->local != NULL)
+        for (; l.first < s->assembly.n_elements; l.first += WAITING)
+            assemble_some(&l);
+    else if (s->assembly.n_parts > 1 && iccp_has_threads(&s->threads))
         run(s, s->assembly.n_parts, 1, assemble_parts, &l);
     else
         for (size_t e = 0; e < s->assembly.n_elements; ++e)
@@ -289,6 +329,29 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
     return ICC_OK;
 }
 
+/* Whether one simplex has most of the Dirichlet energy. */
+static bool has_worst(const iccp_newton *s)
+{
+    double sum = 0, most = 0;
+    run(s, s->assembly.n_elements, GRAIN, find_terms,
+        &(loop){(iccp_newton *)s, ICCP_DIRICHLET, 0, 0});
+    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
+        sum += s->term[e];
+        most = iccp_max(most, s->term[e]);
+    }
+    return most > SHARE * sum;
+}
+
+/* In space. */
+static icc_status solve_by_directions(iccp_newton *s, const iccp_symmetric *hessian,
+                                      iccp_energy energy, const iccp_env *env)
+{
+    const bool untangles = energy == ICCP_UNTANGLE, is_fine = !untangles && has_worst(s);
+    return iccp_truncated_cg(hessian, s->assembly.gradient, s->step,
+                             is_fine ? FINE_RESIDUAL : RESIDUAL, s->work,
+                             untangles ? "repair" : "improve", env);
+}
+
 icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double epsilon, double *slope,
                              const iccp_env *env)
 {
@@ -296,10 +359,8 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
     const double *gradient = s->assembly.gradient;
     assemble(s, energy, epsilon);
     const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
-    const icc_status status =
-        s->map.dim == 2 ? solve_directly(s, &hessian, env)
-                        : iccp_truncated_cg(&hessian, gradient, s->step, s->work,
-                                            energy == ICCP_UNTANGLE ? "repair" : "improve", env);
+    const icc_status status = s->map.dim == 2 ? solve_directly(s, &hessian, env)
+                                              : solve_by_directions(s, &hessian, energy, env);
     if (status != ICC_OK)
         return status;
     *slope = 0;
@@ -445,6 +506,12 @@ static void set_images(iccp_newton *s, double length)
                 s->saved[dim * i + d] + length * s->step[dim * i + d];
 }
 
+static void round_images(iccp_newton *s)
+{
+    for (size_t i = 0; i < s->assembly.n_free; ++i)
+        iccp_simplicial_round(3, s->map.images + 3 * s->assembly.free_point[i]);
+}
+
 typedef struct verdict {
     const iccp_newton *s;
     atomic_bool is_positive;
@@ -466,6 +533,24 @@ static bool all_positive(const iccp_newton *s)
     return atomic_load(&v.is_positive);
 }
 
+/* Beyond a step of 1 as long as the energy falls. Where a simplex is all but flat, Newton's model
+ * of its energy, of which most is 1 / sigma^2, only takes it a third farther from that at a
+ * time. */
+static double go_on(iccp_newton *s, iccp_energy energy, double before)
+{
+    double length = 1, after = before;
+    do {
+        before = after;
+        length *= 2;
+        set_images(s, length);
+        round_images(s);
+        after = iccp_newton_energy(s, energy, 0);
+    } while (after < before && all_positive(s));
+    set_images(s, length / 2);
+    round_images(s);
+    return before;
+}
+
 /* In space nothing but the energy, infinite for what is inverted, keeps a first step of 1 from
  * flips. */
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
@@ -473,16 +558,21 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
 {
     iccp_newton *s = newton;
     const size_t dim = s->map.dim;
-    const bool guarded = energy != ICCP_UNTANGLE;
+    const bool guarded = energy != ICCP_UNTANGLE, in_space = guarded && dim == 3;
+    const double shorter = in_space ? SHORTER_IN_SPACE : SHORTER;
+    const int n_tries = in_space ? MAX_CUTS_IN_SPACE : MAX_CUTS;
     double length = guarded && dim == 2 ? iccp_min(1, SHARE_OF_FLIP * flip_limit(s)) : 1;
     for (size_t i = 0; i < s->assembly.n_free; ++i)
         memcpy(s->saved + dim * i, s->map.images + dim * s->assembly.free_point[i],
                dim * sizeof *s->saved);
-    for (int k = 0; k < MAX_HALVINGS; ++k, length *= 0.5) {
+    for (int k = 0; k < n_tries; ++k, length *= shorter) {
         set_images(s, length);
+        if (in_space)
+            round_images(s);
         const double after = iccp_newton_energy(s, energy, epsilon);
         if (after <= before + DECREASE * length * slope && (!guarded || all_positive(s)))
-            return after;
+            return in_space && k == 0 && after < (1 - LARGE_FALL) * before ? go_on(s, energy, after)
+                                                                           : after;
     }
     set_images(s, 0);
     return before;

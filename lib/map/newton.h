@@ -17,9 +17,10 @@ typedef struct iccp_newton {
     double *element;      /* ICCP_ELEMENT(dim) for each of the assembly's */
     double *step, *saved; /* dim for each free point; `saved`: images to come back to */
     double *work;
-    double *term;     /* of each element: its energy; NULL without threads */
-    iccp_env threads; /* for loops over the elements, which report nothing */
-    iccp_ldlt factor; /* in the plane */
+    double *term;      /* of each element: its energy; NULL in the plane without threads */
+    iccp_local *local; /* of some elements, in space with threads */
+    iccp_env threads;  /* for loops over the elements, which report nothing */
+    iccp_ldlt factor;  /* in the plane */
 } iccp_newton;
 
 /* What depends on the mesh and its fixed points alone, not on the images: where the entries of the
@@ -51,8 +52,9 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
                              const iccp_env *env);
 
 /* Moves along the step as far as the energy falls enough; where the energy is Dirichlet's no
- * simplex loses its positive image, exactly. Returns the new energy; `before` when nothing could be
- * done. */
+ * simplex loses its positive image, exactly, and in space images that are next to nothing are made
+ * 0, as they are kept (iccp_simplicial_round()). Returns the new energy; `before` when nothing
+ * could be done. */
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
                         double slope);
 

@@ -9,6 +9,9 @@
 /* Simplices that a thread takes at once, and those whose terms wait to be summed in order. */
 enum { GRAIN = 512, BLOCK = 4 * GRAIN };
 
+/* In units of the local coordinates, the largest of which is about 1. */
+static const double NEXT_TO_NOTHING = 1e-45;
+
 iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *images)
 {
     return (iccp_simplicial_map){.dim = mesh->dim,
@@ -19,6 +22,13 @@ iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *i
                                  .images = images,
                                  .n_fixed = mesh->n_boundary,
                                  .stretch = 1};
+}
+
+void iccp_simplicial_round(size_t n, double *coordinates)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (fabs(coordinates[i]) < NEXT_TO_NOTHING)
+            coordinates[i] = 0;
 }
 
 void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element)

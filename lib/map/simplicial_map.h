@@ -36,6 +36,10 @@ static ICCP_INLINE void iccp_simplicial_images(size_t dim, const iccp_simplicial
         image[k] = map->images + dim * map->corners[(dim + 1) * simplex + k];
 }
 
+/* Makes coordinates 0 that are next to nothing beside the largest, which is about 1, so that there
+ * is room for exact signs. */
+void iccp_simplicial_round(size_t n, double *coordinates);
+
 /* Of a simplex before the map, stretched. */
 void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element);
 

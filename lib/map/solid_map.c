@@ -7,9 +7,10 @@
 #include "base/threads.h"
 #include "domain/domain_file.h"
 #include "map/curves.h"
+#include "map/fit.h"
 #include "map/mesh_repair.h"
-#include "map/simplicial_map.h"
 #include "map/solid_chords.h"
+#include "map/solid_improve.h"
 #include "math/elementary.h"
 #include "math/vec.h"
 
@@ -18,6 +19,9 @@
 
 /* Vertices per task. */
 enum { GRAIN = 64 };
+
+/* Steps that make a new map fairer. */
+enum { ITERATIONS_OF_NEW = 8 };
 
 /* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by
  * rounding. */
@@ -64,7 +68,7 @@ static icc_status find_start(iccp_solid_map *map, const icc_chart *source, const
 
 static size_t count_inverted(const iccp_solid_map *map)
 {
-    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
     return iccp_simplicial_count_inverted(&simplicial);
 }
 
@@ -140,16 +144,55 @@ static icc_status fit(iccp_solid_map *map, const icc_chart *source, const icc_ch
     return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
 }
 
-icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
-                                 const icc_chart *target, icc_map_info *info, const iccp_env *env)
+/* Without a mesh and images yet. */
+static iccp_solid_map *new_map(const icc_domain *source, const icc_domain *target,
+                               const iccp_memory *memory)
 {
-    iccp_solid_map *map = iccp_alloc_zero(&env->memory, 1, sizeof *map);
+    iccp_solid_map *map = iccp_alloc_zero(memory, 1, sizeof *map);
+    if (map != NULL) {
+        map->memory = *memory;
+        map->stretch = iccp_cbrt(fabs(target->measure) / fabs(source->measure));
+    }
+    return map;
+}
+
+/* The steps that every new map takes. */
+static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
+                              icc_map_info *info, const iccp_env *env)
+{
+    const double began = iccp_seconds();
+    const icc_improve_options options = {
+        .iterations = iterations > 0 ? iterations : ITERATIONS_OF_NEW, .levels = -1};
+    const iccp_schedule schedule = iccp_fit_schedule(&options, &iccp_fit_plain, HUGE_VAL);
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    iccp_work work = iccp_work_unlimited();
+    iccp_improvement improvement = {0};
+    icc_status status = ICC_OK;
+    info->energy = info->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
+    if (iterations >= 0) {
+        status = iccp_solid_improve(map, source, &schedule, &work, &improvement, &part);
+        info->energy = improvement.energy;
+        info->n_iterations = improvement.n_iterations;
+    }
+    info->seconds_improve = iccp_seconds() - began;
+    return status;
+}
+
+icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
+                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                 const iccp_env *env)
+{
+    iccp_solid_map *map = new_map(source->domain, target->domain, &env->memory);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
-    map->memory = env->memory;
     map->mesh = source->domain->mesh;
-    icc_status status = fit(map, source, target, info, env);
+    icc_status status = fit(map, source, target, info, &part[0]);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = improve_new(map, source->domain, iterations, info, &part[1]);
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = plant(map, env);
     if (status != ICC_OK || info->n_unrepaired > 0) {
@@ -158,10 +201,57 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     }
     info->n_vertices = map->mesh->n_points;
     info->n_simplices = map->mesh->n_simplices;
-    iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
-    simplicial.stretch = iccp_cbrt(fabs(target->domain->measure) / fabs(source->domain->measure));
-    info->energy = info->energy_start = iccp_simplicial_energy(&simplicial);
     *out = map;
+    return ICC_OK;
+}
+
+/* ---- a better one ---- */
+
+/* The mesh of the domain stays there. */
+static icc_status copy_map(iccp_solid_map *copy, const iccp_solid_map *map)
+{
+    if (map->own != NULL)
+        return iccp_solid_copy(copy, map);
+    const size_t n = 3 * map->mesh->n_points;
+    copy->mesh = map->mesh;
+    copy->images = iccp_alloc(&copy->memory, n, sizeof *copy->images);
+    if (copy->images != NULL)
+        memcpy(copy->images, map->images, n * sizeof *copy->images);
+    return copy->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
+                                  const icc_domain *source, const icc_domain *target,
+                                  const icc_improve_options *options, icc_improve_report *report,
+                                  const iccp_env *env)
+{
+    iccp_solid_map *better = new_map(source, target, &env->memory);
+    *out = NULL;
+    if (better == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_work work = iccp_fit_work(options, source->n_facets);
+    const iccp_schedule schedule =
+        iccp_fit_schedule(options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    iccp_improvement improvement = {0};
+    icc_status status = copy_map(better, map);
+    if (status == ICC_OK) {
+        const iccp_simplicial_map simplicial = iccp_solid_simplicial(better);
+        report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
+        status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
+        report->cancelled = status == ICC_ERR_CANCELLED;
+    }
+    if (status == ICC_OK || status == ICC_ERR_CANCELLED)
+        status = count_inverted(better) == 0 ? plant(better, env) : ICC_ERR_CERTIFICATE;
+    if (status != ICC_OK) {
+        iccp_solid_map_free(better);
+        return status;
+    }
+    report->energy = improvement.energy;
+    report->n_iterations = improvement.n_iterations;
+    report->n_simplices = better->mesh->n_simplices;
+    report->n_levels = (int32_t)improvement.n_levels;
+    *out = better;
     return ICC_OK;
 }
 
@@ -204,10 +294,9 @@ icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_do
     *map = NULL;
     if (source->mesh == NULL)
         return ICC_ERR_FORMAT;
-    iccp_solid_map *read = iccp_alloc_zero(&env->memory, 1, sizeof *read);
+    iccp_solid_map *read = new_map(source, target, &env->memory);
     if (read == NULL)
         return ICC_ERR_MEMORY;
-    read->memory = env->memory;
     icc_status status = visit(b, read, source, target);
     if (status == ICC_OK)
         status = certify(read, env);

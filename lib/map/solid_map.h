@@ -4,7 +4,7 @@
 #define ICCP_SOLID_MAP_H
 
 #include "chart/chart.h"
-#include "domain/simplices.h"
+#include "map/simplicial_map.h"
 
 /* Immutable once made. */
 typedef struct iccp_solid_map {
@@ -12,15 +12,30 @@ typedef struct iccp_solid_map {
     const iccp_simplices *mesh; /* the source's, which its domain keeps, or: */
     iccp_simplices *own;        /* one with more points, or NULL */
     double *images;             /* of its points, local in the target */
+    double stretch;             /* as in iccp_simplicial_map */
     iccp_facet_tree before, after;
 } iccp_solid_map;
 
+static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *map)
+{
+    iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    simplicial.stretch = map->stretch;
+    return simplicial;
+}
+
 /* The images of the source's mesh by two charts on meshes in space, repaired until every
  * tetrahedron is positive, which is checked exactly; where that fails, of a mesh without chords.
- * Fills in the mesh's members of `info`. When that fails, too, info->n_unrepaired is not 0 and *out
- * is NULL, with ICC_OK. */
+ * Then made fairer by so many steps; 0: 8; -1: none. Fills in the mesh's members of `info`. When
+ * the repair fails, too, info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
-                                 const icc_chart *target, icc_map_info *info, const iccp_env *env);
+                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                 const iccp_env *env);
+
+/* A better one from a copy; see icc_map_improve(). */
+icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
+                                  const icc_domain *source, const icc_domain *target,
+                                  const icc_improve_options *options, icc_improve_report *report,
+                                  const iccp_env *env);
 
 /* As part of the bytes of a map (docs/formats.md). What is read is certified anew: ICC_ERR_FORMAT
  * if that fails. Writing takes no info and no env. */

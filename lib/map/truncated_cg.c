@@ -3,6 +3,7 @@
 #include "map/truncated_cg.h"
 
 #include "base/minmax.h"
+#include "base/threads.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -11,9 +12,10 @@
 /* A pivot of a point's block that is smaller than this share of its diagonal is rounding. */
 static const double SMALLEST_PIVOT = 1e-13;
 
-/* Ends when the residual, in the preconditioner's norm, has fallen to this share. */
-static const double RESIDUAL = 1e-2;
 enum { MAX_DIRECTIONS = 200 };
+
+/* Rows that a thread takes at once. */
+enum { GRAIN = 2048 };
 
 /* L D L^T of each point's block: the three pivots and the three entries of L. */
 static void factorise_blocks(const iccp_symmetric *h, double *factor)
@@ -42,23 +44,34 @@ static void precondition(size_t n, const double *factor, const double *r, double
     }
 }
 
-static void apply(const iccp_symmetric *h, const double *x, double *y)
+typedef struct product {
+    const iccp_symmetric *h;
+    const double *x;
+    double *y;
+} product;
+
+static icc_status apply(void *argument, size_t begin, size_t end)
 {
-    for (size_t i = 0; i < h->n; ++i) {
-        double sum = h->diagonal[i] * x[i];
+    const product *p = argument;
+    const iccp_symmetric *h = p->h;
+    for (size_t i = begin; i < end; ++i) {
+        double sum = h->diagonal[i] * p->x[i];
         for (size_t k = h->first[i]; k < h->first[i + 1]; ++k)
-            sum += h->value[k] * x[h->column[k]];
-        y[i] = sum;
+            sum += h->value[k] * p->x[h->column[k]];
+        p->y[i] = sum;
     }
+    return ICC_OK;
 }
 
 /* Every iterate from 0 on is a direction of descent, so that it may end anywhere: when the residual
  * is small, or before a direction without curvature. */
 icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradient, double *step,
-                             double *work, const char *stage, const iccp_env *env)
+                             double residual, double *work, const char *stage, const iccp_env *env)
 {
     const size_t n = hessian->n;
     double *r = work, *z = r + n, *p = z + n, *q = p + n, *factor = q + n;
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
     factorise_blocks(hessian, factor);
     for (size_t i = 0; i < n; ++i) {
         step[i] = 0;
@@ -67,11 +80,11 @@ icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradie
     precondition(n, factor, r, z);
     memcpy(p, z, n * sizeof *p);
     double rho = iccp_vec_dot(n, r, z);
-    const double enough = RESIDUAL * RESIDUAL * rho;
+    const double enough = residual * residual * rho;
     for (int k = 0; k < MAX_DIRECTIONS && rho > enough; ++k) {
         if (iccp_progress(env, stage, (double)k / MAX_DIRECTIONS) != ICC_OK)
             return ICC_ERR_CANCELLED;
-        apply(hessian, p, q);
+        (void)iccp_for_chunks(&quiet, stage, n, GRAIN, apply, &(product){hessian, p, q});
         const double curvature = iccp_vec_dot(n, p, q);
         if (!(curvature > 0))
             break;

@@ -9,10 +9,11 @@
  * product, and the factors of its block. */
 enum { ICCP_TRUNCATED_CG_WORK = 6 };
 
-/* Sets `step` to about -H^-1 gradient, a direction of descent. The unknowns come in threes, with
+/* Sets `step` to about -H^-1 gradient, a direction of descent: ends when the residual, in the
+ * preconditioner's norm, has fallen to the share `residual`. The unknowns come in threes, with
  * their own block of the Hessian H first in each row. `work`: ICCP_TRUNCATED_CG_WORK for each
  * unknown. ICC_OK, or ICC_ERR_CANCELLED; `stage` is for the progress. */
 icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradient, double *step,
-                             double *work, const char *stage, const iccp_env *env);
+                             double residual, double *work, const char *stage, const iccp_env *env);
 
 #endif

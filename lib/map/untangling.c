@@ -8,7 +8,7 @@
 #include "map/untangling.h"
 
 #include "base/minmax.h"
-#include "map/singular.h"
+#include "map/modes.h"
 #include "math/elementary.h"
 #include "math/jacobi.h"
 
@@ -77,8 +77,6 @@ static void set_local2(const double *element, const double *const *image, double
 
 /* ---- in space ---- */
 
-typedef double matrix[3][3];
-
 /* A(N, D) and its derivatives; it is linear in N. */
 typedef struct profile {
     double value, by_n, by_d, by_nd, by_dd;
@@ -102,19 +100,13 @@ static profile evaluate(double n, double det, double epsilon)
     };
 }
 
-/* By J in the basis u[i] v[k]^T, without negative curvature: singular[i][k] for (i, i) and (k, k),
- * the others for (i, k) and itself, and (i, k) and (k, i). */
-typedef struct curvature {
-    matrix singular, same, other;
-} curvature;
-
 /* Flips and twists are known; the three modes of the singular values are the eigenvectors of a
  * matrix. */
-static void set_curvature(const profile *p, const double *sigma, curvature *h)
+static void set_curvature(const profile *p, const double *sigma, iccp_modes *h)
 {
     enum { SWEEPS = 8 };
     const double minor[3] = {sigma[1] * sigma[2], sigma[2] * sigma[0], sigma[0] * sigma[1]};
-    matrix a, v;
+    double a[3][3], v[3][3];
     memset(h, 0, sizeof *h);
     for (int i = 0; i < 3; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -124,8 +116,7 @@ static void set_curvature(const profile *p, const double *sigma, curvature *h)
             if (i != k) {
                 const double flip = iccp_max(2 * p->by_n - p->by_d * third, 0);
                 const double twist = iccp_max(2 * p->by_n + p->by_d * third, 0);
-                h->same[i][k] = 0.5 * (flip + twist);
-                h->other[i][k] = 0.5 * (flip - twist);
+                iccp_modes_set(h, i, k, flip, twist);
             }
         }
     iccp_jacobi_diagonalise(3, SWEEPS, 1e-16, &a[0][0], &v[0][0]);
@@ -135,54 +126,12 @@ static void set_curvature(const profile *p, const double *sigma, curvature *h)
                 h->singular[i][k] += iccp_max(a[n][n], 0) * v[n][i] * v[n][k];
 }
 
-/* The block of two corners whose gradients have coordinates `a` and `b` in the basis v, in the
- * basis u and then in that of space. */
-static void set_block(const curvature *h, const iccp_singular *s, const double *a, const double *b,
-                      double factor, matrix block)
-{
-    matrix inner, half;
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            inner[i][k] = h->singular[i][k] * a[i] * b[k] + h->other[i][k] * a[k] * b[i];
-    for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-            inner[i][i] += h->same[i][k] * a[k] * b[k];
-    for (int i = 0; i < 3; ++i)
-        for (int c = 0; c < 3; ++c)
-            half[i][c] =
-                inner[i][0] * s->u[0][c] + inner[i][1] * s->u[1][c] + inner[i][2] * s->u[2][c];
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            block[r][c] = factor * (s->u[0][r] * half[0][c] + s->u[1][r] * half[1][c] +
-                                    s->u[2][r] * half[2][c]);
-}
-
-static void set_hessian3(const double *element, const curvature *h, const iccp_singular *s,
-                         double hessian[144])
-{
-    double w[4][3];
-    for (int a = 0; a < 4; ++a)
-        for (int k = 0; k < 3; ++k) {
-            const double *g = element + 1 + 3 * a, *v = s->v[k];
-            w[a][k] = g[0] * v[0] + g[1] * v[1] + g[2] * v[2];
-        }
-    for (int a = 0; a < 4; ++a)
-        for (int b = a; b < 4; ++b) {
-            matrix block;
-            set_block(h, s, w[a], w[b], element[0], block);
-            for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c)
-                    hessian[12 * (3 * a + r) + 3 * b + c] = hessian[12 * (3 * b + c) + 3 * a + r] =
-                        block[r][c];
-        }
-}
-
 static void set_local3(const double *element, const double *const *image, double epsilon,
                        iccp_local *local)
 {
     double j[9], minor[9], by_j[9];
     iccp_singular s;
-    curvature h;
+    iccp_modes h;
     const double det = iccp_element_jacobian(3, element, image, j);
     const profile p = evaluate(iccp_squared_norm(3, j), det, epsilon);
     iccp_cofactors(3, j, minor);
@@ -191,7 +140,7 @@ static void set_local3(const double *element, const double *const *image, double
     iccp_pull_back(3, element, by_j, 1, local->gradient);
     iccp_singular_find(3, j, &s);
     set_curvature(&p, s.sigma, &h);
-    set_hessian3(element, &h, &s, local->hessian);
+    iccp_modes_hessian(element, &h, &s, local->hessian);
 }
 
 /* ---- in either ---- */

@@ -128,6 +128,20 @@ static object make_retargeted(size_t which)
     return o;
 }
 
+/* One in space, refined. */
+static object make_refined_solid(size_t which)
+{
+    const icc_improve_options options = {.size = sizeof options, .levels = 1};
+    icc_error err = {.size = sizeof err};
+    object first, o = {0};
+    while (strcmp(MAPS[which].name, "map-solid") != 0)
+        ++which;
+    first = make_map(which);
+    must(icc_map_improve(&o.map, first.map, &options, NULL, NULL, &err), "icc_map_improve", &err);
+    icc_map_free(first.map);
+    return o;
+}
+
 /* In pixels of a picture of 60 by 50. */
 static object make_picture_map(size_t which)
 {
@@ -230,6 +244,7 @@ static const struct {
     object (*make)(size_t which);
     size_t which;
 } OTHERS[] = {{"map-retargeted", make_retargeted, 0},
+              {"map-solid-refined", make_refined_solid, 0},
               {"map-picture", make_picture_map, 0},
               {"binding-blue2", make_binding, 0},
               {"binding-grid3", make_binding, 3}};

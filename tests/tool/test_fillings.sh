@@ -17,12 +17,12 @@ fill() {
 fill corners.txt '0.5 0.5 0.5' >in.mesh
 fill moved.txt '0.55 0.6 0.55' >out.mesh
 
-# All tetrahedra meet at the maximum, so the map is linear in each.
+# All tetrahedra meet at the maximum, so the map is linear in each, unless it is improved.
 printf '0.75 0.75 0.75\n0.5 0.5 0.5\n0.25 0.5 0.5\n0 0 0\n1 1 1\n' >points
 printf '1.025 0.925 0.775\n0.55 0.6 0.55\n0.275 0.6125 0.525\n0 0 0\n1.5 1.25 1\n' >expected
-run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh -p points -o images
+run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --improve 0 -p points -o images
 close_to images expected 1e-15
-run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --inverse -p images -o back
+run 0 map -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh --improve 0 --inverse -p images -o back
 close_to back points 1e-15
 run 0 check -s cube.obj -t moved.obj --mesh in.mesh --target-mesh out.mesh
 holds out 'foliation chart certified: 12 tetrahedra, none of them inverted; every leaf runs from the boundary to the maximum'
@@ -45,7 +45,7 @@ close_to back points 1e-15
 for name in cube moved; do
     { echo 'v 7 7 7' && cat $name.obj; } | awk '$1 == "f" { print $1, $2 + 1, $3 + 1, $4 + 1; next } { print }' >$name-more.obj
 done
-run 0 map -s cube-more.obj -t moved-more.obj --mesh in.mesh --target-mesh out.mesh -p points -o images
+run 0 map -s cube-more.obj -t moved-more.obj --mesh in.mesh --target-mesh out.mesh --improve 0 -p points -o images
 close_to images expected 1e-15
 if command -v tetgen >/dev/null; then
     run 0 map -s cube-more.obj -t moved-more.obj -p points -o images

@@ -178,7 +178,7 @@ class Map(Saved):
     def improve(self, iterations: int = 0, levels: int = 0, tolerance: float = 0, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
-        """A fairer map, and a report (kind mesh in 2-D). If a progress callback asks to stop, it ends early,
+        """A fairer map, and a report (kind mesh). If a progress callback asks to stop, it ends early,
         with the map reached so far. Without arguments the work of a call is limited; another goes on from there.
 
         Args:

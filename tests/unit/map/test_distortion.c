@@ -264,6 +264,61 @@ START_TEST(isometries)
 }
 END_TEST
 
+/* Of the tetrahedron with the corners 0 and the unit vectors, whose image's last three corners are
+ * turned by the identity or any rotation: a motion of these is J's, row by row. */
+static double curvature_along(const sample *s, const iccp_local *local, const double *by_j)
+{
+    double d[12] = {0}, size = 0;
+    for (size_t r = 0; r < 3; ++r)
+        for (size_t c = 0; c < 3; ++c) {
+            d[3 * (c + 1) + r] = by_j[3 * r + c];
+            size += by_j[3 * r + c] * by_j[3 * r + c];
+        }
+    return quadratic(s, local, d) / (s->element[0] * size);
+}
+
+/* At a rotation R, the curvature is 8 along R S with S symmetric, and 0 along R S with S skew. At
+ * R diag(a, b, c), it is 2 + 6 / a^4 along R diag(1, 0, 0), and what flips and twists have along
+ * two others. */
+START_TEST(eigenvalues)
+{
+    random_source r = {8};
+    sample s = {.dim = 3, .n = 12};
+    for (size_t k = 0; k < 3; ++k)
+        s.point[3 * (k + 1) + k] = 1;
+    set_element(&s);
+    for (int k = 0; k < 300; ++k) {
+        sample turned = s;
+        double rotation[9], stretch[3], along[9];
+        move_rigidly(&turned, s.point, random_between(&r, 0, 6.28));
+        for (size_t i = 0; i < 9; ++i) /* the images of the unit vectors are its columns */
+            rotation[i] = turned.image[3 * (i % 3 + 1) + i / 3] - turned.image[i / 3];
+        for (size_t i = 0; i < 3; ++i)
+            stretch[i] = k < 100 ? 1 : random_between(&r, 0.2, 3);
+        for (size_t i = 0; i < 12; ++i)
+            s.image[i] = i < 3 ? 0 : stretch[i / 3 - 1] * rotation[3 * (i % 3) + i / 3 - 1];
+        const iccp_local local = dirichlet_at(&s, false);
+        for (size_t i = 0; i < 3; ++i)
+            for (size_t j = 0; j <= i; ++j)
+                for (int sign = -1; sign <= 1; sign += 2) {
+                    if (i == j && sign < 0)
+                        continue;
+                    for (size_t row = 0; row < 3; ++row)
+                        for (size_t c = 0; c < 3; ++c)
+                            along[3 * row + c] =
+                                (c == j ? rotation[3 * row + i] : 0) +
+                                (c == i && i != j ? sign * rotation[3 * row + j] : 0);
+                    const double a = stretch[i], b = stretch[j], p = a * b;
+                    const double wanted =
+                        i == j ? 2 + 6 / (a * a * a * a)
+                               : 2 + 2 * sign * (a * a + sign * p + b * b) / (p * p * p);
+                    ck_assert_double_eq_tol(curvature_along(&s, &local, along), fmax(wanted, 0),
+                                            1e-9 * (1 + fabs(wanted)));
+                }
+    }
+}
+END_TEST
+
 /* Values that can be told by hand: J = diag(a, b, c). */
 START_TEST(energies_of_stretches)
 {
@@ -424,6 +479,7 @@ int main(void)
     tcase_add_test(tests, gradients_and_hessians_of_the_dirichlet_energy);
     tcase_add_test(tests, gradients_and_hessians_of_the_untangling_energy);
     tcase_add_test(tests, isometries);
+    tcase_add_test(tests, eigenvalues);
     tcase_add_test(tests, energies_of_stretches);
     tcase_add_test(tests, energies_are_those_of_shape);
     tcase_add_test(tests, degenerate_images);

@@ -691,7 +691,7 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// vertex, started from the charts, repaired until every triangle is positive, made fair, and
 /// certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
 /// between domains made by `icc_domain_create_mesh()`: the source's mesh with images that start from the charts,
-/// repaired and certified likewise, but not made fair; the target's mesh serves its chart only. The
+/// repaired, made fair and certified likewise; the target's mesh serves its chart only. The
 /// fastest queries. On the boundary it agrees with the cages up to rounding (samples of a side lie
 /// on it to one unit in the last place).
 pub const ICC_MAP_MESH: i32 = 2;
@@ -726,7 +726,7 @@ pub struct icc_map_options {
     /// both domains have meshes of the caller's
     pub kind: i32,
     /// mesh: steps of improvement on each level of refinement; 0: as
-    /// many as pay, at most 60; -1: no improvement
+    /// many as pay, at most 60, in 3-D 8; -1: no improvement
     pub iterations: i32,
     /// for both charts, or NULL; its `maximum` is the source's. For
     /// kind mesh method 0 means disc (foliation when a maximum is
@@ -860,7 +860,7 @@ pub struct icc_improve_report {
     pub energy: f64,
     /// steps
     pub n_iterations: usize,
-    /// triangles in the end
+    /// triangles or tetrahedra in the end
     pub n_simplices: usize,
     /// refinements
     pub n_levels: i32,
@@ -1430,10 +1430,11 @@ extern "C" {
 
     /// Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises and
     /// every intermediate map is certified, so stopping early loses nothing: when the progress callback asks
-    /// to stop, the call succeeds with what it has and says so in the report.
+    /// to stop, the call succeeds with what it has and says so in the report. In 3-D refinements change the
+    /// mesh inside by flips and by cutting edges; the surface stays as it is.
     ///
     /// - `out` (out): the map; owned by the caller
-    /// - `map`: a map of kind mesh in 2-D, else `ICC_ERR_UNSUPPORTED`
+    /// - `map`: a map of kind mesh, else `ICC_ERR_UNSUPPORTED`
     /// - `options`: may be NULL
     /// - `report` (out): may be NULL; its `size` is set by the caller
     /// - `env`: may be NULL

@@ -1,0 +1,20 @@
+/* Making a map of a mesh in space fairer without losing its certificate. */
+#ifndef ICCP_SOLID_IMPROVE_H
+#define ICCP_SOLID_IMPROVE_H
+
+#include "map/improve.h"
+#include "map/solid_map.h"
+
+/* Fills in a map that is all 0 but for its memory: with a mesh of its own, and without what finds
+ * points. */
+icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map);
+
+/* As iccp_improve(), for a map all of whose tetrahedra are positive, of a mesh of the domain
+ * `source`. Levels change the mesh inside, so that it becomes one of the map's own; the surface
+ * stays as it is. On any failure, ICC_ERR_CANCELLED included, the map is valid and no worse than
+ * before. */
+icc_status iccp_solid_improve(iccp_solid_map *map, const icc_domain *source,
+                              const iccp_schedule *schedule, iccp_work *work,
+                              iccp_improvement *improvement, const iccp_env *env);
+
+#endif
