@@ -199,7 +199,8 @@ ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, si
                                           _mm256_permute2f128_pd(p01, p23, 0x31));
         _mm256_storeu_pd(x + k, _mm256_sub_pd(_mm256_loadu_pd(x + k), sum));
     }
-    spread_portable(x + k, 1, a, y, depth - k);
+    for (; k < depth; ++k, a += STRIP)
+        x[k] -= (a[0] * y[0] + a[1] * y[1]) + (a[2] * y[2] + a[3] * y[3]);
 }
 
 ICCP_AVX2 static void spread_four(double *x, const double *a, const double *y, size_t depth)

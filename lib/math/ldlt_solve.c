@@ -68,11 +68,11 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
              ++r) {
             double *row = entries(x, p, first, below, i + r, width);
             double *sums = sum + r / STRIP * STRIP * ICCP_TILE + r % STRIP;
-            for (size_t s = 0; s < width; ++s) {
-                for (size_t k = depth; k < least(i + r, p->columns); ++k)
+            for (size_t k = depth; k < least(i + r, p->columns); ++k)
+                for (size_t s = 0; s < width; ++s)
                     sums[STRIP * s] += strip[STRIP * k + r] * own[k * width + s];
+            for (size_t s = 0; s < width; ++s)
                 row[s] -= sums[STRIP * s];
-            }
         }
     }
 }
@@ -102,7 +102,8 @@ static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t f
                     own[k * width + s] -= strip[STRIP * k + r] * row[s];
             }
         }
-        dense->spread(own, width, strip, y, depth);
+        if (depth > 0)
+            dense->spread(own, width, strip, y, depth);
     }
 }
 
