@@ -243,6 +243,35 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
                                           const uint32_t *facets, const icc_env *env,
                                           icc_error *err);
 
+/** How icc_domain_fill() chooses inner vertices. */
+typedef struct icc_fill_options {
+    size_t size;         /**< sizeof(icc_fill_options) */
+    double ratio;        /**< circumradius over shortest edge from which tetrahedra are refined, at
+                              least 1.2; 0: 1.6; infinite: no vertices but those it takes */
+    uint64_t max_points; /**< inner vertices at most, where fewer do; 0: no limit */
+} icc_fill_options;
+
+/**
+ * Fills a closed surface in 3-D with tetrahedra: makes the domain that icc_domain_create_mesh()
+ * makes of a mesh of its inside. The vertices and facets are those of the surface, bit by bit;
+ * vertices are added inside only.
+ *
+ * Near-Delaunay insertion, recovery of edges and facets, then refinement, flips and smoothing; all
+ * that decides whether the mesh is one is exact, and the result is checked as that of
+ * icc_domain_create_mesh() is. The same bits on every machine. Vertices that belong to no facet are
+ * not among those of the result.
+ *
+ * Cost: about 40 us per tetrahedron, and at most 200 bytes.
+ * @param surface a domain in 3-D without a mesh
+ * @param options may be NULL
+ * @return ::ICC_ERR_UNSUPPORTED unless `surface` is in 3-D and has no mesh; ::ICC_ERR_RESOLUTION if
+ *         a facet, which icc_error::index names, cannot be told from what is next to it, or
+ *         max_points are too few
+ */
+ICC_API icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
+                                   const icc_fill_options *options, const icc_env *env,
+                                   icc_error *err);
+
 /**
  * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
  * icc_domain_create_mask() refuses. Cells are filled one at a time, each time the one that leaves
