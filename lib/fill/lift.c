@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "fill/contract.h"
 #include "fill/quality.h"
 
 typedef struct lifting {
@@ -254,7 +255,7 @@ static bool find_place(lifting *l)
     const double radius = find_directions(l, direction);
     d->share[0] = 0.0;
     for (int i = 0; i < DIRECTIONS; ++i)
-        for (int step = 0; step < 50; ++step) {
+        for (int step = 0; step < 80; ++step) {
             const double length = ldexp(step % 2 == 0 ? radius : 0.7 * radius, -step / 2 - step / 8);
             for (int k = 0; k < 3; ++k)
                 x[k] = from[k] + length * direction[i][k];
@@ -298,20 +299,58 @@ static bool make_cones(lifting *l)
     return true;
 }
 
+/* Whether v is on all facets that p is on: all walls at p have it, or a facet with it. */
+static bool is_on_all(const lifting *l, uint32_t v)
+{
+    for (size_t k = 0; k < l->walls.n; ++k) {
+        const uint32_t facet = facet_of(l, l->walls.item[k]);
+        if (!iccp_is_on_facet(l->m, l->s->facets + 3 * (size_t)facet, v))
+            return false;
+    }
+    return true;
+}
+
+/* Contracts p with another point of all its facets, if that makes nothing worse than `least`. */
+static bool contract_point(lifting *l, double least)
+{
+    iccp_tets *const m = l->m;
+    uint32_t best = ICCP_NO_TET;
+    for (size_t k = 0; k < l->walls.n; ++k) {
+        uint32_t edge[2];
+        opposite(l, l->walls.item[k], edge);
+        for (int i = 0; i < 2; ++i) {
+            if (!is_on_all(l, edge[i]))
+                continue;
+            const double worth = iccp_contraction_worth(m, l->p, edge[i], least);
+            if (worth > least) {
+                least = worth;
+                best = edge[i];
+            }
+        }
+    }
+    if (best == ICCP_NO_TET || !iccp_contract(m, l->p, best))
+        return false;
+    m->points.dyadic[l->p - m->points.n_fixed].share[0] = 0.0;
+    return true;
+}
+
 static lifted lift_point(lifting *l, uint32_t p)
 {
-    const size_t n_before = l->m->points.n;
     l->p = p;
     if (!list_walls(l))
         return NO_MEMORY;
+    double worst = 1.0;
+    for (size_t k = 0; k < l->m->star.n; ++k)
+        worst = iccp_min(worst, iccp_quality_of(l->m, l->m->star.item[k]));
+    if (contract_point(l, iccp_max(worst, 1e-3)))
+        return LIFTED;
     if (!triangulate_all(l))
-        return NOT_LIFTED;
+        return contract_point(l, -HUGE_VAL) ? LIFTED : NOT_LIFTED;
     const size_t n = l->triangles.n / 4;
     if (!iccp_tets_reserve(l->m, n) || !iccp_list_reserve(l->m, &l->m->work, l->walls.n + 3 * n))
         return NO_MEMORY;
     if (!find_place(l))
-        return NOT_LIFTED;
-    (void)n_before;
+        return contract_point(l, -HUGE_VAL) ? LIFTED : NOT_LIFTED;
     return make_cones(l) ? LIFTED : NO_MEMORY;
 }
 

@@ -5,6 +5,7 @@
 #include "fill/segments.h"
 
 #include "base/error.h"
+#include "fill/fixed.h"
 #include "fill/flip.h"
 #include "fill/insert.h"
 
@@ -205,6 +206,28 @@ static double met_at(const way *w, uint32_t side)
     return of_a + of_b > 0.0 ? of_a / (of_a + of_b) : 0.5;
 }
 
+/* Where between two shares of a segment a side's plane is crossed, exactly as far as shares can be
+ * told: by halving. -1: there is no memory. */
+static double crossing(way *w, const iccp_segment *segment, uint32_t side, double from, double to)
+{
+    iccp_tets *const m = w->m;
+    const int at_a = iccp_tet_sees(m, &m->tet[side / 4], (int)(side % 4), w->a);
+    for (int step = 0; step < ICCP_FIXED_SHARE_BITS; ++step) {
+        const double share = ldexp(floor(ldexp(0.5 * (from + to), 48)), -48);
+        if (!(share > from && share < to))
+            break;
+        const iccp_dyadic made = {
+            {segment->a, segment->b, segment->b}, w->b, {1.0 - share, share, 0.0}};
+        const uint32_t p = iccp_tets_add_dyadic(m, &made);
+        if (p == ICCP_NO_TET)
+            return -1.0;
+        const int at_p = iccp_tet_sees(m, &m->tet[side / 4], (int)(side % 4), p);
+        iccp_tets_drop_dyadic(m);
+        *(at_p == at_a ? &from : &to) = share;
+    }
+    return to;
+}
+
 /* Puts a point near share t of the way from a to b into the tetrahedra at a side, with as few bits
  * as it can be; it stands between a and b on the segment then. */
 static state put_point(way *w, iccp_segment *segment, uint32_t side, double t)
@@ -216,8 +239,15 @@ static state put_point(way *w, iccp_segment *segment, uint32_t side, double t)
     const bool at_edge = met_edge(w, side, edge);
     if (at_edge && !iccp_tets_ring(m, edge[0], edge[1], side / 4, m->n_tets))
         return STUCK;
-    for (int bits = 3; bits <= 48; bits += 3) {
-        const double share = ldexp(floor(ldexp(from + t * (to - from), bits) + 0.5), -bits);
+    double at = from + t * (to - from);
+    for (int bits = 3, turn = 0; turn < 2; bits += 3) {
+        const double share = ldexp(floor(ldexp(at, bits) + 0.5), -bits);
+        if (bits == ICCP_FIXED_SHARE_BITS) { /* doubles mistook the place */
+            bits = 0;
+            at = ++turn == 1 ? crossing(w, segment, side, from, to) : at;
+            if (at < 0.0)
+                return NO_MEMORY;
+        }
         if (!(share > from && share < to))
             continue;
         const iccp_dyadic made = {{segment->a, segment->b, segment->b}, w->b,

@@ -204,19 +204,10 @@ uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b)
     return search_towards(m, a, b);
 }
 
-/* The corners of a side, ascending. */
-static void sort_side(const iccp_tets *m, uint32_t side, uint32_t key[3])
+static void corners_of(const iccp_tets *m, uint32_t side, uint32_t key[3])
 {
-    const iccp_tet *const tet = &m->tet[side / 4];
-    const uint8_t *const f = iccp_tet_face[side % 4];
-    uint32_t a = tet->v[f[0]], b = tet->v[f[1]], c = tet->v[f[2]], swap;
-    if (a > b)
-        swap = a, a = b, b = swap;
-    if (b > c)
-        swap = b, b = c, c = swap;
-    if (a > b)
-        swap = a, a = b, b = swap;
-    key[0] = a, key[1] = b, key[2] = c;
+    for (int i = 0; i < 3; ++i)
+        key[i] = m->tet[side / 4].v[iccp_tet_face[side % 4][i]];
 }
 
 static bool same_face(const iccp_tets *m, const uint32_t key[3], uint32_t side)
@@ -235,7 +226,7 @@ void iccp_tets_match(iccp_tets *m, size_t n, uint32_t *sides)
     while (n > 0) {
         uint32_t key[3];
         const uint32_t side = sides[--n];
-        sort_side(m, side, key);
+        corners_of(m, side, key);
         for (size_t i = n; i-- > 0;)
             if (same_face(m, key, sides[i])) {
                 iccp_tets_join(m, side, sides[i]);
@@ -245,10 +236,23 @@ void iccp_tets_match(iccp_tets *m, size_t n, uint32_t *sides)
     }
 }
 
-/* The sides of the old ones that lead out are kept in m->sides, four numbers each: three corners
- * and what is across. Each takes the place of the side of a new one; then the new ones are joined
+/* p becomes v; false if v is there already. */
+static bool rename_corner(uint32_t key[3], uint32_t p, uint32_t v)
+{
+    bool has_p = false, has_v = false;
+    for (int i = 0; i < 3; ++i) {
+        has_p |= key[i] == p;
+        has_v |= key[i] == v;
+    }
+    for (int i = 0; i < 3 && has_p; ++i)
+        key[i] = key[i] == p ? v : key[i];
+    return !(has_p && has_v);
+}
+
+/* The sides of the old ones that lead out are kept in m->sides, four numbers each: three corners,
+ * of which p becomes v, and what is across. Each takes the place of the side of a new one; then the new ones are joined
  * to each other. */
-static bool list_rim(iccp_tets *m, size_t n_old, const uint32_t *old)
+static bool list_rim(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
     m->sides.n = 0;
@@ -261,8 +265,11 @@ static bool list_rim(iccp_tets *m, size_t n_old, const uint32_t *old)
                 continue;
             if (!iccp_list_reserve(m, &m->sides, m->sides.n + 4))
                 return false;
-            sort_side(m, 4 * old[k] + i, m->sides.item + m->sides.n);
-            m->sides.item[m->sides.n + 3] = tet->across[i];
+            uint32_t *const key = m->sides.item + m->sides.n;
+            corners_of(m, 4 * old[k] + i, key);
+            key[3] = tet->across[i];
+            if (!rename_corner(key, p, v))
+                continue;
             m->sides.n += 4;
         }
     }
@@ -295,15 +302,15 @@ static void close_rim(iccp_tets *m)
     iccp_tets_match(m, m->work.n, m->work.item);
 }
 
-bool iccp_tets_replace(iccp_tets *m, size_t n_old, const uint32_t *old, size_t n_fresh,
-                       const uint32_t *fresh)
+bool iccp_tets_contract(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old,
+                        size_t n_fresh, const uint32_t *fresh)
 {
     for (size_t k = 0; k < n_fresh; ++k)
         if (iccp_tets_orient(m, fresh[4 * k], fresh[4 * k + 1], fresh[4 * k + 2],
                              fresh[4 * k + 3]) <= 0)
             return false;
     if (!iccp_tets_reserve(m, n_fresh) || !iccp_list_reserve(m, &m->fresh, n_fresh) ||
-        !iccp_list_reserve(m, &m->work, 4 * n_fresh) || !list_rim(m, n_old, old))
+        !iccp_list_reserve(m, &m->work, 4 * n_fresh) || !list_rim(m, p, v, n_old, old))
         return false;
     for (size_t k = 0; k < n_old; ++k)
         iccp_tets_kill(m, old[k]);
@@ -313,4 +320,10 @@ bool iccp_tets_replace(iccp_tets *m, size_t n_old, const uint32_t *old, size_t n
                                                     fresh[4 * k + 2], fresh[4 * k + 3]);
     close_rim(m);
     return true;
+}
+
+bool iccp_tets_replace(iccp_tets *m, size_t n_old, const uint32_t *old, size_t n_fresh,
+                       const uint32_t *fresh)
+{
+    return iccp_tets_contract(m, ICCP_NO_TET, ICCP_NO_TET, n_old, old, n_fresh, fresh);
 }

@@ -115,6 +115,11 @@ uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b);
 bool iccp_tets_replace(iccp_tets *m, size_t n_old, const uint32_t *old, size_t n_fresh,
                        const uint32_t *fresh);
 
+/* The same where point p of the old ones, whose star they are, becomes point v of its link; p may be
+ * on the surface, if v is on the same facets. */
+bool iccp_tets_contract(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old,
+                        size_t n_fresh, const uint32_t *fresh);
+
 /* Joins sides that have the same three corners, in pairs; none must be left over. O(n^2). */
 void iccp_tets_match(iccp_tets *m, size_t n, uint32_t *sides);
 
