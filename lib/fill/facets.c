@@ -84,7 +84,7 @@ static iccp_inserted put_point(iccp_facet_scan *scan, const uint32_t edge[3])
         for (size_t k = 0; k < m->ring.n; ++k)
             if (!iccp_list_push(m, &m->cavity, m->ring.item[k]))
                 return ICCP_INSERT_MEMORY;
-        const iccp_inserted done = iccp_tets_insert(m, p, false);
+        const iccp_inserted done = iccp_tets_insert(m, p, m->cavity.n, false);
         if (done != ICCP_NOT_INSERTED)
             return done;
         iccp_tets_drop_dyadic(m);

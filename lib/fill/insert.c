@@ -232,11 +232,10 @@ static void make_cone(iccp_tets *m, uint32_t point, uint32_t stamp)
         iccp_tets_kill(m, m->cavity.item[k]);
 }
 
-iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, bool grow)
+iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, size_t n_base, bool grow)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
-    const size_t n_base = m->cavity.n;
-    for (size_t k = 0; k < n_base; ++k)
+    for (size_t k = 0; k < m->cavity.n; ++k)
         m->mark[m->cavity.item[k]] = stamp;
     if (grow && !grow_cavity(m, point, stamp))
         return ICCP_INSERT_MEMORY;
@@ -261,7 +260,7 @@ icc_status iccp_tets_insert_all(iccp_tets *m, size_t n, const uint32_t *order, c
         if (t != ICCP_NO_TET && !iccp_tets_holders(m, order[k], t))
             return iccp_fail_memory(err);
         const iccp_inserted made =
-            t == ICCP_NO_TET ? ICCP_NOT_INSERTED : iccp_tets_insert(m, order[k], true);
+            t == ICCP_NO_TET ? ICCP_NOT_INSERTED : iccp_tets_insert(m, order[k], m->cavity.n, true);
         if (made == ICCP_INSERT_MEMORY)
             return iccp_fail_memory(err);
         if (made != ICCP_INSERTED)

@@ -14,10 +14,11 @@ uint32_t iccp_tets_locate(iccp_tets *m, uint32_t point, uint32_t from);
  * face or an edge. */
 bool iccp_tets_holders(iccp_tets *m, uint32_t point, uint32_t tet);
 
-/* Joins a point to the sides of the space of m->cavity, all of which it must see; with `grow`, the
- * cavity takes in tetrahedra next to it in whose circumsphere the point is. Nothing has changed
- * unless ICCP_INSERTED; then m->fresh has the new ones. */
-iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, bool grow);
+/* Joins a point to the sides of the space of m->cavity, all of which it must see; what comes after
+ * the first n_base may be left out for that. With `grow`, the cavity takes in tetrahedra next to it
+ * in whose circumsphere the point is. Nothing has changed unless ICCP_INSERTED; then m->fresh has
+ * the new ones. */
+iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, size_t n_base, bool grow);
 
 /* Inserts points up to n_given near Delaunay into what holds them all, in the given order. */
 icc_status iccp_tets_insert_all(iccp_tets *m, size_t n, const uint32_t *order, const iccp_env *env,

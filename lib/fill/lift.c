@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "fill/contract.h"
+#include "fill/improve.h"
+#include "fill/insert.h"
 #include "fill/quality.h"
 
 typedef struct lifting {
@@ -354,6 +356,65 @@ static lifted lift_point(lifting *l, uint32_t p)
     return make_cones(l) ? LIFTED : NO_MEMORY;
 }
 
+/* Flips what is nearly flat at a point that is stuck. */
+static void improve_star(lifting *l, uint32_t p)
+{
+    enum { MOST_FLIPS = 20 };
+    const double nearly_flat = 1e-3;
+    iccp_tets *const m = l->m;
+    for (int n = 0; n < MOST_FLIPS; ++n) {
+        bool changed = false;
+        if (!iccp_tets_star(m, p) || !iccp_list_reserve(m, &l->polygon, m->star.n))
+            return;
+        l->polygon.n = 0;
+        for (size_t k = 0; k < m->star.n; ++k)
+            l->polygon.item[l->polygon.n++] = m->star.item[k];
+        for (size_t k = 0; k < l->polygon.n && !changed; ++k) {
+            const uint32_t t = l->polygon.item[k];
+            changed = iccp_quality_of(m, t) < nearly_flat && iccp_improve_tet(m, t);
+        }
+        if (!changed)
+            return;
+    }
+}
+
+/* Puts a point inside, beside p, into all of p's star that it sees: then what is at p is not flat,
+ * and p has somewhere to go. False if it cannot be. */
+static bool put_beside(lifting *l, uint32_t p)
+{
+    iccp_tets *const m = l->m;
+    double direction[DIRECTIONS][3];
+    l->p = p;
+    if (!list_walls(l) || !triangulate_all(l))
+        return false;
+    const double radius = find_directions(l, direction);
+    for (int step = 1; step < 40; ++step)
+        for (int i = 0; i < DIRECTIONS; ++i) {
+            double x[3];
+            for (int k = 0; k < 3; ++k)
+                x[k] = iccp_point(&m->points, p)[k] + ldexp(radius, -step) * direction[i][k];
+            if (!(fabs(x[0]) + fabs(x[1]) + fabs(x[2]) < 8.0))
+                continue;
+            iccp_points_snap(&m->points, x);
+            const uint32_t q = iccp_tets_add_point(m, x);
+            if (q == ICCP_NO_TET)
+                return false;
+            const uint32_t t = iccp_tets_locate(m, q, m->star.item[0]);
+            bool made = t != ICCP_NO_TET && iccp_tets_holders(m, q, t);
+            const size_t n_base = m->cavity.n;
+            for (size_t k = 0; k < m->star.n && made; ++k) {
+                bool known = false;
+                for (size_t j = 0; j < n_base && !known; ++j)
+                    known = m->cavity.item[j] == m->star.item[k];
+                made = known || iccp_list_push(m, &m->cavity, m->star.item[k]);
+            }
+            if (made && iccp_tets_insert(m, q, n_base, true) == ICCP_INSERTED)
+                return true;
+            iccp_tets_drop_point(m);
+        }
+    return false;
+}
+
 /* In rounds: a point that is stuck may be free when others have left. */
 icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
 {
@@ -363,13 +424,17 @@ icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, i
     icc_status status = ICC_OK;
     size_t n_left = points->n_dyadic, n_before = n_left + 1;
     uint32_t stuck = 0;
-    for (int round = 0; round < MOST_ROUNDS && n_left > 0 && n_left < n_before; ++round) {
+    for (int round = 0; round < MOST_ROUNDS && n_left > 0 && (n_left < n_before || round < 5); ++round) {
         n_before = n_left;
         n_left = 0;
         for (size_t k = points->n_dyadic; k-- > 0 && status == ICC_OK;) {
             const uint32_t p = (uint32_t)(points->n_fixed + k);
             if (!iccp_is_dyadic(points, p))
                 continue;
+            if (round > 0)
+                improve_star(&l, p);
+            if (round > 1)
+                put_beside(&l, p);
             const lifted done = lift_point(&l, p);
             if (done == NO_MEMORY)
                 status = iccp_fail_memory(err);

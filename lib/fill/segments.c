@@ -262,7 +262,7 @@ static state put_point(way *w, iccp_segment *segment, uint32_t side, double t)
         for (size_t k = 0; at_edge && k < m->ring.n; ++k)
             if (!iccp_list_push(m, &m->cavity, m->ring.item[k]))
                 return NO_MEMORY;
-        const iccp_inserted done = iccp_tets_insert(m, p, false);
+        const iccp_inserted done = iccp_tets_insert(m, p, m->cavity.n, false);
         if (done == ICCP_INSERT_MEMORY)
             return NO_MEMORY;
         if (done == ICCP_INSERTED) {
