@@ -89,6 +89,26 @@ bool iccp_tets_holders(iccp_tets *m, uint32_t point, uint32_t tet)
     return true;
 }
 
+bool iccp_tets_extend(iccp_tets *m, uint32_t point, size_t most)
+{
+    const uint32_t stamp = iccp_tets_stamp(m);
+    for (size_t k = 0; k < m->cavity.n; ++k)
+        m->mark[m->cavity.item[k]] = stamp;
+    for (size_t k = 0; k < m->cavity.n && m->cavity.n <= most; ++k) {
+        const iccp_tet *const tet = &m->tet[m->cavity.item[k]];
+        for (int i = 0; i < 4; ++i) {
+            const uint32_t other = tet->across[i] / 4;
+            if (iccp_is_wall_side(tet->across[i]) || m->mark[other] == stamp ||
+                iccp_tet_sees(m, tet, i, point) > 0)
+                continue;
+            m->mark[other] = stamp;
+            if (!iccp_list_push(m, &m->cavity, other))
+                return false;
+        }
+    }
+    return true;
+}
+
 static bool grow_cavity(iccp_tets *m, uint32_t point, uint32_t stamp)
 {
     for (size_t k = 0; k < m->cavity.n; ++k) {

@@ -20,6 +20,10 @@ bool iccp_tets_holders(iccp_tets *m, uint32_t point, uint32_t tet);
  * the new ones. */
 iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, size_t n_base, bool grow);
 
+/* Takes into m->cavity what lies beyond sides that a point does not see, until it sees all but walls
+ * or there are more than `most`. */
+bool iccp_tets_extend(iccp_tets *m, uint32_t point, size_t most);
+
 /* Inserts points up to n_given near Delaunay into what holds them all, in the given order. */
 icc_status iccp_tets_insert_all(iccp_tets *m, size_t n, const uint32_t *order, const iccp_env *env,
                                 icc_error *err);

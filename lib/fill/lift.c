@@ -378,8 +378,33 @@ static void improve_star(lifting *l, uint32_t p)
     }
 }
 
-/* Puts a point inside, beside p, into all of p's star that it sees: then what is at p is not flat,
- * and p has somewhere to go. False if it cannot be. */
+/* Joins q to the space of p's star and, as far as it takes to see all of the rim, what is beyond;
+ * or, failing that, to what it sees of the star. */
+static bool join_star(iccp_tets *m, uint32_t q)
+{
+    enum { MOST = 500 };
+    const uint32_t t = iccp_tets_locate(m, q, m->star.item[0]);
+    for (int turn = 0; turn < 2 && t != ICCP_NO_TET; ++turn) {
+        if (!iccp_tets_holders(m, q, t))
+            return false;
+        const size_t n_base = m->cavity.n;
+        for (size_t k = 0; k < m->star.n; ++k) {
+            bool known = false;
+            for (size_t j = 0; j < n_base && !known; ++j)
+                known = m->cavity.item[j] == m->star.item[k];
+            if (!known && !iccp_list_push(m, &m->cavity, m->star.item[k]))
+                return false;
+        }
+        if (turn == 0 && !iccp_tets_extend(m, q, MOST))
+            return false;
+        if (iccp_tets_insert(m, q, turn == 0 ? m->cavity.n : n_base, turn != 0) == ICCP_INSERTED)
+            return true;
+    }
+    return false;
+}
+
+/* Puts a point inside, beside p: then what is at p is not flat, and p has somewhere to go. False if
+ * it cannot be. */
 static bool put_beside(lifting *l, uint32_t p)
 {
     iccp_tets *const m = l->m;
@@ -399,16 +424,7 @@ static bool put_beside(lifting *l, uint32_t p)
             const uint32_t q = iccp_tets_add_point(m, x);
             if (q == ICCP_NO_TET)
                 return false;
-            const uint32_t t = iccp_tets_locate(m, q, m->star.item[0]);
-            bool made = t != ICCP_NO_TET && iccp_tets_holders(m, q, t);
-            const size_t n_base = m->cavity.n;
-            for (size_t k = 0; k < m->star.n && made; ++k) {
-                bool known = false;
-                for (size_t j = 0; j < n_base && !known; ++j)
-                    known = m->cavity.item[j] == m->star.item[k];
-                made = known || iccp_list_push(m, &m->cavity, m->star.item[k]);
-            }
-            if (made && iccp_tets_insert(m, q, n_base, true) == ICCP_INSERTED)
+            if (join_star(m, q))
                 return true;
             iccp_tets_drop_point(m);
         }
