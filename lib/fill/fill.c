@@ -7,8 +7,10 @@
 #include "base/minmax.h"
 #include "domain/mesh_domain.h"
 #include "fill/facets.h"
+#include "fill/improve.h"
 #include "fill/insert.h"
 #include "fill/lift.h"
+#include "fill/refine.h"
 #include "fill/segments.h"
 #include "mesh/insertion_order.h"
 
@@ -142,7 +144,13 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
         status = iccp_carve(m, s, env, err);
     if (status == ICC_OK)
         status = iccp_lift(m, s, env, err);
-    (void)options;
+    m->points.n_dyadic = 0; /* all are doubles now */
+    if (status == ICC_OK)
+        status = iccp_tets_settle(m, env, err);
+    if (status == ICC_OK && options->ratio < HUGE_VAL)
+        status = iccp_tets_refine(m, s, options->ratio, options->max_points, env, err);
+    if (status == ICC_OK)
+        status = iccp_tets_improve(m, env, err);
     return status;
 }
 

@@ -161,6 +161,22 @@ static uint32_t stamp_bad(iccp_tets *m)
     return stamp;
 }
 
+icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
+{
+    enum { ROUNDS = 4 };
+    const double enough = 1e-4; /* what is left may have this quality */
+    for (int round = 0; round < ROUNDS; ++round) {
+        const icc_status status = iccp_explain(err, iccp_progress(env, "mesh", 0.0));
+        if (status != ICC_OK)
+            return status;
+        for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
+            if (m->tet_of[p] != ICCP_NO_TET && !iccp_contract_best(m, p, enough))
+                iccp_smooth_point(m, p);
+        flip_all(m);
+    }
+    return ICC_OK;
+}
+
 icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };

@@ -434,14 +434,13 @@ static bool put_beside(lifting *l, uint32_t p)
 /* In rounds: a point that is stuck may be free when others have left. */
 icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
 {
-    enum { MOST_ROUNDS = 8 };
+    enum { MOST_ROUNDS = 12 };
     lifting l = {.m = m, .s = s};
     const iccp_points *const points = &m->points;
     icc_status status = ICC_OK;
-    size_t n_left = points->n_dyadic, n_before = n_left + 1;
+    size_t n_left = points->n_dyadic;
     uint32_t stuck = 0;
-    for (int round = 0; round < MOST_ROUNDS && n_left > 0 && (n_left < n_before || round < 5); ++round) {
-        n_before = n_left;
+    for (int round = 0; round < MOST_ROUNDS && n_left > 0; ++round) {
         n_left = 0;
         for (size_t k = points->n_dyadic; k-- > 0 && status == ICC_OK;) {
             const uint32_t p = (uint32_t)(points->n_fixed + k);
