@@ -14,18 +14,21 @@ typedef struct parts {
     uint8_t split[MOST][MOST];
 } parts;
 
-static void find_best(parts *best, size_t n, const uint32_t *link, const iccp_removal *removal)
+/* Where the smallest worth counts, what is not more than `least` is left out. */
+static void find_best(parts *best, size_t n, const uint32_t *link, const iccp_removal *removal,
+                      double least)
 {
+    const double none = removal->sum ? -HUGE_VAL : least;
     for (size_t i = 0; i + 1 < n; ++i)
         best->worth[i][i + 1] = removal->sum ? 0.0 : HUGE_VAL;
     for (size_t width = 2; width < n; ++width)
         for (size_t i = 0; i + width < n; ++i) {
             const size_t j = i + width;
-            best->worth[i][j] = -HUGE_VAL;
+            best->worth[i][j] = none;
             best->split[i][j] = (uint8_t)(i + 1);
             for (size_t k = i + 1; k < j; ++k) {
                 const double left = best->worth[i][k], right = best->worth[k][j];
-                if (left == -HUGE_VAL || right == -HUGE_VAL ||
+                if (left == none || right == none ||
                     (!removal->sum && iccp_min(left, right) <= best->worth[i][j]))
                     continue;
                 const double own = removal->worth(removal->context, link[i], link[k], link[j],
@@ -48,7 +51,7 @@ bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *
     const uint32_t *const link = m->link.item;
     if (n < 3 || n > MOST)
         return false;
-    find_best(&best, n, link, removal);
+    find_best(&best, n, link, removal, least);
     if (!(best.worth[0][n - 1] > least))
         return false;
     uint32_t fresh[2 * MOST][4];

@@ -11,6 +11,7 @@
 /* What counts as better; and what is good enough to be left alone. Quality .03 has dihedral angles
  * of some 10 degrees, .1 of some 18. */
 static const double gain = 1e-4, good = 0.12;
+static const size_t most_ring = 8;
 
 typedef struct edge {
     const iccp_tets *m;
@@ -28,11 +29,12 @@ static bool try_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q)
 {
     edge e = {m, p, q};
     const iccp_removal removal = {worth, &e, false};
-    if (!iccp_tets_ring(m, p, q, t, ICCP_MOST_RING))
+    if (!iccp_tets_ring(m, p, q, t, most_ring))
         return false;
-    double worst = 1.0;
-    for (size_t k = 0; k < m->ring.n; ++k)
-        worst = iccp_min(worst, iccp_quality_of(m, m->ring.item[k]));
+    const double worst = iccp_quality_of(m, t);
+    for (size_t k = 1; k < m->ring.n; ++k)
+        if (iccp_quality_of(m, m->ring.item[k]) < worst)
+            return false; /* that one has its turn */
     return iccp_remove_edge(m, p, q, &removal, worst + gain * fabs(worst));
 }
 
@@ -44,8 +46,9 @@ static bool try_face(iccp_tets *m, uint32_t side)
         return false;
     const uint8_t *const f = iccp_tet_face[side % 4];
     const uint32_t a = tet->v[side % 4], b = m->tet[across / 4].v[across % 4];
-    const double worst =
-        iccp_min(iccp_quality_of(m, side / 4), iccp_quality_of(m, across / 4));
+    const double worst = iccp_quality_of(m, side / 4);
+    if (iccp_quality_of(m, across / 4) < worst)
+        return false;
     for (int i = 0; i < 3; ++i)
         if (iccp_tets_quality(m, tet->v[f[i]], tet->v[f[(i + 1) % 3]], b, a) <=
             worst + gain * fabs(worst))
