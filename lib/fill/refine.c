@@ -12,7 +12,7 @@
 
 /* Of the local size: edges that are shorter count as this long; points keep this far from others,
  * and from the surface. */
-static const double least_edge = 0.6, least_gap = 0.7, least_height = 0.3;
+static const double least_edge_4 = 0.38, least_edge = 0.6, least_gap = 0.7, least_height = 0.3;
 
 typedef struct bad {
     double key;
@@ -62,13 +62,15 @@ static double scale_of(const refinement *r, const iccp_tet *tet)
 {
     const iccp_points *const p = &r->m->points;
     double shortest = HUGE_VAL, size = HUGE_VAL;
+    bool on_surface = true;
     for (int i = 0; i < 4; ++i) {
         size = iccp_min(size, r->size[tet->v[i]]);
+        on_surface &= tet->v[i] < p->n_given;
         for (int j = i + 1; j < 4; ++j)
             shortest = iccp_min(shortest, iccp_square_distance(iccp_point(p, tet->v[i]),
                                                                iccp_point(p, tet->v[j])));
     }
-    return iccp_max(sqrt(shortest), least_edge * size);
+    return iccp_max(on_surface ? 0.0 : sqrt(shortest), (on_surface ? least_edge_4 : least_edge) * size);
 }
 
 static bool is_bad(const refinement *r, uint32_t t, double centre[3], double *badness,
