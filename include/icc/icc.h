@@ -63,6 +63,9 @@ typedef struct icc_domain_info {
     double measure;            /**< length, area (2-D), volume (3-D) and so on, without holes; may
                                     overflow to HUGE_VAL for coordinates near 1e300 */
     size_t n_features;         /**< features inside: see icc_domain_create_features() */
+    size_t n_mesh_vertices;    /**< vertices of the mesh of its inside, with those of the boundary;
+                                    0: it has none */
+    size_t n_mesh_simplices;   /**< simplices of that */
 } icc_domain_info;
 
 /**
@@ -319,6 +322,19 @@ typedef struct icc_feature_info {
  */
 ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature,
                                           icc_feature_info *info);
+
+/**
+ * Copies the mesh of the inside: icc_domain_create_mesh(), icc_domain_fill().
+ *
+ * @param domain         a domain with a mesh: icc_domain_info::n_mesh_vertices is not 0
+ * @param[out] vertices  room for n_mesh_vertices * dim doubles, or NULL: those of the boundary, in
+ *                       the order of icc_domain_get_boundary(), then those inside
+ * @param[out] simplices room for n_mesh_simplices * (dim + 1) indices, or NULL; each has a positive
+ *                       determinant
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT without a domain; ::ICC_ERR_UNSUPPORTED without a mesh
+ */
+ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices,
+                                       uint32_t *simplices);
 
 /**
  * Copies the boundary as it was given: of a domain with features, the vertices of the outer ring

@@ -7,6 +7,7 @@
 #include "domain/features.h"
 #include "domain/mesh_domain.h"
 #include "domain/polygon_check.h"
+#include "domain/simplices.h"
 #include "fill/fill.h"
 
 #include <math.h>
@@ -196,6 +197,8 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     full.n_vertices = domain->n_vertices;
     full.n_facets = domain->n_facets;
     full.n_features = domain->features != NULL ? domain->features->n : 0;
+    full.n_mesh_vertices = domain->mesh != NULL ? domain->mesh->n_points : 0;
+    full.n_mesh_simplices = domain->mesh != NULL ? domain->mesh->n_simplices : 0;
     iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
     iccp_frame_out(frame, domain->dim, domain->upper, full.upper);
     full.measure = domain->measure;
@@ -229,6 +232,25 @@ icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, u
             iccp_domain_given(domain, v, vertices + dim * v);
     if (facets != NULL)
         memcpy(facets, domain->facets, domain->n_facets * dim * sizeof *facets);
+    return ICC_OK;
+}
+
+icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices, uint32_t *simplices)
+{
+    if (domain == NULL)
+        return ICC_ERR_ARGUMENT;
+    if (domain->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_simplices *const mesh = domain->mesh;
+    const size_t dim = mesh->dim;
+    for (size_t v = 0; v < mesh->n_points && vertices != NULL; ++v)
+        if (v < mesh->n_boundary)
+            iccp_domain_given(domain, v, vertices + dim * v);
+        else
+            iccp_frame_restore(&domain->frame, domain->dim, mesh->points + dim * v,
+                               vertices + dim * v);
+    if (simplices != NULL)
+        memcpy(simplices, mesh->corners, mesh->n_simplices * (dim + 1) * sizeof *simplices);
     return ICC_OK;
 }
 

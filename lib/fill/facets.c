@@ -94,6 +94,7 @@ static iccp_inserted put_point(iccp_facet_scan *scan, const uint32_t edge[3])
 
 static icc_status recover(iccp_facet_scan *scan, uint32_t facet, icc_error *err)
 {
+    const size_t most_points = 40 * scan->s->n_segments + 2000;
     for (;;) {
         if (!iccp_facet_scan_run(scan, facet))
             return iccp_fail_memory(err);
@@ -102,7 +103,8 @@ static icc_status recover(iccp_facet_scan *scan, uint32_t facet, icc_error *err)
         if (remove_edges(scan) > 0)
             continue;
         iccp_inserted done = ICCP_NOT_INSERTED;
-        for (size_t k = 0; k < scan->piercing.n && done == ICCP_NOT_INSERTED; k += 3)
+        for (size_t k = scan->m->points.n_dyadic > most_points ? scan->piercing.n : 0;
+             k < scan->piercing.n && done == ICCP_NOT_INSERTED; k += 3)
             done = put_point(scan, scan->piercing.item + k);
         if (done == ICCP_INSERT_MEMORY)
             return iccp_fail_memory(err);

@@ -125,32 +125,36 @@ static icc_status finish(icc_domain **out, const iccp_tets *m, const icc_domain 
     return status;
 }
 
+/* The stages, and what they cost. */
+enum { INSERT, SEGMENTS, FACETS, LIFT, SETTLE, REFINE, IMPROVE, CHECK, N_STAGES };
+static const double cost[N_STAGES] = {10, 5, 5, 5, 15, 30, 20, 10};
+
 static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
-                       const iccp_fill_options *options, const iccp_env *env, icc_error *err)
+                       const iccp_fill_options *options, const iccp_env *stage, icc_error *err)
 {
     icc_status status = add_points(m, surface, err);
     if (status == ICC_OK)
         status = make_box(m, err);
     if (status == ICC_OK)
-        status = insert_vertices(m, surface, env, err);
+        status = insert_vertices(m, surface, &stage[INSERT], err);
     if (status == ICC_OK)
         status = iccp_surface_create(s, surface->n_vertices, surface->n_facets, surface->facets,
-                                     env, err);
+                                     &stage[SEGMENTS], err);
     if (status == ICC_OK)
-        status = iccp_recover_segments(m, s, env, err);
+        status = iccp_recover_segments(m, s, &stage[SEGMENTS], err);
     if (status == ICC_OK)
-        status = iccp_recover_facets(m, s, env, err);
+        status = iccp_recover_facets(m, s, &stage[FACETS], err);
     if (status == ICC_OK)
-        status = iccp_carve(m, s, env, err);
+        status = iccp_carve(m, s, &stage[FACETS], err);
     if (status == ICC_OK)
-        status = iccp_lift(m, s, env, err);
+        status = iccp_lift(m, s, &stage[LIFT], err);
     m->points.n_dyadic = 0; /* all are doubles now */
     if (status == ICC_OK)
-        status = iccp_tets_settle(m, env, err);
+        status = iccp_tets_settle(m, &stage[SETTLE], err);
     if (status == ICC_OK && options->ratio < HUGE_VAL)
-        status = iccp_tets_refine(m, s, options->ratio, options->max_points, env, err);
+        status = iccp_tets_refine(m, s, options->ratio, options->max_points, &stage[REFINE], err);
     if (status == ICC_OK)
-        status = iccp_tets_improve(m, env, err);
+        status = iccp_tets_improve(m, &stage[IMPROVE], err);
     return status;
 }
 
@@ -162,9 +166,13 @@ icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
     s.edges.memory = env->memory;
     *out = NULL;
     iccp_tets_init(&m, &env->memory);
-    icc_status status = make(&m, &s, surface, options, env, err);
+    iccp_env stage[N_STAGES];
+    iccp_split(stage, N_STAGES, cost, env);
+    icc_status status = make(&m, &s, surface, options, stage, err);
+    if (m.no_memory)
+        status = iccp_fail_memory(err);
     if (status == ICC_OK)
-        status = finish(out, &m, surface, env, err);
+        status = finish(out, &m, surface, &stage[CHECK], err);
     iccp_surface_free(&s);
     iccp_tets_free(&m);
     return status;

@@ -169,7 +169,8 @@ icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
     enum { ROUNDS = 4 };
     const double enough = 1e-4; /* what is left may have this quality */
     for (int round = 0; round < ROUNDS; ++round) {
-        const icc_status status = iccp_explain(err, iccp_progress(env, "mesh", 0.0));
+        const icc_status status = 
+            iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
         if (status != ICC_OK)
             return status;
         for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)

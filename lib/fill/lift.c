@@ -459,7 +459,7 @@ icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, i
             }
         }
         if (status == ICC_OK)
-            status = iccp_explain(err, iccp_progress(env, "mesh", 0.5));
+            status = iccp_explain(err, iccp_progress(env, "mesh", (double)round / MOST_ROUNDS));
     }
     if (status == ICC_OK && n_left > 0)
         status = iccp_fail_facet(err, stuck, "there is no room for a point beside it");

@@ -20,6 +20,7 @@ typedef struct way {
     uint32_t a, b;
     iccp_list tets, crossed; /* crossed: sides */
     uint32_t p, q;           /* the edge that is being removed */
+    size_t most_points;
 } way;
 
 static bool has(const uint32_t x[3], uint32_t p)
@@ -315,7 +316,8 @@ static state recover_segment(way *w, iccp_segment *segment, bool points)
             w->a = w->b;
             continue;
         }
-        const state put = split(w, segment);
+        const state put =
+            w->m->points.n_dyadic > w->most_points ? STUCK : split(w, segment);
         if (put != PRESENT)
             return put;
         const uint32_t p = iccp_segment_next(w->m, segment, w->a);
@@ -330,13 +332,14 @@ icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *
                                  icc_error *err)
 {
     enum { FLIP_PASSES = 2 };
-    way w = {.m = m, .s = s};
+    way w = {.m = m, .s = s, .most_points = 20 * s->n_segments + 1000};
     icc_status status = ICC_OK;
     for (size_t pass = 0, missing = 1; missing > 0 && status == ICC_OK; ++pass) {
         missing = 0;
         for (size_t e = 0; e < s->n_segments && status == ICC_OK; ++e) {
+            const double share = ((double)pass + (double)e / (double)s->n_segments) / 3.0;
             if (e % 1024 == 0)
-                status = iccp_explain(err, iccp_progress(env, "mesh", 0.0));
+                status = iccp_explain(err, iccp_progress(env, "mesh", share));
             const state made = recover_segment(&w, &s->segment[e], pass >= FLIP_PASSES);
             missing += made == MISSING;
             if (made == NO_MEMORY)

@@ -84,8 +84,10 @@ uint32_t iccp_tets_add_dyadic(iccp_tets *m, const iccp_dyadic *point)
     iccp_points *const p = &m->points;
     if (p->n_dyadic == p->dyadic_room) {
         const size_t room = 2 * p->dyadic_room + 16;
-        if (!iccp_enlarge(&m->memory, &p->dyadic, p->dyadic_room, room, sizeof *p->dyadic))
+        if (!iccp_enlarge(&m->memory, &p->dyadic, p->dyadic_room, room, sizeof *p->dyadic)) {
+            m->no_memory = true;
             return ICCP_NO_TET;
+        }
         p->dyadic_room = room;
     }
     double x[3] = {0};

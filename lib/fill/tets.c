@@ -25,18 +25,20 @@ void iccp_tets_free(iccp_tets *m)
     iccp_free(&m->memory, m->mark);
 }
 
-bool iccp_list_reserve(const iccp_tets *m, iccp_list *list, size_t room)
+bool iccp_list_reserve(iccp_tets *m, iccp_list *list, size_t room)
 {
     if (room <= list->room)
         return true;
     const size_t n = room < 2 * list->room ? 2 * list->room : room < 64 ? 64 : room;
-    if (!iccp_enlarge(&m->memory, &list->item, list->room, n, sizeof *list->item))
+    if (!iccp_enlarge(&m->memory, &list->item, list->room, n, sizeof *list->item)) {
+        m->no_memory = true;
         return false;
+    }
     list->room = n;
     return true;
 }
 
-bool iccp_list_push(const iccp_tets *m, iccp_list *list, uint32_t item)
+bool iccp_list_push(iccp_tets *m, iccp_list *list, uint32_t item)
 {
     if (list->n == list->room && !iccp_list_reserve(m, list, list->n + 1))
         return false;
@@ -51,8 +53,10 @@ uint32_t iccp_tets_add_point(iccp_tets *m, const double *x)
         const size_t room = 2 * p->room + 64;
         if (!iccp_enlarge(&m->memory, &p->x, p->room, room, 3 * sizeof *p->x) ||
             !iccp_enlarge(&m->memory, &m->tet_of, p->room, room, sizeof *m->tet_of) ||
-            !iccp_enlarge(&m->memory, &m->seen, p->room, room, sizeof *m->seen))
+            !iccp_enlarge(&m->memory, &m->seen, p->room, room, sizeof *m->seen)) {
+            m->no_memory = true;
             return ICCP_NO_TET;
+        }
         p->room = room;
     }
     memcpy(p->x + 3 * p->n, x, 3 * sizeof *x);
@@ -73,8 +77,10 @@ bool iccp_tets_reserve(iccp_tets *m, size_t n_more)
     const size_t room = m->n_tets + n_more + m->room / 2 + 64;
     if (room >= ICCP_WALL / 4 ||
         !iccp_enlarge(&m->memory, &m->tet, m->n_tets, room, sizeof *m->tet) ||
-        !iccp_enlarge(&m->memory, &m->mark, m->n_tets, room, sizeof *m->mark))
+        !iccp_enlarge(&m->memory, &m->mark, m->n_tets, room, sizeof *m->mark)) {
+        m->no_memory = true;
         return false;
+    }
     m->room = room;
     return true;
 }

@@ -38,15 +38,16 @@ typedef struct iccp_tets {
     uint32_t free; /* a list of those that are gone, linked by across[0] */
     uint32_t stamp;
     uint64_t random;
-    uint32_t hint;          /* where to begin to look */
+    uint32_t hint;  /* where to begin to look */
+    bool no_memory; /* there was none at some time, whatever came of it */
     iccp_list star, ring, link, cavity, sides, fresh, work;
 } iccp_tets;
 
 void iccp_tets_init(iccp_tets *m, const iccp_memory *memory);
 void iccp_tets_free(iccp_tets *m);
 
-bool iccp_list_push(const iccp_tets *m, iccp_list *list, uint32_t item);
-bool iccp_list_reserve(const iccp_tets *m, iccp_list *list, size_t room);
+bool iccp_list_push(iccp_tets *m, iccp_list *list, uint32_t item);
+bool iccp_list_reserve(iccp_tets *m, iccp_list *list, size_t room);
 
 /* A new point that no tetrahedron has, at x; ICCP_NO_TET if there is no memory. */
 uint32_t iccp_tets_add_point(iccp_tets *m, const double *x);
