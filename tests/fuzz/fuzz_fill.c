@@ -21,14 +21,14 @@ static icc_domain_info info_of(const icc_domain *domain)
 }
 
 /* All vertices of the surfaces here belong to faces, unless bytes have changed these. */
-static void check_filled(const icc_domain *surface, const icc_domain *filled)
+static void check_filled(const icc_domain *given, const icc_domain *filled)
 {
     static double before[3 * SURFACE_VERTICES], after[3 * SURFACE_VERTICES];
     static uint32_t faces[3 * SURFACE_FACES], kept[3 * SURFACE_FACES];
-    const icc_domain_info a = info_of(surface), b = info_of(filled);
+    const icc_domain_info a = info_of(given), b = info_of(filled);
     require(b.n_mesh_simplices > 0 && a.n_facets == b.n_facets && a.n_vertices >= b.n_vertices);
     require(a.orientation == b.orientation);
-    require(icc_domain_get_boundary(surface, before, faces) == ICC_OK);
+    require(icc_domain_get_boundary(given, before, faces) == ICC_OK);
     require(icc_domain_get_boundary(filled, after, kept) == ICC_OK);
     for (size_t i = 0; i < 3 * a.n_facets; ++i)
         require(memcmp(before + 3 * faces[i], after + 3 * kept[i], 3 * sizeof *before) == 0);

@@ -37,7 +37,7 @@ static double volume_of(const icc_domain *domain)
     double volume = 0;
     for (size_t i = 0; i < info.n_mesh_simplices; ++i) {
         const double *p[4];
-        for (int k = 0; k < 4; ++k) {
+        for (size_t k = 0; k < 4; ++k) {
             ck_assert_uint_lt(t[4 * i + k], info.n_mesh_vertices);
             p[k] = x + 3 * t[4 * i + k];
         }
