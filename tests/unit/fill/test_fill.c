@@ -157,7 +157,7 @@ START_TEST(simple_shapes)
         check_fills(&shape);
         surface_star(&shape, splits, 0.5, &r);
         check_fills(&shape);
-        turn(&shape, 1e-3);
+        turn(&shape, 1e-2);
         check_fills(&shape);
     }
 }
