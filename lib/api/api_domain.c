@@ -8,7 +8,7 @@
 #include "domain/mesh_domain.h"
 #include "domain/polygon_check.h"
 #include "domain/simplices.h"
-#include "fill/fill.h"
+#include "fill/fill_domain.h"
 
 #include <math.h>
 #include <string.h>
@@ -104,8 +104,10 @@ icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "only surfaces in 3-D without a mesh can be filled");
     if (!(given.ratio == 0.0 || given.ratio >= 1.2))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_fill_options.ratio is %g; it must be 0 or at "
-                         "least 1.2", given.ratio);
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_fill_options.ratio is %g; it must be 0 or at "
+                         "least 1.2",
+                         given.ratio);
     const iccp_fill_options own = {given.ratio == 0.0 ? 1.6 : given.ratio,
                                    given.max_points == 0 ? UINT64_MAX : given.max_points};
     return iccp_end_domain(iccp_domain_fill(out, surface, &own, &full, err), out, &full, err);

@@ -39,8 +39,7 @@ static size_t remove_edges(iccp_facet_scan *scan)
         piercing edge = {scan, e[0], e[1]};
         const iccp_removal removal = {worth, &edge, false};
         if (iccp_tet_alive(m, e[2]) && iccp_tet_index(tet, e[0]) >= 0 &&
-            iccp_tet_index(tet, e[1]) >= 0 &&
-            iccp_tets_ring(m, e[0], e[1], e[2], ICCP_MOST_RING) &&
+            iccp_tet_index(tet, e[1]) >= 0 && iccp_tets_ring(m, e[0], e[1], e[2], ICCP_MOST_RING) &&
             iccp_remove_edge(m, e[0], e[1], &removal, -HUGE_VAL))
             ++n;
     }

@@ -31,8 +31,8 @@ static void find_best(parts *best, size_t n, const uint32_t *link, const iccp_re
                 if (left == none || right == none ||
                     (!removal->sum && iccp_min(left, right) <= best->worth[i][j]))
                     continue;
-                const double own = removal->worth(removal->context, link[i], link[k], link[j],
-                                                  width < n - 1);
+                const double own =
+                    removal->worth(removal->context, link[i], link[k], link[j], width < n - 1);
                 const double worth =
                     removal->sum ? left + right + own : iccp_min(iccp_min(left, right), own);
                 if (worth > best->worth[i][j]) {

@@ -134,9 +134,9 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
         const place centre = best;
         for (int d = 0; d < 14; ++d) {
             for (int i = 0; i < 3; ++i)
-                x[i] = centre.x[i] +
-                       length * (d < 8 ? 0.577 * ((d >> i & 1) != 0 ? 1.0 : -1.0)
-                                       : (d - 8) / 2 == i ? ((d & 1) != 0 ? 1.0 : -1.0) : 0.0);
+                x[i] = centre.x[i] + length * (d < 8 ? 0.577 * ((d >> i & 1) != 0 ? 1.0 : -1.0)
+                                               : (d - 8) / 2 == i ? ((d & 1) != 0 ? 1.0 : -1.0)
+                                                                  : 0.0);
             try_place(m, p, x, &best);
         }
     }
@@ -169,7 +169,7 @@ icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
     enum { ROUNDS = 4 };
     const double enough = 1e-4; /* what is left may have this quality */
     for (int round = 0; round < ROUNDS; ++round) {
-        const icc_status status = 
+        const icc_status status =
             iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
         if (status != ICC_OK)
             return status;

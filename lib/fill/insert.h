@@ -20,8 +20,8 @@ bool iccp_tets_holders(iccp_tets *m, uint32_t point, uint32_t tet);
  * the new ones. */
 iccp_inserted iccp_tets_insert(iccp_tets *m, uint32_t point, size_t n_base, bool grow);
 
-/* Takes into m->cavity what lies beyond sides that a point does not see, until it sees all but walls
- * or there are more than `most`. */
+/* Takes into m->cavity what lies beyond sides that a point does not see, until it sees all but
+ * walls or there are more than `most`. */
 bool iccp_tets_extend(iccp_tets *m, uint32_t point, size_t most);
 
 /* Inserts points up to n_given near Delaunay into what holds them all, in the given order. */

@@ -10,160 +10,12 @@
 #include "fill/contract.h"
 #include "fill/improve.h"
 #include "fill/insert.h"
+#include "fill/lifting.h"
 #include "fill/quality.h"
-
-typedef struct lifting {
-    iccp_tets *m;
-    const iccp_surface *s;
-    iccp_list walls;     /* the sides at the point that are walls */
-    iccp_list polygon;
-    iccp_list triangles; /* of all its facets: three points and the facet */
-    uint32_t p;
-} lifting;
-
-static bool list_walls(lifting *l)
-{
-    iccp_tets *const m = l->m;
-    l->walls.n = 0;
-    if (!iccp_tets_star(m, l->p))
-        return false;
-    for (size_t k = 0; k < m->star.n; ++k) {
-        const iccp_tet *const tet = &m->tet[m->star.item[k]];
-        for (uint32_t i = 0; i < 4; ++i)
-            if (tet->v[i] != l->p && iccp_is_wall_side(tet->across[i]) &&
-                !iccp_list_push(m, &l->walls, 4 * m->star.item[k] + i))
-                return false;
-    }
-    return true;
-}
-
-static uint32_t facet_of(const lifting *l, uint32_t side)
-{
-    return l->m->tet[side / 4].across[side % 4] & ~ICCP_WALL;
-}
-
-/* The edge of a wall opposite p, counter-clockwise from inside. */
-static void opposite(const lifting *l, uint32_t side, uint32_t edge[2])
-{
-    const iccp_tet *const tet = &l->m->tet[side / 4];
-    const uint8_t *const f = iccp_tet_face[side % 4];
-    int i = 0;
-    while (tet->v[f[i]] != l->p)
-        ++i;
-    edge[0] = tet->v[f[(i + 1) % 3]];
-    edge[1] = tet->v[f[(i + 2) % 3]];
-}
-
-/* The points round p on one facet, counter-clockwise from inside. */
-static bool list_polygon(lifting *l, uint32_t facet)
-{
-    uint32_t first = ICCP_NO_TET, edge[2], other[2];
-    l->polygon.n = 0;
-    for (size_t k = 0; k < l->walls.n; ++k) {
-        if (facet_of(l, l->walls.item[k]) != facet)
-            continue;
-        opposite(l, l->walls.item[k], edge);
-        bool begins = first == ICCP_NO_TET;
-        for (size_t i = 0; i < l->walls.n; ++i) {
-            opposite(l, l->walls.item[i], other);
-            if (facet_of(l, l->walls.item[i]) == facet && other[1] == edge[0])
-                break;
-            begins |= i + 1 == l->walls.n;
-        }
-        if (begins)
-            first = edge[0];
-    }
-    for (uint32_t at = first; at != ICCP_NO_TET;) {
-        if (!iccp_list_push(l->m, &l->polygon, at))
-            return false;
-        uint32_t next = ICCP_NO_TET;
-        for (size_t k = 0; k < l->walls.n && next == ICCP_NO_TET; ++k) {
-            opposite(l, l->walls.item[k], edge);
-            if (facet_of(l, l->walls.item[k]) == facet && edge[0] == at)
-                next = edge[1];
-        }
-        at = next == first ? ICCP_NO_TET : next;
-    }
-    return true;
-}
-
-/* What corner i of the polygon is worth as an ear; 0: it is none. Point d lies inside, so that it
- * sees what is counter-clockwise. */
-static double ear(const lifting *l, size_t i, uint32_t d)
-{
-    const iccp_tets *const m = l->m;
-    const size_t n = l->polygon.n;
-    const uint32_t *const v = l->polygon.item;
-    const uint32_t a = v[(i + n - 1) % n], b = v[i], c = v[(i + 1) % n];
-    if (iccp_tets_orient(m, a, b, c, d) <= 0)
-        return 0.0;
-    for (size_t k = 0; k < n; ++k)
-        if (v[k] != a && v[k] != b && v[k] != c && iccp_tets_orient(m, a, b, v[k], d) >= 0 &&
-            iccp_tets_orient(m, b, c, v[k], d) >= 0 && iccp_tets_orient(m, c, a, v[k], d) >= 0)
-            return 0.0;
-    const double *const x = iccp_point(&m->points, a), *const y = iccp_point(&m->points, b),
-                        *const z = iccp_point(&m->points, c);
-    double n2 = 0.0, u[3], w[3];
-    for (int k = 0; k < 3; ++k) {
-        u[k] = y[k] - x[k];
-        w[k] = z[k] - x[k];
-    }
-    for (int k = 0; k < 3; ++k) {
-        const double cross = u[(k + 1) % 3] * w[(k + 2) % 3] - u[(k + 2) % 3] * w[(k + 1) % 3];
-        n2 += cross * cross;
-    }
-    const double edges =
-        iccp_square_distance(x, y) + iccp_square_distance(y, z) + iccp_square_distance(z, x);
-    return 1e-300 + n2 / (edges * edges);
-}
-
-/* Cuts off the best ear until a triangle is left. False if there is no ear, or no memory. */
-static bool triangulate(lifting *l, uint32_t facet, uint32_t d)
-{
-    uint32_t *const v = l->polygon.item;
-    while (l->polygon.n > 2) {
-        const size_t n = l->polygon.n;
-        size_t best = n;
-        double best_worth = 0.0;
-        for (size_t i = 0; i < n; ++i) {
-            const double worth = ear(l, i, d);
-            if (worth > best_worth) {
-                best_worth = worth;
-                best = i;
-            }
-        }
-        if (best == n || !iccp_list_reserve(l->m, &l->triangles, l->triangles.n + 4))
-            return false;
-        const uint32_t triangle[4] = {v[(best + n - 1) % n], v[best], v[(best + 1) % n], facet};
-        for (int k = 0; k < 4; ++k)
-            l->triangles.item[l->triangles.n++] = triangle[k];
-        for (size_t i = best; i + 1 < n; ++i)
-            v[i] = v[i + 1];
-        --l->polygon.n;
-    }
-    return true;
-}
-
-/* The polygons of all facets at p. */
-static bool triangulate_all(lifting *l)
-{
-    l->triangles.n = 0;
-    for (size_t k = 0; k < l->walls.n; ++k) {
-        const uint32_t side = l->walls.item[k], facet = facet_of(l, side);
-        bool known = false;
-        for (size_t i = 0; i < k && !known; ++i)
-            known = facet_of(l, l->walls.item[i]) == facet;
-        if (known)
-            continue;
-        if (!list_polygon(l, facet) || !triangulate(l, facet, l->m->tet[side / 4].v[side % 4]))
-            return false;
-    }
-    return true;
-}
 
 /* The worst quality of what p has where it is now, or something below `least` if that is lower or
  * not all is positive. */
-static double worst_at(const lifting *l, double least)
+static double worst_at(const iccp_lifting *l, double least)
 {
     const iccp_tets *const m = l->m;
     double worst = 1.0;
@@ -200,7 +52,7 @@ enum { DIRECTIONS = 4 };
 
 /* Ways inside: along the sum of the facets' normals, towards the middle of the link's inner
  * points, between these, and towards the middle of the whole link. Returns the link's radius. */
-static double find_directions(const lifting *l, double direction[DIRECTIONS][3])
+static double find_directions(const iccp_lifting *l, double direction[DIRECTIONS][3])
 {
     const iccp_tets *const m = l->m;
     const double *const x = iccp_point(&m->points, l->p);
@@ -247,7 +99,7 @@ static double find_directions(const lifting *l, double direction[DIRECTIONS][3])
 }
 
 /* Moves p to the best place found; false if there is none, and then p is where it was. */
-static bool find_place(lifting *l)
+static bool find_place(iccp_lifting *l)
 {
     iccp_points *const points = &l->m->points;
     double *const x = points->x + 3 * (size_t)l->p;
@@ -258,7 +110,8 @@ static bool find_place(lifting *l)
     d->share[0] = 0.0;
     for (int i = 0; i < DIRECTIONS; ++i)
         for (int step = 0; step < 80; ++step) {
-            const double length = ldexp(step % 2 == 0 ? radius : 0.7 * radius, -step / 2 - step / 8);
+            const double length =
+                ldexp(step % 2 == 0 ? radius : 0.7 * radius, -step / 2 - step / 8);
             for (int k = 0; k < 3; ++k)
                 x[k] = from[k] + length * direction[i][k];
             if (!(fabs(x[0]) + fabs(x[1]) + fabs(x[2]) < 8.0))
@@ -281,7 +134,7 @@ static bool find_place(lifting *l)
 typedef enum lifted { LIFTED, NOT_LIFTED, NO_MEMORY } lifted;
 
 /* Makes the cones. Their sides at p join what were walls there, and each other. */
-static bool make_cones(lifting *l)
+static bool make_cones(iccp_lifting *l)
 {
     iccp_tets *const m = l->m;
     const size_t n = l->triangles.n / 4;
@@ -302,10 +155,10 @@ static bool make_cones(lifting *l)
 }
 
 /* Whether v is on all facets that p is on: all walls at p have it, or a facet with it. */
-static bool is_on_all(const lifting *l, uint32_t v)
+static bool is_on_all(const iccp_lifting *l, uint32_t v)
 {
     for (size_t k = 0; k < l->walls.n; ++k) {
-        const uint32_t facet = facet_of(l, l->walls.item[k]);
+        const uint32_t facet = iccp_lifting_facet(l, l->walls.item[k]);
         if (!iccp_is_on_facet(l->m, l->s->facets + 3 * (size_t)facet, v))
             return false;
     }
@@ -313,13 +166,13 @@ static bool is_on_all(const lifting *l, uint32_t v)
 }
 
 /* Contracts p with another point of all its facets, if that makes nothing worse than `least`. */
-static bool contract_point(lifting *l, double least)
+static bool contract_point(iccp_lifting *l, double least)
 {
     iccp_tets *const m = l->m;
     uint32_t best = ICCP_NO_TET;
     for (size_t k = 0; k < l->walls.n; ++k) {
         uint32_t edge[2];
-        opposite(l, l->walls.item[k], edge);
+        iccp_lifting_opposite(l, l->walls.item[k], edge);
         for (int i = 0; i < 2; ++i) {
             if (!is_on_all(l, edge[i]))
                 continue;
@@ -336,17 +189,17 @@ static bool contract_point(lifting *l, double least)
     return true;
 }
 
-static lifted lift_point(lifting *l, uint32_t p)
+static lifted lift_point(iccp_lifting *l, uint32_t p)
 {
     l->p = p;
-    if (!list_walls(l))
+    if (!iccp_lifting_walls(l))
         return NO_MEMORY;
     double worst = 1.0;
     for (size_t k = 0; k < l->m->star.n; ++k)
         worst = iccp_min(worst, iccp_quality_of(l->m, l->m->star.item[k]));
     if (contract_point(l, iccp_max(worst, 1e-3)))
         return LIFTED;
-    if (!triangulate_all(l))
+    if (!iccp_lifting_triangulate(l))
         return contract_point(l, -HUGE_VAL) ? LIFTED : NOT_LIFTED;
     const size_t n = l->triangles.n / 4;
     if (!iccp_tets_reserve(l->m, n) || !iccp_list_reserve(l->m, &l->m->work, l->walls.n + 3 * n))
@@ -357,7 +210,7 @@ static lifted lift_point(lifting *l, uint32_t p)
 }
 
 /* Flips what is nearly flat at a point that is stuck. */
-static void improve_star(lifting *l, uint32_t p)
+static void improve_star(iccp_lifting *l, uint32_t p)
 {
     enum { MOST_FLIPS = 20 };
     const double nearly_flat = 1e-3;
@@ -405,12 +258,12 @@ static bool join_star(iccp_tets *m, uint32_t q)
 
 /* Puts a point inside, beside p: then what is at p is not flat, and p has somewhere to go. False if
  * it cannot be. */
-static bool put_beside(lifting *l, uint32_t p)
+static bool put_beside(iccp_lifting *l, uint32_t p)
 {
     iccp_tets *const m = l->m;
     double direction[DIRECTIONS][3];
     l->p = p;
-    if (!list_walls(l) || !triangulate_all(l))
+    if (!iccp_lifting_walls(l) || !iccp_lifting_triangulate(l))
         return false;
     const double radius = find_directions(l, direction);
     for (int step = 1; step < 40; ++step)
@@ -435,7 +288,7 @@ static bool put_beside(lifting *l, uint32_t p)
 icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12 };
-    lifting l = {.m = m, .s = s};
+    iccp_lifting l = {.m = m, .s = s};
     const iccp_points *const points = &m->points;
     icc_status status = ICC_OK;
     size_t n_left = points->n_dyadic;
@@ -455,7 +308,7 @@ icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, i
                 status = iccp_fail_memory(err);
             if (done == NOT_LIFTED) {
                 ++n_left;
-                stuck = l.walls.n > 0 ? facet_of(&l, l.walls.item[0]) : 0;
+                stuck = l.walls.n > 0 ? iccp_lifting_facet(&l, l.walls.item[0]) : 0;
             }
         }
         if (status == ICC_OK)

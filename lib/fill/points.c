@@ -16,8 +16,8 @@ static void make_fixed(iccp_fixed *fixed, const iccp_points *points, uint32_t p)
             iccp_fixed_add(fixed, iccp_point(points, d->of[i]), d->share[i]);
 }
 
-/* The filter: coordinates are at most 1 where they are rounded, by at most 5 2^-54; so each entry is
- * off by at most 5 2^-53, and the determinant by 6 times that and the products of two rows. */
+/* The filter: coordinates are at most 1 where they are rounded, by at most 5 2^-54; so each entry
+ * is off by at most 5 2^-53, and the determinant by 6 times that and the products of two rows. */
 int iccp_points_orient_dyadic(const iccp_points *points, const uint32_t corner[4])
 {
     const double rounding = 0x1p-47; /* 64 2^-53 */
@@ -34,9 +34,8 @@ int iccp_points_orient_dyadic(const iccp_points *points, const uint32_t corner[4
     const double *const a = row[0], *const b = row[1], *const c = row[2];
     const double det = b[2] * (a[0] * c[1] - c[0] * a[1]) + a[2] * (c[0] * b[1] - b[0] * c[1]) +
                        c[2] * (b[0] * a[1] - a[0] * b[1]);
-    const double bound =
-        6.0 * ICCP_ORIENT3D_ERROR * size[0] * size[1] * size[2] +
-        rounding * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
+    const double bound = 6.0 * ICCP_ORIENT3D_ERROR * size[0] * size[1] * size[2] +
+                         rounding * (size[0] * size[1] + size[1] * size[2] + size[2] * size[0]);
     if (fabs(det) > bound)
         return (det > 0.0) - (det < 0.0);
     iccp_fixed fixed[4];

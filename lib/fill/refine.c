@@ -67,10 +67,11 @@ static double scale_of(const refinement *r, const iccp_tet *tet)
         size = iccp_min(size, r->size[tet->v[i]]);
         on_surface &= tet->v[i] < p->n_given;
         for (int j = i + 1; j < 4; ++j)
-            shortest = iccp_min(shortest, iccp_square_distance(iccp_point(p, tet->v[i]),
-                                                               iccp_point(p, tet->v[j])));
+            shortest = iccp_min(
+                shortest, iccp_square_distance(iccp_point(p, tet->v[i]), iccp_point(p, tet->v[j])));
     }
-    return iccp_max(on_surface ? 0.0 : sqrt(shortest), (on_surface ? least_edge_4 : least_edge) * size);
+    return iccp_max(on_surface ? 0.0 : sqrt(shortest),
+                    (on_surface ? least_edge_4 : least_edge) * size);
 }
 
 static bool is_bad(const refinement *r, uint32_t t, double centre[3], double *badness,
@@ -103,8 +104,7 @@ static bool is_crowded(const iccp_tets *m, const double *x, double scale)
             double square = 0.0;
             for (int j = 0; j < 3; ++j) {
                 const int u = (j + 1) % 3, v = (j + 2) % 3;
-                const double cross =
-                    (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
+                const double cross = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
                 square += cross * cross;
             }
             if (iccp_points_volume(a, b, c, x) < least_height * scale * sqrt(square))
@@ -238,7 +238,7 @@ static bool make_sizes(refinement *r, const iccp_surface *s)
 }
 
 icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, uint64_t most,
-                       const iccp_env *env, icc_error *err)
+                            const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12, FEW = 5 };
     refinement r = {.m = m, .ratio = ratio};

@@ -8,6 +8,6 @@
  * or what edges are like there, if that is longer; not close to the surface, and no more than
  * `most`. */
 icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, uint64_t most,
-                       const iccp_env *env, icc_error *err);
+                            const iccp_env *env, icc_error *err);
 
 #endif

@@ -32,7 +32,8 @@ static bool try_edge(iccp_way *w, uint32_t tet, uint32_t p, uint32_t q)
         return false;
     int n = 0;
     for (size_t k = 0; k < m->link.n; ++k)
-        n += iccp_way_meets(w, (const uint32_t[3]){p, q, m->link.item[k]}, ICCP_NO_TET) != ICCP_MISSES;
+        n += iccp_way_meets(w, (const uint32_t[3]){p, q, m->link.item[k]}, ICCP_NO_TET) !=
+             ICCP_MISSES;
     w->p = p;
     w->q = q;
     const iccp_removal removal = {count, w, true};
@@ -110,8 +111,7 @@ static iccp_recovery recover_segment(iccp_way *w, iccp_segment *segment, bool po
     return ICCP_PRESENT;
 }
 
-icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *env,
-                                 icc_error *err)
+icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *env, icc_error *err)
 {
     enum { FLIP_PASSES = 2 };
     iccp_way w = {.m = m, .s = s, .most_points = 20 * s->n_segments + 1000};

@@ -34,7 +34,8 @@ static double met_at(const iccp_way *w, uint32_t side)
 
 /* Where between two shares of a segment a side's plane is crossed, exactly as far as shares can be
  * told: by halving. -1: there is no memory. */
-static double crossing(iccp_way *w, const iccp_segment *segment, uint32_t side, double from, double to)
+static double crossing(iccp_way *w, const iccp_segment *segment, uint32_t side, double from,
+                       double to)
 {
     iccp_tets *const m = w->m;
     const int at_a = iccp_tet_sees(m, &m->tet[side / 4], (int)(side % 4), w->a);
@@ -54,8 +55,8 @@ static double crossing(iccp_way *w, const iccp_segment *segment, uint32_t side, 
     return to;
 }
 
-/* Puts a point as near to a share as it takes to see all of m->cavity, with as few bits as it can be;
- * it stands between a and b on the segment then. */
+/* Puts a point as near to a share as it takes to see all of m->cavity, with as few bits as it can
+ * be; it stands between a and b on the segment then. */
 static iccp_recovery put_near(iccp_way *w, iccp_segment *segment, double at)
 {
     iccp_tets *const m = w->m;

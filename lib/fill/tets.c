@@ -256,8 +256,7 @@ static bool rename_corner(uint32_t key[3], uint32_t p, uint32_t v)
 }
 
 /* The sides of the old ones that lead out are kept in m->sides, four numbers each: three corners,
- * of which p becomes v, and what is across. Each takes the place of the side of a new one; then the new ones are joined
- * to each other. */
+ * of which p becomes v, and what is across. */
 static bool list_rim(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
@@ -322,8 +321,8 @@ bool iccp_tets_contract(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, cons
         iccp_tets_kill(m, old[k]);
     m->fresh.n = 0;
     for (size_t k = 0; k < n_fresh; ++k)
-        m->fresh.item[m->fresh.n++] = iccp_tets_new(m, fresh[4 * k], fresh[4 * k + 1],
-                                                    fresh[4 * k + 2], fresh[4 * k + 3]);
+        m->fresh.item[m->fresh.n++] =
+            iccp_tets_new(m, fresh[4 * k], fresh[4 * k + 1], fresh[4 * k + 2], fresh[4 * k + 3]);
     close_rim(m);
     return true;
 }

@@ -73,9 +73,11 @@ static inline bool iccp_is_wall_side(uint32_t across)
 
 static inline int iccp_tet_index(const iccp_tet *tet, uint32_t point)
 {
-    return tet->v[0] == point ? 0 : tet->v[1] == point ? 1 : tet->v[2] == point ? 2
-           : tet->v[3] == point                        ? 3
-                                                       : -1;
+    return tet->v[0] == point   ? 0
+           : tet->v[1] == point ? 1
+           : tet->v[2] == point ? 2
+           : tet->v[3] == point ? 3
+                                : -1;
 }
 
 static inline int iccp_tets_orient(const iccp_tets *m, uint32_t a, uint32_t b, uint32_t c,
@@ -116,8 +118,8 @@ uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b);
 bool iccp_tets_replace(iccp_tets *m, size_t n_old, const uint32_t *old, size_t n_fresh,
                        const uint32_t *fresh);
 
-/* The same where point p of the old ones, whose star they are, becomes point v of its link; p may be
- * on the surface, if v is on the same facets. */
+/* The same where point p of the old ones, whose star they are, becomes point v of its link; p may
+ * be on the surface, if v is on the same facets. */
 bool iccp_tets_contract(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old,
                         size_t n_fresh, const uint32_t *fresh);
 

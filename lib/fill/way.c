@@ -42,7 +42,9 @@ int iccp_way_meets(const iccp_way *w, const uint32_t x[3], uint32_t d)
         left += side > 0;
         right += side < 0;
     }
-    return left > 0 && right > 0 ? ICCP_MISSES : left == 3 || right == 3 ? ICCP_THROUGH : ICCP_AT_EDGE;
+    return left > 0 && right > 0     ? ICCP_MISSES
+           : left == 3 || right == 3 ? ICCP_THROUGH
+                                     : ICCP_AT_EDGE;
 }
 
 int iccp_way_meets_side(const iccp_way *w, uint32_t side)
@@ -50,7 +52,7 @@ int iccp_way_meets_side(const iccp_way *w, uint32_t side)
     const iccp_tet *const tet = &w->m->tet[side / 4];
     const uint8_t *const f = iccp_tet_face[side % 4];
     return iccp_way_meets(w, (const uint32_t[3]){tet->v[f[0]], tet->v[f[1]], tet->v[f[2]]},
-                 tet->v[side % 4]);
+                          tet->v[side % 4]);
 }
 
 bool iccp_way_follow(iccp_way *w, uint32_t first)

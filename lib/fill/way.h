@@ -16,15 +16,10 @@ typedef struct iccp_way {
     size_t most_points;
 } iccp_way;
 
-typedef enum iccp_recovery {
-    ICCP_PRESENT,
-    ICCP_MISSING,
-    ICCP_STUCK,
-    ICCP_NO_MEMORY
-} iccp_recovery;
+typedef enum iccp_recovery { ICCP_PRESENT, ICCP_MISSING, ICCP_STUCK, ICCP_NO_MEMORY } iccp_recovery;
 
-/* How triangle x is met. Where d, on its positive side, is unknown, as ICCP_NO_TET, all that lies in
- * the plane of x is taken to be met. */
+/* How triangle x is met. Where d, on its positive side, is unknown, as ICCP_NO_TET, all that lies
+ * in the plane of x is taken to be met. */
 int iccp_way_meets(const iccp_way *w, const uint32_t x[3], uint32_t d);
 
 int iccp_way_meets_side(const iccp_way *w, uint32_t side);

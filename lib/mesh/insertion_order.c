@@ -27,8 +27,8 @@ static uint64_t hilbert(uint32_t x, uint32_t y)
     return place;
 }
 
-/* The place of a cell of the 2^10 x 2^10 x 2^10 cube on the curve through its octants and theirs: G.
- * M. Morton's, which jumps now and then, but is simple. */
+/* The place of a cell of the 2^10 x 2^10 x 2^10 cube on the curve through its octants and theirs,
+ * after G. M. Morton, which jumps now and then, but is simple. */
 static uint64_t morton(uint32_t x, uint32_t y, uint32_t z)
 {
     uint64_t place = 0;

@@ -43,7 +43,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     choose(&s, data[0] & 3);
     read_surface(&s, data, size);
-    if (icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL) != ICC_OK)
+    if (icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL, NULL) !=
+        ICC_OK)
         return 0;
     const icc_status status = icc_domain_fill(&filled, domain, NULL, NULL, &err);
     require((filled != NULL) == (status == ICC_OK));

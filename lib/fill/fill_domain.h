@@ -1,6 +1,6 @@
 /* Closed surfaces become domains with a mesh of tetrahedra. */
-#ifndef ICCP_FILL_H
-#define ICCP_FILL_H
+#ifndef ICCP_FILL_DOMAIN_H
+#define ICCP_FILL_DOMAIN_H
 
 #include "domain/domain.h"
 

@@ -1,7 +1,7 @@
 /* The stages: all vertices near Delaunay in a box; the surface's edges, its facets; the outside
  * dropped; points on the surface lifted; the inside refined and improved; the result checked, as
  * any mesh is. What fails is named; a wrong mesh does not come out. */
-#include "fill/fill.h"
+#include "fill/fill_domain.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
@@ -53,8 +53,7 @@ static icc_status make_box(iccp_tets *m, icc_error *err)
     m->work.n = 0;
     for (int i = 0; i < 6; ++i) {
         const uint8_t *const c = corner[i];
-        const uint32_t t =
-            iccp_tets_new(m, first + c[0], first + c[1], first + c[2], first + c[3]);
+        const uint32_t t = iccp_tets_new(m, first + c[0], first + c[1], first + c[2], first + c[3]);
         for (uint32_t k = 0; k < 4; ++k)
             m->work.item[m->work.n++] = 4 * t + k;
     }
@@ -81,8 +80,9 @@ static icc_status insert_vertices(iccp_tets *m, const icc_domain *surface, const
 {
     const size_t n = m->points.n_given;
     uint32_t *order = iccp_alloc(&env->memory, n, sizeof *order);
-    icc_status status = order == NULL ? ICC_ERR_MEMORY
-                                      : iccp_insertion_order(order, n, 3, m->points.x, &env->memory);
+    icc_status status = order == NULL
+                            ? ICC_ERR_MEMORY
+                            : iccp_insertion_order(order, n, 3, m->points.x, &env->memory);
     iccp_explain(err, status);
     if (status == ICC_OK)
         status = iccp_tets_insert_all(m, keep_used(order, n, surface, m->seen), order, env, err);
