@@ -158,22 +158,29 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     return status;
 }
 
+/* In another order, what is in the way may be elsewhere. */
 icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err)
 {
-    iccp_tets m;
-    iccp_surface s = {.memory = env->memory};
-    s.edges.memory = env->memory;
-    *out = NULL;
-    iccp_tets_init(&m, &env->memory);
+    enum { MOST_ATTEMPTS = 3 };
     iccp_env stage[N_STAGES];
-    iccp_split(stage, N_STAGES, cost, env);
-    icc_status status = make(&m, &s, surface, options, stage, err);
-    if (m.no_memory)
-        status = iccp_fail_memory(err);
-    if (status == ICC_OK)
-        status = finish(out, &m, surface, &stage[CHECK], err);
-    iccp_surface_free(&s);
-    iccp_tets_free(&m);
+    icc_status status = ICC_ERR_RESOLUTION;
+    *out = NULL;
+    for (uint32_t k = 0; k < MOST_ATTEMPTS && status == ICC_ERR_RESOLUTION; ++k) {
+        const iccp_env attempt = iccp_round(env, k, 1.0);
+        iccp_tets m;
+        iccp_surface s = {.memory = env->memory};
+        s.edges.memory = env->memory;
+        iccp_tets_init(&m, &env->memory);
+        m.attempt = k;
+        iccp_split(stage, N_STAGES, cost, k == 0 ? env : &attempt);
+        status = make(&m, &s, surface, options, stage, err);
+        if (m.no_memory)
+            status = iccp_fail_memory(err);
+        if (status == ICC_OK)
+            status = finish(out, &m, surface, &stage[CHECK], err);
+        iccp_surface_free(&s);
+        iccp_tets_free(&m);
+    }
     return status;
 }

@@ -276,16 +276,17 @@ icc_status iccp_tets_insert_all(iccp_tets *m, size_t n, const uint32_t *order, c
     for (size_t k = 0; k < n; ++k) {
         if (k % 1024 == 0 && iccp_progress(env, "mesh", (double)k / (double)n) != ICC_OK)
             return iccp_explain(err, ICC_ERR_CANCELLED);
-        const uint32_t t = iccp_tets_locate(m, order[k], m->hint);
-        if (t != ICCP_NO_TET && !iccp_tets_holders(m, order[k], t))
+        const uint32_t p = order[iccp_tets_turn(m, k, n)];
+        const uint32_t t = iccp_tets_locate(m, p, m->hint);
+        if (t != ICCP_NO_TET && !iccp_tets_holders(m, p, t))
             return iccp_fail_memory(err);
         const iccp_inserted made =
-            t == ICCP_NO_TET ? ICCP_NOT_INSERTED : iccp_tets_insert(m, order[k], m->cavity.n, true);
+            t == ICCP_NO_TET ? ICCP_NOT_INSERTED : iccp_tets_insert(m, p, m->cavity.n, true);
         if (made == ICCP_INSERT_MEMORY)
             return iccp_fail_memory(err);
         if (made != ICCP_INSERTED)
-            return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_VERTEX, (int64_t)order[k],
-                                "vertex %lu cannot be told from others", (unsigned long)order[k]);
+            return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_VERTEX, (int64_t)p,
+                                "vertex %lu cannot be told from others", (unsigned long)p);
     }
     return ICC_OK;
 }

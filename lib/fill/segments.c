@@ -122,12 +122,13 @@ icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *
             const double share = ((double)pass + (double)e / (double)s->n_segments) / 3.0;
             if (e % 1024 == 0)
                 status = iccp_explain(err, iccp_progress(env, "mesh", share));
-            const iccp_recovery made = recover_segment(&w, &s->segment[e], pass >= FLIP_PASSES);
+            iccp_segment *const segment = &s->segment[iccp_tets_turn(m, e, s->n_segments)];
+            const iccp_recovery made = recover_segment(&w, segment, pass >= FLIP_PASSES);
             missing += made == ICCP_MISSING;
             if (made == ICCP_NO_MEMORY)
                 status = iccp_fail_memory(err);
             else if (made == ICCP_STUCK)
-                status = iccp_fail_facet(err, s->segment[e].facet,
+                status = iccp_fail_facet(err, segment->facet,
                                          "one of its edges cannot be told from its surroundings");
         }
     }

@@ -38,8 +38,9 @@ typedef struct iccp_tets {
     uint32_t free; /* a list of those that are gone, linked by across[0] */
     uint32_t stamp;
     uint64_t random;
-    uint32_t hint;  /* where to begin to look */
-    bool no_memory; /* there was none at some time, whatever came of it */
+    uint32_t attempt; /* which of several orders things are done in, from 0 */
+    uint32_t hint;    /* where to begin to look */
+    bool no_memory;   /* there was none at some time, whatever came of it */
     iccp_list star, ring, link, cavity, sides, fresh, work;
 } iccp_tets;
 
@@ -48,6 +49,13 @@ void iccp_tets_free(iccp_tets *m);
 
 bool iccp_list_push(iccp_tets *m, iccp_list *list, uint32_t item);
 bool iccp_list_reserve(iccp_tets *m, iccp_list *list, size_t room);
+
+/* What comes k-th of n < 2^31: in order, backwards, or scattered by a prime. */
+static inline size_t iccp_tets_turn(const iccp_tets *m, size_t k, size_t n)
+{
+    const uint64_t prime = 2654435761u;
+    return m->attempt == 0 ? k : m->attempt == 1 ? n - 1 - k : (size_t)(k * prime % n);
+}
 
 /* A new point that no tetrahedron has, at x; ICCP_NO_TET if there is no memory. */
 uint32_t iccp_tets_add_point(iccp_tets *m, const double *x);
