@@ -90,11 +90,13 @@ static icc_status insert_vertices(iccp_tets *m, const icc_domain *surface, const
     return status;
 }
 
-/* The mesh in the caller's coordinates, as a domain. */
-static icc_status finish(icc_domain **out, const iccp_tets *m, const icc_domain *surface,
+/* The mesh in the caller's coordinates, as a domain. What it is made of is freed as soon as it is
+ * known. */
+static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const icc_domain *surface,
                          const iccp_env *env, icc_error *err)
 {
     const iccp_points *const p = &m->points;
+    const size_t n_tets = m->n_alive;
     uint32_t *number = iccp_alloc(&env->memory, p->n, sizeof *number);
     uint32_t *corners = iccp_alloc(&env->memory, m->n_alive, 4 * sizeof *corners);
     double *given = iccp_alloc(&env->memory, p->n, 3 * sizeof *given);
@@ -114,7 +116,12 @@ static icc_status finish(icc_domain **out, const iccp_tets *m, const icc_domain 
         for (uint32_t t = 0; t < m->n_tets; ++t)
             for (int i = 0; i < 4 && iccp_tet_alive(m, t); ++i)
                 corners[n_corners++] = number[m->tet[t].v[i]];
-        status = iccp_domain_create_mesh(out, 3, n, given, m->n_alive, corners, surface->n_facets,
+        iccp_tets_free(m);
+        iccp_tets_init(m, &env->memory);
+        iccp_surface_free(s);
+        iccp_free(&env->memory, number);
+        number = NULL;
+        status = iccp_domain_create_mesh(out, 3, n, given, n_tets, corners, surface->n_facets,
                                          surface->facets, env, err);
     } else {
         iccp_fail_memory(err);
@@ -178,7 +185,7 @@ icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
         if (m.no_memory)
             status = iccp_fail_memory(err);
         if (status == ICC_OK)
-            status = finish(out, &m, surface, &stage[CHECK], err);
+            status = finish(out, &m, &s, surface, &stage[CHECK], err);
         iccp_surface_free(&s);
         iccp_tets_free(&m);
     }

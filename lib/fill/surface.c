@@ -48,6 +48,7 @@ void iccp_surface_free(iccp_surface *s)
     iccp_free(&s->memory, s->side);
     iccp_free(&s->memory, s->segment);
     iccp_pairs_free(&s->edges);
+    *s = (iccp_surface){.memory = s->memory, .edges.memory = s->memory};
 }
 
 static const iccp_dyadic *dyadic(const iccp_tets *m, uint32_t p)
