@@ -63,6 +63,9 @@ typedef struct icc_domain_info {
     double measure;            /**< length, area (2-D), volume (3-D) and so on, without holes; may
                                     overflow to HUGE_VAL for coordinates near 1e300 */
     size_t n_features;         /**< features inside: see icc_domain_create_features() */
+    size_t n_mesh_vertices;    /**< vertices of the mesh of its inside, with those of the boundary;
+                                    0: it has none */
+    size_t n_mesh_simplices;   /**< simplices of that */
 } icc_domain_info;
 
 /**
@@ -243,6 +246,35 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
                                           const uint32_t *facets, const icc_env *env,
                                           icc_error *err);
 
+/** How icc_domain_fill() chooses inner vertices. */
+typedef struct icc_fill_options {
+    size_t size;         /**< sizeof(icc_fill_options) */
+    double ratio;        /**< circumradius over shortest edge from which tetrahedra are refined, at
+                              least 1.2; 0: 1.6; infinite: no vertices but those it takes */
+    uint64_t max_points; /**< inner vertices at most, where fewer do; 0: no limit */
+} icc_fill_options;
+
+/**
+ * Fills a closed surface in 3-D with tetrahedra: makes the domain that icc_domain_create_mesh()
+ * makes of a mesh of its inside. The vertices and facets are those of the surface, bit by bit;
+ * vertices are added inside only.
+ *
+ * Near-Delaunay insertion, recovery of edges and facets, then refinement, flips and smoothing; all
+ * that decides whether the mesh is one is exact, and the result is checked as that of
+ * icc_domain_create_mesh() is. The same bits on every machine. Vertices that belong to no facet are
+ * not among those of the result.
+ *
+ * Cost: about 40 us per tetrahedron, and at most 200 bytes.
+ * @param surface a domain in 3-D without a mesh
+ * @param options may be NULL
+ * @return ::ICC_ERR_UNSUPPORTED unless `surface` is in 3-D and has no mesh; ::ICC_ERR_RESOLUTION if
+ *         a facet, which icc_error::index names, cannot be told from what is next to it, or
+ *         max_points are too few
+ */
+ICC_API icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
+                                   const icc_fill_options *options, const icc_env *env,
+                                   icc_error *err);
+
 /**
  * Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
  * icc_domain_create_mask() refuses. Cells are filled one at a time, each time the one that leaves
@@ -290,6 +322,19 @@ typedef struct icc_feature_info {
  */
 ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature,
                                           icc_feature_info *info);
+
+/**
+ * Copies the mesh of the inside: icc_domain_create_mesh(), icc_domain_fill().
+ *
+ * @param domain         a domain with a mesh: icc_domain_info::n_mesh_vertices is not 0
+ * @param[out] vertices  room for n_mesh_vertices * dim doubles, or NULL: those of the boundary, in
+ *                       the order of icc_domain_get_boundary(), then those inside
+ * @param[out] simplices room for n_mesh_simplices * (dim + 1) indices, or NULL; each has a positive
+ *                       determinant
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT without a domain; ::ICC_ERR_UNSUPPORTED without a mesh
+ */
+ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices,
+                                       uint32_t *simplices);
 
 /**
  * Copies the boundary as it was given: of a domain with features, the vertices of the outer ring

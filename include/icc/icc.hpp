@@ -283,6 +283,15 @@ public:
         });
     }
 
+    /** This surface in 3-D, filled with tetrahedra: icc_domain_fill(). */
+    domain filled(const icc_fill_options &options = sized<icc_fill_options>(),
+                  const env &e = {}) const
+    {
+        return domain(e, [&](auto out, auto... rest) {
+            return icc_domain_fill(out, get(), &options, rest...);
+        });
+    }
+
     /** Of the cells of a mask, as many along each axis as `shape` says, the first axis fastest:
      *  icc_domain_create_mask(). */
     static domain from_mask(view<const std::size_t> shape, view<const std::uint8_t> cells,
@@ -330,6 +339,20 @@ public:
         std::vector<icc_feature_info> result(info().n_features, sized<icc_feature_info>());
         for (std::size_t f = 0; f < result.size(); ++f)
             call({}, [&](auto...) { return icc_domain_get_feature(get(), f, &result[f]); });
+        return result;
+    }
+
+    /** The vertices of the mesh of its inside, those of the boundary first, and its simplices. */
+    std::pair<std::vector<double>, std::vector<std::uint32_t>> mesh() const
+    {
+        const auto i = info();
+        const auto dim = static_cast<std::size_t>(i.dim);
+        std::pair<std::vector<double>, std::vector<std::uint32_t>> result(
+            std::vector<double>(i.n_mesh_vertices * dim),
+            std::vector<std::uint32_t>(i.n_mesh_simplices * (dim + 1)));
+        call({}, [&](auto...) {
+            return icc_domain_get_mesh(get(), result.first.data(), result.second.data());
+        });
         return result;
     }
 

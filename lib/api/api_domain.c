@@ -7,6 +7,8 @@
 #include "domain/features.h"
 #include "domain/mesh_domain.h"
 #include "domain/polygon_check.h"
+#include "domain/simplices.h"
+#include "fill/fill_domain.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,6 +85,32 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
     return iccp_end_domain(iccp_domain_create_mesh(out, dim, n_vertices, vertices, n_simplices,
                                                    simplices, n_facets, facets, &full, err),
                            out, &full, err);
+}
+
+icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
+                           const icc_fill_options *options, const icc_env *env, icc_error *err)
+{
+    iccp_env full;
+    icc_fill_options given;
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL ? "out" : surface == NULL ? "surface" : NULL;
+    icc_status status = iccp_begin(&full, env, missing, err);
+    if (status == ICC_OK)
+        status = iccp_read_struct(&given, sizeof given, options, "icc_fill_options", err);
+    if (status != ICC_OK)
+        return status;
+    if (surface->dim != 3 || surface->mesh != NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "only surfaces in 3-D without a mesh can be filled");
+    if (!(given.ratio == 0.0 || given.ratio >= 1.2))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_fill_options.ratio is %g; it must be 0 or at "
+                         "least 1.2",
+                         given.ratio);
+    const iccp_fill_options own = {given.ratio == 0.0 ? 1.6 : given.ratio,
+                                   given.max_points == 0 ? UINT64_MAX : given.max_points};
+    return iccp_end_domain(iccp_domain_fill(out, surface, &own, &full, err), out, &full, err);
 }
 
 static icc_status check_feature(size_t f, const icc_feature *feature, icc_error *err)
@@ -171,6 +199,8 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
     full.n_vertices = domain->n_vertices;
     full.n_facets = domain->n_facets;
     full.n_features = domain->features != NULL ? domain->features->n : 0;
+    full.n_mesh_vertices = domain->mesh != NULL ? domain->mesh->n_points : 0;
+    full.n_mesh_simplices = domain->mesh != NULL ? domain->mesh->n_simplices : 0;
     iccp_frame_out(frame, domain->dim, domain->lower, full.lower);
     iccp_frame_out(frame, domain->dim, domain->upper, full.upper);
     full.measure = domain->measure;
@@ -204,6 +234,25 @@ icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, u
             iccp_domain_given(domain, v, vertices + dim * v);
     if (facets != NULL)
         memcpy(facets, domain->facets, domain->n_facets * dim * sizeof *facets);
+    return ICC_OK;
+}
+
+icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices, uint32_t *simplices)
+{
+    if (domain == NULL)
+        return ICC_ERR_ARGUMENT;
+    if (domain->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_simplices *const mesh = domain->mesh;
+    const size_t dim = mesh->dim;
+    for (size_t v = 0; v < mesh->n_points && vertices != NULL; ++v)
+        if (v < mesh->n_boundary)
+            iccp_domain_given(domain, v, vertices + dim * v);
+        else
+            iccp_frame_restore(&domain->frame, domain->dim, mesh->points + dim * v,
+                               vertices + dim * v);
+    if (simplices != NULL)
+        memcpy(simplices, mesh->corners, mesh->n_simplices * (dim + 1) * sizeof *simplices);
     return ICC_OK;
 }
 

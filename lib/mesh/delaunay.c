@@ -239,7 +239,7 @@ icc_status iccp_delaunay(iccp_trimesh *mesh, const iccp_env *env, icc_error *err
     uint32_t *order = iccp_alloc(&env->memory, mesh->n_points, sizeof *order);
     icc_status status = ICC_ERR_MEMORY;
     if (order != NULL)
-        status = iccp_insertion_order(order, mesh->n_points, mesh->points, &env->memory);
+        status = iccp_insertion_order(order, mesh->n_points, 2, mesh->points, &env->memory);
     if (status != ICC_OK)
         iccp_fail_memory(err);
     else

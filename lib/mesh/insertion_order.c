@@ -27,6 +27,16 @@ static uint64_t hilbert(uint32_t x, uint32_t y)
     return place;
 }
 
+/* The place of a cell of the 2^10 x 2^10 x 2^10 cube on the curve through its octants and theirs,
+ * after G. M. Morton, which jumps now and then, but is simple. */
+static uint64_t morton(uint32_t x, uint32_t y, uint32_t z)
+{
+    uint64_t place = 0;
+    for (uint32_t bit = 10; bit-- > 0;)
+        place = place << 3 | (x >> bit & 1) << 2 | (y >> bit & 1) << 1 | (z >> bit & 1);
+    return place;
+}
+
 /* Three points of four fall into the last round, three of four of the others into the one before,
  * and so on: the finaliser of MurmurHash3 scatters the index's bits. */
 static uint64_t pick_round(uint32_t index)
@@ -44,6 +54,7 @@ static uint64_t pick_round(uint32_t index)
 /* The cells of one axis: where they begin, and how many there are per unit. */
 typedef struct axis {
     double origin, scale;
+    uint32_t last;
 } axis;
 
 static size_t index_of(uint64_t key)
@@ -51,37 +62,43 @@ static size_t index_of(uint64_t key)
     return (size_t)(key & (((uint64_t)1 << CURVE_SHIFT) - 1));
 }
 
-static axis measure(const uint64_t *keys, size_t n, const double *coordinates)
+/* `dim` is the distance of one point's coordinate from the next one's. */
+static axis measure(const uint64_t *keys, size_t n, size_t dim, const double *coordinates)
 {
-    double low = coordinates[2 * index_of(keys[0])], high = low;
+    const double last = dim == 2 ? 65535.0 : 1023.0;
+    double low = coordinates[dim * index_of(keys[0])], high = low;
     for (size_t i = 1; i < n; ++i) {
-        const double x = coordinates[2 * index_of(keys[i])];
+        const double x = coordinates[dim * index_of(keys[i])];
         low = x < low ? x : low;
         high = x > high ? x : high;
     }
-    return (axis){low, high > low ? 65535.0 / (high - low) : 0.0};
+    return (axis){low, high > low ? last / (high - low) : 0.0, (uint32_t)last};
 }
 
 static uint32_t cell(const axis *a, double x)
 {
     const double place = (x - a->origin) * a->scale;
-    return place < 65535.0 ? (uint32_t)place : 65535u;
+    return place < a->last ? (uint32_t)place : a->last;
 }
 
 /* Places the points of some keys on a curve through their own bounding box, and sorts. */
-static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, const double *points)
+static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, size_t dim,
+                             const double *points)
 {
     const uint64_t curve = (uint64_t)UINT32_MAX << CURVE_SHIFT;
-    const axis x = measure(keys, n, points), y = measure(keys, n, points + 1);
+    const axis x = measure(keys, n, dim, points), y = measure(keys, n, dim, points + 1);
+    const axis z = measure(keys, n, dim, points + (dim == 3 ? 2 : 1));
     for (size_t i = 0; i < n; ++i) {
-        const double *p = points + 2 * index_of(keys[i]);
-        keys[i] = (keys[i] & ~curve) | hilbert(cell(&x, p[0]), cell(&y, p[1])) << CURVE_SHIFT;
+        const double *p = points + dim * index_of(keys[i]);
+        const uint64_t place = dim == 2 ? hilbert(cell(&x, p[0]), cell(&y, p[1]))
+                                        : morton(cell(&x, p[0]), cell(&y, p[1]), cell(&z, p[2]));
+        keys[i] = (keys[i] & ~curve) | place << CURVE_SHIFT;
     }
     iccp_sort_keys(keys, scratch, n, CURVE_SHIFT);
 }
 
 /* Sorts again what shares a cell, when it is much; false when nothing was. */
-static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, const double *points)
+static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, size_t dim, const double *points)
 {
     enum { MUCH = 64 }; /* walking across a few tens of triangles costs less than sorting again */
     bool refined = false;
@@ -91,24 +108,24 @@ static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, const double *po
             ++end;
         if (end - begin < MUCH)
             continue;
-        sort_along_curve(keys + begin, scratch, end - begin, points);
+        sort_along_curve(keys + begin, scratch, end - begin, dim, points);
         refined = true;
     }
     return refined;
 }
 
-icc_status iccp_insertion_order(uint32_t *order, size_t n, const double *points,
+icc_status iccp_insertion_order(uint32_t *order, size_t n, size_t dim, const double *points,
                                 const iccp_memory *memory)
 {
-    /* Each level is finer by 2^16; the local coordinates span less than 2^450. */
-    enum { MOST_LEVELS = 28 };
+    /* Each level is finer by 2^16, or 2^10; the local coordinates span less than 2^450. */
+    const int most_levels = dim == 2 ? 28 : 45;
     uint64_t *keys = iccp_alloc(memory, n, 2 * sizeof *keys);
     if (keys == NULL)
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < n; ++i)
         keys[i] = pick_round((uint32_t)i) << ROUND_SHIFT | i;
-    sort_along_curve(keys, keys + n, n, points);
-    for (int level = 1; level < MOST_LEVELS && refine(keys, keys + n, n, points); ++level)
+    sort_along_curve(keys, keys + n, n, dim, points);
+    for (int level = 1; level < most_levels && refine(keys, keys + n, n, dim, points); ++level)
         continue;
     for (size_t i = 0; i < n; ++i)
         order[i] = (uint32_t)index_of(keys[i]);

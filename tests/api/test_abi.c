@@ -137,7 +137,7 @@ AT(icc_env, parallel_for, 48);
 AT(icc_env, threads, 56);
 AT(icc_env, load_limit, 64);
 
-SIZE(icc_domain_info, 144);
+SIZE(icc_domain_info, 160);
 AT(icc_domain_info, size, 0);
 AT(icc_domain_info, dim, 8);
 AT(icc_domain_info, orientation, 12);
@@ -147,6 +147,13 @@ AT(icc_domain_info, lower, 32);
 AT(icc_domain_info, upper, 80);
 AT(icc_domain_info, measure, 128);
 AT(icc_domain_info, n_features, 136);
+AT(icc_domain_info, n_mesh_vertices, 144);
+AT(icc_domain_info, n_mesh_simplices, 152);
+
+SIZE(icc_fill_options, 24);
+AT(icc_fill_options, size, 0);
+AT(icc_fill_options, ratio, 8);
+AT(icc_fill_options, max_points, 16);
 
 SIZE(icc_feature, 32);
 AT(icc_feature, size, 0);

@@ -102,4 +102,25 @@ if command -v tetgen >/dev/null; then
     run 0 mesh -s cube.obj -t moved.obj --repair --json in.mesh mended.mesh
     holds out '"turned": []'
 fi
+
+# A surface filled: the mesh fits the surface that it was made of, in both formats.
+for file in filled.mesh filled.vtk; do
+    run 0 mesh --fill cube.obj "$file"
+    holds out ' tetrahedra, '
+    run 0 info -s cube.obj --mesh "$file"
+    holds out 'method      foliation, certified'
+done
+run 0 mesh --fill cube.obj -
+holds out 'MeshVersionFormatted 2'
+run 2 mesh --fill cube.obj filled.png
+run 2 mesh --fill -s cube.obj cube.obj filled.mesh
+holds err '--source does not go with --fill'
+run 2 mesh --fill cube.obj
+sed '$d' cube.obj >open.obj
+run 1 mesh --fill open.obj none.mesh
+[ ! -e none.mesh ] || complain "a mesh of an open surface was written"
+printf '0 0\n1 0\n0 1\n' >flat.txt
+run 1 mesh --fill flat.txt none.mesh
+holds err 'only these are filled'
+
 finish

@@ -1,5 +1,5 @@
 /* libicc mesh: carries the vertices of a mesh along, and reports what became of its triangles or
- * tetrahedra. What lies outside the cage stays where it is, or nothing is written. */
+ * tetrahedra; or fills a surface with tetrahedra: cmd_fill.c. What lies outside the cage stays where it is, or nothing is written. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -163,6 +163,8 @@ static int check_dimension(job *j)
 
 int run_mesh(const args *a)
 {
+    if (a->fill)
+        return run_fill(a);
     job j;
     job_start(&j, a);
     int result = check_dimension(&j);

@@ -10,6 +10,7 @@ int run_encode(const args *a);
 int run_decode(const args *a);
 int run_warp(const args *a);
 int run_mesh(const args *a);
+int run_fill(const args *a); /* mesh --fill */
 int run_check(const args *a);
 int run_info(const args *a);
 int run_plot(const args *a);

@@ -73,8 +73,8 @@ static const command commands[] = {
      .n_operands = 2,
      .needs_target = true,
      .run = run_mesh,
-     .usage = "--source FILE --target FILE [OPTION]... IN OUT",
-     .summary = "Carries the vertices of a mesh along",
+     .usage = "--source FILE --target FILE [OPTION]... IN OUT, or mesh --fill SURFACE OUT",
+     .summary = "Carries the vertices of a mesh along, or fills a surface",
      .details =
          "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format "
          "of "

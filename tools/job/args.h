@@ -40,7 +40,7 @@ typedef struct args {
     size_t n_along;
     bool logarithmic;
     /* what to do */
-    bool fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
+    bool fill, fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
         compression, has_background;
     unsigned char background[4];
     int32_t lines;

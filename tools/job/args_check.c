@@ -126,8 +126,29 @@ static int check_kernel(const args *a, const command *c)
     return DONE;
 }
 
+/* Filling a surface takes it, and no map. */
+static int check_fill(const args *a, const command *c)
+{
+    const char *of_maps = a->source != NULL   ? "source"
+                          : a->target != NULL ? "target"
+                          : a->mesh != NULL   ? "mesh"
+                          : a->target_mesh    ? "target-mesh"
+                          : a->inverse        ? "inverse"
+                          : a->repair_mesh    ? "untangle"
+                          : a->method != 0    ? "method"
+                          : a->map != 0       ? "map"
+                          : a->outside != 0   ? "outside"
+                          : a->json           ? "json"
+                                              : NULL;
+    if (of_maps != NULL)
+        return misused(c->name, "--%s does not go with --fill", of_maps);
+    return a->n_operands < 2 ? misused(c->name, "usage: libicc mesh --fill SURFACE OUT") : DONE;
+}
+
 static int check_charts(const args *a, const command *c)
 {
+    if (a->fill)
+        return check_fill(a, c);
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
     int result = check_method(a, c);
@@ -189,7 +210,7 @@ static int settle_streams(args *a, const command *c)
 
 int args_check(args *a, const command *c)
 {
-    a->needs_target = c->needs_target;
+    a->needs_target = c->needs_target && !a->fill;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     settle_functions(a);

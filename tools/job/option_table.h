@@ -44,7 +44,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], sampling
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 62 };
+enum { N_OPTIONS = 63 };
 extern const option options[N_OPTIONS];
 
 #endif

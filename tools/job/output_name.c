@@ -133,6 +133,7 @@ static const char *formats_of_operand(const args *a, const command *c)
 {
     return a->geojson                        ? "GeoJSON, JSON"
            : c->bit & FOR_WARP               ? "PNG"
+           : a->fill                         ? "Medit, VTK"
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
            : c->bit & FOR_PLOT               ? "SVG, VTK"
            : c->bit & FOR_POSE && a->binding ? "text"

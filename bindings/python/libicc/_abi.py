@@ -16,8 +16,9 @@ MAX_DIM = 6
 STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
-domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size
+domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size n_mesh_vertices:size n_mesh_simplices:size
 feature kind:i32 n_vertices:size vertices:ptr
+fill_options ratio:f64 max_points:u64
 feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
 chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
@@ -61,8 +62,10 @@ domain_create_mesh domain** i32 size f64* size u32* size u32* env* error*
 mask_repair i32 size* u8* size* env* error*
 void:domain_free domain*
 domain_get_info domain* domain_info*
+domain_fill domain** domain* fill_options* env* error*
 domain_get_feature domain* size feature_info*
 domain_get_boundary domain* f64* u32*
+domain_get_mesh domain* f64* u32*
 domain_locate domain* size f64* i32* u32* f64* env*
 boundary_defects size f64* size i32* u32* size* env* error*
 chart_create chart** domain* chart_options* env* error*

@@ -119,9 +119,33 @@ class Domain(Handle):
                                 address(simplices), 0 if facets is None else len(facets),
                                 address(facets), progress=progress, threads=threads))
 
+    def filled(self, *, ratio: float = 0.0, max_points: int = 0, progress: Optional[Progress] = None,
+               threads: Optional[int] = None) -> "Domain":
+        """This surface in 3-D, filled with tetrahedra: the same vertices and facets, and vertices inside.
+
+        Args:
+            ratio: circumradius over shortest edge from which tetrahedra are refined; 0: 1.6
+            max_points: inner vertices at most, where fewer do; 0: no limit
+        """
+        options = structs.fill_options(ratio=ratio, max_points=max_points)
+        options.size = ctypes.sizeof(options)
+        return self._wrap(create(lib.domain_fill, self, ctypes.addressof(options), progress=progress,
+                                 threads=threads))
+
+    @property
+    def mesh(self) -> Tuple[Floats, Indices]:
+        """Copies of the vertices of the mesh of the inside, those of the boundary first, and of its
+        simplices."""
+        info = self._info("domain_get_info", "domain_info")
+        vertices = np.empty((info.n_mesh_vertices, info.dim))
+        simplices = np.empty((info.n_mesh_simplices, info.dim + 1), dtype=np.uint32)
+        check(lib.domain_get_mesh(self, address(vertices), address(simplices)))
+        return vertices, simplices
+
     @property
     def info(self) -> SimpleNamespace:
-        """dim, orientation, n_vertices, n_facets, lower, upper, measure, n_features."""
+        """dim, orientation, n_vertices, n_facets, lower, upper, measure, n_features,
+        n_mesh_vertices, n_mesh_simplices."""
         info = self._info("domain_get_info", "domain_info")
         return fields(info, info.dim)
 

@@ -42,6 +42,21 @@ def test_surfaces_without_meshes(cube):
     assert np.abs(mapping([[0.5, 0.5, 0.5]]) - [0.5, 1, 0.5]).max() < 0.1
 
 
+def test_surfaces_are_filled(cube):
+    vertices, faces = cube
+    surface = libicc.Domain(vertices, faces)
+    filled = surface.filled()
+    points, cells = filled.mesh
+    edges = points[cells[:, 1:]] - points[cells[:, :1]]
+    assert (filled.vertices == vertices).all() and (filled.facets == faces).all()
+    assert np.linalg.det(edges).sum() / 6 == pytest.approx(surface.info.measure)
+    assert filled.info.n_mesh_vertices == len(points) and filled.info.n_mesh_simplices == len(cells)
+    bent = libicc.Domain(vertices * [1, 2, 1], faces).filled()
+    assert libicc.Map(filled, bent).info.kind == "mesh"
+    with pytest.raises(libicc.Error):
+        filled.filled()
+
+
 def test_errors_name_the_simplex():
     points, cells = grid_mesh(2)
     points[13] = points[12]

@@ -265,8 +265,26 @@ pub struct icc_domain_info {
     pub measure: f64,
     /// features inside: see `icc_domain_create_features()`
     pub n_features: usize,
+    /// vertices of the mesh of its inside, with those of the boundary; 0: it has none
+    pub n_mesh_vertices: usize,
+    /// simplices of that
+    pub n_mesh_simplices: usize,
 }
 sized!(icc_domain_info);
+
+/// How `icc_domain_fill()` chooses inner vertices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_fill_options {
+    /// `sizeof(icc_fill_options)`
+    pub size: usize,
+    /// circumradius over shortest edge from which tetrahedra are refined, at least 1.2; 0: 1.6;
+    /// infinite: no vertices but those it takes
+    pub ratio: f64,
+    /// inner vertices at most, where fewer do; 0: no limit
+    pub max_points: u64,
+}
+sized!(icc_fill_options);
 
 // What `icc_feature.kind` says.
 /// a simple polygon whose inside is not part of the domain
@@ -1092,6 +1110,27 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Fills a closed surface in 3-D with tetrahedra: makes the domain that `icc_domain_create_mesh()`
+    /// makes of a mesh of its inside. Its vertices and facets are those of the surface, bit by bit;
+    /// vertices are added inside only. Vertices that no facet has are left out.
+    ///
+    /// - `out` (out): the domain; owned by the caller
+    /// - `surface`: a domain in 3-D without a mesh
+    /// - `options`: may be NULL
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `index` names the facet or vertex at fault
+    ///
+    /// Returns `ICC_OK`; `ICC_ERR_UNSUPPORTED` unless `surface` is in 3-D and has no mesh;
+    /// `ICC_ERR_RESOLUTION` if a facet cannot be told from what is next to it; `ICC_ERR_ARGUMENT`,
+    /// `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`
+    pub fn icc_domain_fill(
+        out: *mut *mut icc_domain,
+        surface: *const icc_domain,
+        options: *const icc_fill_options,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
     /// `icc_domain_create_mask()` refuses: one after the other, each time the one that leaves the fewest such
     /// places around it. Whatever cannot be mended so, and all else that may be wrong, is left as it is.
@@ -1143,6 +1182,20 @@ extern "C" {
         domain: *const icc_domain,
         vertices: *mut f64,
         facets: *mut u32,
+    ) -> icc_status;
+
+    /// Copies the mesh of the inside: `icc_domain_create_mesh()`, `icc_domain_fill()`.
+    ///
+    /// - `domain`: a domain with a mesh: `icc_domain_info.n_mesh_vertices` is not 0
+    /// - `vertices` (out): room for n_mesh_vertices * dim doubles, or NULL: those of the boundary
+    ///   first, in its order
+    /// - `simplices` (out): room for n_mesh_simplices * (dim + 1) indices, or NULL
+    ///
+    /// Returns `ICC_OK`; `ICC_ERR_UNSUPPORTED` without a mesh
+    pub fn icc_domain_get_mesh(
+        domain: *const icc_domain,
+        vertices: *mut f64,
+        simplices: *mut u32,
     ) -> icc_status;
 
     /// Says where points lie, exactly up to the tolerance of `ICC_BOUNDARY`, and finds the nearest

@@ -206,6 +206,32 @@ impl Domain {
         })
     }
 
+    /// This surface in 3-D, filled with tetrahedra: the same vertices and facets, and vertices inside.
+    ///
+    /// # Errors
+    /// [`Status::RESOLUTION`](crate::Status::RESOLUTION), with the facet at fault as `index`;
+    /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) in other dimensions and for what has a mesh.
+    pub fn filled(&self, env: &mut Env<'_>) -> Result<Domain> {
+        Domain::make(env, |out, env, err| {
+            // SAFETY: the surface lives; NULL stands for the default options.
+            unsafe { sys::icc_domain_fill(out, self.as_ptr(), std::ptr::null(), env, err) }
+        })
+    }
+
+    /// The mesh of the inside, if there is one: n_mesh_vertices * dim coordinates, those of the boundary
+    /// first, and n_mesh_simplices * (dim + 1) vertex indices.
+    pub fn mesh(&self) -> Result<(Vec<f64>, Vec<u32>)> {
+        let info = self.info();
+        let dim = info.dim as usize;
+        let mut vertices = vec![0.0; info.n_mesh_vertices * dim];
+        let mut simplices = vec![0; info.n_mesh_simplices * (dim + 1)];
+        // SAFETY: there is room for all.
+        check(unsafe {
+            sys::icc_domain_get_mesh(self.as_ptr(), vertices.as_mut_ptr(), simplices.as_mut_ptr())
+        })?;
+        Ok((vertices, simplices))
+    }
+
     /// Dimension, counts, bounding box, measure.
     pub fn info(&self) -> DomainInfo {
         let mut info = DomainInfo::default();

@@ -404,6 +404,18 @@ fn tetrahedra_make_a_domain() {
 }
 
 #[test]
+fn surfaces_are_filled() {
+    let vertices = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+    let env = &mut Env::new();
+    let filled = Domain::new(3, &vertices, &faces, env).unwrap().filled(env).unwrap();
+    let (points, simplices) = filled.mesh().unwrap();
+    assert_eq!(points[..12], vertices);
+    assert_eq!(simplices.len(), 4 * filled.info().n_mesh_simplices);
+    assert!(filled.filled(env).is_err());
+}
+
+#[test]
 fn masks_are_repaired() {
     let env = &mut Env::new();
     let mut cells = [1, 0, 0, 1];

@@ -1,0 +1,199 @@
+/* Flips and moves that make the worst tetrahedron that they touch better, as in L. Freitag and C.
+ * Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing, 1997. */
+#include "fill/improve.h"
+
+#include "base/error.h"
+#include "base/minmax.h"
+#include "fill/contract.h"
+#include "fill/flip.h"
+#include "fill/quality.h"
+
+/* What counts as better; and what is good enough to be left alone. Quality .03 has dihedral angles
+ * of some 10 degrees, .1 of some 18. */
+static const double gain = 1e-4, good = 0.12;
+static const size_t most_ring = 8;
+
+typedef struct edge {
+    const iccp_tets *m;
+    uint32_t p, q;
+} edge;
+
+static double worth(void *context, uint32_t x, uint32_t y, uint32_t z, bool inner_xz)
+{
+    const edge *const e = context;
+    (void)inner_xz;
+    return iccp_min(iccp_tets_quality(e->m, x, y, z, e->q), iccp_tets_quality(e->m, y, x, z, e->p));
+}
+
+static bool try_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q)
+{
+    edge e = {m, p, q};
+    const iccp_removal removal = {worth, &e, false};
+    if (!iccp_tets_ring(m, p, q, t, most_ring))
+        return false;
+    const double worst = iccp_quality_of(m, t);
+    for (size_t k = 1; k < m->ring.n; ++k)
+        if (iccp_quality_of(m, m->ring.item[k]) < worst)
+            return false; /* that one has its turn */
+    return iccp_remove_edge(m, p, q, &removal, worst + gain * fabs(worst));
+}
+
+static bool try_face(iccp_tets *m, uint32_t side)
+{
+    const iccp_tet *const tet = &m->tet[side / 4];
+    const uint32_t across = tet->across[side % 4];
+    if (iccp_is_wall_side(across))
+        return false;
+    const uint8_t *const f = iccp_tet_face[side % 4];
+    const uint32_t a = tet->v[side % 4], b = m->tet[across / 4].v[across % 4];
+    const double worst = iccp_quality_of(m, side / 4);
+    if (iccp_quality_of(m, across / 4) < worst)
+        return false;
+    for (int i = 0; i < 3; ++i)
+        if (iccp_tets_quality(m, tet->v[f[i]], tet->v[f[(i + 1) % 3]], b, a) <=
+            worst + gain * fabs(worst))
+            return false;
+    return iccp_remove_face(m, side);
+}
+
+bool iccp_improve_tet(iccp_tets *m, uint32_t t)
+{
+    const iccp_tet tet = m->tet[t];
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            if (try_edge(m, t, tet.v[i], tet.v[j]))
+                return true;
+    for (uint32_t i = 0; i < 4; ++i)
+        if (try_face(m, 4 * t + i))
+            return true;
+    return false;
+}
+
+/* The worst quality at a point whose star is in m->star, or something below `least`. */
+static double worst_at(const iccp_tets *m, double least)
+{
+    double worst = 1.0;
+    for (size_t k = 0; k < m->star.n && worst > least; ++k)
+        worst = iccp_min(worst, iccp_quality_of(m, m->star.item[k]));
+    return worst;
+}
+
+static bool all_positive(const iccp_tets *m)
+{
+    for (size_t k = 0; k < m->star.n; ++k) {
+        const uint32_t *const v = m->tet[m->star.item[k]].v;
+        if (iccp_tets_orient(m, v[0], v[1], v[2], v[3]) <= 0)
+            return false;
+    }
+    return true;
+}
+
+typedef struct place {
+    double x[3], worst;
+} place;
+
+/* Moves the point to x if that is better than `best`, which is then x. */
+static void try_place(iccp_tets *m, uint32_t p, const double *x, place *best)
+{
+    double *const now = m->points.x + 3 * (size_t)p;
+    for (int k = 0; k < 3; ++k)
+        now[k] = x[k];
+    iccp_points_snap(&m->points, now);
+    const double worst = worst_at(m, best->worst);
+    if (worst > best->worst && all_positive(m))
+        *best = (place){{now[0], now[1], now[2]}, worst};
+}
+
+/* The middle of the link, then a search along 14 directions in steps that shrink. */
+bool iccp_smooth_point(iccp_tets *m, uint32_t p)
+{
+    double *const now = m->points.x + 3 * (size_t)p;
+    double middle[3] = {0}, nearest = HUGE_VAL, x[3];
+    if (!iccp_tets_star(m, p))
+        return false;
+    place best = {{now[0], now[1], now[2]}, worst_at(m, -HUGE_VAL)};
+    const double before = best.worst;
+    const place from = best;
+    best.worst += gain * fabs(before);
+    for (size_t k = 0; k < m->star.n; ++k)
+        for (int c = 0; c < 4; ++c) {
+            const double *const y = iccp_point(&m->points, m->tet[m->star.item[k]].v[c]);
+            if (m->tet[m->star.item[k]].v[c] == p)
+                continue;
+            nearest = iccp_min(nearest, iccp_square_distance(y, from.x));
+            for (int i = 0; i < 3; ++i)
+                middle[i] += y[i] / (3.0 * (double)m->star.n);
+        }
+    for (int half = 0; half < 2; ++half) {
+        for (int i = 0; i < 3; ++i)
+            x[i] = from.x[i] + (half != 0 ? 0.5 : 1.0) * (middle[i] - from.x[i]);
+        try_place(m, p, x, &best);
+    }
+    for (int step = 0; step < 3; ++step) {
+        const double length = 0.3 * sqrt(nearest) / (double)(1 << step);
+        const place centre = best;
+        for (int d = 0; d < 14; ++d) {
+            for (int i = 0; i < 3; ++i)
+                x[i] = centre.x[i] + length * (d < 8 ? 0.577 * ((d >> i & 1) != 0 ? 1.0 : -1.0)
+                                               : (d - 8) / 2 == i ? ((d & 1) != 0 ? 1.0 : -1.0)
+                                                                  : 0.0);
+            try_place(m, p, x, &best);
+        }
+    }
+    for (int i = 0; i < 3; ++i)
+        now[i] = best.x[i];
+    return best.worst > before + gain * fabs(before);
+}
+
+static void flip_all(iccp_tets *m)
+{
+    const size_t n = m->n_tets;
+    for (uint32_t t = 0; t < n; ++t)
+        if (iccp_tet_alive(m, t) && iccp_quality_of(m, t) < good)
+            iccp_improve_tet(m, t);
+}
+
+/* Stamps the points of tetrahedra that are not good. */
+static uint32_t stamp_bad(iccp_tets *m)
+{
+    const uint32_t stamp = iccp_tets_stamp(m);
+    for (uint32_t t = 0; t < m->n_tets; ++t)
+        for (int i = 0; i < 4; ++i)
+            if (iccp_tet_alive(m, t) && iccp_quality_of(m, t) < good)
+                m->seen[m->tet[t].v[i]] = stamp;
+    return stamp;
+}
+
+icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
+{
+    enum { ROUNDS = 4 };
+    const double enough = 1e-4; /* what is left may have this quality */
+    for (int round = 0; round < ROUNDS; ++round) {
+        const icc_status status =
+            iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
+        if (status != ICC_OK)
+            return status;
+        for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
+            if (m->tet_of[p] != ICCP_NO_TET && !iccp_contract_best(m, p, enough))
+                iccp_smooth_point(m, p);
+        flip_all(m);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err)
+{
+    enum { ROUNDS = 4 };
+    for (int round = 0; round < ROUNDS; ++round) {
+        const icc_status status =
+            iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
+        if (status != ICC_OK)
+            return status;
+        flip_all(m);
+        const uint32_t stamp = stamp_bad(m);
+        for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
+            if (m->tet_of[p] != ICCP_NO_TET && m->seen[p] == stamp)
+                iccp_smooth_point(m, p);
+    }
+    return ICC_OK;
+}

@@ -1,0 +1,26 @@
+/* Sets of pairs of numbers. */
+#ifndef ICCP_PAIRS_H
+#define ICCP_PAIRS_H
+
+#include "base/memory.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct iccp_pairs {
+    iccp_memory memory;
+    uint64_t *key;  /* open addressing; a power of two of them */
+    uint32_t *when; /* the round in which each was put there; all but the present one are empty */
+    size_t room, n;
+    uint32_t now;
+} iccp_pairs;
+
+typedef enum iccp_pair_added { ICCP_PAIR_NEW, ICCP_PAIR_KNOWN, ICCP_PAIR_MEMORY } iccp_pair_added;
+
+/* Takes in an unordered pair of different numbers. */
+iccp_pair_added iccp_pairs_add(iccp_pairs *pairs, uint32_t a, uint32_t b);
+bool iccp_pairs_have(const iccp_pairs *pairs, uint32_t a, uint32_t b);
+void iccp_pairs_clear(iccp_pairs *pairs);
+void iccp_pairs_free(iccp_pairs *pairs);
+
+#endif

@@ -1,0 +1,28 @@
+/* How a mesh that has the segments of a surface meets one of its facets. */
+#ifndef ICCP_SCAN_H
+#define ICCP_SCAN_H
+
+#include "fill/pairs.h"
+#include "fill/surface.h"
+
+typedef struct iccp_facet_scan {
+    iccp_tets *m;
+    const iccp_surface *s;
+    uint32_t facet;
+    const uint32_t *corners;
+    iccp_pairs known;
+    iccp_list edges;    /* three numbers each: two points, a tetrahedron */
+    iccp_list piercing; /* the same: edges from one side of the facet to the other */
+    iccp_list faces;    /* sides whose corners are on the facet; most of them twice */
+} iccp_facet_scan;
+
+void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_surface *s);
+void iccp_facet_scan_free(iccp_facet_scan *scan);
+
+/* Fills in the lists for a facet. False if there is no memory. */
+bool iccp_facet_scan_run(iccp_facet_scan *scan, uint32_t facet);
+
+/* Whether edge pq meets the facet between its ends, which are not on it. */
+bool iccp_facet_pierced(const iccp_facet_scan *scan, uint32_t p, uint32_t q);
+
+#endif

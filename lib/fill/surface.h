@@ -1,0 +1,43 @@
+/* The surface to be filled: its facets, its edges, and the points that were put on them. */
+#ifndef ICCP_SURFACE_H
+#define ICCP_SURFACE_H
+
+#include "fill/pairs.h"
+#include "fill/tets.h"
+
+/* An edge of the surface from a to b, a < b; the points on it are linked from `first` on to b. */
+typedef struct iccp_segment {
+    uint32_t a, b, first;
+    uint32_t facet; /* one of its two */
+} iccp_segment;
+
+typedef struct iccp_surface {
+    iccp_memory memory;
+    size_t n_facets, n_segments;
+    const uint32_t *facets; /* 3 vertices each */
+    uint32_t *side;         /* 3 of each facet: the segment opposite a corner */
+    iccp_segment *segment;
+    iccp_pairs edges; /* all that ever was a piece of a segment */
+} iccp_surface;
+
+icc_status iccp_surface_create(iccp_surface *s, size_t n_vertices, size_t n_facets,
+                               const uint32_t *facets, const iccp_env *env, icc_error *err);
+void iccp_surface_free(iccp_surface *s);
+
+/* The point after p, which is on a segment, on the way to its b. */
+uint32_t iccp_segment_next(const iccp_tets *m, const iccp_segment *segment, uint32_t p);
+
+/* How far along a segment one of its points is. */
+double iccp_segment_share(const iccp_tets *m, const iccp_segment *segment, uint32_t p);
+
+/* Whether a point is a corner of a facet or was put on it or one of its edges. */
+bool iccp_is_on_facet(const iccp_tets *m, const uint32_t corners[3], uint32_t p);
+
+/* A new point on the surface; ICCP_NO_TET if there is no memory. */
+uint32_t iccp_tets_add_dyadic(iccp_tets *m, const iccp_dyadic *point);
+void iccp_tets_drop_dyadic(iccp_tets *m);
+
+/* ICC_ERR_RESOLUTION naming a facet. */
+icc_status iccp_fail_facet(icc_error *err, uint32_t facet, const char *what);
+
+#endif

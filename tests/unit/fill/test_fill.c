@@ -1,0 +1,384 @@
+/* Filling surfaces: the surface stays as it is, what comes out is a mesh, and what cannot be filled is
+ * named; and the exact signs that all this rests on. */
+#include "../../faulty.h"
+#include "../../obj.h"
+#include "../../surfaces.h"
+#include "domain/domain.h"
+#include "fill/fixed.h"
+#include "fill/points.h"
+#include "icc/icc.h"
+
+#include <check.h>
+#include <stdlib.h>
+
+static icc_domain *make(const surface *s)
+{
+    icc_domain *domain;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces,
+                                    NULL, &err) == ICC_OK,
+                  "%s", err.message);
+    return domain;
+}
+
+static icc_domain_info info_of(const icc_domain *domain)
+{
+    icc_domain_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
+    return info;
+}
+
+static double volume_of(const icc_domain *domain)
+{
+    const icc_domain_info info = info_of(domain);
+    double *x = malloc(3 * info.n_mesh_vertices * sizeof *x);
+    uint32_t *t = malloc(4 * info.n_mesh_simplices * sizeof *t);
+    ck_assert_int_eq(icc_domain_get_mesh(domain, x, t), ICC_OK);
+    double volume = 0;
+    for (size_t i = 0; i < info.n_mesh_simplices; ++i) {
+        const double *p[4];
+        for (size_t k = 0; k < 4; ++k) {
+            ck_assert_uint_lt(t[4 * i + k], info.n_mesh_vertices);
+            p[k] = x + 3 * t[4 * i + k];
+        }
+        const double six = iccp_points_volume(p[0], p[1], p[2], p[3]);
+        ck_assert(six > -1e-9 * info.measure);
+        volume += six / 6;
+    }
+    free(x);
+    free(t);
+    return volume;
+}
+
+/* Fills a surface, of which every vertex belongs to a face, and checks that it has its own vertices
+ * and faces, bit by bit. */
+static icc_domain *fill(const surface *s, const icc_fill_options *options)
+{
+    icc_domain *domain = make(s), *filled;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_domain_fill(&filled, domain, options, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    const icc_domain_info info = info_of(filled);
+    ck_assert_uint_eq(info.n_vertices, s->n_vertices);
+    ck_assert_uint_eq(info.n_facets, s->n_faces);
+    double *vertices = malloc(3 * info.n_vertices * sizeof *vertices);
+    uint32_t *faces = malloc(3 * info.n_facets * sizeof *faces);
+    ck_assert_int_eq(icc_domain_get_boundary(filled, vertices, faces), ICC_OK);
+    ck_assert_mem_eq(vertices, s->vertices, 3 * info.n_vertices * sizeof *vertices);
+    ck_assert_mem_eq(faces, s->faces, 3 * info.n_facets * sizeof *faces);
+    free(vertices);
+    free(faces);
+    ck_assert_double_eq_tol(volume_of(filled), info.measure, 1e-9 * info.measure);
+    icc_domain_free(domain);
+    return filled;
+}
+
+static void check_fills(const surface *s)
+{
+    icc_domain_free(fill(s, NULL));
+}
+
+/* A prism whose top is twisted, so that its sides are bent in: E. Schoenhardt's cannot be filled without
+ * another point from -30 degrees on, for n = 3. */
+static void prism(surface *s, uint32_t n, double twist, double height)
+{
+    s->n_vertices = s->n_faces = 0;
+    for (uint32_t i = 0; i < 2 * n; ++i) {
+        const double angle = 2 * 3.141592653589793 * (i % n) / n + (i < n ? 0 : twist);
+        double *v = s->vertices + 3 * s->n_vertices++;
+        v[0] = cos(angle);
+        v[1] = sin(angle);
+        v[2] = i < n ? 0 : height;
+    }
+    for (uint32_t i = 1; i + 1 < n; ++i) {
+        surface_face(s, 0, i + 1, i);
+        surface_face(s, n, n + i, n + i + 1);
+    }
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t j = (i + 1) % n;
+        surface_face(s, i, j, twist > 0 ? n + i : n + j);
+        surface_face(s, twist > 0 ? j : i, n + j, n + i);
+    }
+}
+
+/* A slab over the saddle z = xy with wedges cut into it from both sides, after B. Chazelle. */
+static void saddle(surface *s, uint32_t m, double thickness)
+{
+    s->n_vertices = s->n_faces = 0;
+    for (uint32_t i = 0; i < 2 * m * m; ++i) {
+        const uint32_t top = i / (m * m), x = i / m % m, y = i % m;
+        double *v = s->vertices + 3 * s->n_vertices++;
+        v[0] = 0.5 * x;
+        v[1] = 0.5 * y;
+        v[2] = v[0] * v[1] + (top ? (x % 2 ? thickness : 3) : -(y % 2 ? thickness : 3));
+    }
+    for (uint32_t side = 0; side < 2; ++side)
+        for (uint32_t x = 0; x + 1 < m; ++x)
+            for (uint32_t y = 0; y + 1 < m; ++y) {
+                const uint32_t a = side * m * m + x * m + y, b = a + m, c = b + 1, d = a + 1;
+                surface_face(s, a, side ? b : c, side ? c : b);
+                surface_face(s, a, side ? c : d, side ? d : c);
+            }
+    for (uint32_t k = 0; k < 4 * (m - 1); ++k) {
+        uint32_t at[2];
+        for (uint32_t e = 0; e < 2; ++e) {
+            const uint32_t along = (k + e) % (4 * (m - 1)), i = along % (m - 1);
+            const uint32_t x[4] = {i, m - 1, m - 1 - i, 0}, y[4] = {0, i, m - 1, m - 1 - i};
+            at[e] = x[along / (m - 1)] * m + y[along / (m - 1)];
+        }
+        surface_face(s, at[0], at[1], m * m + at[1]);
+        surface_face(s, at[0], m * m + at[1], m * m + at[0]);
+    }
+}
+
+static void turn(surface *s, double stretch)
+{
+    static const double c[3] = {0.28, 0.6, 0.8}, n[3] = {0.96, 0.8, 0.6};
+    for (size_t v = 0; v < s->n_vertices; ++v) {
+        double *x = s->vertices + 3 * v;
+        x[1] *= stretch;
+        for (int k = 0; k < 3; ++k) {
+            const double a = x[k], b = x[(k + 1) % 3];
+            x[k] = c[k] * a - n[k] * b;
+            x[(k + 1) % 3] = n[k] * a + c[k] * b;
+        }
+    }
+}
+
+static surface shape;
+
+START_TEST(simple_shapes)
+{
+    random_source r = {1};
+    surface_octahedron(&shape);
+    check_fills(&shape);
+    for (int splits = 1; splits < 5; ++splits) {
+        surface_star(&shape, splits, 0.0, &r);
+        check_fills(&shape);
+        surface_star(&shape, splits, 0.5, &r);
+        check_fills(&shape);
+        turn(&shape, 1e-2);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
+START_TEST(a_tetrahedron_is_one)
+{
+    static const double corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    static const uint32_t faces[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const icc_fill_options options = {.size = sizeof options, .ratio = HUGE_VAL};
+    shape.n_vertices = shape.n_faces = 4;
+    memcpy(shape.vertices, corners, sizeof corners);
+    memcpy(shape.faces, faces, sizeof faces);
+    icc_domain *filled = fill(&shape, &options);
+    ck_assert_uint_eq(info_of(filled).n_mesh_simplices, 1);
+    ck_assert_uint_eq(info_of(filled).n_mesh_vertices, 4);
+    icc_domain_free(filled);
+}
+END_TEST
+
+static int any_cell(int x, int y, int z)
+{
+    return (x + y + z) % 2 == 0 || x == 1 || y == 1 || z == 1;
+}
+
+START_TEST(coplanar_grids)
+{
+    for (int n = 1; n < 7; ++n) {
+        surface_cells(&shape, n, any_cell);
+        icc_domain *domain;
+        if (icc_domain_create(&domain, 3, shape.n_vertices, shape.vertices, shape.n_faces,
+                              shape.faces, NULL, NULL) != ICC_OK)
+            continue;
+        icc_domain_free(domain);
+        check_fills(&shape);
+        turn(&shape, 1);
+        check_fills(&shape);
+        turn(&shape, 1e-4);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
+START_TEST(twisted_prisms)
+{
+    static const double twists[] = {.1, .3, .5, .52, .523, .5235};
+    static const double heights[] = {2, 200, .002};
+    for (size_t i = 0; i < sizeof twists / sizeof *twists; ++i)
+        for (int sign = -1; sign < 2; sign += 2) {
+            prism(&shape, 3, sign * twists[i], 1);
+            check_fills(&shape);
+        }
+    for (int i = 0; i < 3; ++i) {
+        prism(&shape, 12, 0.3, heights[i]);
+        check_fills(&shape);
+        prism(&shape, 40, 0.05, heights[i]);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
+START_TEST(saddles)
+{
+    for (uint32_t n = 2; n < 7; ++n) {
+        saddle(&shape, 2 * n + 1, .02);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
+START_TEST(the_same_bits_again)
+{
+    random_source r = {5};
+    surface_star(&shape, 3, 0.7, &r);
+    icc_domain *a = fill(&shape, NULL), *b = fill(&shape, NULL);
+    const icc_domain_info info = info_of(a);
+    ck_assert_uint_eq(info.n_mesh_vertices, info_of(b).n_mesh_vertices);
+    ck_assert_uint_eq(info.n_mesh_simplices, info_of(b).n_mesh_simplices);
+    const size_t n = 3 * info.n_mesh_vertices;
+    double *x = malloc(2 * n * sizeof *x);
+    ck_assert_int_eq(icc_domain_get_mesh(a, x, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_mesh(b, x + n, NULL), ICC_OK);
+    ck_assert_mem_eq(x, x + n, n * sizeof *x);
+    free(x);
+    icc_domain_free(a);
+    icc_domain_free(b);
+}
+END_TEST
+
+START_TEST(arguments_are_checked)
+{
+    static const double square[8] = {0, 0, 1, 0, 1, 1, 0, 1};
+    icc_error err = {.size = sizeof err};
+    icc_fill_options options = {.size = sizeof options, .ratio = 1.1};
+    icc_domain *out, *flat;
+    surface_octahedron(&shape);
+    icc_domain *domain = make(&shape), *filled = fill(&shape, NULL);
+    ck_assert_int_eq(icc_domain_fill(NULL, domain, NULL, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_fill(&out, NULL, NULL, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_fill(&out, domain, &options, NULL, &err), ICC_ERR_ARGUMENT);
+    options.ratio = NAN;
+    ck_assert_int_eq(icc_domain_fill(&out, domain, &options, NULL, &err), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_domain_fill(&out, filled, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_domain_create(&flat, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_fill(&out, flat, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_ptr_null(out);
+    ck_assert_int_eq(icc_domain_get_mesh(domain, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_domain_get_mesh(NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_uint_eq(info_of(domain).n_mesh_vertices, 0);
+    icc_domain_free(domain);
+    icc_domain_free(filled);
+    icc_domain_free(flat);
+}
+END_TEST
+
+START_TEST(few_points_suffice)
+{
+    random_source r = {5};
+    surface_star(&shape, 3, 0, &r);
+    icc_fill_options options = {.size = sizeof options, .max_points = 10};
+    icc_domain *filled = fill(&shape, &options);
+    ck_assert_uint_le(info_of(filled).n_mesh_vertices, shape.n_vertices + 10);
+    icc_domain_free(filled);
+}
+END_TEST
+
+static icc_status fill_once(const icc_env *env, icc_error *err, void *argument)
+{
+    icc_domain *filled;
+    const icc_status status = icc_domain_fill(&filled, argument, NULL, env, err);
+    ck_assert((filled != NULL) == (status == ICC_OK));
+    icc_domain_free(filled);
+    return status;
+}
+
+START_TEST(failures_leave_nothing_behind)
+{
+    prism(&shape, 3, -.5, 1);
+    icc_domain *domain = make(&shape);
+    faulty_sweep(fill_once, domain);
+    icc_domain_free(domain);
+    saddle(&shape, 5, .02);
+    domain = make(&shape);
+    faulty_sweep(fill_once, domain);
+    icc_domain_free(domain);
+}
+END_TEST
+
+static int fixed_sign(double x[4][3])
+{
+    iccp_fixed p[4] = {0};
+    for (int i = 0; i < 4; ++i)
+        iccp_fixed_add(&p[i], x[i], 1);
+    return iccp_fixed_orient3d(&p[0], &p[1], &p[2], &p[3]);
+}
+
+START_TEST(fixed_signs_are_those_of_doubles)
+{
+    random_source r = {7};
+    for (int round = 0; round < 20000; ++round) {
+        double x[4][3];
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < 3; ++k)
+                x[i][k] = round % 2 ? random_unit(&r) - 0.5
+                                    : floor(8 * random_unit(&r)) * ldexp(1, -(round / 2 % 190));
+        if (round % 3 == 0)
+            for (int k = 0; k < 3; ++k)
+                x[3][k] = 0.25 * x[0][k] + 0.5 * x[1][k] + 0.25 * x[2][k];
+        ck_assert_int_eq(fixed_sign(x), iccp_orient3d(x[0], x[1], x[2], x[3]));
+    }
+}
+END_TEST
+
+/* Points on a line and in a plane are so exactly, and beside it they are not. */
+START_TEST(shares_are_exact)
+{
+    random_source r = {9};
+    for (int round = 0; round < 5000; ++round) {
+        double x[4][3];
+        for (int i = 0; i < 4; ++i)
+            for (int k = 0; k < 3; ++k)
+                x[i][k] = (random_unit(&r) - 0.5) * ldexp(1, -(int)(20 * random_unit(&r)));
+        const double first = ldexp(floor(ldexp(random_unit(&r), 47)), -48);
+        const double second = ldexp(floor(ldexp(random_unit(&r), 47)), -48);
+        iccp_fixed p[4] = {0}, q = {0}, beside = {0};
+        for (int i = 0; i < 4; ++i)
+            iccp_fixed_add(&p[i], x[i], 1);
+        iccp_fixed_add(&q, x[0], first);
+        iccp_fixed_add(&q, x[1], second);
+        iccp_fixed_add(&q, x[2], 1 - first - second);
+        ck_assert_int_eq(iccp_fixed_orient3d(&p[0], &p[1], &p[2], &q), 0);
+        iccp_fixed_add(&beside, x[0], first);
+        iccp_fixed_add(&beside, x[1], second);
+        iccp_fixed_add(&beside, x[2], 1 - first - second - 0x1p-48);
+        iccp_fixed_add(&beside, x[3], 0x1p-48);
+        ck_assert_int_eq(iccp_fixed_orient3d(&p[0], &p[1], &p[2], &beside),
+                         iccp_fixed_orient3d(&p[0], &p[1], &p[2], &p[3]));
+    }
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("fill");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 60);
+    tcase_add_test(tests, fixed_signs_are_those_of_doubles);
+    tcase_add_test(tests, shares_are_exact);
+    tcase_add_test(tests, a_tetrahedron_is_one);
+    tcase_add_test(tests, simple_shapes);
+    tcase_add_test(tests, coplanar_grids);
+    tcase_add_test(tests, twisted_prisms);
+    tcase_add_test(tests, saddles);
+    tcase_add_test(tests, the_same_bits_again);
+    tcase_add_test(tests, arguments_are_checked);
+    tcase_add_test(tests, few_points_suffice);
+    tcase_add_test(tests, failures_leave_nothing_behind);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
