@@ -251,7 +251,7 @@ typedef struct icc_fill_options {
     size_t size;         /**< sizeof(icc_fill_options) */
     double ratio;        /**< circumradius over shortest edge from which tetrahedra are refined, at
                               least 1.2; 0: 1.6; infinite: no vertices but those it takes */
-    uint64_t max_points; /**< inner vertices at most, where fewer do; 0: no limit */
+    uint64_t max_points; /**< refinement ends at so many inner vertices; 0: no limit */
 } icc_fill_options;
 
 /**
@@ -264,12 +264,18 @@ typedef struct icc_fill_options {
  * icc_domain_create_mesh() is. The same bits on every machine. Vertices that belong to no facet are
  * not among those of the result.
  *
- * Cost: about 40 us per tetrahedron, and at most 200 bytes.
+ * Not guaranteed: that every surface can be filled; ones that are stretched a thousandfold and
+ * askew are refused now and then, after three attempts. Nor are angles: tetrahedra at facets may be
+ * very flat.
+ *
+ * Cost: about 15 us per tetrahedron, three times as much if it fails, and at most 200 bytes.
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL
- * @return ::ICC_ERR_UNSUPPORTED unless `surface` is in 3-D and has no mesh; ::ICC_ERR_RESOLUTION if
- *         a facet, which icc_error::index names, cannot be told from what is next to it, or
- *         max_points are too few
+ * @param env     may be NULL
+ * @param err     may be NULL
+ * @return ::ICC_OK; ::ICC_ERR_UNSUPPORTED unless `surface` is in 3-D and has no mesh;
+ *         ::ICC_ERR_RESOLUTION if a facet, which icc_error::index names, cannot be told from what
+ *         is next to it; ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED
  */
 ICC_API icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
                                    const icc_fill_options *options, const icc_env *env,

@@ -142,6 +142,24 @@ static object make_refined_solid(size_t which)
     return o;
 }
 
+/* One between surfaces that have been filled. */
+static object make_filled(size_t which)
+{
+    icc_domain *filled[2];
+    icc_error err = {.size = sizeof err};
+    object o = {0};
+    (void)which;
+    for (int side = 0; side < 2; ++side) {
+        icc_domain *hull = domain_star(side);
+        must(icc_domain_fill(&filled[side], hull, NULL, NULL, &err), "icc_domain_fill", &err);
+        icc_domain_free(hull);
+    }
+    must(icc_map_create(&o.map, filled[0], filled[1], NULL, NULL, &err), "icc_map_create", &err);
+    icc_domain_free(filled[0]);
+    icc_domain_free(filled[1]);
+    return o;
+}
+
 /* In pixels of a picture of 60 by 50. */
 static object make_picture_map(size_t which)
 {
@@ -243,11 +261,9 @@ static const struct {
     const char *name;
     object (*make)(size_t which);
     size_t which;
-} OTHERS[] = {{"map-retargeted", make_retargeted, 0},
-              {"map-solid-refined", make_refined_solid, 0},
-              {"map-picture", make_picture_map, 0},
-              {"binding-blue2", make_binding, 0},
-              {"binding-grid3", make_binding, 3}};
+} OTHERS[] = {{"map-retargeted", make_retargeted, 0}, {"map-solid-refined", make_refined_solid, 0},
+              {"map-solid-filled", make_filled, 0},   {"map-picture", make_picture_map, 0},
+              {"binding-blue2", make_binding, 0},     {"binding-grid3", make_binding, 3}};
 enum { N_OTHERS = sizeof OTHERS / sizeof *OTHERS };
 
 static void free_object(object *o)

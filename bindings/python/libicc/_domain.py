@@ -125,7 +125,7 @@ class Domain(Handle):
 
         Args:
             ratio: circumradius over shortest edge from which tetrahedra are refined; 0: 1.6
-            max_points: inner vertices at most, where fewer do; 0: no limit
+            max_points: refinement ends at so many inner vertices; 0: no limit
         """
         options = structs.fill_options(ratio=ratio, max_points=max_points)
         options.size = ctypes.sizeof(options)

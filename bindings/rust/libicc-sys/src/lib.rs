@@ -281,7 +281,7 @@ pub struct icc_fill_options {
     /// circumradius over shortest edge from which tetrahedra are refined, at least 1.2; 0: 1.6;
     /// infinite: no vertices but those it takes
     pub ratio: f64,
-    /// inner vertices at most, where fewer do; 0: no limit
+    /// refinement ends at so many inner vertices; 0: no limit
     pub max_points: u64,
 }
 sized!(icc_fill_options);
