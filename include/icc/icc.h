@@ -269,6 +269,7 @@ typedef struct icc_fill_options {
  * very flat.
  *
  * Cost: about 15 us per tetrahedron, three times as much if it fails, and at most 200 bytes.
+ * @param[out] out the filled domain, for the caller to free; NULL on failure
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL
  * @param env     may be NULL
