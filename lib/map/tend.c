@@ -28,8 +28,8 @@ static const double SHORTEST = 0.3;
 /* What is not so many triangles away from tense ones stays where it is. */
 enum { RINGS = 2 };
 
-/* Vertices merge where the energy near by rises by no more than this share, times the square of how
- * many times too many triangles there are. */
+/* Vertices merge where the energy near by rises by no more than this share, and more where the mesh
+ * is crowded. */
 static const double RISE = 0.06;
 
 /* On each side. */
@@ -141,6 +141,14 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
     return status;
 }
 
+/* How crowded a mesh is: the square of how many times too many triangles there are, at least 1.
+ * What is cut must be the tenser for it, and merging may cost the more. */
+static double crowding(const iccp_plmap *map, const iccp_grain *grain)
+{
+    const double times = (double)map->corners.n_triangles / (double)grain->many;
+    return iccp_max(1, times * times);
+}
+
 icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, double room, iccp_work *work,
                      const iccp_env *env)
 {
@@ -150,11 +158,11 @@ icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, double room, iccp
     if (room > ENOUGH_ROOM && !any_all_too_tense(map, tense, shortest))
         return ICC_OK;
     map->plan = NULL;
-    icc_status status = cut_tense(map, tense, shortest);
+    icc_status status = cut_tense(map, tense * crowding(map, grain), shortest);
     if (status == ICC_OK)
         status = iccp_flip_edges(map, &n_flips, env);
-    const double times = (double)map->corners.n_triangles / (double)grain->many;
-    if (status == ICC_OK && times > 1)
-        status = iccp_coarsen_within(map, RISE * times * times, grain->longest, &n_gone, env);
+    const double crowded = crowding(map, grain);
+    if (status == ICC_OK && crowded > 1)
+        status = iccp_coarsen_within(map, RISE * crowded, grain->longest, &n_gone, env);
     return status == ICC_OK ? relax(map, tense, work, env) : status;
 }
