@@ -1,7 +1,8 @@
 /* Default maps of large cages: bench_cages [MOST], or bench_cages SOURCE TARGET [PIECES]. Processor
  * time of one and of two threads, time on one and on two, the least of runs in turn, with how many
- * times the one the other is, and the memory that is in use at most. Without files the cages are outlines with waves, of 100 vertices up to MOST (100000); of
- * the files' cages each edge is cut into PIECES. */
+ * times the one the other is, and the memory that is in use at most. Without files the cages are
+ * outlines with waves, of 100 vertices up to MOST (100000); of the files' cages each edge is cut
+ * into PIECES. */
 #include "bench.h"
 #include "cages.h"
 
