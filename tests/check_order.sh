@@ -52,7 +52,11 @@ base_names() {
 
 check_tree lib ICC_SOURCES
 check_tree tools ICC_TOOL_SOURCES
-for name in $( (base_names tools && base_names lib | sort -u) | sort | uniq -d); do
+# A name says what a file is without its folder; and headers guard themselves by it.
+for name in $( (base_names tools && base_names lib) | sort | uniq -d); do
     complain "two files are called $name: $(find lib tools -name "$name.[ch]" | tr '\n' ' ')"
+done
+for guard in $(grep -rh '^#ifndef [A-Z_0-9]*_H$' lib tools --include='*.h' | sort | uniq -d | sed 's/.* //'); do
+    complain "two headers are guarded by $guard: $(grep -rl "^#ifndef $guard\$" lib tools | tr '\n' ' ')"
 done
 exit $failed

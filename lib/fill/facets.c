@@ -6,10 +6,10 @@
 #include "fill/facets.h"
 
 #include "base/error.h"
+#include "fill/facet_scan.h"
 #include "fill/flip.h"
 #include "fill/insert.h"
 #include "fill/quality.h"
-#include "fill/scan.h"
 
 typedef struct piercing {
     iccp_facet_scan *scan;

@@ -7,10 +7,10 @@
 #include "base/minmax.h"
 #include "domain/mesh_domain.h"
 #include "fill/facets.h"
-#include "fill/improve.h"
+#include "fill/inner_points.h"
 #include "fill/insert.h"
 #include "fill/lift.h"
-#include "fill/refine.h"
+#include "fill/reshape.h"
 #include "fill/segments.h"
 #include "mesh/insertion_order.h"
 

@@ -76,7 +76,7 @@ bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *
     return iccp_tets_replace(m, n, m->ring.item, n_fresh, fresh[0]);
 }
 
-bool iccp_remove_face(iccp_tets *m, uint32_t side)
+bool iccp_face_removed(const iccp_tets *m, uint32_t side, uint32_t fresh[3][4])
 {
     const iccp_tet *const tet = &m->tet[side / 4];
     const uint32_t across = tet->across[side % 4];
@@ -84,13 +84,20 @@ bool iccp_remove_face(iccp_tets *m, uint32_t side)
         return false;
     const uint8_t *const f = iccp_tet_face[side % 4];
     const uint32_t a = tet->v[side % 4], b = m->tet[across / 4].v[across % 4];
-    const uint32_t old[2] = {side / 4, across / 4};
-    uint32_t fresh[3][4];
     for (int i = 0; i < 3; ++i) {
         fresh[i][0] = tet->v[f[i]];
         fresh[i][1] = tet->v[f[(i + 1) % 3]];
         fresh[i][2] = b;
         fresh[i][3] = a;
     }
+    return true;
+}
+
+bool iccp_remove_face(iccp_tets *m, uint32_t side)
+{
+    uint32_t fresh[3][4];
+    if (!iccp_face_removed(m, side, fresh))
+        return false;
+    const uint32_t old[2] = {side / 4, m->tet[side / 4].across[side % 4] / 4};
     return iccp_tets_replace(m, 2, old, 3, fresh[0]);
 }

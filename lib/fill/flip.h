@@ -20,7 +20,10 @@ typedef struct iccp_removal {
 bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *removal,
                       double least);
 
-/* Replaces the two tetrahedra at a side by three round a new edge. False: nothing has changed. */
+/* The three tetrahedra round a new edge that may replace the two at a side; false at a wall. */
+bool iccp_face_removed(const iccp_tets *m, uint32_t side, uint32_t fresh[3][4]);
+
+/* Puts them there. False: nothing has changed. */
 bool iccp_remove_face(iccp_tets *m, uint32_t side);
 
 #endif

@@ -8,10 +8,10 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "fill/contract.h"
-#include "fill/improve.h"
 #include "fill/insert.h"
 #include "fill/lifting.h"
 #include "fill/quality.h"
+#include "fill/reshape.h"
 
 /* The worst quality of what p has where it is now, or something below `least` if that is lower or
  * not all is positive. */

@@ -1,6 +1,6 @@
 /* Flips and moves that make the worst tetrahedron that they touch better, as in L. Freitag and C.
  * Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing, 1997. */
-#include "fill/improve.h"
+#include "fill/reshape.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
@@ -40,17 +40,14 @@ static bool try_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q)
 
 static bool try_face(iccp_tets *m, uint32_t side)
 {
-    const iccp_tet *const tet = &m->tet[side / 4];
-    const uint32_t across = tet->across[side % 4];
-    if (iccp_is_wall_side(across))
+    uint32_t fresh[3][4];
+    if (!iccp_face_removed(m, side, fresh))
         return false;
-    const uint8_t *const f = iccp_tet_face[side % 4];
-    const uint32_t a = tet->v[side % 4], b = m->tet[across / 4].v[across % 4];
     const double worst = iccp_quality_of(m, side / 4);
-    if (iccp_quality_of(m, across / 4) < worst)
+    if (iccp_quality_of(m, m->tet[side / 4].across[side % 4] / 4) < worst)
         return false;
     for (int i = 0; i < 3; ++i)
-        if (iccp_tets_quality(m, tet->v[f[i]], tet->v[f[(i + 1) % 3]], b, a) <=
+        if (iccp_tets_quality(m, fresh[i][0], fresh[i][1], fresh[i][2], fresh[i][3]) <=
             worst + gain * fabs(worst))
             return false;
     return iccp_remove_face(m, side);

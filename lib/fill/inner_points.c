@@ -2,7 +2,7 @@
  * 1998, with the surface as it is: circumcentres of tetrahedra that are too slender, the worst
  * first, unless they lie outside, near the surface or near another point; then nearer to the
  * middle. Sizes are those of the surface's edges, spread inside. */
-#include "fill/refine.h"
+#include "fill/inner_points.h"
 
 #include "base/error.h"
 #include "base/minmax.h"

@@ -1,6 +1,6 @@
 /* Flips and smoothing: the worst tetrahedra become better. */
-#ifndef ICCP_IMPROVE_H
-#define ICCP_IMPROVE_H
+#ifndef ICCP_RESHAPE_H
+#define ICCP_RESHAPE_H
 
 #include "fill/tets.h"
 

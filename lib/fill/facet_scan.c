@@ -1,7 +1,7 @@
 /* The mesh cuts the facet into cells, each in a tetrahedron or a face of its own. They join at
  * faces, and so at edges of the mesh that lie in the facet or pierce it. From the rings of its
  * boundary's edges on, the rings of all these reach every cell. */
-#include "fill/scan.h"
+#include "fill/facet_scan.h"
 
 void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_surface *s)
 {

@@ -1,6 +1,6 @@
 /* How a mesh that has the segments of a surface meets one of its facets. */
-#ifndef ICCP_SCAN_H
-#define ICCP_SCAN_H
+#ifndef ICCP_FACET_SCAN_H
+#define ICCP_FACET_SCAN_H
 
 #include "fill/pairs.h"
 #include "fill/surface.h"

@@ -1,6 +1,6 @@
 /* Points inside, where tetrahedra are too long or too large for what is round them. */
-#ifndef ICCP_REFINE_H
-#define ICCP_REFINE_H
+#ifndef ICCP_INNER_POINTS_H
+#define ICCP_INNER_POINTS_H
 
 #include "fill/surface.h"
 
