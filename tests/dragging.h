@@ -75,7 +75,7 @@ static inline icc_status drag_domain(icc_domain **out, const drag *d, double ang
     icc_feature features[DRAG_MOST];
     for (int k = 0; k < d->n; ++k) {
         drag_place(d, k, angle, places[k]);
-        features[k] = (icc_feature){sizeof *features, ICC_FEATURE_POINT, 1, places[k]};
+        features[k] = (icc_feature){sizeof *features, ICC_FEATURE_POINT, 1, places[k], 0};
     }
     return icc_domain_create_features(out, 4, SQUARE, (size_t)d->n, features, NULL, err);
 }

@@ -135,6 +135,7 @@ typedef struct icc_feature {
     int32_t kind;           /**< `ICC_FEATURE_*` */
     size_t n_vertices;      /**< hole: at least 3; line: at least 2; point: 1 */
     const double *vertices; /**< 2 n_vertices coordinates */
+    double radius;          /**< of a point with a size: above 0; else 0 */
 } icc_feature;
 
 /**
@@ -149,6 +150,11 @@ typedef struct icc_feature {
  * would be pinched there: merge the rings. So is a point on the boundary: make it a vertex of the
  * ring.
  *
+ * A point with a radius is a handle with a size: the circle round it goes along, larger or smaller,
+ * but does not turn. It is an open line of 16 vertices, a regular polygon without one edge, that
+ * the domain has as a further feature of its own. These follow all given features, in the order of
+ * their points; in the other domain the same points must have a radius.
+ *
  * To icc_domain_locate() what lies in a hole is outside; lines and points are inside, as what is
  * around them. Only maps of kind mesh work on such a domain. What else takes domains refuses it
  * with ::ICC_ERR_UNSUPPORTED. Without features the result is that of icc_domain_create().
@@ -161,7 +167,8 @@ typedef struct icc_feature {
  * @param env        may be NULL
  * @param err        may be NULL. For a defect of the outer ring `index` is its vertex or edge; else
  *                   it is the feature at fault (::ICC_ITEM_FEATURE), and the message names the
- *                   vertex, and the other feature where there are two
+ *                   vertex, and the other feature where there are two; circles have the numbers
+ *                   from n_features on
  * @return ::ICC_OK; ::ICC_ERR_OUTSIDE (a feature is not strictly inside the outer ring, or lies in
  *         a hole); ::ICC_ERR_BOUNDARY (a ring or line meets itself, two features meet, two points
  *         are the same); ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,

@@ -225,13 +225,17 @@ struct places {
 struct feature {
     std::int32_t kind;           /**< `ICC_FEATURE_*` */
     view<const double> vertices; /**< 2 coordinates each */
+    double radius = 0;           /**< of a point with a size, else 0 */
 
     /** A simple polygon that is cut out. */
-    static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices}; }
+    static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices, 0}; }
     /** A polyline. */
-    static feature line(view<const double> vertices) noexcept { return {ICC_FEATURE_LINE, vertices}; }
-    /** A point. */
-    static feature point(view<const double> vertex) noexcept { return {ICC_FEATURE_POINT, vertex}; }
+    static feature line(view<const double> vertices) noexcept { return {ICC_FEATURE_LINE, vertices, 0}; }
+    /** A point; with a radius the circle round it goes along. */
+    static feature point(view<const double> vertex, double radius = 0) noexcept
+    {
+        return {ICC_FEATURE_POINT, vertex, radius};
+    }
 };
 
 /** A shape: its boundary, and what lies inside. */
@@ -264,6 +268,7 @@ public:
             all.back().kind = f.kind;
             all.back().n_vertices = count(f.vertices, 2);
             all.back().vertices = f.vertices.data();
+            all.back().radius = f.radius;
         }
         return domain(e, [&](auto out, auto... rest) {
             return icc_domain_create_features(out, count(outer, 2), outer.data(), all.size(), all.data(),

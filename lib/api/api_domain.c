@@ -127,6 +127,12 @@ static icc_status check_feature(size_t f, const icc_feature *feature, icc_error 
     if (feature->vertices == NULL)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                             "the vertices of feature %zu are NULL", f);
+    if (!(feature->radius >= 0 && isfinite(feature->radius)) ||
+        (feature->radius > 0 && feature->kind != ICC_FEATURE_POINT))
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
+                            "feature %zu: the radius is %g; it is at least 0 and finite, and 0 "
+                            "but for points",
+                            f, feature->radius);
     return ICC_OK;
 }
 
@@ -146,11 +152,12 @@ static icc_status read_features(icc_feature *full, size_t n_outer, size_t n,
             status = check_feature(f, &full[f], err);
         if (status != ICC_OK)
             return status;
-        if (full[f].n_vertices > ICCP_MAX_COUNT - n_vertices)
+        const size_t n_rim = full[f].radius > 0 ? ICCP_RIM : 0;
+        if (full[f].n_vertices + n_rim > ICCP_MAX_COUNT - n_vertices)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                                 "too many vertices up to feature %zu; at most %zu in all", f,
                                 ICCP_MAX_COUNT);
-        n_vertices += full[f].n_vertices;
+        n_vertices += full[f].n_vertices + n_rim;
     }
     return ICC_OK;
 }

@@ -159,13 +159,9 @@ static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
     return d->tree.boxes != NULL ? ICC_OK : iccp_fail_memory(err);
 }
 
-icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
-                                       size_t n_features, const icc_feature *features,
-                                       const iccp_env *env, icc_error *err)
+static icc_status create(icc_domain **out, size_t n_outer, const double *outer, size_t n_features,
+                         const icc_feature *features, const iccp_env *env, icc_error *err)
 {
-    if (n_features == 0)
-        return iccp_domain_create(out, 2, n_outer, outer, 0, NULL, env, err);
-    *out = NULL;
     icc_status status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
     if (status != ICC_OK)
         return status;
@@ -183,4 +179,51 @@ icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const d
     }
     *out = domain;
     return ICC_OK;
+}
+
+/* ---- points with a radius ---- */
+
+/* A regular polygon without one of its edges: lines do not close. */
+static void place_rim(double rim[2 * ICCP_RIM], const icc_feature *point)
+{
+    static const double cosine[ICCP_RIM] = {
+        1,  0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
+        0,  -0.38268343236508977, -0.70710678118654752, -0.92387953251128674,
+        -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
+        0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
+    for (int k = 0; k < ICCP_RIM; ++k) {
+        rim[2 * k] = point->vertices[0] + point->radius * cosine[k];
+        rim[2 * k + 1] = point->vertices[1] + point->radius * cosine[(k + 12) % ICCP_RIM];
+    }
+}
+
+icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
+                                       size_t n_features, const icc_feature *features,
+                                       const iccp_env *env, icc_error *err)
+{
+    size_t n_rims = 0, n = n_features;
+    if (n_features == 0)
+        return iccp_domain_create(out, 2, n_outer, outer, 0, NULL, env, err);
+    *out = NULL;
+    for (size_t f = 0; f < n_features; ++f)
+        n_rims += features[f].radius > 0;
+    if (n_rims == 0)
+        return create(out, n_outer, outer, n_features, features, env, err);
+    icc_feature *all = iccp_alloc(&env->memory, n_features + n_rims, sizeof *all);
+    double *rims = iccp_alloc(&env->memory, n_rims, 2 * ICCP_RIM * sizeof *rims);
+    icc_status status = all != NULL && rims != NULL ? ICC_OK : iccp_fail_memory(err);
+    if (status == ICC_OK) {
+        memcpy(all, features, n_features * sizeof *all);
+        for (size_t f = 0; f < n_features; ++f)
+            if (features[f].radius > 0) {
+                double *rim = rims + 2 * ICCP_RIM * (n - n_features);
+                place_rim(rim, &features[f]);
+                all[n++] = (icc_feature){
+                    .kind = ICC_FEATURE_LINE, .n_vertices = ICCP_RIM, .vertices = rim};
+            }
+        status = create(out, n_outer, outer, n, all, env, err);
+    }
+    iccp_free(&env->memory, all);
+    iccp_free(&env->memory, rims);
+    return status;
 }

@@ -31,7 +31,10 @@ static inline bool iccp_feature_allows(int32_t kind, size_t n)
            (kind == ICC_FEATURE_POINT && n == 1);
 }
 
-/* See icc_domain_create_features(); pointers, kinds and counts have been checked. */
+/* Vertices of the line round a point with a radius. */
+enum { ICCP_RIM = 16 };
+
+/* See icc_domain_create_features(); pointers, kinds, counts and radii have been checked. */
 icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const double *outer,
                                        size_t n_features, const icc_feature *features,
                                        const iccp_env *env, icc_error *err);

@@ -542,9 +542,9 @@ static inline icc_status call_domain_create_mask(const objects *o, outcome *out,
 
 /* In the L: a hole, a line and a point. */
 static const icc_feature FEATURES[3] = {
-    {sizeof(icc_feature), ICC_FEATURE_HOLE, 3, (const double[]){0.2, 0.2, 0.2, 0.8, 0.8, 0.2}},
-    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, (const double[]){1.5, 0.5, 2.5, 0.5}},
-    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){0.5, 2}}};
+    {sizeof(icc_feature), ICC_FEATURE_HOLE, 3, (const double[]){0.2, 0.2, 0.2, 0.8, 0.8, 0.2}, 0},
+    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, (const double[]){1.5, 0.5, 2.5, 0.5}, 0},
+    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){0.5, 2}, 0}};
 
 static inline icc_status call_domain_create_features(const objects *o, outcome *out,
                                                      const icc_env *env, icc_error *err)

@@ -155,11 +155,12 @@ AT(icc_fill_options, size, 0);
 AT(icc_fill_options, ratio, 8);
 AT(icc_fill_options, max_points, 16);
 
-SIZE(icc_feature, 32);
+SIZE(icc_feature, 40);
 AT(icc_feature, size, 0);
 AT(icc_feature, kind, 8);
 AT(icc_feature, n_vertices, 16);
 AT(icc_feature, vertices, 24);
+AT(icc_feature, radius, 32);
 
 SIZE(icc_feature_info, 40);
 AT(icc_feature_info, size, 0);

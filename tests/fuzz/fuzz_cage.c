@@ -22,22 +22,19 @@ static bool is_message(const problem *wrong)
            strlen(wrong->text) < sizeof wrong->text;
 }
 
-/* Holes first, by their place; then lines and points by rising numbers, circles and ties likewise. */
+/* Holes first, by their place; then lines and points by rising numbers, ties likewise. */
 static void check_features(const cage *c, size_t size)
 {
     size_t n_holes = cage_count(c, ICC_FEATURE_HOLE);
     char text[120];
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        size_t least = f->kind == ICC_FEATURE_HOLE   ? 3
-                       : f->kind == ICC_FEATURE_LINE ? 2
-                       : f->kind == CAGE_CIRCLE      ? 16
-                                                     : 1;
+        size_t least = f->kind == ICC_FEATURE_HOLE ? 3 : f->kind == ICC_FEATURE_LINE ? 2 : 1;
         require(f->n >= least && f->points != NULL && f->line <= size + 1);
         require((f->kind == ICC_FEATURE_HOLE) == (i < n_holes));
         require(i >= n_holes || f->number == (int64_t)i + 1);
-        require(i <= n_holes || f->number > f[-1].number ||
-                (f->kind == CAGE_CIRCLE && f[-1].kind != CAGE_CIRCLE));
+        require(i <= n_holes || f->number > f[-1].number);
+        require(f->radius >= 0 && (f->radius == 0 || f->kind == ICC_FEATURE_POINT));
     }
     for (size_t i = 0; i < c->n_ties; i++)
         require(c->ties[i].n >= 2 && (i == 0 || c->ties[i].number > c->ties[i - 1].number));

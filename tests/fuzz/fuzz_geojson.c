@@ -37,8 +37,9 @@ static const cages *make_cages(bool holes)
     if (c->map != NULL)
         return c;
     for (size_t side = 0; side < 2; side++) {
-        const icc_feature features[2] = {{sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][0]},
-                                         {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][1]}};
+        const icc_feature features[2] = {
+            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][0], 0},
+            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][1], 0}};
         require(icc_domain_create_features(&c->domains[side], 6, corners[side], holes ? 2 : 0,
                                            features, NULL, NULL) == ICC_OK);
     }

@@ -327,6 +327,8 @@ void has_features()
     check(info.n_features == 3 && info.n_vertices == 10 && info.n_facets == 7 && info.measure > 78.9 &&
               info.measure < 79.1,
           "a domain with features");
+    const icc::domain sized = icc::domain::with_features(square, {feature::point({2, 7}, 1)});
+    check(sized.features().size() == 2 && sized.features()[1].n_vertices == 16, "a point with a radius");
     const std::vector<icc_feature_info> features = domain.features();
     check(features.size() == 3 && features[0].kind == ICC_FEATURE_HOLE && features[0].orientation == -1 &&
               features[0].first_facet == 4 && features[1].kind == ICC_FEATURE_LINE &&

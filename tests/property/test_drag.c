@@ -103,8 +103,8 @@ START_TEST(points_that_meet_are_refused)
     icc_map *map = NULL, *next = NULL;
     for (int k = 0; k < 2; ++k) {
         const icc_feature features[2] = {
-            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * k},
-            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * (1 - k)}};
+            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * k, 0},
+            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * (1 - k), 0}};
         ck_assert_int_eq(icc_domain_create_features(&domain[k], 4, SQUARE, 2, features, NULL, &err),
                          ICC_OK);
     }

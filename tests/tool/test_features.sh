@@ -249,7 +249,7 @@ run 0 check -s sized.geojson
 holds out ', with 1 hole and 1 point inside'
 refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' -1)" "$partner"
 refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' '"1"')" "$partner"
-refuses 'target: circle of point 3 of the source has no partner' "$source" "$target" "$(sized source '[2,8]' 1)" "$partner"
+refuses 'target: point 3 has no radius, but in the source one' "$source" "$target" "$(sized source '[2,8]' 1)" "$partner"
 refuses 'source: circle of point 3, vertex' "$source" "$target" "$(sized source '[2,8]' 4)" "$(sized target '[2,8]' 1)"
 refuses 'points with a radius and ties do not go together' "$source" "$target" "$(sized source '[2,8]' 1)" \
     "$(sized target '[2,8]' 1)" "$(feature source-tie LineString '[[0,10],[2,8]]' 1)"

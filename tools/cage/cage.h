@@ -16,9 +16,8 @@
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
 
-/* Something inside a cage in the plane. Kinds are those of icc_feature, a tie, and the circle round
- * a point with a radius: a line to the library. */
-enum { CAGE_TIE = 100, CAGE_CIRCLE };
+/* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
+enum { CAGE_TIE = 100 };
 
 typedef struct cage_feature {
     int32_t kind;
@@ -40,7 +39,7 @@ typedef struct cage {
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
-    size_t n_features;         /* inside a polygon; in this order they are the domain's */
+    size_t n_features;         /* inside a polygon; in this order the domain's, but for circles */
     cage_feature *features;
     size_t n_ties;
     cage_feature *ties; /* polylines from a vertex to a vertex */

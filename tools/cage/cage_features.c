@@ -11,7 +11,6 @@ static const char *kind_name(int32_t kind)
     return kind == ICC_FEATURE_HOLE    ? "hole"
            : kind == ICC_FEATURE_LINE  ? "line"
            : kind == ICC_FEATURE_POINT ? "point"
-           : kind == CAGE_CIRCLE       ? "circle of point"
                                        : "tie";
 }
 
@@ -84,7 +83,7 @@ bool cage_end_ring(cage *c, size_t first, problem *wrong)
 /* Holes first, ties last. */
 static int rank(int32_t kind)
 {
-    return kind == ICC_FEATURE_HOLE ? 0 : kind == CAGE_CIRCLE ? 2 : kind == CAGE_TIE ? 3 : 1;
+    return kind == ICC_FEATURE_HOLE ? 0 : kind == CAGE_TIE ? 2 : 1;
 }
 
 static int by_number(const void *a, const void *b)
@@ -95,25 +94,23 @@ static int by_number(const void *a, const void *b)
     return p->number < q->number ? -1 : p->number > q->number;
 }
 
-/* Round each point with a radius a polygon of 16 sides without one of them: lines do not close. */
-static void add_circles(cage *c)
+size_t cage_circles(const cage *c)
 {
-    static const double at[] = {
-        1,  0.92387953251128674,  0.70710678118654752,  0.38268343236508977,
-        0,  -0.38268343236508977, -0.70710678118654752, -0.92387953251128674,
-        -1, -0.92387953251128674, -0.70710678118654752, -0.38268343236508977,
-        0,  0.38268343236508977,  0.70710678118654752,  0.92387953251128674};
-    size_t n = c->n_features;
-    for (size_t i = 0; i < n; i++) {
-        size_t first = c->n;
-        const cage_feature *f = &c->features[i];
-        double radius = f->radius, x = f->points[0], y = f->points[1];
-        if (f->kind != ICC_FEATURE_POINT || !(radius > 0))
-            continue;
-        for (size_t k = 0; k < 16; k++)
-            cage_add(c, x + radius * at[k], y + radius * at[(k + 12) % 16], f->line);
-        cage_add_feature(c, CAGE_CIRCLE, f->number, first);
-    }
+    size_t n = 0;
+    for (size_t i = 0; i < c->n_features; i++)
+        n += c->features[i].radius > 0;
+    return n;
+}
+
+const cage_feature *cage_find_feature(const cage *c, size_t number)
+{
+    if (number < c->n_features)
+        return &c->features[number];
+    number -= c->n_features;
+    for (size_t i = 0; i < c->n_features; i++)
+        if (c->features[i].radius > 0 && number-- == 0)
+            return &c->features[i];
+    return NULL;
 }
 
 bool cage_sort_features(cage *c, problem *wrong)
@@ -131,9 +128,7 @@ bool cage_sort_features(cage *c, problem *wrong)
     c->n_features -= c->n_ties;
     c->ties = need(c->n_ties, sizeof *c->ties);
     memcpy(c->ties, c->features + c->n_features, c->n_ties * sizeof *c->ties);
-    size_t n = c->n_features;
-    add_circles(c);
-    return n == c->n_features || c->n_ties == 0 ||
+    return cage_circles(c) == 0 || c->n_ties == 0 ||
            spoilt(wrong, 0, "points with a radius and ties do not go together");
 }
 
@@ -150,6 +145,10 @@ static bool pair(const cage_feature *source, const cage_feature *target, problem
         return spoilt(wrong, target->line,
                       "%s has %zu vertices, but in the source %zu; they correspond one by one",
                       name, target->n, source->n);
+    if ((source->radius > 0) != (target->radius > 0))
+        return spoilt(wrong, target->line, "%s has %s, but in the source %s", name,
+                      target->radius > 0 ? "a radius" : "no radius",
+                      source->radius > 0 ? "one" : "none");
     return true;
 }
 
@@ -197,27 +196,31 @@ static const char *skip_kind(const char *p)
     return p;
 }
 
-/* Takes "feature 3" or "tie 3" at the beginning of a text; NULL: it is something else. */
-static const cage_feature *take_number(const char **text, const cage *c)
+/* Takes "feature 3" or "tie 3" at the beginning of a text, and names it; false: it is something
+ * else. */
+static bool take_name(feature_text name, const char **text, const cage *c)
 {
-    const struct {
-        const char *word;
-        size_t n;
-        const cage_feature *list;
-    } lists[] = {{"feature ", c->n_features, c->features}, {"tie ", c->n_ties, c->ties}};
+    const char *const words[] = {"feature ", "tie "};
     for (size_t k = 0; k < 2; k++) {
-        const char *digits = *text + strlen(lists[k].word);
+        const char *digits = *text + strlen(words[k]);
         size_t i = 0, n = 0;
-        if (strncmp(*text, lists[k].word, strlen(lists[k].word)) != 0)
+        if (strncmp(*text, words[k], strlen(words[k])) != 0)
             continue;
         for (; digits[n] >= '0' && digits[n] <= '9' && n < 18; n++)
             i = 10 * i + (size_t)(digits[n] - '0');
-        if (n == 0 || i >= lists[k].n)
-            return NULL;
+        const cage_feature *f = n == 0          ? NULL
+                                : k == 0        ? cage_find_feature(c, i)
+                                : i < c->n_ties ? &c->ties[i]
+                                                : NULL;
+        if (f == NULL)
+            return false;
         *text = skip_kind(digits + n);
-        return &lists[k].list[i];
+        feature_name(name, f);
+        if (k == 0 && i >= c->n_features)
+            snprintf(name, sizeof(feature_text), "circle of point %lld", (long long)f->number);
+        return true;
     }
-    return NULL;
+    return false;
 }
 
 void features_translate(char *out, size_t room, const cage *c, const char *message)
@@ -225,12 +228,9 @@ void features_translate(char *out, size_t room, const cage *c, const char *messa
     size_t used = 0;
     out[0] = '\0';
     while (*message != '\0' && used + 1 < room) {
-        const cage_feature *f = take_number(&message, c);
         feature_text name = {*message, '\0'};
-        if (f == NULL)
+        if (!take_name(name, &message, c))
             message++;
-        else
-            feature_name(name, f);
         int n = snprintf(out + used, room - used, "%s", name);
         used = used + (size_t)n < room ? used + (size_t)n : room - 1;
     }

@@ -28,6 +28,13 @@ const char *feature_name(feature_text out, const cage_feature *f);
 /* How many of a kind there are. */
 size_t cage_count(const cage *c, int32_t kind);
 
+/* How many points have a radius. */
+size_t cage_circles(const cage *c);
+
+/* Feature `number` of the domain: of the circles round points, which are behind the features of the
+ * cage, the point; NULL: there is none. */
+const cage_feature *cage_find_feature(const cage *c, size_t number);
+
 /* ", with 2 holes, 1 line and 3 points inside", or nothing. Returns `out`. */
 const char *cage_inside_text(char out[120], const cage *c);
 

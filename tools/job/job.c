@@ -59,8 +59,10 @@ const char *job_side(side_text out, const job *j, int side)
  * is about a vertex. */
 static size_t line_at_fault(const cage *c, const icc_error *err)
 {
-    if (err->item == ICC_ITEM_FEATURE && err->index >= 0)
-        return (size_t)err->index < c->n_features ? c->features[err->index].line : 0;
+    if (err->item == ICC_ITEM_FEATURE && err->index >= 0) {
+        const cage_feature *f = cage_find_feature(c, (size_t)err->index);
+        return f != NULL ? f->line : 0;
+    }
     if (err->item == ICC_ITEM_TIE)
         return 0;
     bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;

@@ -124,11 +124,11 @@ static icc_status make_polygon(icc_domain **out, const cage *c, const icc_env *e
 {
     icc_feature *features = need(c->n_features, sizeof *features);
     for (size_t i = 0; i < c->n_features; i++)
-        features[i] = (icc_feature){
-            .size = sizeof *features,
-            .kind = c->features[i].kind == CAGE_CIRCLE ? ICC_FEATURE_LINE : c->features[i].kind,
-            .n_vertices = c->features[i].n,
-            .vertices = c->features[i].points};
+        features[i] = (icc_feature){.size = sizeof *features,
+                                    .kind = c->features[i].kind,
+                                    .n_vertices = c->features[i].n,
+                                    .vertices = c->features[i].points,
+                                    .radius = c->features[i].radius};
     icc_status status =
         icc_domain_create_features(out, c->n, c->points, c->n_features, features, env, err);
     free(features);

@@ -6,22 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Vertices are those of the ring, then those of the features. */
-static const double *vertex_of(const cage *c, size_t vertex)
-{
-    if (vertex < c->n)
-        return c->points + 2 * vertex;
-    vertex -= c->n;
-    const cage_feature *f = c->features;
-    for (; vertex >= f->n; f++)
-        vertex -= f->n;
-    return f->points + 2 * vertex;
-}
-
-size_t ties_of_map(const icc_map *map, const cage *c, int side, cage_feature **ties)
+size_t ties_of_map(const icc_map *map, const icc_domain *domain, int side, cage_feature **ties)
 {
     icc_map_info info = {.size = sizeof info};
+    icc_domain_info shape = {.size = sizeof shape};
     icc_map_get_info(map, &info);
+    icc_domain_get_info(domain, &shape);
+    double *vertices = need(shape.n_vertices, 2 * sizeof *vertices);
+    icc_domain_get_boundary(domain, vertices, NULL);
     *ties = need(info.n_ties, sizeof **ties);
     for (size_t i = 0; i < info.n_ties; i++) {
         icc_tie_info tie = {.size = sizeof tie};
@@ -29,11 +21,12 @@ size_t ties_of_map(const icc_map *map, const cage *c, int side, cage_feature **t
         size_t n = 2 + (side == 1 ? tie.n_source : tie.n_target);
         double *points = need(n, 2 * sizeof *points);
         icc_map_get_tie(map, i, &tie, side == 1 ? points + 2 : NULL, side == 2 ? points + 2 : NULL);
-        memcpy(points, vertex_of(c, tie.vertex[0]), 2 * sizeof *points);
-        memcpy(points + 2 * (n - 1), vertex_of(c, tie.vertex[1]), 2 * sizeof *points);
+        memcpy(points, vertices + 2 * (size_t)tie.vertex[0], 2 * sizeof *points);
+        memcpy(points + 2 * (n - 1), vertices + 2 * (size_t)tie.vertex[1], 2 * sizeof *points);
         (*ties)[i] =
             (cage_feature){.kind = CAGE_TIE, .number = (int64_t)i + 1, .n = n, .points = points};
     }
+    free(vertices);
     return info.n_ties;
 }
 
@@ -51,7 +44,7 @@ int ties_check(job *j)
     int result = job_read_plane(j, "--ties");
     if (result == DONE && j->n_parts > 0)
         return failed(j->args->source, 0, "--ties is for cages of a single polygon");
-    if (result == DONE && cage_count(&j->cages[0], CAGE_CIRCLE) > 0)
+    if (result == DONE && cage_circles(&j->cages[0]) > 0)
         return failed(j->args->source, 0, "points with a radius and ties do not go together");
     return result == DONE && j->cages[0].n_features == 0
                ? failed(j->args->source, 0,
@@ -112,7 +105,7 @@ static void write_side(FILE *stream, const job *j, cage_role role)
 {
     const cage *c = &j->cages[role - 1];
     cage_feature *ties;
-    size_t n = ties_of_map(j->map, c, (int)role, &ties);
+    size_t n = ties_of_map(j->map, j->domains[role - 1], (int)role, &ties);
     write_polygon(stream, c, role);
     for (size_t i = 0; i < c->n_features; i++)
         if (c->features[i].kind != ICC_FEATURE_HOLE)

@@ -5,7 +5,7 @@
 #include "job/job.h"
 
 /* The ties of a map, as those of one of its cages; 1 source, 2 target. */
-size_t ties_of_map(const icc_map *map, const cage *c, int side, cage_feature **ties);
+size_t ties_of_map(const icc_map *map, const icc_domain *domain, int side, cage_feature **ties);
 void ties_free(size_t n, cage_feature *ties);
 
 /* Whether the cages are such that the file of --ties, if it was given, can be written. */

@@ -38,18 +38,13 @@ static void write_path(const panel *p, size_t n, const double *points, bool clos
     free(path);
 }
 
-static bool is_line(const cage_feature *f)
-{
-    return f->kind == ICC_FEATURE_LINE || f->kind == CAGE_CIRCLE;
-}
-
 /* The outer ring and the holes; with `lines` those too. */
 static void write_outline(const panel *p, const cage *c, bool lines)
 {
     write_path(p, c->n, c->points, true);
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        if (f->kind == ICC_FEATURE_HOLE || (is_line(f) && lines))
+        if (f->kind == ICC_FEATURE_HOLE || (f->kind == ICC_FEATURE_LINE && lines))
             write_path(p, f->n, f->points, f->kind == ICC_FEATURE_HOLE);
     }
 }
@@ -82,7 +77,7 @@ static void draw_lines(const panel *p, const cage *c)
     for (size_t i = 0; i < c->n_ties; i++)
         write_path(p, c->ties[i].n, c->ties[i].points, false);
     for (size_t i = 0; i < c->n_features; i++)
-        if (is_line(&c->features[i]))
+        if (c->features[i].kind == ICC_FEATURE_LINE)
             write_path(p, c->features[i].n, c->features[i].points, false);
     fputs("\"/>\n", p->svg);
     for (size_t i = 0; i < c->n_ties; i++) {
@@ -91,6 +86,22 @@ static void draw_lines(const panel *p, const cage *c)
               p->svg);
         write_path(p, c->ties[i].n, c->ties[i].points, false);
         fputs("\"/>\n", p->svg);
+    }
+}
+
+/* Of points with a radius. */
+static void draw_circles(const panel *p, const cage *c)
+{
+    for (size_t i = 0; i < c->n_features; i++) {
+        double at[2], radius = c->features[i].radius * p->scale;
+        if (!(radius > 0))
+            continue;
+        panel_place(p, c->features[i].points, at);
+        fprintf(p->svg,
+                "<g fill=\"none\"><circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.2f\" stroke=\"white\" "
+                "stroke-width=\"4\" stroke-opacity=\"0.7\"/><circle cx=\"%.2f\" cy=\"%.2f\" "
+                "r=\"%.2f\" stroke=\"#111\" stroke-width=\"1.5\"/></g>\n",
+                at[0], at[1], radius, at[0], at[1], radius);
     }
 }
 
@@ -104,13 +115,14 @@ static void draw_cage(const panel *p, const cage *c)
           p->svg);
     write_outline(p, c, true);
     fputs("\"/>\n", p->svg);
+    draw_circles(p, c);
     for (size_t i = 0; i < c->n_features; i++)
         n += c->features[i].kind == ICC_FEATURE_POINT ? 0 : c->features[i].n;
     if (n <= MAX_HANDLES)
         draw_vertices(p, c->n, c->points, 2.4, false);
     for (size_t i = 0; i < c->n_features; i++) {
         const cage_feature *f = &c->features[i];
-        if (f->kind == ICC_FEATURE_POINT || (f->kind != CAGE_CIRCLE && n <= MAX_HANDLES))
+        if (f->kind == ICC_FEATURE_POINT || n <= MAX_HANDLES)
             draw_vertices(p, f->n, f->points, f->kind == ICC_FEATURE_POINT ? 3.6 : 2.4,
                           f->kind == ICC_FEATURE_POINT);
     }
@@ -122,7 +134,7 @@ void plot_cage(const panel *p, const job *j)
     cage_feature *own = NULL;
     size_t n_own = 0;
     if (shown.n_features > 0 && p->stages->map != NULL)
-        n_own = ties_of_map(p->stages->map, &shown, p->side, &own);
+        n_own = ties_of_map(p->stages->map, j->domains[p->side == 2], p->side, &own);
     if (n_own > 0) {
         shown.n_ties = n_own;
         shown.ties = own;

@@ -17,7 +17,7 @@ STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size n_mesh_vertices:size n_mesh_simplices:size
-feature kind:i32 n_vertices:size vertices:ptr
+feature kind:i32 n_vertices:size vertices:ptr radius:f64
 fill_options ratio:f64 max_points:u64
 feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64

@@ -50,6 +50,9 @@ class Domain(Handle):
         lines: polylines inside it, (n, 2) each; two vertices make a bone
         points: points inside it, (n, 2). The features are numbered in this order: holes, lines, points. A
             `Map` takes each to that of the same number, vertex by vertex; only maps of kind "mesh" can.
+        radii: of points with a size, one for each or the same for all; 0: none. The circle round such a
+            point goes along, larger or smaller, but does not turn: it is a line of 16 vertices behind all
+            other features.
         progress, threads: see `libicc.Progress`; threads default to one per processor, results are
             the same for every number
 
@@ -61,13 +64,18 @@ class Domain(Handle):
 
     def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
                  holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
-                 points: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+                 points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         features = _features([*_holes_of(vertices), *holes], lines, points)
+        n_points = sum(kind == "point" for kind, _ in features)
+        try:
+            sizes = np.broadcast_to(np.asarray(0.0 if radii is None else radii, dtype=np.float64), n_points)
+        except ValueError:
+            raise ValueError(f"radii must be a number or one for each of the {n_points} points") from None
         if features:
             if facets is not None:
                 raise ValueError("facets cannot be given with holes, lines or points")
-            self._take_features(points_of(_outline(vertices, True), 2), features, progress, threads)
+            self._take_features(points_of(_outline(vertices, True), 2), features, sizes, progress, threads)
             return
         vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
@@ -78,13 +86,15 @@ class Domain(Handle):
                           0 if facets is None else len(facets), address(facets),
                           progress=progress, threads=threads))
 
-    def _take_features(self, outer: Floats, features: List[Tuple[str, Floats]],
+    def _take_features(self, outer: Floats, features: List[Tuple[str, Floats]], radii: Floats,
                        progress: Optional[Progress], threads: Optional[int]) -> None:
         all_features = (structs.feature * len(features))()
         for feature, (kind, vertices) in zip(all_features, features):
             feature.size = ctypes.sizeof(structs.feature)
             feature.kind, feature.n_vertices = FEATURES[kind], len(vertices)
             feature.vertices = address(vertices)
+        for feature, radius in zip(all_features[len(features) - len(radii):], radii):  # points come last
+            feature.radius = radius
         self._take(create(lib.domain_create_features, len(outer), address(outer), len(features),
                           ctypes.addressof(all_features), progress=progress, threads=threads))
 

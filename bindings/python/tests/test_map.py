@@ -185,6 +185,14 @@ def test_features():
     assert where.tolist() == [libicc.INSIDE, libicc.OUTSIDE, libicc.BOUNDARY, libicc.INSIDE, libicc.INSIDE]
     assert libicc.Domain(square).features == [] and libicc.Domain(square, points=[]).info.n_features == 0
     assert libicc.Domain(square, points=[3, 4]).features[0][1].tolist() == [[3, 4]]
+    sized = libicc.Domain(square, lines=[bone], points=[[2, 7], [7, 7]], radii=[0, 1]).features
+    assert [kind for kind, _ in sized] == ["line", "point", "point", "line"]
+    np.testing.assert_allclose(np.hypot(*(sized[3][1] - [7, 7]).T), np.ones(16), rtol=1e-15)
+    assert len(libicc.Domain(square, points=[[2, 7], [7, 7]], radii=1).features) == 4
+    with pytest.raises(ValueError, match="each of the 2 points"):
+        libicc.Domain(square, points=[[2, 7], [7, 7]], radii=[1, 1, 1])
+    with pytest.raises(libicc.ArgumentError, match="feature 0: the radius"):
+        libicc.Domain(square, points=[[2, 7]], radii=-1)
     with pytest.raises(libicc.OutsideError, match="feature 1 .a point., vertex 0, lies in feature 0") as caught:
         libicc.Domain(square, holes=[hole], points=[[1.5, 2.5]])
     assert caught.value.index == 1 and caught.value.item == "feature"

@@ -9,6 +9,7 @@
 
 #include "../../faulty.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -414,8 +415,8 @@ static icc_status create_one(int32_t kind, size_t n, const double *vertices, icc
 {
     static const double outer[] = {0, 0, 9, 0, 9, 9, 0, 9};
     const icc_feature features[2] = {
-        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){8, 8}},
-        {sizeof(icc_feature), kind, n, vertices}};
+        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){8, 8}, 0},
+        {sizeof(icc_feature), kind, n, vertices, 0}};
     icc_domain *domain = (icc_domain *)&err;
     const icc_status status = icc_domain_create_features(&domain, 4, outer, 2, features, NULL, err);
     ck_assert((domain != NULL) == (status == ICC_OK));
@@ -452,7 +453,7 @@ START_TEST(arguments)
     ck_assert_int_eq(create_one(1, 3, NULL, &err), ICC_ERR_ARGUMENT);
     for (int32_t kind = 1; kind <= 3; ++kind)
         ck_assert_int_eq(create_one(kind, (size_t)(4 - kind), some, &err), ICC_OK);
-    const icc_feature feature = {sizeof feature, ICC_FEATURE_POINT, 1, some};
+    const icc_feature feature = {sizeof feature, ICC_FEATURE_POINT, 1, some, 0};
     ck_assert_int_eq(icc_domain_create_features(NULL, 3, some, 0, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create_features(&domain, 3, NULL, 1, &feature, NULL, &err),
@@ -478,8 +479,8 @@ START_TEST(sizes)
     static const double outer[] = {0, 0, 9, 0, 9, 9, 0, 9}, points[] = {1, 1, 2, 2};
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
-    later two[2] = {{{sizeof(later), ICC_FEATURE_POINT, 1, points}, 0},
-                    {{sizeof(later), ICC_FEATURE_POINT, 1, points + 2}, 0}};
+    later two[2] = {{{sizeof(later), ICC_FEATURE_POINT, 1, points, 0}, 0},
+                    {{sizeof(later), ICC_FEATURE_POINT, 1, points + 2, 0}, 0}};
     const icc_feature *features = &two[0].known;
     ck_assert_int_eq(icc_domain_create_features(&domain, 4, outer, 2, features, NULL, &err),
                      ICC_OK);
@@ -494,6 +495,91 @@ START_TEST(sizes)
     two[0].known.size = 0;
     ck_assert_int_eq(icc_domain_create_features(&domain, 4, outer, 2, features, NULL, &err),
                      ICC_ERR_ARGUMENT);
+}
+END_TEST
+
+/* ------------------------------------------------------------------- radius */
+
+static const double SQUARE[] = {0, 0, 10, 0, 10, 10, 0, 10};
+
+/* Two points, the second one with a radius, then a line. */
+static icc_status create_sized(icc_domain **out, double radius, const icc_env *env, icc_error *err)
+{
+    static const double at[] = {2, 2, 5, 7, 8, 2, 9, 2};
+    const icc_feature features[] = {{sizeof(icc_feature), ICC_FEATURE_POINT, 1, at, 0},
+                                    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, at + 2, radius},
+                                    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, at + 4, 0}};
+    return icc_domain_create_features(out, 4, SQUARE, 3, features, env, err);
+}
+
+static icc_status create_sized_once(const icc_env *env, icc_error *err, void *unused)
+{
+    icc_domain *domain;
+    (void)unused;
+    const icc_status status = create_sized(&domain, 2, env, err);
+    icc_domain_free(domain);
+    return status;
+}
+
+START_TEST(circles)
+{
+    icc_domain *small, *large;
+    icc_domain_info info = {.size = sizeof info};
+    icc_feature_info rim = {.size = sizeof rim};
+    icc_map *map;
+    icc_map_info made = {.size = sizeof made};
+    double vertices[2 * (4 + 4 + 16)];
+    ck_assert_int_eq(create_sized(&small, 1, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(create_sized(&large, 2.5, NULL, NULL), ICC_OK);
+    icc_domain_get_info(small, &info);
+    ck_assert_uint_eq(info.n_features, 4);
+    ck_assert_uint_eq(info.n_vertices, 4 + 4 + 16);
+    ck_assert_int_eq(icc_domain_get_feature(small, 3, &rim), ICC_OK);
+    ck_assert_int_eq(rim.kind, ICC_FEATURE_LINE);
+    ck_assert_uint_eq(rim.first_vertex, 8);
+    ck_assert_uint_eq(rim.n_vertices, 16);
+    ck_assert_int_eq(icc_domain_get_boundary(small, vertices, NULL), ICC_OK);
+    ck_assert(vertices[16] == 6 && vertices[17] == 7);
+    for (int i = 0; i < 16; ++i) {
+        const double angle = atan2(vertices[17 + 2 * i] - 7, vertices[16 + 2 * i] - 5);
+        ck_assert(fabs(hypot(vertices[16 + 2 * i] - 5, vertices[17 + 2 * i] - 7) - 1) < 1e-15);
+        ck_assert(fabs(remainder(angle - i * acos(-1) / 8, 2 * acos(-1))) < 1e-15);
+    }
+    ck_assert_int_eq(icc_map_create(&map, small, large, NULL, NULL, NULL), ICC_OK);
+    icc_map_get_info(map, &made);
+    ck_assert_int_eq(made.certified, 1);
+    ck_assert_uint_eq(made.n_points, 2);
+    const double on[] = {6, 7, 5, 8, 5, 7, 2, 2}, expected[] = {7.5, 7, 5, 9.5, 5, 7, 2, 2};
+    double images[8];
+    ck_assert_int_eq(icc_map_apply(map, 4, on, images, NULL, NULL, NULL), ICC_OK);
+    for (int i = 0; i < 8; ++i)
+        ck_assert_msg(fabs(images[i] - expected[i]) < 1e-14, "%d: %.17g", i, images[i]);
+    icc_map_free(map);
+    icc_domain_free(small);
+    icc_domain_free(large);
+    faulty_sweep(create_sized_once, NULL);
+}
+END_TEST
+
+START_TEST(wrong_circles)
+{
+    icc_error err = {.size = sizeof err};
+    icc_domain *domain;
+    const double wrong[] = {-1, -0x1p-1074, NAN, INFINITY};
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+        ck_assert_int_eq(create_sized(&domain, wrong[i], NULL, &err), ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(err.item, ICC_ITEM_FEATURE);
+        ck_assert_int_eq(err.index, 1);
+        ck_assert_ptr_null(domain);
+    }
+    const icc_feature line = {sizeof line, ICC_FEATURE_LINE, 2, SQUARE, 1};
+    ck_assert_int_eq(icc_domain_create_features(&domain, 4, SQUARE, 1, &line, NULL, &err),
+                     ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(create_sized(&domain, 3.5, NULL, &err), ICC_ERR_OUTSIDE);
+    ck_assert_int_eq(err.index, 3);
+    ck_assert_int_ne(create_sized(&domain, DBL_MAX, NULL, &err), ICC_OK);
+    /* It must surround its point visibly. */
+    ck_assert_int_eq(create_sized(&domain, 0x1p-1074, NULL, &err), ICC_ERR_BOUNDARY);
 }
 END_TEST
 
@@ -537,6 +623,8 @@ int main(void)
     tcase_add_test(checks, correspondence);
     tcase_add_test(checks, arguments);
     tcase_add_test(checks, sizes);
+    tcase_add_test(checks, circles);
+    tcase_add_test(checks, wrong_circles);
     tcase_add_test(checks, memory_and_cancel);
     tcase_set_timeout(checks, 120);
     Suite *suite = suite_create("features_use");

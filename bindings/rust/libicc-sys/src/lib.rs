@@ -308,6 +308,8 @@ pub struct icc_feature {
     pub n_vertices: usize,
     /// 2 n_vertices coordinates
     pub vertices: *const f64,
+    /// of a point with a size: above 0; else 0
+    pub radius: f64,
 }
 sized!(icc_feature);
 

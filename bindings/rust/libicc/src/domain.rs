@@ -67,6 +67,9 @@ pub enum Feature<'a> {
     Line(&'a [f64]),
     /// One vertex.
     Point(&'a [f64; 2]),
+    /// A point with a size: the circle of this radius round it goes along, larger or smaller, but does not turn.
+    /// The domain has it as a line of 16 vertices behind all features that were given.
+    Handle(&'a [f64; 2], f64),
 }
 
 impl Feature<'_> {
@@ -74,12 +77,14 @@ impl Feature<'_> {
         let (kind, vertices): (i32, &[f64]) = match self {
             Feature::Hole(vertices) => (sys::ICC_FEATURE_HOLE, vertices),
             Feature::Line(vertices) => (sys::ICC_FEATURE_LINE, vertices),
-            Feature::Point(vertex) => (sys::ICC_FEATURE_POINT, &vertex[..]),
+            Feature::Point(vertex) | Feature::Handle(vertex, _) => (sys::ICC_FEATURE_POINT, &vertex[..]),
         };
+        let radius = if let Feature::Handle(_, radius) = self { *radius } else { 0.0 };
         Ok(sys::icc_feature {
             kind,
             n_vertices: count(vertices, 2, "the vertices of a feature")?,
             vertices: vertices.as_ptr(),
+            radius,
             ..Default::default()
         })
     }

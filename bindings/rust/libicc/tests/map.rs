@@ -54,6 +54,13 @@ fn domains_have_features() {
     assert_eq!(told, [(1, 4, 3), (2, 7, 2), (3, 9, 1)]);
     assert_eq!(domain.features()[0].orientation, -1);
 
+    let sized = Domain::with_features(&square, &[Feature::Handle(&[2.0, 7.0], 1.0), bone], env).unwrap();
+    let told: Vec<_> = sized.features().iter().map(|f| (f.kind, f.first_vertex, f.n_vertices)).collect();
+    assert_eq!(told, [(3, 4, 1), (2, 5, 2), (2, 7, 16)]);
+    assert_eq!(&sized.boundary().unwrap().0[14..16], &[3.0, 7.0]);
+    let error = Domain::with_features(&square, &[Feature::Handle(&[2.0, 7.0], -1.0)], env).unwrap_err();
+    assert_eq!(error.status, Status::ARGUMENT);
+
     let error = Domain::with_features(&square, &[bone, Feature::Point(&[9.0, 5.0])], env).unwrap_err();
     assert_eq!((error.status, error.index, error.item), (Status::OUTSIDE, Some(1), Some(Item::Feature)));
     let error = Domain::with_features(&square, &[bone, Feature::Point(&[6.0, 5.0])], env).unwrap_err();
