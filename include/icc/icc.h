@@ -860,10 +860,10 @@ enum {
      *  the charts, are repaired until every triangle is positive, made fair, and certified: every
      *  triangle is exactly positive before and after, and both boundaries are exactly simple.
      *
-     *  In 3-D, between domains made by icc_domain_create_mesh(): the source's mesh, with images
-     *  that start from the charts and are repaired, made fair and certified likewise. The target's
-     *  mesh serves its chart only. Inner edges of the source's mesh that join boundary vertices are
-     *  cut where that is needed. */
+     *  In 3-D, between closed surfaces, which are filled unless they bring a mesh: the source's
+     *  mesh, with images that start from the charts and are repaired, made fair and certified
+     *  likewise. The target's mesh serves its chart only. Inner edges of the source's mesh that
+     *  join boundary vertices are cut where that is needed. */
     ICC_MAP_MESH = 2
 };
 
@@ -889,8 +889,9 @@ typedef struct icc_map_options {
                                          long as they pay off, at most 60; in 3-D, where the mesh is
                                          not refined here, at most 8; -1: no improvement */
     const icc_chart_options *chart; /**< for both charts, or NULL; its `maximum` is the source's.
-                                         For kind mesh method 0 means disc (foliation when a maximum
-                                         is given), and cells 0 means 20. */
+                                         For kind mesh in 2-D method 0 means disc (foliation when a
+                                         maximum is given), and cells 0 means 20. In 3-D method 0
+                                         means foliation, but field for masks. */
     const double *target_maximum;   /**< the target's maximum, or NULL: as the method chooses */
     size_t n_ties;                  /**< with features: as many as there are features; or 0 */
     const icc_tie *ties; /**< which way round one another the features go: paths that join
@@ -958,6 +959,10 @@ typedef struct icc_map_info {
  * - by field, through the affine map that fits the boundary best, near parts of it counting most;
  * - by foliation on domains with meshes, a vertex of the source that is deep inside both domains,
  *   before and after a harmonic map, with the target's vertex nearest to its image.
+ *
+ * In 3-D a surface without a mesh is filled as icc_domain_fill() does it without options, unless
+ * the method is gradient or field. One that cannot be filled is ::ICC_ERR_RESOLUTION, and `err`
+ * names the side and the facet; method field needs no mesh.
  *
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   domain before

@@ -34,8 +34,8 @@ static icc_status complete_options(icc_chart_options *options, int32_t dim, bool
     if (options->method == ICC_METHOD_FOLIATION && planar && dim > 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "method foliation needs a mesh of the inside in dimension %ld: make the "
-                         "domain by icc_domain_create_mesh()",
-                         (long)dim);
+                         "domain by %sicc_domain_create_mesh()",
+                         (long)dim, dim == 3 ? "icc_domain_fill() or " : "");
     if (planar ? dim != 2 : dim < 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "method %ld is not available for domains of dimension %ld",

@@ -4,6 +4,9 @@
 
 #include "domain/domain.h"
 
+/* The ratio where the caller leaves it open. */
+#define ICCP_FILL_RATIO 1.6
+
 typedef struct iccp_fill_options {
     double ratio;
     uint64_t max_points;

@@ -6,6 +6,7 @@
 #include "chart/chart_create.h"
 #include "domain/features_check.h"
 #include "map/digits.h"
+#include "map/filled_pair.h"
 #include "map/follow.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
@@ -253,12 +254,6 @@ static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
     return status;
 }
 
-/* Whether kind mesh can work on the caller's meshes. */
-static bool are_filled(const icc_domain *const domains[2])
-{
-    return domains[0]->dim == 3 && domains[0]->mesh != NULL && domains[1]->mesh != NULL;
-}
-
 /* The method that suits the kind, where the caller leaves it open: discs are the better start for a
  * mesh, unless a maximum is given, which they do not have. The caller's own meshes are for
  * foliations. */
@@ -277,36 +272,37 @@ static void complete(icc_chart_options chart_options[2], const icc_domain *const
     }
 }
 
-static icc_status create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                         const icc_map_options *options, const icc_chart_options chart_options[2],
-                         const iccp_env *env, icc_error *err)
+/* What the options ask for must be there for these domains. */
+static icc_status check_request(const icc_domain *source, const icc_map_options *options,
+                                const icc_chart_options chart_options[2], icc_error *err)
 {
-    const double start = iccp_seconds();
-    const icc_domain *const domains[2] = {source, target};
-    icc_chart_options full[2] = {chart_options[0], chart_options[1]};
-    icc_status status = check_correspondence(source, target, err);
-    if (status == ICC_OK && options->kind == ICC_MAP_MESH && source->dim != 2 &&
-        !are_filled(domains))
-        status = iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                           "map kind mesh is not available for domains of dimension %ld%s",
-                           (long)source->dim,
-                           source->dim == 3 ? " without meshes (icc_domain_create_mesh)" : "");
-    if (status != ICC_OK)
-        return status;
-    if (source->features != NULL &&
-        (options->kind == ICC_MAP_CURVES || chart_options[0].method != 0 ||
-         chart_options[0].maximum != NULL || chart_options[1].maximum != NULL))
+    if (options->kind == ICC_MAP_MESH &&
+        (source->dim > 3 || (source->dim == 3 && source->mask != NULL)))
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "map kind mesh is not available for %s of dimension %ld",
+                         source->mask != NULL ? "masks" : "domains", (long)source->dim);
+    if (source->features == NULL)
+        return options->n_ties == 0
+                   ? ICC_OK
+                   : iccp_fail(err, ICC_ERR_ARGUMENT,
+                               "ties are between features, of which there are none");
+    if (options->kind == ICC_MAP_CURVES || chart_options[0].method != 0 ||
+        chart_options[0].maximum != NULL || chart_options[1].maximum != NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "holes, lines or points inside: only kind mesh without charts can have "
                          "them");
-    if (source->features == NULL && options->n_ties > 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "ties are between features, of which there are none");
-    if (source->features != NULL)
-        return create_with_features(out, source, target, options, env, err);
+    return ICC_OK;
+}
+
+static icc_status create_without_features(icc_map **out, const icc_domain *const domains[2],
+                                          const icc_map_options *options,
+                                          const icc_chart_options chart_options[2],
+                                          const iccp_env *env, icc_error *err)
+{
+    icc_chart_options full[2] = {chart_options[0], chart_options[1]};
     complete(full, domains, options->kind);
     const iccp_env first = iccp_part(env, NULL, 0, 0.9), second_part = iccp_part(env, NULL, 0.9, 1);
-    status = create_with(out, domains, options, full, true, &first, err);
+    icc_status status = create_with(out, domains, options, full, true, &first, err);
     /* Each start has shapes that it cannot be repaired from; that of the overlay would be the same
      * again. */
     if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&
@@ -326,6 +322,55 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
             *out = NULL;
         }
     }
+    return status;
+}
+
+/* Whether the domains are surfaces in space, one of them without a mesh, that are to have some:
+ * unless a grid is asked for. */
+static bool are_to_be_filled(const icc_domain *const domains[2],
+                             const icc_chart_options chart_options[2])
+{
+    const int32_t method = chart_options[0].method;
+    return domains[0]->dim == 3 && domains[0]->mask == NULL && domains[1]->mask == NULL &&
+           (domains[0]->mesh == NULL || domains[1]->mesh == NULL) &&
+           (method == 0 || method == ICC_METHOD_FOLIATION);
+}
+
+static icc_status create_filled(icc_map **out, const icc_domain *const domains[2],
+                                const icc_map_options *options,
+                                const icc_chart_options chart_options[2], const iccp_env *env,
+                                icc_error *err)
+{
+    icc_domain *filled[2];
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_fill_pair(filled, domains, &part[0], err);
+    if (status != ICC_OK)
+        return status;
+    const icc_domain *const both[2] = {filled[0], filled[1]};
+    status = create_without_features(out, both, options, chart_options, &part[1], err);
+    iccp_domain_release(filled[0]);
+    iccp_domain_release(filled[1]);
+    return status;
+}
+
+static icc_status create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                         const icc_map_options *options, const icc_chart_options chart_options[2],
+                         const iccp_env *env, icc_error *err)
+{
+    const double start = iccp_seconds();
+    const icc_domain *const domains[2] = {source, target};
+    icc_status status = check_correspondence(source, target, err);
+    if (status == ICC_OK)
+        status = check_request(source, options, chart_options, err);
+    if (status != ICC_OK)
+        return status;
+    if (source->features != NULL)
+        return create_with_features(out, source, target, options, env, err);
+    if (are_to_be_filled(domains, chart_options))
+        status = create_filled(out, domains, options, chart_options, env, err);
+    else
+        status = create_without_features(out, domains, options, chart_options, env, err);
     if (status == ICC_OK)
         (*out)->info.seconds = iccp_seconds() - start;
     return status;

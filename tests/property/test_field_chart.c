@@ -345,7 +345,7 @@ START_TEST(identity)
     pair p;
     surface_star(&shape, 2, 0.1, &r);
     pair_of_surface(&p, &shape);
-    const icc_chart_options chart = {.size = sizeof chart, .cells = 24};
+    const icc_chart_options chart = {.size = sizeof chart, .method = ICC_METHOD_FIELD, .cells = 24};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_map *map;
     ck_assert_int_eq(icc_map_create(&map, p.source, p.source, &options, NULL, NULL), ICC_OK);
@@ -521,10 +521,11 @@ START_TEST(what_is_not_available_is_named)
     icc_chart *chart;
     surface_star(&shape, 1, 0, &r);
     pair_of_surface(&p, &shape);
-    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
+    const icc_chart_options grid = {.size = sizeof grid, .method = ICC_METHOD_FIELD, .cells = 12};
+    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH, .chart = &grid};
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &mesh, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
-    ck_assert(map == NULL && strstr(err.message, "mesh") != NULL);
+    ck_assert(map == NULL && strstr(err.message, "kind 2") != NULL);
     for (int32_t method = ICC_METHOD_FOLIATION; method <= ICC_METHOD_DISC; method += 2) {
         const icc_chart_options options = {.size = sizeof options, .method = method};
         ck_assert_int_eq(icc_chart_create(&chart, p.source, &options, NULL, &err),

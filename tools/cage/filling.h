@@ -1,5 +1,5 @@
 /* The inside of a cage as a conforming mesh: triangles in the plane, tetrahedra in space. It is the
- * caller's, or in space what the program tetgen makes of the cage. */
+ * caller's, or, where that is asked for, what the program tetgen makes of it in space. */
 #ifndef FILLING_H
 #define FILLING_H
 

@@ -18,7 +18,7 @@ typedef struct args {
     const char *operands[2];
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
-    int32_t method, map, tree, solver, cells, threads;
+    int32_t method, map, mesher, tree, solver, cells, threads;
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
     int32_t improve; /* steps at most; -1: the library's choice */
@@ -45,6 +45,9 @@ typedef struct args {
     unsigned char background[4];
     int32_t lines;
 } args;
+
+/* What fills surfaces in space. */
+enum { MESHER_OWN = 1, MESHER_TETGEN };
 
 /* What becomes of what lies outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };

@@ -135,6 +135,7 @@ static int check_fill(const args *a, const command *c)
                           : a->target_mesh    ? "target-mesh"
                           : a->inverse        ? "inverse"
                           : a->repair_mesh    ? "untangle"
+                          : a->mesher != 0    ? "mesher"
                           : a->method != 0    ? "method"
                           : a->map != 0       ? "map"
                           : a->outside != 0   ? "outside"

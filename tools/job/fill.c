@@ -16,10 +16,17 @@ static bool given(const job *j)
     return j->args->mesh != NULL || j->args->target_mesh != NULL;
 }
 
+static bool by_tetgen(const job *j)
+{
+    return j->args->mesher == MESHER_TETGEN;
+}
+
+/* The library fills the surfaces of a map itself, but those of a chart only when it is told to. */
 static bool wanted(const job *j)
 {
     bool suits = j->args->method == 0 || j->args->method == ICC_METHOD_FOLIATION;
-    return given(j) || (job_dim(j) == 3 && j->cages[0].cells == NULL && suits);
+    bool solid = job_dim(j) == 3 && j->cages[0].cells == NULL && suits;
+    return given(j) || (solid && (by_tetgen(j) || j->args->target == NULL));
 }
 
 static int check(const job *j)
@@ -72,59 +79,64 @@ static int read_filling(filling *out, const job *j, const cage *c, size_t side)
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
-/* PARTIAL: there is no mesh, and none can be made; another method will do. */
-static int find_filling(filling *out, job *j, const cage *c, size_t side)
+static int fill_by_tetgen(filling *out, job *j, const cage *c, size_t side)
 {
-    if (mesh_name(j, side) != NULL)
-        return read_filling(out, j, c, side);
-    const char *name = job_file(j, (int)side + 1);
     problem wrong = {0, "tetgen is not installed"};
-    if (job_dim(j) == 3 && filling_can_make() && filling_make(out, c, &wrong)) {
-        if (j->bar.wanted)
-            note("%s: filled with %zu tetrahedra by tetgen", name, out->n);
-        return DONE;
-    }
-    if (given(j) || j->args->method == ICC_METHOD_FOLIATION)
-        return failed(name, 0, "no mesh of its inside: %s; give one with --%smesh",
-                      job_dim(j) == 3 ? wrong.text : "there is one of the other cage",
-                      side == 0 ? "" : "target-");
-    if (j->bar.wanted)
-        note("%s: %s; method field on a grid instead of foliation", name, wrong.text);
-    return PARTIAL;
+    return filling_can_make() && filling_make(out, c, &wrong)
+               ? DONE
+               : failed(job_file(j, (int)side + 1), 0, "%s", wrong.text);
 }
 
-static int make_filled(icc_domain **out, job *j, size_t side, const filling *f)
+/* The mesh that is read, or tetgen's. */
+static int make_from(icc_domain **out, job *j, size_t side)
+{
+    filling f = {0};
+    icc_error err = {.size = sizeof err, .index = -1};
+    const char *name = mesh_name(j, side);
+    cage used = used_part(&j->cages[side]);
+    int result =
+        name != NULL ? read_filling(&f, j, &used, side) : fill_by_tetgen(&f, j, &used, side);
+    cage_free(&used);
+    if (result == DONE &&
+        icc_domain_create_mesh(out, (int32_t)f.dim, f.n_points, f.points, f.n, f.corners,
+                               f.n_facets, f.facets, &j->env, &err) != ICC_OK) {
+        progress_end(&j->bar);
+        result = failed(name != NULL ? name : job_file(j, (int)side + 1), 0, "%s%s",
+                        name != NULL ? "" : "the mesh that tetgen has made: ", err.message);
+    }
+    filling_free(&f);
+    return result;
+}
+
+static int make_filled(icc_domain **out, job *j, size_t side)
 {
     icc_error err = {.size = sizeof err, .index = -1};
-    if (icc_domain_create_mesh(out, (int32_t)f->dim, f->n_points, f->points, f->n, f->corners,
-                               f->n_facets, f->facets, &j->env, &err) == ICC_OK)
+    if (mesh_name(j, side) != NULL || (job_dim(j) == 3 && by_tetgen(j)))
+        return make_from(out, j, side);
+    if (job_dim(j) != 3)
+        return failed(job_file(j, (int)side + 1), 0,
+                      "no mesh of its inside: there is one of the other cage; give one with "
+                      "--%smesh",
+                      side == 0 ? "" : "target-");
+    if (icc_domain_fill(out, j->domains[side], NULL, &j->env, &err) == ICC_OK)
         return DONE;
-    progress_end(&j->bar);
-    const char *name = mesh_name(j, side);
-    return failed(name != NULL ? name : job_file(j, (int)side + 1), 0, "%s%s",
-                  name != NULL ? "" : "the mesh that tetgen has made: ", err.message);
+    err.side = (int32_t)side + 1;
+    return job_failed(j, &err);
 }
 
 int fill_domains(job *j)
 {
-    filling fillings[2] = {{0}, {0}};
     icc_domain *filled[2] = {NULL, NULL};
     size_t n = j->args->target != NULL ? 2 : 1;
     if (!wanted(j))
         return DONE;
     int result = check(j);
-    for (size_t side = 0; result == DONE && side < n; side++) {
-        cage used = used_part(&j->cages[side]);
-        result = find_filling(&fillings[side], j, &used, side);
-        cage_free(&used);
-    }
     for (size_t side = 0; result == DONE && side < n; side++)
-        result = make_filled(&filled[side], j, side, &fillings[side]);
+        result = make_filled(&filled[side], j, side);
     for (size_t side = 0; side < 2; side++) {
-        filling_free(&fillings[side]);
         icc_domain_free(result == DONE ? j->domains[side] : filled[side]);
         if (result == DONE)
             j->domains[side] = filled[side];
     }
-    return result == PARTIAL ? DONE : result;
+    return result;
 }

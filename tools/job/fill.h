@@ -4,9 +4,9 @@
 
 #include "job/job.h"
 
-/* Replaces the domains, which have been made, by domains with a mesh, if the options ask for it, or
- * in space if the method wants it and tetgen is there. Returns DONE, or FAILED with a line on
- * stderr. */
+/* Replaces the domains, which have been made, by domains with a mesh, where the options ask for it:
+ * one that is given, or tetgen's; and in space, where the method takes one, that of a cage without
+ * a target. Returns DONE, or FAILED with a line on stderr. */
 int fill_domains(job *j);
 
 #endif

@@ -65,7 +65,8 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     }
     if (err->item == ICC_ITEM_TIE)
         return 0;
-    bool of_grid = err->status == ICC_ERR_RESOLUTION || err->status == ICC_ERR_SOLVER;
+    bool of_grid = (err->status == ICC_ERR_RESOLUTION && err->item != ICC_ITEM_FACET) ||
+                   err->status == ICC_ERR_SOLVER;
     bool of_face = c->dim != 2 && c->n_facets > 0 && strncmp(err->message, "vertex", 6) != 0 &&
                    strncmp(err->message, "two surfaces share vertex", 25) != 0;
     size_t n = of_face ? c->n_facets : c->n;
@@ -88,7 +89,9 @@ int job_failed_with(job *j, const icc_error *err, const char *hint)
 
 int job_failed(job *j, const icc_error *err)
 {
-    return job_failed_with(j, err, "");
+    bool of_filling = err->status == ICC_ERR_RESOLUTION && err->item == ICC_ITEM_FACET;
+    bool may_choose = of_filling && j->args->method == 0 && !j->args->fill;
+    return job_failed_with(j, err, may_choose ? " (--method field takes a grid instead)" : "");
 }
 
 int job_failed_status(job *j, icc_status status)

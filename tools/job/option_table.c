@@ -14,6 +14,7 @@ const choice functions[] = {
     {"clamped", ICC_FUNCTION_CLAMPED}, {NULL, 0}};
 const choice solvers[] = {
     {"direct", ICC_SOLVER_DIRECT}, {"iterative", ICC_SOLVER_ITERATIVE}, {NULL, 0}};
+const choice meshers[] = {{"libicc", MESHER_OWN}, {"tetgen", MESHER_TETGEN}, {NULL, 0}};
 const choice samplings[] = {{"blue", ICC_SAMPLING_BLUE}, {"grid", ICC_SAMPLING_GRID}, {NULL, 0}};
 const choice weightings[] = {
     {"qp", ICC_WEIGHTS_QP}, {"equality", ICC_WEIGHTS_EQUALITY}, {"l1", ICC_WEIGHTS_L1}, {NULL, 0}};
@@ -71,7 +72,14 @@ const option options[N_OPTIONS] = {
      .commands = MAY_PAIR,
      .offset = AT(target_mesh),
      .value = "FILE",
-     .help = "and of the target (in space without them: tetgen's, if it is installed)"},
+     .help = "and of the target; surfaces in space without one are filled"},
+    {.name = "mesher",
+     .kind = OPTION_CHOICE,
+     .commands = FOR_CHARTS,
+     .offset = AT(mesher),
+     .choices = meshers,
+     .value = "NAME",
+     .help = "what fills surfaces in space: libicc (default), tetgen (the program, if installed)"},
     {.name = "source",
      .letter = 's',
      .kind = OPTION_TEXT,

@@ -38,13 +38,13 @@ typedef struct option {
     const char *value, *help;
 } option;
 
-extern const choice methods[], maps[], functions[], solvers[], trees[], samplings[], weightings[],
-    kernels[], initials[], outsides[];
+extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
+    weightings[], kernels[], initials[], outsides[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 63 };
+enum { N_OPTIONS = 64 };
 extern const option options[N_OPTIONS];
 
 #endif

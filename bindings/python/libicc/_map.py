@@ -42,7 +42,8 @@ class Map(Saved):
 
     Args:
         source, target: Domains, or what `as_domain` takes
-        kind: "mesh" (2-D, and 3-D between domains with meshes) or "curves"; None: the best available
+        kind: "mesh" (2-D, and surfaces in 3-D, which are filled if they have no mesh) or "curves"; None: the best
+            available
         improve: improvement steps on each level for kind mesh; None: as long as they pay off, 0: none
         method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
         target_maximum: the target's maximum, (dim,), or None

@@ -37,7 +37,14 @@ def test_certify_in_space(pair):
 
 def test_surfaces_without_meshes(cube):
     vertices, faces = cube
-    mapping = libicc.Map((vertices, faces), (vertices * [1, 2, 1], faces), cells=12)
+    mapping = libicc.Map((vertices, faces), (vertices * [1, 2, 1], faces))
+    assert mapping.certified and mapping.info.kind == "mesh"
+    assert np.abs(mapping([[0.5, 0.5, 0.5]]) - [0.5, 1, 0.5]).max() < 0.1
+
+
+def test_surfaces_on_a_grid(cube):
+    vertices, faces = cube
+    mapping = libicc.Map((vertices, faces), (vertices * [1, 2, 1], faces), method="field", cells=12)
     assert mapping.source_chart.info.method == "field"
     assert np.abs(mapping([[0.5, 0.5, 0.5]]) - [0.5, 1, 0.5]).max() < 0.1
 

@@ -167,29 +167,104 @@ START_TEST(kinds)
     pair p;
     icc_map *map;
     icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
-    icc_domain *plain;
     make_pair(&p, 3);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &options, NULL, NULL), ICC_OK);
     ck_assert_int_eq(info_of(map).kind, ICC_MAP_CURVES);
     ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     icc_map_free(map);
-    /* Without a mesh on both sides there is no kind mesh. */
+    free_pair(&p);
+}
+END_TEST
+
+/* The surface of a domain, without its mesh. */
+static icc_domain *surface_of(const icc_domain *filled)
+{
     icc_domain_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_domain_get_info(p.target, &info), ICC_OK);
+    icc_domain *plain;
+    ck_assert_int_eq(icc_domain_get_info(filled, &info), ICC_OK);
     double *vertices = calloc(info.n_vertices, 3 * sizeof *vertices);
     uint32_t *facets = calloc(info.n_facets, 3 * sizeof *facets);
-    ck_assert_int_eq(icc_domain_get_boundary(p.target, vertices, facets), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_boundary(filled, vertices, facets), ICC_OK);
     ck_assert_int_eq(
         icc_domain_create(&plain, 3, info.n_vertices, vertices, info.n_facets, facets, NULL, NULL),
         ICC_OK);
-    options.kind = ICC_MAP_MESH;
-    ck_assert_int_eq(icc_map_create(&map, p.source, plain, &options, NULL, NULL),
-                     ICC_ERR_UNSUPPORTED);
-    ck_assert_ptr_null(map);
-    icc_domain_free(plain);
     free(vertices);
     free(facets);
+    return plain;
+}
+
+/* Surfaces without a mesh get one, whatever is said of kind, unless a grid is asked for. */
+START_TEST(surfaces_are_filled)
+{
+    static const struct {
+        int32_t kind, method, made, by;
+    } CASES[] = {{0, 0, ICC_MAP_MESH, ICC_METHOD_FOLIATION},
+                 {ICC_MAP_MESH, 0, ICC_MAP_MESH, ICC_METHOD_FOLIATION},
+                 {ICC_MAP_CURVES, 0, ICC_MAP_CURVES, ICC_METHOD_FOLIATION},
+                 {0, ICC_METHOD_FOLIATION, ICC_MAP_MESH, ICC_METHOD_FOLIATION},
+                 {0, ICC_METHOD_FIELD, ICC_MAP_CURVES, ICC_METHOD_FIELD}};
+    pair p;
+    make_pair(&p, 3);
+    icc_domain *source = surface_of(p.source), *target = surface_of(p.target);
+    const icc_domain *const PAIRS[][2] = {{source, target}, {p.source, target}, {source, p.target}};
+    for (size_t k = 0; k < 3; ++k)
+        for (size_t i = 0; i < sizeof CASES / sizeof *CASES; ++i) {
+            const icc_chart_options chart = {
+                .size = sizeof chart, .method = CASES[i].method, .cells = 12};
+            const icc_map_options options = {
+                .size = sizeof options, .kind = CASES[i].kind, .chart = &chart};
+            icc_error err = {.size = sizeof err};
+            icc_map *map;
+            ck_assert_msg(icc_map_create(&map, PAIRS[k][0], PAIRS[k][1], &options, NULL, &err) ==
+                              ICC_OK,
+                          "pair %zu, case %zu: %s", k, i, err.message);
+            icc_chart_info chart_info = {.size = sizeof chart_info};
+            ck_assert_int_eq(icc_chart_get_info(icc_map_source_chart(map), &chart_info), ICC_OK);
+            ck_assert_int_eq(chart_info.method, CASES[i].by);
+            ck_assert_int_eq(info_of(map).kind, CASES[i].made);
+            ck_assert(CASES[i].by == ICC_METHOD_FIELD || info_of(map).certified);
+            icc_map_free(map);
+        }
+    icc_domain_free(source);
+    icc_domain_free(target);
     free_pair(&p);
+}
+END_TEST
+
+/* A triangle drawn out to 10^14 times its width, askew: some of its edges are as long as doubles are
+ * apart there. It is refused, and both the side and the facet are named; a grid is no better. */
+START_TEST(what_cannot_be_filled)
+{
+    static const double ROD[8][3] = {
+        {-0.23813772081825824, 0.89798926029555348, 0.37000772196986603},
+        {-0.70827082765604821, -0.57709551380807222, -0.40658726324617434},
+        {0.946408548474306, -0.32089374648748137, 0.036579541276308219},
+        {-17503089249170.525, -41440982919622.422, 89310059911474.344},
+        {-17503089249169.34, -41440982919623.641, 89310059911474},
+        {-17503089249168.869, -41440982919622.164, 89310059911474.781},
+        {0.052509267747508734, 0.12432294875886822, -0.26793017973442312},
+        {-17503089249169.631, -41440982919622.867, 89310059911474.641}};
+    static const uint32_t FACES[12][3] = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
+                                          {2, 0, 3}, {2, 3, 5}, {6, 1, 0}, {7, 3, 4},
+                                          {6, 2, 1}, {7, 4, 5}, {6, 0, 2}, {7, 5, 3}};
+    double easy[8][3];
+    icc_error err = {.size = sizeof err};
+    icc_domain *rod, *prism;
+    icc_map *map = NULL;
+    for (int v = 0; v < 8; ++v)
+        for (int k = 0; k < 3; ++k)
+            easy[v][k] = v < 3 || v == 6 ? ROD[v][k] : ROD[v - (v == 7 ? 1 : 3)][k] + (k == 2) * 4;
+    easy[6][2] -= 1;
+    easy[7][2] += 1;
+    ck_assert_int_eq(icc_domain_create(&rod, 3, 8, ROD[0], 12, FACES[0], NULL, NULL), ICC_OK);
+    ck_assert_msg(icc_domain_create(&prism, 3, 8, easy[0], 12, FACES[0], NULL, &err) == ICC_OK,
+                  "%s", err.message);
+    ck_assert_int_eq(icc_map_create(&map, prism, rod, NULL, NULL, &err), ICC_ERR_RESOLUTION);
+    ck_assert(map == NULL && err.side == 2 && err.item == ICC_ITEM_FACET && err.index >= 0);
+    ck_assert_int_eq(icc_map_create(&map, rod, prism, NULL, NULL, &err), ICC_ERR_RESOLUTION);
+    ck_assert(map == NULL && err.side == 1 && err.item == ICC_ITEM_FACET && err.index >= 0);
+    icc_domain_free(rod);
+    icc_domain_free(prism);
 }
 END_TEST
 
@@ -225,6 +300,8 @@ int main(void)
     tcase_add_test(tcase, mesh_is_the_map);
     tcase_add_test(tcase, falls_back_on_curves);
     tcase_add_test(tcase, kinds);
+    tcase_add_test(tcase, surfaces_are_filled);
+    tcase_add_test(tcase, what_cannot_be_filled);
     tcase_add_test(tcase, every_allocation_may_fail);
     suite_add_tcase(suite, tcase);
     SRunner *runner = srunner_create(suite);

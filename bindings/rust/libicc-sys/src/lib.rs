@@ -710,7 +710,7 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for every
 /// vertex, started from the charts, repaired until every triangle is positive, made fair, and
 /// certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
-/// between domains made by `icc_domain_create_mesh()`: the source's mesh with images that start from the charts,
+/// between surfaces, filled unless they bring a mesh: the source's mesh with images that start from the charts,
 /// repaired, made fair and certified likewise; the target's mesh serves its chart only. The
 /// fastest queries. On the boundary it agrees with the cages up to rounding (samples of a side lie
 /// on it to one unit in the last place).
