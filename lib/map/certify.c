@@ -110,7 +110,7 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
         memcpy(images + dim * v, is_finite(dim, image) ? m->after + dim * mesh->given[v] : image,
                size);
     }
-    icc_status status = iccp_mesh_repair(mesh, images, env);
+    icc_status status = iccp_mesh_repair(mesh, images, HUGE_VAL, env);
     iccp_mesh_round(mesh, images);
     for (size_t v = mesh->n_boundary; status == ICC_OK && v < mesh->n_points; ++v)
         iccp_frame_out(&m->frame, (int32_t)dim, images + dim * v, m->images + dim * mesh->given[v]);

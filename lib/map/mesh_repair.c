@@ -45,8 +45,7 @@ static bool place_ring(const iccp_simplices *mesh, double *images, double *sum)
     return is_left;
 }
 
-/* Ring by ring from the boundary, where all points have images. */
-static icc_status place(const iccp_simplices *mesh, double *images, const iccp_env *env)
+icc_status iccp_mesh_place(const iccp_simplices *mesh, double *images, const iccp_env *env)
 {
     double *sum = iccp_alloc(&env->memory, mesh->n_points, (mesh->dim + 1) * sizeof *sum);
     icc_status status = sum != NULL ? ICC_OK : ICC_ERR_MEMORY;
@@ -73,17 +72,18 @@ static double measure_of(const iccp_simplices *mesh, const double *points)
     return sum;
 }
 
-icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, const iccp_env *env)
+icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, double most,
+                            const iccp_env *env)
 {
     size_t n_left;
     iccp_simplicial_map map = iccp_simplicial_map_of(mesh, images);
-    const icc_status status = place(mesh, images, env);
+    const icc_status status = iccp_mesh_place(mesh, images, env);
     if (status != ICC_OK)
         return status;
     const double before = measure_of(mesh, mesh->points), after = measure_of(mesh, images);
     if (before > 0 && after > 0)
         map.stretch = mesh->dim == 2 ? sqrt(after / before) : iccp_cbrt(after / before);
-    iccp_work work = iccp_work_unlimited();
+    iccp_work work = {.left = most * (double)mesh->n_simplices};
     return iccp_untangle(&map, &work, &n_left, env);
 }
 

@@ -37,9 +37,16 @@ void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, dou
     const uint32_t *v = map->corners + (dim + 1) * simplex;
     double stretched[4][3];
     const double *corner[4];
+    double stretch = map->stretch;
+    if (map->growth != NULL) {
+        double sum = 0;
+        for (size_t k = 0; k <= dim; ++k)
+            sum += map->growth[v[k]];
+        stretch *= sum / (double)(dim + 1);
+    }
     for (size_t k = 0; k <= dim; ++k) {
         for (size_t d = 0; d < dim; ++d)
-            stretched[k][d] = map->stretch * map->points[dim * v[k] + d];
+            stretched[k][d] = stretch * map->points[dim * v[k] + d];
         corner[k] = stretched[k];
     }
     iccp_element_create(dim, corner, element);

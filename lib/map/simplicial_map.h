@@ -19,6 +19,7 @@ typedef struct iccp_simplicial_map {
     const struct iccp_newton_plan *plan; /* of a map of the same mesh (map/newton.h), or NULL */
     double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
                        or volumes are the same and energies are those of shape alone */
+    const double *growth; /* and by the mean of these for the corners of a simplex, unless NULL */
 } iccp_simplicial_map;
 
 /* The map of a mesh without a stretch. */

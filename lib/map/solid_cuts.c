@@ -31,6 +31,13 @@ static void set_middle(const double *points, uint32_t a, uint32_t b, double midd
     iccp_simplicial_round(3, middle);
 }
 
+/* Whether half of a tetrahedron is positive before and after, but for what was not. */
+static bool is_kept(const iccp_solid_edit *edit, const uint32_t *half, const uint32_t *whole)
+{
+    return iccp_solid_is_positive(edit, half) ||
+           (iccp_solid_is_positive_before(edit, half) && !iccp_solid_is_positive(edit, whole));
+}
+
 /* Puts one half of each tetrahedron round an edge in its place, and adds the other. Takes it all
  * back when rounding has made one flat. */
 static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring *ring)
@@ -46,7 +53,7 @@ static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring
         const uint32_t p = ring->point[k / 2], q = ring->point[(k / 2 + 1) % ring->n];
         const uint32_t half[4] = {k % 2 == 0 ? a : middle, k % 2 == 0 ? middle : b, p, q};
         iccp_solid_add(edit, half);
-        good = iccp_solid_is_positive(edit, half);
+        good = is_kept(edit, half, mesh->corners + 4 * (size_t)ring->simplex[k / 2]);
     }
     if (!good) {
         mesh->n_simplices = n_before;
@@ -69,17 +76,17 @@ static icc_status cut(iccp_solid_edit *edit, uint32_t a, uint32_t b, size_t *n_c
     return status;
 }
 
-/* ---- chords ---- */
+/* ---- chords, and what is inverted ---- */
 
-typedef struct chord {
+typedef struct listed {
     double length;
     uint32_t ends[2];
-} chord;
+} listed;
 
 /* The longest first; alike ones meet. */
 static int by_length(const void *a, const void *b)
 {
-    const chord *p = a, *q = b;
+    const listed *p = a, *q = b;
     if (p->length < q->length || p->length > q->length)
         return p->length < q->length ? 1 : -1;
     if (p->ends[0] != q->ends[0])
@@ -87,48 +94,62 @@ static int by_length(const void *a, const void *b)
     return (p->ends[1] > q->ends[1]) - (p->ends[1] < q->ends[1]);
 }
 
+typedef enum edge_kind { CHORDS, OF_INVERTED } edge_kind;
+
 /* Of each tetrahedron; edges of the surface among them, which have no ring. Only counted when
- * `chords` is NULL. */
-static size_t list_chords(const iccp_solid_edit *edit, chord *chords)
+ * `edges` is NULL. */
+static size_t list_edges(const iccp_solid_edit *edit, edge_kind kind, listed *edges)
 {
     const iccp_simplices *mesh = edit->map->mesh;
     size_t n = 0;
-    for (size_t s = 0; s < mesh->n_simplices; ++s)
-        for (size_t e = 0; e < 6; ++e) {
-            const uint32_t *v = mesh->corners + 4 * s;
+    for (size_t s = 0; s < mesh->n_simplices; ++s) {
+        const uint32_t *v = mesh->corners + 4 * s;
+        const bool all = kind == OF_INVERTED && !iccp_solid_is_positive(edit, v);
+        for (size_t e = 0; e < 6 && (all || kind == CHORDS); ++e) {
             uint32_t a = v[ENDS[e][0]], b = v[ENDS[e][1]];
-            if (a >= mesh->n_boundary || b >= mesh->n_boundary)
+            if (kind == CHORDS && (a >= mesh->n_boundary || b >= mesh->n_boundary))
                 continue;
             if (a > b) {
                 const uint32_t swap = a;
                 a = b;
                 b = swap;
             }
-            if (chords != NULL)
-                chords[n] = (chord){length_of(edit, a, b), {a, b}};
+            if (edges != NULL)
+                edges[n] = (listed){length_of(edit, a, b), {a, b}};
             ++n;
         }
+    }
     return n;
+}
+
+static icc_status halve_all(iccp_solid_edit *edit, edge_kind kind, size_t *n_cut)
+{
+    const iccp_memory *memory = &edit->map->memory;
+    const size_t n = list_edges(edit, kind, NULL);
+    listed *edges = iccp_alloc(memory, n, sizeof *edges);
+    icc_status status = edges != NULL ? iccp_solid_edit_begin(edit) : ICC_ERR_MEMORY;
+    *n_cut = 0;
+    if (status == ICC_OK) {
+        (void)list_edges(edit, kind, edges);
+        iccp_sort(edges, n, sizeof *edges, by_length);
+    }
+    for (size_t k = 0; status == ICC_OK && k < n; ++k)
+        if (k == 0 || by_length(&edges[k - 1], &edges[k]) != 0)
+            status = cut(edit, edges[k].ends[0], edges[k].ends[1], n_cut);
+    if (status == ICC_OK)
+        iccp_solid_edit_end(edit);
+    iccp_free(memory, edges);
+    return status;
 }
 
 icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut)
 {
-    const iccp_memory *memory = &edit->map->memory;
-    const size_t n = list_chords(edit, NULL);
-    chord *chords = iccp_alloc(memory, n, sizeof *chords);
-    icc_status status = chords != NULL ? iccp_solid_edit_begin(edit) : ICC_ERR_MEMORY;
-    *n_cut = 0;
-    if (status == ICC_OK) {
-        (void)list_chords(edit, chords);
-        iccp_sort(chords, n, sizeof *chords, by_length);
-    }
-    for (size_t k = 0; status == ICC_OK && k < n; ++k)
-        if (k == 0 || by_length(&chords[k - 1], &chords[k]) != 0)
-            status = cut(edit, chords[k].ends[0], chords[k].ends[1], n_cut);
-    if (status == ICC_OK)
-        iccp_solid_edit_end(edit);
-    iccp_free(memory, chords);
-    return status;
+    return halve_all(edit, CHORDS, n_cut);
+}
+
+icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut)
+{
+    return halve_all(edit, OF_INVERTED, n_cut);
 }
 
 /* ---- the worst ---- */

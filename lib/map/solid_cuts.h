@@ -8,6 +8,10 @@
  * common. */
 icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut);
 
+/* The edges inside of tetrahedra that are not positive after the map, as these cuts may leave them,
+ * the longest first; likewise. */
+icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut);
+
 /* The longest edge of each of the tetrahedra with the most energy above an isometry's, a fifth of
  * all; likewise. */
 icc_status iccp_solid_halve_worst(iccp_solid_edit *edit, size_t *n_cut);

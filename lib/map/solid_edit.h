@@ -44,8 +44,9 @@ bool iccp_ring_is_there(const iccp_solid_edit *edit, const iccp_ring *ring);
  * surface. */
 bool iccp_solid_across(const iccp_solid_edit *edit, uint32_t t, size_t corner, uint32_t *other);
 
-/* Whether the tetrahedron of four points is positive before and after, exactly. */
+/* Whether the tetrahedron of four points is positive before and after, exactly; and before. */
 bool iccp_solid_is_positive(const iccp_solid_edit *edit, const uint32_t *corners);
+bool iccp_solid_is_positive_before(const iccp_solid_edit *edit, const uint32_t *corners);
 
 /* Energy times volume of such a tetrahedron, and its volume; HUGE_VAL where it is not positive or
  * so flat, before or after, that doubles know little about it. */

@@ -4,21 +4,15 @@
 #include "map/solid_map.h"
 
 #include "base/clock.h"
-#include "base/threads.h"
 #include "domain/domain_file.h"
-#include "map/curves.h"
 #include "map/fit.h"
-#include "map/mesh_repair.h"
-#include "map/solid_chords.h"
 #include "map/solid_improve.h"
+#include "map/solid_start.h"
 #include "math/elementary.h"
 #include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
-
-/* Vertices per task. */
-enum { GRAIN = 64 };
 
 /* Steps that make a new map fairer. */
 enum { ITERATIONS_OF_NEW = 8 };
@@ -27,67 +21,10 @@ enum { ITERATIONS_OF_NEW = 8 };
  * rounding. */
 static const double ROUNDING = 1e-9;
 
-typedef struct start {
-    const icc_chart *source, *target;
-    const iccp_simplices *mesh;
-    const iccp_memory *memory;
-    double *images;
-} start;
-
-/* NaN for a vertex without an image: the repair finds one. */
-static icc_status find_images(void *argument, size_t find_start, size_t end)
-{
-    const start *s = argument;
-    const iccp_frame *from = &s->source->domain->frame, *to = &s->target->domain->frame;
-    icc_status status = ICC_OK;
-    iccp_path path;
-    iccp_path_init(&path, s->memory);
-    for (size_t i = find_start; i < end && status != ICC_ERR_MEMORY; ++i) {
-        const size_t v = s->mesh->n_boundary + i;
-        double point[3], image[3];
-        iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
-        status = iccp_curves_point(s->source, s->target, point, image, NULL, &path);
-        iccp_frame_in(to, 3, image, s->images + 3 * v);
-    }
-    iccp_path_clear(&path);
-    return status == ICC_ERR_MEMORY ? status : ICC_OK;
-}
-
-static icc_status find_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                             const iccp_env *env)
-{
-    const iccp_simplices *mesh = map->mesh;
-    start s = {source, target, mesh, &env->memory, NULL};
-    map->images = iccp_alloc(&env->memory, mesh->n_points, 3 * sizeof *map->images);
-    if (map->images == NULL)
-        return ICC_ERR_MEMORY;
-    s.images = map->images;
-    memcpy(map->images, target->domain->vertices, 3 * mesh->n_boundary * sizeof *map->images);
-    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_boundary, GRAIN, find_images, &s);
-}
-
 static size_t count_inverted(const iccp_solid_map *map)
 {
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
     return iccp_simplicial_count_inverted(&simplicial);
-}
-
-static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
-{
-    const iccp_simplices *mesh = map->mesh;
-    const double began = iccp_seconds();
-    info->n_inverted = count_inverted(map);
-    if (info->n_inverted > 0) {
-        const icc_status status = iccp_mesh_repair(mesh, map->images, env);
-        if (status != ICC_OK)
-            return status;
-    }
-    iccp_mesh_round(mesh, map->images);
-    const double repaired = iccp_seconds();
-    info->n_unrepaired = count_inverted(map);
-    info->seconds_certify += iccp_seconds() - repaired;
-    info->seconds_repair += repaired - began;
-    return ICC_OK;
 }
 
 static icc_status plant(iccp_solid_map *map, const iccp_env *env)
@@ -98,50 +35,6 @@ static icc_status plant(iccp_solid_map *map, const iccp_env *env)
     iccp_facet_tree_create_solid(&map->after, 3, map->images, mesh->n_simplices, mesh->corners,
                                  &env->memory);
     return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
-}
-
-/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help
- * it. */
-static bool is_hopeless(const iccp_solid_map *map)
-{
-    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
-    for (size_t t = 0; t < simplicial.n_simplices; ++t)
-        if (!iccp_simplicial_is_free(&simplicial, t) &&
-            !iccp_simplicial_is_positive(&simplicial, t))
-            return true;
-    return false;
-}
-
-/* With points between boundary vertices; *done says whether there is room for any. */
-static icc_status begin_without_chords(iccp_solid_map *map, const icc_chart *source,
-                                       const icc_chart *target, bool *done, const iccp_env *env)
-{
-    icc_status status = iccp_solid_cut_chords(&map->own, source->domain, env);
-    *done = map->own != NULL;
-    if (status != ICC_OK || map->own == NULL)
-        return status;
-    iccp_log(env, "tetrahedra between boundary vertices cannot be repaired: points are added");
-    map->mesh = map->own;
-    iccp_free(&env->memory, map->images);
-    return find_start(map, source, target, env);
-}
-
-/* On the source's mesh if that can be repaired, else without its chords. */
-static icc_status fit(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                      icc_map_info *info, const iccp_env *env)
-{
-    bool cut = false;
-    iccp_env part[4];
-    iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
-    icc_status status = find_start(map, source, target, &part[0]);
-    if (status == ICC_OK && is_hopeless(map))
-        status = begin_without_chords(map, source, target, &cut, &part[1]);
-    if (status == ICC_OK)
-        status = repair(map, info, &part[2]);
-    if (status != ICC_OK || info->n_unrepaired == 0 || cut)
-        return status;
-    status = begin_without_chords(map, source, target, &cut, &part[3]);
-    return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
 }
 
 /* Without a mesh and images yet. */
@@ -189,8 +82,7 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
-    map->mesh = source->domain->mesh;
-    icc_status status = fit(map, source, target, info, &part[0]);
+    icc_status status = iccp_solid_start(map, source, target, info, &part[0]);
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = improve_new(map, source->domain, iterations, info, &part[1]);
     if (status == ICC_OK && info->n_unrepaired == 0)

@@ -74,7 +74,7 @@ static icc_status repair(const icc_env *env, icc_error *err, void *argument)
     iccp_env full;
     ck_assert_int_eq(iccp_env_read(&full, env, err), ICC_OK);
     memcpy(c->images, c->start, c->size);
-    const icc_status status = iccp_mesh_repair(c->mesh, c->images, &full);
+    const icc_status status = iccp_mesh_repair(c->mesh, c->images, HUGE_VAL, &full);
     if (err != NULL) {
         err->status = status;
         err->message[0] = 'x';

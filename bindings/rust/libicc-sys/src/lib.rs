@@ -783,8 +783,8 @@ pub struct icc_map_info {
     pub n_simplices: usize,
     /// mesh: triangles that were not positive before the repair
     pub n_inverted: usize,
-    /// triangles that the repair could not make positive; the map is then of
-    /// kind curves
+    /// triangles that the repair could not make positive, in 3-D the fewest
+    /// that a way of it has left; the map is then of kind curves
     pub n_unrepaired: usize,
     /// mesh: steps of improvement
     pub n_iterations: usize,

@@ -1,0 +1,205 @@
+/* docs/theory.md, the mesh map in space. What cannot be repaired on one of the two meshes often can
+ * on the other: onto a convex body there is room for everything, and a ball's mesh has no points
+ * where the limbs of an animal come from. The inverse of a map is one. */
+#include "map/solid_start.h"
+
+#include "base/clock.h"
+#include "base/threads.h"
+#include "map/curves.h"
+#include "map/mesh_repair.h"
+#include "map/solid_chords.h"
+#include "map/solid_improve.h"
+#include "map/solid_mend.h"
+
+#include <string.h>
+
+/* Vertices per task. */
+enum { GRAIN = 64 };
+
+/* Of a repair, on all tetrahedra: on pairs of all kinds those that came to an end took no more than
+ * 68; the others have better ways to go. */
+static const double MOST_STEPS = 80;
+
+/* From one chart to another. */
+typedef struct direction {
+    const icc_chart *source, *target;
+} direction;
+
+typedef struct start {
+    direction way;
+    const iccp_simplices *mesh;
+    const iccp_memory *memory;
+    double *images;
+} start;
+
+/* NaN for a vertex without an image: the repair finds one. */
+static icc_status find_images(void *argument, size_t find_start, size_t end)
+{
+    const start *s = argument;
+    const iccp_frame *from = &s->way.source->domain->frame, *to = &s->way.target->domain->frame;
+    icc_status status = ICC_OK;
+    iccp_path path;
+    iccp_path_init(&path, s->memory);
+    for (size_t i = find_start; i < end && status != ICC_ERR_MEMORY; ++i) {
+        const size_t v = s->mesh->n_boundary + i;
+        double point[3], image[3];
+        iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
+        status = iccp_curves_point(s->way.source, s->way.target, point, image, NULL, &path);
+        iccp_frame_in(to, 3, image, s->images + 3 * v);
+    }
+    iccp_path_clear(&path);
+    return status == ICC_ERR_MEMORY ? status : ICC_OK;
+}
+
+static icc_status find_start(iccp_solid_map *map, direction way, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    start s = {way, mesh, &env->memory, NULL};
+    iccp_free(&env->memory, map->images);
+    map->images = iccp_alloc(&env->memory, mesh->n_points, 3 * sizeof *map->images);
+    if (map->images == NULL)
+        return ICC_ERR_MEMORY;
+    s.images = map->images;
+    memcpy(map->images, way.target->domain->vertices, 3 * mesh->n_boundary * sizeof *map->images);
+    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_boundary, GRAIN, find_images, &s);
+}
+
+static size_t count_inverted(const iccp_solid_map *map)
+{
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    return iccp_simplicial_count_inverted(&simplicial);
+}
+
+static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    const double began = iccp_seconds();
+    info->n_inverted = count_inverted(map);
+    if (info->n_inverted > 0) {
+        const icc_status status = iccp_mesh_repair(mesh, map->images, MOST_STEPS, env);
+        if (status != ICC_OK)
+            return status;
+    }
+    iccp_mesh_round(mesh, map->images);
+    const double repaired = iccp_seconds();
+    info->n_unrepaired = count_inverted(map);
+    info->seconds_certify += iccp_seconds() - repaired;
+    info->seconds_repair += repaired - began;
+    return ICC_OK;
+}
+
+/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help
+ * it. */
+static bool is_hopeless(const iccp_solid_map *map)
+{
+    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+    for (size_t t = 0; t < simplicial.n_simplices; ++t)
+        if (!iccp_simplicial_is_free(&simplicial, t) &&
+            !iccp_simplicial_is_positive(&simplicial, t))
+            return true;
+    return false;
+}
+
+/* With points between boundary vertices; *done says whether there is room for any. */
+static icc_status begin_without_chords(iccp_solid_map *map, direction way, bool *done,
+                                       const iccp_env *env)
+{
+    icc_status status = iccp_solid_cut_chords(&map->own, way.source->domain, env);
+    *done = map->own != NULL;
+    if (status != ICC_OK || map->own == NULL)
+        return status;
+    iccp_log(env, "tetrahedra between boundary vertices cannot be repaired: points are added");
+    map->mesh = map->own;
+    return find_start(map, way, env);
+}
+
+/* On the source's mesh if that can be repaired, else without its chords. */
+static icc_status fit(iccp_solid_map *map, direction way, icc_map_info *info, const iccp_env *env)
+{
+    bool cut = false;
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
+    icc_status status = find_start(map, way, &part[0]);
+    if (status == ICC_OK && is_hopeless(map))
+        status = begin_without_chords(map, way, &cut, &part[1]);
+    if (status == ICC_OK)
+        status = repair(map, info, &part[2]);
+    if (status != ICC_OK || info->n_unrepaired == 0 || cut)
+        return status;
+    status = begin_without_chords(map, way, &cut, &part[3]);
+    return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
+}
+
+/* On what fit() has made of the mesh: from where images have been left, or anew from the charts. */
+static icc_status mend(iccp_solid_map *map, direction way, bool anew, icc_map_info *info,
+                       const iccp_env *env)
+{
+    const double began = iccp_seconds();
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    icc_status status = ICC_OK;
+    if (map->own == NULL)
+        status = iccp_simplices_copy(&map->own, map->mesh, &env->memory);
+    map->mesh = map->own;
+    if (status == ICC_OK && anew)
+        status = find_start(map, way, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_mesh_place(map->mesh, map->images, env);
+    if (status == ICC_OK)
+        status = iccp_solid_mend(map, way.source->domain, &info->n_unrepaired, &part[1]);
+    info->seconds_repair += iccp_seconds() - began;
+    return status;
+}
+
+/* Both meshes have the same boundary, by the same numbers. */
+static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
+{
+    if (other->own == NULL) {
+        const icc_status status = iccp_simplices_copy(&other->own, other->mesh, &other->memory);
+        if (status != ICC_OK)
+            return status;
+    }
+    double *points = other->own->points;
+    other->own->points = other->images;
+    iccp_simplices_free(map->own);
+    iccp_free(&map->memory, map->images);
+    map->own = other->own;
+    map->mesh = map->own;
+    map->images = points;
+    other->own = NULL;
+    other->images = NULL;
+    return ICC_OK;
+}
+
+/* Fits, then mends, by turns on the source's mesh and on the target's, until one leads to a map;
+ * what else is told is of the last one. */
+icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
+                            icc_map_info *info, const iccp_env *env)
+{
+    enum { STAGES = 3 };
+    static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1};
+    const direction ways[2] = {{source, target}, {target, source}};
+    iccp_solid_map other = {.memory = env->memory, .mesh = target->domain->mesh};
+    iccp_solid_map *const maps[2] = {map, &other};
+    size_t fewest = SIZE_MAX;
+    iccp_env part[2 * STAGES];
+    iccp_split(part, 2 * STAGES, COST, env);
+    icc_status status = ICC_OK;
+    map->mesh = source->domain->mesh;
+    other.stretch = 1 / map->stretch;
+    for (size_t k = 0; status == ICC_OK && fewest > 0 && k < 2 * STAGES; ++k) {
+        const size_t side = k % 2;
+        status = k < 2 ? fit(maps[side], ways[side], info, &part[k])
+                       : mend(maps[side], ways[side], k >= 4, info, &part[k]);
+        if (status == ICC_OK && info->n_unrepaired > 0)
+            iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
+                     side == 0 ? "source" : "target");
+        if (status == ICC_OK && info->n_unrepaired == 0 && side == 1)
+            status = invert(map, &other);
+        fewest = info->n_unrepaired < fewest ? info->n_unrepaired : fewest;
+    }
+    info->n_unrepaired = fewest;
+    iccp_simplices_free(other.own);
+    iccp_free(&env->memory, other.images);
+    return status;
+}
