@@ -8,6 +8,7 @@
 #include "map/digits.h"
 #include "map/filled_pair.h"
 #include "map/follow.h"
+#include "map/solid_follow.h"
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
@@ -430,28 +431,45 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
-/* Cages that correspond have one map but for how fair it is: a new one will do. Its mesh alone is
- * of use. */
-static icc_status begin_anew(icc_map *map, int32_t iterations, const iccp_env *env, icc_error *err)
+/* Boundaries that correspond have one map but for how fair it is: a new one will do. Its mesh alone
+ * is of use, and in space the target that was filled for it. `vertex`: where the way was blocked,
+ * in space. */
+static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, const iccp_env *env,
+                             icc_error *err)
 {
     const icc_map_options options = {.kind = ICC_MAP_MESH, .iterations = iterations};
     const icc_chart_options any[2] = {{0}, {0}};
     icc_map *fresh = NULL;
-    iccp_log(env, "%zu triangles could not be repaired: making a new map", map->info.n_unrepaired);
+    const bool in_space = map->info.dim == 3;
+    if (in_space)
+        iccp_log(env, "the way is blocked at vertex %zu: making a new map", vertex);
+    else
+        iccp_log(env, "%zu triangles could not be repaired: making a new map",
+                 map->info.n_unrepaired);
     const icc_status status =
         create(&fresh, map->source_domain, map->target_domain, &options, any, env, err);
     if (status != ICC_OK)
         return status;
     map->info = fresh->info;
     map->mesh = fresh->mesh;
+    map->solid = fresh->solid;
     fresh->mesh = NULL;
+    fresh->solid = NULL;
+    icc_domain *const target = map->target_domain;
+    map->target_domain = fresh->target_domain;
+    fresh->target_domain = target;
     iccp_map_release(fresh);
-    return map->mesh != NULL
-               ? ICC_OK
-               : iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "%zu triangles could not be repaired, neither from the map to the "
-                           "target before nor from a start of their own",
-                           map->info.n_unrepaired);
+    if (map->mesh != NULL || map->solid != NULL)
+        return ICC_OK;
+    if (in_space)
+        return iccp_fail_at(err, ICC_ERR_CERTIFICATE, ICC_ITEM_VERTEX, (int64_t)vertex,
+                            "the way from the target before is blocked at vertex %zu, and of a "
+                            "map made anew %zu tetrahedra could not be repaired",
+                            vertex, map->info.n_unrepaired);
+    return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                     "%zu triangles could not be repaired, neither from the map to the target "
+                     "before nor from a start of their own",
+                     map->info.n_unrepaired);
 }
 
 static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations,
@@ -460,11 +478,17 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
     const icc_domain *source = map->source_domain, *target = next->target_domain;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
+    size_t vertex = 0;
     const icc_status status =
-        iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source, map->target_domain,
-                             target, iterations, &next->info, &part[0], err);
-    return status == ICC_OK && next->mesh == NULL ? begin_anew(next, iterations, &part[1], err)
-                                                  : status;
+        map->solid != NULL
+            ? iccp_solid_map_follow(&next->solid, map->solid, source, map->target_domain, target,
+                                    iterations, &next->info, &vertex, &part[0])
+            : iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source,
+                                   map->target_domain, target, iterations, &next->info, &part[0],
+                                   err);
+    const bool is_there = next->mesh != NULL || next->solid != NULL;
+    return status == ICC_OK && !is_there ? begin_anew(next, iterations, vertex, &part[1], err)
+                                         : status;
 }
 
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
@@ -472,9 +496,8 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
 {
     const double start = iccp_seconds();
     icc_map *next = NULL;
-    if (map->mesh == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "only maps of kind mesh in the plane can be followed");
+    if (map->mesh == NULL && map->solid == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be followed");
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);

@@ -102,13 +102,12 @@ static icc_status visit_plane_mesh(iccp_blob *b, icc_map *map, const iccp_env *e
     return status == ICC_OK ? iccp_map_tell_features(map, env) : status;
 }
 
-/* In space it takes charts to make one. */
 static icc_status visit_mesh(iccp_blob *b, icc_map *map, const iccp_env *env)
 {
     icc_status status = ICC_ERR_FORMAT;
     if (map->info.dim == 2)
         status = visit_plane_mesh(b, map, env);
-    else if (map->info.dim == 3 && map->source != NULL)
+    else if (map->info.dim == 3)
         status = iccp_solid_map_visit(b, &map->solid, map->source_domain, map->target_domain,
                                       &map->info, env);
     map->info.kind = ICC_MAP_MESH;

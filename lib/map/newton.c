@@ -26,6 +26,9 @@ enum { MAX_CUTS = 40, MAX_CUTS_IN_SPACE = 60 };
  * SHARE of the energy, so that the step is nearly all about it. */
 static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3, SHARE = 0.5;
 
+/* In space, the share of a motion that is looked at first, and how it is shortened. */
+static const double FARTHEST = 2, CLOSER = 0.9;
+
 /* In space, where a step of 1 lowers the energy by this share, longer ones are tried. */
 static const double LARGE_FALL = 0.3;
 
@@ -372,51 +375,71 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
 /* What the motion of an element's fixed corners is felt as by its free ones. */
 static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pull)
 {
-    const uint32_t *v = s->map.corners + 3 * (size_t)s->assembly.simplex[e];
-    const double *image[3], *element = corner_images(2, s, e, image);
-    double moved[6], most = 0;
+    const size_t dim = s->map.dim, n = dim * (dim + 1);
+    const uint32_t *v = s->map.corners + (dim + 1) * (size_t)s->assembly.simplex[e];
+    const double *image[4], *element = corner_images(dim, s, e, image);
+    double moved[12], most = 0;
     iccp_local local;
-    for (size_t k = 0; k < 3; ++k)
-        for (size_t d = 0; d < 2; ++d) {
+    for (size_t k = 0; k <= dim; ++k)
+        for (size_t d = 0; d < dim; ++d) {
             const bool is_free = s->assembly.slot[v[k]] != UINT32_MAX;
-            moved[2 * k + d] = is_free ? 0 : motion[2 * (size_t)v[k] + d];
-            most = iccp_max(most, fabs(moved[2 * k + d]));
+            moved[dim * k + d] = is_free ? 0 : motion[dim * (size_t)v[k] + d];
+            most = iccp_max(most, fabs(moved[dim * k + d]));
         }
     if (!(most > 0))
         return;
-    iccp_dirichlet_local(2, element, image, false, &local);
-    for (size_t i = 0; i < 6; ++i) {
-        const uint32_t slot = s->assembly.slot[v[i / 2]];
-        for (size_t k = 0; k < 6 && slot != UINT32_MAX; ++k)
-            pull[2 * (size_t)slot + i % 2] -= local.hessian[6 * i + k] * moved[k];
+    iccp_dirichlet_local(dim, element, image, false, &local);
+    for (size_t i = 0; i < n; ++i) {
+        const uint32_t slot = s->assembly.slot[v[i / dim]];
+        for (size_t k = 0; k < n && slot != UINT32_MAX; ++k)
+            pull[dim * (size_t)slot + i % dim] -= local.hessian[n * i + k] * moved[k];
     }
 }
 
-/* With one factorisation for both. */
-icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
-                              const iccp_env *env)
+/* Copies what there is for free points. */
+static void hand_out(const iccp_newton *s, const double *free_points, double *all)
 {
-    iccp_newton *s = newton;
-    const size_t n = 2 * s->assembly.n_free;
+    const size_t dim = s->map.dim;
+    for (size_t i = 0; i < s->assembly.n_free; ++i)
+        memcpy(all + dim * (size_t)s->assembly.free_point[i], free_points + dim * i,
+               dim * sizeof *all);
+}
+
+/* With one factorisation for both. */
+static icc_status answer_and_rest(iccp_newton *s, const iccp_symmetric *hessian, double *motion,
+                                  double *rest, const iccp_env *env)
+{
     double *const answer[2] = {s->saved, s->step}, *const to[2] = {motion, rest};
-    assemble(s, ICCP_DIRICHLET, 0);
-    const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
-    const icc_status status = iccp_ldlt_factorise(&s->factor, &hessian, env);
+    const icc_status status = iccp_ldlt_factorise(&s->factor, hessian, env);
     if (status != ICC_OK)
         return status;
-    memset(s->saved, 0, n * sizeof *s->saved);
-    for (size_t e = 0; e < s->assembly.n_elements; ++e)
-        add_pull(s, e, motion, s->saved);
-    for (size_t i = 0; i < n; ++i)
+    for (size_t i = 0; i < hessian->n; ++i)
         s->step[i] = -s->assembly.gradient[i];
     memset(rest, 0, 2 * s->map.n_points * sizeof *rest);
     for (int k = 0; k < 2; ++k) {
         iccp_ldlt_solve(&s->factor, 1, answer[k], s->work);
-        for (size_t i = 0; i < s->assembly.n_free; ++i)
-            memcpy(to[k] + 2 * (size_t)s->assembly.free_point[i], answer[k] + 2 * i,
-                   2 * sizeof *rest);
+        hand_out(s, answer[k], to[k]);
     }
     return ICC_OK;
+}
+
+icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
+                              const iccp_env *env)
+{
+    iccp_newton *s = newton;
+    assemble(s, ICCP_DIRICHLET, 0);
+    const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
+    memset(s->saved, 0, hessian.n * sizeof *s->saved);
+    for (size_t e = 0; e < s->assembly.n_elements; ++e)
+        add_pull(s, e, motion, s->saved);
+    if (s->map.dim == 2)
+        return answer_and_rest(s, &hessian, motion, rest, env);
+    for (size_t i = 0; i < hessian.n; ++i)
+        s->assembly.gradient[i] -= s->saved[i];
+    const icc_status status = solve_by_directions(s, &hessian, ICCP_DIRICHLET, env);
+    if (status == ICC_OK)
+        hand_out(s, s->step, motion);
+    return status;
 }
 
 /* ---- line search ---- */
@@ -459,9 +482,46 @@ static double flip_of(const iccp_newton *s, size_t e)
     return flip_along(p, (const double(*)[2])d);
 }
 
+/* A cubic is positive where its Bernstein coefficients are: of the volume of corners p that go
+ * along d, up to the share t of the way. */
+static bool keeps_volume(const double *const p[4], const double *const d[4], double t)
+{
+    double edge[2][9], cofactor[2][9], b[4] = {0};
+    for (size_t i = 0; i < 3; ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            edge[0][3 * i + k] = p[i + 1][k] - p[0][k];
+            edge[1][3 * i + k] = t * (d[i + 1][k] - d[0][k]);
+        }
+    iccp_cofactors(3, edge[0], cofactor[0]);
+    iccp_cofactors(3, edge[1], cofactor[1]);
+    for (size_t i = 0; i < 9; ++i) {
+        b[0] += edge[0][i] * cofactor[0][i] / 3;
+        b[1] += edge[1][i] * cofactor[0][i];
+        b[2] += edge[0][i] * cofactor[1][i];
+        b[3] += edge[1][i] * cofactor[1][i] / 3;
+    }
+    return b[0] + b[1] / 3 > 0 && b[0] + (2 * b[1] + b[2]) / 3 > 0 && b[0] + b[1] + b[2] + b[3] > 0;
+}
+
+static double limit_in_space(const iccp_simplicial_map *map, const double *motion)
+{
+    double limit = FARTHEST;
+    for (size_t t = 0; t < map->n_simplices; ++t) {
+        const double *p[4], *d[4];
+        iccp_simplicial_images(3, map, t, p);
+        for (size_t k = 0; k < 4; ++k)
+            d[k] = motion + 3 * (size_t)map->corners[4 * t + k];
+        for (int k = 0; k < MAX_CUTS && !keeps_volume(p, d, limit); ++k)
+            limit *= CLOSER;
+    }
+    return limit;
+}
+
 double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion)
 {
     double least = HUGE_VAL;
+    if (map->dim == 3)
+        return limit_in_space(map, motion);
     for (size_t t = 0; t < map->n_simplices; ++t) {
         const double *p[3];
         double d[3][2];

@@ -58,14 +58,16 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
                         double slope);
 
-/* In the plane: fills in how free points answer a motion of fixed ones, 2 n_points displacements of
- * which theirs are 0, by a quadratic model of the symmetric Dirichlet energy; and `rest`, as many,
- * the step to where that is least when nothing else moves. ICC_ERR_SOLVER when there is none. */
+/* Fills in how free points answer a motion of fixed ones, dim n_points displacements of which theirs
+ * are 0, by a quadratic model of the symmetric Dirichlet energy. In the plane `rest` are as many:
+ * the step to where that is least when nothing else moves. In space the answer is both in one, and
+ * `rest` is not used. ICC_ERR_SOLVER when there is none. */
 icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env);
 
-/* In the plane: which share of a motion of all points there is before the first triangle's image
- * loses its area; HUGE_VAL when none ever does. */
+/* Which share of a motion of all points there is before the first simplex's image loses its area or
+ * volume. In the plane HUGE_VAL when none ever does; in space it is at most 2, and may be a bit
+ * less than it could. */
 double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion);
 
 #endif

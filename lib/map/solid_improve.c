@@ -53,18 +53,18 @@ icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)
 }
 
 /* Flips before cuts, which would make them impossible, and after them. */
-static icc_status change(iccp_solid_map *map, size_t *n_changes, const iccp_env *env)
+static icc_status change(iccp_solid_map *map, bool cuts, size_t *n_changes, const iccp_env *env)
 {
     iccp_solid_edit edit;
     size_t n[4] = {0};
     icc_status status = iccp_solid_edit_create(&edit, map);
     if (status == ICC_OK)
         status = iccp_solid_flip(&edit, &n[0], env);
-    if (status == ICC_OK)
+    if (status == ICC_OK && cuts)
         status = iccp_solid_halve_chords(&edit, &n[1]);
-    if (status == ICC_OK)
+    if (status == ICC_OK && cuts)
         status = iccp_solid_halve_worst(&edit, &n[2]);
-    if (status == ICC_OK)
+    if (status == ICC_OK && cuts)
         status = iccp_solid_flip(&edit, &n[3], env);
     *n_changes = n[0] + n[1] + n[2] + n[3];
     iccp_solid_edit_free(&edit);
@@ -95,27 +95,32 @@ static void exchange(iccp_solid_map *a, iccp_solid_map *b)
     *b = other;
 }
 
-/* Leaves the map alone when the change is in vain. */
-static icc_status refine(void *map, size_t *n_changes, const iccp_env *env)
+icc_status iccp_solid_refine(iccp_solid_map *map, const icc_domain *source, bool cuts,
+                             size_t *n_changes, const iccp_env *env)
 {
-    const improved *m = map;
-    iccp_solid_map next = {.memory = m->map->memory};
-    const iccp_simplicial_map now = iccp_solid_simplicial(m->map);
-    icc_status status = iccp_solid_copy(&next, m->map);
+    iccp_solid_map next = {.memory = map->memory};
+    const iccp_simplicial_map now = iccp_solid_simplicial(map);
+    icc_status status = iccp_solid_copy(&next, map);
     if (status == ICC_OK)
-        status = change(&next, n_changes, env);
+        status = change(&next, cuts, n_changes, env);
     if (status == ICC_OK && *n_changes > 0) {
-        status = certify(&next, m->source, env);
+        status = certify(&next, source, env);
         const iccp_simplicial_map then = iccp_solid_simplicial(&next);
         if (status == ICC_OK && iccp_simplicial_energy_at_once(&then, env) <=
                                     (1 + 1e-12) * iccp_simplicial_energy_at_once(&now, env))
-            exchange(m->map, &next);
+            exchange(map, &next);
         else
             *n_changes = 0;
     }
     iccp_simplices_free(next.own);
     iccp_free(&next.memory, next.images);
     return status == ICC_ERR_CERTIFICATE ? ICC_OK : status;
+}
+
+static icc_status refine(void *map, size_t *n_changes, const iccp_env *env)
+{
+    const improved *m = map;
+    return iccp_solid_refine(m->map, m->source, true, n_changes, env);
 }
 
 icc_status iccp_solid_improve(iccp_solid_map *map, const icc_domain *source,

@@ -49,27 +49,41 @@ static iccp_solid_map *new_map(const icc_domain *source, const icc_domain *targe
     return map;
 }
 
-/* The steps that every new map takes. */
-static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
-                              icc_map_info *info, const iccp_env *env)
+icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
+                                const icc_improve_options *options, icc_map_info *info,
+                                const iccp_env *env)
 {
     const double began = iccp_seconds();
-    const icc_improve_options options = {
-        .iterations = iterations > 0 ? iterations : ITERATIONS_OF_NEW, .levels = -1};
-    const iccp_schedule schedule = iccp_fit_schedule(&options, &iccp_fit_plain, HUGE_VAL);
+    const iccp_schedule schedule = iccp_fit_schedule(options, &iccp_fit_plain, HUGE_VAL);
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     iccp_work work = iccp_work_unlimited();
     iccp_improvement improvement = {0};
     icc_status status = ICC_OK;
     info->energy = info->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
-    if (iterations >= 0) {
+    if (options->iterations >= 0) {
         status = iccp_solid_improve(map, source, &schedule, &work, &improvement, &part);
         info->energy = improvement.energy;
         info->n_iterations = improvement.n_iterations;
     }
     info->seconds_improve = iccp_seconds() - began;
     return status;
+}
+
+/* The steps that every new map takes. */
+static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
+                              icc_map_info *info, const iccp_env *env)
+{
+    const icc_improve_options options = {
+        .iterations = iterations == 0 ? ITERATIONS_OF_NEW : iterations, .levels = -1};
+    return iccp_solid_map_relax(map, source, &options, info, env);
+}
+
+icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+{
+    info->n_vertices = map->mesh->n_points;
+    info->n_simplices = map->mesh->n_simplices;
+    return plant(map, env);
 }
 
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
@@ -86,13 +100,11 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = improve_new(map, source->domain, iterations, info, &part[1]);
     if (status == ICC_OK && info->n_unrepaired == 0)
-        status = plant(map, env);
+        status = iccp_solid_map_finish(map, info, env);
     if (status != ICC_OK || info->n_unrepaired > 0) {
         iccp_solid_map_free(map);
         return status;
     }
-    info->n_vertices = map->mesh->n_points;
-    info->n_simplices = map->mesh->n_simplices;
     *out = map;
     return ICC_OK;
 }
@@ -112,27 +124,42 @@ static icc_status copy_map(iccp_solid_map *copy, const iccp_solid_map *map)
     return copy->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
+icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
+                               const icc_domain *source, const icc_domain *target,
+                               const iccp_memory *memory)
+{
+    iccp_solid_map *copy = new_map(source, target, memory);
+    const icc_status status = copy != NULL ? copy_map(copy, map) : ICC_ERR_MEMORY;
+    const double stretch = copy != NULL ? iccp_cbrt(fabs(target->measure) / fabs(source->measure)) : 0;
+    *out = NULL;
+    if (status != ICC_OK) {
+        iccp_solid_map_free(copy);
+        return status;
+    }
+    copy->stretch = stretch;
+    *out = copy;
+    return ICC_OK;
+}
+
 icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
                                   const icc_domain *source, const icc_domain *target,
                                   const icc_improve_options *options, icc_improve_report *report,
                                   const iccp_env *env)
 {
-    iccp_solid_map *better = new_map(source, target, &env->memory);
+    iccp_solid_map *better;
+    icc_status status = iccp_solid_map_copy(&better, map, source, target, &env->memory);
     *out = NULL;
-    if (better == NULL)
-        return ICC_ERR_MEMORY;
+    if (status != ICC_OK)
+        return status;
     iccp_work work = iccp_fit_work(options, source->n_facets);
     const iccp_schedule schedule =
         iccp_fit_schedule(options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     iccp_improvement improvement = {0};
-    icc_status status = copy_map(better, map);
-    if (status == ICC_OK) {
-        const iccp_simplicial_map simplicial = iccp_solid_simplicial(better);
-        report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
-        status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
-        report->cancelled = status == ICC_ERR_CANCELLED;
-    }
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(better);
+    report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
+    status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
+    report->cancelled = status == ICC_ERR_CANCELLED;
     if (status == ICC_OK || status == ICC_ERR_CANCELLED)
         status = count_inverted(better) == 0 ? plant(better, env) : ICC_ERR_CERTIFICATE;
     if (status != ICC_OK) {

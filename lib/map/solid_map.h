@@ -31,6 +31,24 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, int32_t iterations, icc_map_info *info,
                                  const iccp_env *env);
 
+/* ---- a map piece by piece ---- */
+
+/* A copy for domains that may be others; it shares a mesh that is the source's, and does not find
+ * points yet. *out is NULL on failure. */
+icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
+                               const icc_domain *source, const icc_domain *target,
+                               const iccp_memory *memory);
+
+/* Steps that lower the energy on one mesh, as many as icc_map_options says. */
+icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
+                                const icc_improve_options *options, icc_map_info *info,
+                                const iccp_env *env);
+
+/* The rest of a map that is there: what finds points. Fills in what `info` says of the size. */
+icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env);
+
+/* ---- all of it ---- */
+
 /* A better one from a copy; see icc_map_improve(). */
 icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
                                   const icc_domain *source, const icc_domain *target,

@@ -1,0 +1,277 @@
+/* docs/theory.md, the mesh map in space: that to a target that has moved, from the one to where it
+ * was. What all of the surface does in common, an affine map, the inside does as well; it answers
+ * the rest as in map/carry.c. */
+#include "map/solid_follow.h"
+
+#include "base/clock.h"
+#include "map/carry.h"
+#include "map/mesh_repair.h"
+#include "map/solid_improve.h"
+#include "map/untangle.h"
+#include "math/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps for a target that has moved a little; with less to gain they end earlier. */
+enum { FOLLOW_ITERATIONS = 8 };
+static const double FOLLOW_TOLERANCE = 1e-3;
+
+/* Where the way is blocked: times that the mesh is mended before all goes there at once, and is
+ * untangled; and after that. */
+enum { PATIENCE = 0, LAST_PATIENCE = 3 };
+
+/* What carrying the map along and untangling may cost, in steps. */
+static const double CARRY_STEPS = 60, UNTANGLE_STEPS = 12;
+
+/* More than this share of inverted tetrahedra is not untangled. */
+static const double FEW = 0.01;
+
+/* A mesh that is mended is cut up to so many times the tetrahedra of the source's. */
+static const double MOST_GROWTH = 2;
+
+/* The affine map is used where it leaves no more than this share of the squared motion. */
+static const double LEAST_LEFT = 0.25;
+
+typedef struct journey {
+    iccp_solid_map *map;
+    const icc_domain *source, *target;
+} journey;
+
+/* ---- what all of the surface does in common ---- */
+
+/* y = matrix (x - from) + to. */
+typedef struct affine {
+    double from[3], to[3], matrix[9];
+} affine;
+
+static void find_means(affine *a, size_t n, const double *x, const double *y)
+{
+    for (size_t i = 0; i < 3 * n; ++i) {
+        a->from[i % 3] += x[i] / (double)n;
+        a->to[i % 3] += y[i] / (double)n;
+    }
+}
+
+/* The least squares' one; false where there is none that keeps orientation. */
+static bool fit_affine(affine *a, size_t n, const double *x, const double *y)
+{
+    double second[9] = {0}, mixed[9] = {0}, cofactor[9], det;
+    *a = (affine){{0}, {0}, {0}};
+    find_means(a, n, x, y);
+    for (size_t i = 0; i < n; ++i)
+        for (size_t r = 0; r < 3; ++r)
+            for (size_t c = 0; c < 3; ++c) {
+                const double d = x[3 * i + c] - a->from[c];
+                second[3 * r + c] += (x[3 * i + r] - a->from[r]) * d;
+                mixed[3 * r + c] += (y[3 * i + r] - a->to[r]) * d;
+            }
+    iccp_cofactors(3, second, cofactor);
+    det = iccp_vec_dot(3, second, cofactor);
+    if (!(det > 0))
+        return false;
+    for (size_t r = 0; r < 3; ++r)
+        for (size_t c = 0; c < 3; ++c)
+            a->matrix[3 * r + c] = iccp_vec_dot(3, mixed + 3 * r, cofactor + 3 * c) / det;
+    iccp_cofactors(3, a->matrix, cofactor);
+    return iccp_vec_dot(3, a->matrix, cofactor) > 0;
+}
+
+static void apply_affine(const affine *a, const double *x, double *y)
+{
+    double d[3];
+    for (size_t k = 0; k < 3; ++k)
+        d[k] = x[k] - a->from[k];
+    for (size_t k = 0; k < 3; ++k)
+        y[k] = a->to[k] + iccp_vec_dot(3, a->matrix + 3 * k, d);
+}
+
+/* Where that is most of the motion, and rounding lets it. */
+static icc_status move_in_common(journey *j, const iccp_env *env)
+{
+    const iccp_simplices *mesh = j->map->mesh;
+    const double *places = j->target->vertices;
+    const iccp_simplicial_map now = iccp_solid_simplicial(j->map);
+    double before = 0, after = 0, place[3];
+    affine a;
+    if (!fit_affine(&a, mesh->n_boundary, now.images, places))
+        return ICC_OK;
+    for (size_t v = 0; v < mesh->n_boundary; ++v) {
+        apply_affine(&a, now.images + 3 * v, place);
+        before += iccp_vec_distance2(3, now.images + 3 * v, places + 3 * v);
+        after += iccp_vec_distance2(3, place, places + 3 * v);
+    }
+    if (!(after < LEAST_LEFT * before))
+        return ICC_OK;
+    iccp_simplicial_map then = now;
+    then.images = iccp_alloc(&j->map->memory, mesh->n_points, 3 * sizeof *then.images);
+    if (then.images == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        apply_affine(&a, now.images + 3 * v, then.images + 3 * v);
+    iccp_simplicial_round(3 * mesh->n_points, then.images);
+    const bool good = iccp_simplicial_count_at_once(&then, env) == 0;
+    iccp_free(&j->map->memory, good ? now.images : then.images);
+    j->map->images = good ? then.images : now.images;
+    return ICC_OK;
+}
+
+/* ---- the way ---- */
+
+static iccp_simplicial_map see(const void *map)
+{
+    const journey *j = map;
+    return iccp_solid_simplicial(j->map);
+}
+
+static void place(const void *map, const icc_domain *target, size_t point, double *place)
+{
+    (void)map;
+    memcpy(place, target->vertices + 3 * point, 3 * sizeof *place);
+}
+
+static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
+{
+    const journey *j = map;
+    static const iccp_descent REST = {0, 3, 1e-2, 0, false};
+    const bool cuts = (double)j->map->mesh->n_simplices <
+                      MOST_GROWTH * (double)j->source->mesh->n_simplices;
+    size_t n_changes;
+    iccp_improvement ignored = {0};
+    const icc_status status = iccp_solid_refine(j->map, j->source, cuts, &n_changes, env);
+    const iccp_simplicial_map simplicial = see(map);
+    return status == ICC_OK ? iccp_improve_images(&simplicial, &REST, work, &ignored, env) : status;
+}
+
+static icc_status carry(journey *j, size_t patience, bool *reached, const iccp_env *env)
+{
+    static const iccp_carriage SPACE = {see, place, mend};
+    iccp_work work = {.left = CARRY_STEPS * (double)j->map->mesh->n_simplices};
+    double room;
+    return iccp_carry_by(&SPACE, j, j->target, patience, &work, reached, &room, env);
+}
+
+/* All of the surface at once: what few tetrahedra are inverted then is repaired. Else the images
+ * are as they were. */
+static icc_status jump(journey *j, size_t *n_left, const iccp_env *env)
+{
+    const iccp_simplices *mesh = j->map->mesh;
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(j->map);
+    iccp_work work = {.left = UNTANGLE_STEPS * (double)mesh->n_simplices};
+    const size_t n = 3 * mesh->n_points;
+    double *before = iccp_alloc(&env->memory, n, sizeof *before);
+    icc_status status = before != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status != ICC_OK)
+        return status;
+    memcpy(before, simplicial.images, n * sizeof *before);
+    memcpy(simplicial.images, j->target->vertices, 3 * mesh->n_boundary * sizeof *before);
+    *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+    if (*n_left > 0 && (double)*n_left < FEW * (double)mesh->n_simplices + 1) {
+        status = iccp_untangle(&simplicial, &work, n_left, env);
+        iccp_mesh_round(mesh, simplicial.images);
+        *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+    }
+    if (status != ICC_OK || *n_left > 0)
+        memcpy(simplicial.images, before, n * sizeof *before);
+    iccp_free(&env->memory, before);
+    return status;
+}
+
+/* Whether a tetrahedron with all corners on the surface is not positive where these go: its edges
+ * inside must be cut. */
+static bool must_be_cut(const journey *j)
+{
+    iccp_simplicial_map there = iccp_solid_simplicial(j->map);
+    const iccp_simplicial_map here = there;
+    there.images = j->target->vertices;
+    for (size_t t = 0; t < here.n_simplices; ++t)
+        if (!iccp_simplicial_is_free(&here, t) && !iccp_simplicial_is_positive(&there, t))
+            return true;
+    return false;
+}
+
+static icc_status go_there(journey *j, size_t *n_left, const iccp_env *env)
+{
+    static const size_t TURNS[] = {PATIENCE, LAST_PATIENCE};
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(j->map);
+    bool reached = iccp_simplicial_count_at_once(&simplicial, env) > 0;
+    icc_status status = ICC_OK;
+    if (reached)
+        return jump(j, n_left, env); /* by rounding in the new frame */
+    *n_left = 1;
+    if (must_be_cut(j)) {
+        size_t n;
+        status = iccp_solid_refine(j->map, j->source, true, &n, env);
+    }
+    if (status == ICC_OK)
+        status = move_in_common(j, env);
+    for (int k = 0; k < 2 && status == ICC_OK && *n_left > 0; ++k) {
+        status = carry(j, TURNS[k], &reached, env);
+        if (status == ICC_OK && !reached)
+            status = jump(j, n_left, env);
+        else
+            *n_left = 0;
+    }
+    return status;
+}
+
+/* ---- all of it ---- */
+
+/* Images in the local coordinates of one target become those in another's. */
+static void change_frame(iccp_solid_map *map, const iccp_frame *from, const iccp_frame *to)
+{
+    for (size_t v = 0; v < map->mesh->n_points; ++v) {
+        double own[3];
+        iccp_frame_out(from, 3, map->images + 3 * v, own);
+        iccp_frame_in(to, 3, own, map->images + 3 * v);
+    }
+    iccp_mesh_round(map->mesh, map->images);
+}
+
+/* The vertex that is farthest from where it should be. */
+static size_t farthest(const iccp_solid_map *map, const icc_domain *target)
+{
+    double most = -1;
+    size_t found = 0;
+    for (size_t v = 0; v < map->mesh->n_boundary; ++v) {
+        const double own = iccp_vec_distance2(3, map->images + 3 * v, target->vertices + 3 * v);
+        if (own > most) {
+            most = own;
+            found = v;
+        }
+    }
+    return found;
+}
+
+icc_status iccp_solid_map_follow(iccp_solid_map **out, const iccp_solid_map *map,
+                                 const icc_domain *source, const icc_domain *old_target,
+                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                 size_t *vertex, const iccp_env *env)
+{
+    const double began = iccp_seconds();
+    const icc_improve_options options = {.iterations =
+                                             iterations == 0 ? FOLLOW_ITERATIONS : iterations,
+                                         .levels = -1,
+                                         .tolerance = iterations == 0 ? FOLLOW_TOLERANCE : 0};
+    journey j = {.source = source, .target = target};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    *out = NULL;
+    icc_status status = iccp_solid_map_copy(&j.map, map, source, target, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    change_frame(j.map, &old_target->frame, &target->frame);
+    const iccp_env way = iccp_part(&part[0], "repair", 0, 1);
+    status = go_there(&j, &info->n_unrepaired, &way);
+    info->seconds_repair = iccp_seconds() - began;
+    *vertex = farthest(j.map, target);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = iccp_solid_map_relax(j.map, source, &options, info, &part[1]);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = iccp_solid_map_finish(j.map, info, env);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = j.map;
+    else
+        iccp_solid_map_free(j.map);
+    return status;
+}
