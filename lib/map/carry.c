@@ -17,7 +17,7 @@
 /* Of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.7;
 
-/* Parts that get less far than this are blocked. */
+/* Parts that get less far than this are blocked in the plane. */
 static const double BLOCKED = 0.35;
 
 enum { MOST_HALVINGS = 30 };
@@ -161,7 +161,7 @@ icc_status iccp_carry_by(const iccp_carriage *carriage, void *map, const icc_dom
         double share;
         status = advance(&c, &share, room, env);
         *reached = share >= 1;
-        n_blocked = share < BLOCKED ? n_blocked + 1 : 0;
+        n_blocked = share < carriage->blocked ? n_blocked + 1 : 0;
         if (status != ICC_OK || *reached || n_blocked > patience)
             break;
         status = n_blocked > 0 ? carriage->mend(map, work, env) : correct(&c, work, env);
@@ -212,7 +212,7 @@ icc_status iccp_carry(iccp_plmap *map, const icc_domain *target, const iccp_grai
                       size_t patience, iccp_work *work, bool *reached, double *room,
                       const iccp_env *env)
 {
-    static const iccp_carriage PLANE = {see, place, mend};
+    static const iccp_carriage PLANE = {see, place, BLOCKED, mend};
     tended t = {map, grain};
     return iccp_carry_by(&PLANE, &t, target, patience, work, reached, room, env);
 }

@@ -10,6 +10,7 @@ typedef struct iccp_carriage {
     iccp_simplicial_map (*see)(const void *map);
     /* Where a target wants the image of a fixed point. */
     void (*place)(const void *map, const icc_domain *target, size_t point, double *place);
+    double blocked; /* a part that gets no farther than this share is blocked */
     /* Changes the mesh where it is in the way. */
     icc_status (*mend)(void *map, iccp_work *work, const iccp_env *env);
 } iccp_carriage;

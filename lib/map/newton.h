@@ -66,7 +66,7 @@ icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env);
 
 /* Which share of a motion of all points there is before the first simplex's image loses its area or
- * volume. In the plane HUGE_VAL when none ever does; in space it is at most 2, and may be a bit
+ * volume. In the plane HUGE_VAL when none ever does; in space it is at most 2, and may be
  * less than it could. */
 double iccp_newton_limit(const iccp_simplicial_map *map, const double *motion);
 

@@ -21,6 +21,10 @@ static const double FOLLOW_TOLERANCE = 1e-3;
  * untangled; and after that. */
 enum { PATIENCE = 0, LAST_PATIENCE = 3 };
 
+/* Parts that get less far than this are blocked. After longer ones, steps alone make more room than
+ * changes of the mesh. */
+static const double BLOCKED = 0.05;
+
 /* What carrying the map along and untangling may cost, in steps. */
 static const double CARRY_STEPS = 60, UNTANGLE_STEPS = 12;
 
@@ -145,7 +149,7 @@ static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
 
 static icc_status carry(journey *j, size_t patience, bool *reached, const iccp_env *env)
 {
-    static const iccp_carriage SPACE = {see, place, mend};
+    static const iccp_carriage SPACE = {see, place, BLOCKED, mend};
     iccp_work work = {.left = CARRY_STEPS * (double)j->map->mesh->n_simplices};
     double room;
     return iccp_carry_by(&SPACE, j, j->target, patience, &work, reached, &room, env);

@@ -358,14 +358,14 @@ static void ask_map(const subject *s)
 }
 
 /* The map, and what follows from it step by step: i improved, f retargeted, s saved and loaded.
- * Only meshes in the plane have more than the first two; ask_map() sees the others refuse. */
+ * Only meshes have more than the first two; ask_map() sees the others refuse. */
 static void ask_family(const subject *first)
 {
     static const char *const WAYS[] = {"", "s", "i", "f", "ff", "fi", "fs", "si", "sf", "fsif"};
     icc_domain *target = make_domain(first->shape, 0.85);
     icc_map_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_map_get_info(first->map, &info), ICC_OK);
-    const size_t n = info.kind == ICC_MAP_MESH && info.dim == 2 ? sizeof WAYS / sizeof *WAYS : 2;
+    const size_t n = info.kind == ICC_MAP_MESH ? sizeof WAYS / sizeof *WAYS : 2;
     for (size_t w = 0; w < n; ++w) {
         subject s = *first;
         for (const char *how = WAYS[w]; *how != '\0' && s.map != NULL; ++how) {

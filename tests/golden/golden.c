@@ -142,6 +142,19 @@ static object make_refined_solid(size_t which)
     return o;
 }
 
+/* And one that follows its target from there to where the source is. */
+static object make_retargeted_solid(size_t which)
+{
+    const object first = make_refined_solid(which);
+    icc_domain *target = domain_ball_mesh(0);
+    icc_error err = {.size = sizeof err};
+    object o = {0};
+    must(icc_map_retarget(&o.map, first.map, target, 0, NULL, &err), "icc_map_retarget", &err);
+    icc_map_free(first.map);
+    icc_domain_free(target);
+    return o;
+}
+
 /* One between surfaces that have been filled. */
 static object make_filled(size_t which)
 {
@@ -262,7 +275,8 @@ static const struct {
     object (*make)(size_t which);
     size_t which;
 } OTHERS[] = {{"map-retargeted", make_retargeted, 0}, {"map-solid-refined", make_refined_solid, 0},
-              {"map-solid-filled", make_filled, 0},   {"map-picture", make_picture_map, 0},
+              {"map-solid-filled", make_filled, 0},   {"map-solid-retargeted", make_retargeted_solid, 0},
+              {"map-picture", make_picture_map, 0},
               {"binding-blue2", make_binding, 0},     {"binding-grid3", make_binding, 3}};
 enum { N_OTHERS = sizeof OTHERS / sizeof *OTHERS };
 

@@ -199,8 +199,8 @@ class Map(Saved):
 
     def retarget(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> "Map":
-        """The map to a target that has moved, starting from this one (kind mesh in 2-D), improved by at most
-        `iterations` steps (0: 8; -1: none)."""
+        """The map to a target that has moved, starting from this one (kind mesh, in 2-D or 3-D), improved by
+        at most `iterations` steps (0: 8; -1: none)."""
         return type(self)._wrap(create(lib.map_retarget, self, as_domain(target),
                                        iterations, progress=progress, threads=threads))
 

@@ -211,7 +211,7 @@ impl Map {
     }
 
     /// The map to a target that has moved: the mesh is taken over, repaired, and improved by at most `iterations`
-    /// steps (0: 8; -1: none). For dragging.
+    /// steps (0: 8; -1: none). For dragging, in the plane and in space.
     ///
     /// # Errors
     /// [`Status::CERTIFICATE`] when the target cannot be reached.
