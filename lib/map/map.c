@@ -483,9 +483,8 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
         map->solid != NULL
             ? iccp_solid_map_follow(&next->solid, map->solid, source, map->target_domain, target,
                                     iterations, &next->info, &vertex, &part[0])
-            : iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source,
-                                   map->target_domain, target, iterations, &next->info, &part[0],
-                                   err);
+            : iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source, map->target_domain,
+                                   target, iterations, &next->info, &part[0], err);
     const bool is_there = next->mesh != NULL || next->solid != NULL;
     return status == ICC_OK && !is_there ? begin_anew(next, iterations, vertex, &part[1], err)
                                          : status;

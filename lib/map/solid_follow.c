@@ -138,8 +138,8 @@ static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
 {
     const journey *j = map;
     static const iccp_descent REST = {0, 3, 1e-2, 0, false};
-    const bool cuts = (double)j->map->mesh->n_simplices <
-                      MOST_GROWTH * (double)j->source->mesh->n_simplices;
+    const bool cuts =
+        (double)j->map->mesh->n_simplices < MOST_GROWTH * (double)j->source->mesh->n_simplices;
     size_t n_changes;
     iccp_improvement ignored = {0};
     const icc_status status = iccp_solid_refine(j->map, j->source, cuts, &n_changes, env);

@@ -179,9 +179,9 @@ static void follow(const char *name, const char *how, motion *moves, double step
         icc_domain_free(target);
     }
     qsort(ms, n, sizeof *ms, by_size);
-    printf("| %s | %s %2.0f %% | %.1f | %.1f | %.3f | %zu | %zu | %.4f | %.4f | %zu |",
-           name, how, 100 * step, ms[n / 2], ms[n - 1], ms[n / 2] / making, n_refused, n_anew,
-           energy_of(map), fresh, size_of(map));
+    printf("| %s | %s %2.0f %% | %.1f | %.1f | %.3f | %zu | %zu | %.4f | %.4f | %zu |", name, how,
+           100 * step, ms[n / 2], ms[n - 1], ms[n / 2] / making, n_refused, n_anew, energy_of(map),
+           fresh, size_of(map));
     printf(n_not_embedded > 0 ? " %zu frames meet themselves\n" : "\n", n_not_embedded);
     (void)fflush(stdout);
     if (map != first)
@@ -196,9 +196,9 @@ static icc_domain *read_domain(obj *o, const char *path)
         fprintf(stderr, "%s cannot be read\n", path);
         exit(EXIT_FAILURE);
     }
-    bench_check(icc_domain_create(&domain, 3, o->n_vertices, o->vertices, o->n_faces, o->faces, NULL,
-                                  &err),
-                &err);
+    bench_check(
+        icc_domain_create(&domain, 3, o->n_vertices, o->vertices, o->n_faces, o->faces, NULL, &err),
+        &err);
     return domain;
 }
 

@@ -274,10 +274,11 @@ static const struct {
     const char *name;
     object (*make)(size_t which);
     size_t which;
-} OTHERS[] = {{"map-retargeted", make_retargeted, 0}, {"map-solid-refined", make_refined_solid, 0},
-              {"map-solid-filled", make_filled, 0},   {"map-solid-retargeted", make_retargeted_solid, 0},
-              {"map-picture", make_picture_map, 0},
-              {"binding-blue2", make_binding, 0},     {"binding-grid3", make_binding, 3}};
+} OTHERS[] = {
+    {"map-retargeted", make_retargeted, 0}, {"map-solid-refined", make_refined_solid, 0},
+    {"map-solid-filled", make_filled, 0},   {"map-solid-retargeted", make_retargeted_solid, 0},
+    {"map-picture", make_picture_map, 0},   {"binding-blue2", make_binding, 0},
+    {"binding-grid3", make_binding, 3}};
 enum { N_OTHERS = sizeof OTHERS / sizeof *OTHERS };
 
 static void free_object(object *o)

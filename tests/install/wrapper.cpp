@@ -241,6 +241,10 @@ void makes_maps_of_maps()
     check(first.get_source_chart() != nullptr && first.get_target_chart() != nullptr, "charts of a map");
     check(is_times(next.apply({0, 0, 4, 0}), 1, {0, 0, 9, 0}), "and where it goes");
     check(first.retarget(moved, -1).info().n_iterations == 0, "without steps");
+    const std::vector<std::uint32_t> faces{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const icc::domain solid(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, faces);
+    const icc::domain dragged(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, 0, 1}, faces);
+    check(icc::map(solid, solid).retarget(dragged).info().certified == 1, "in space");
 
     auto report = icc::sized<icc_improve_report>();
     auto options = icc::sized<icc_improve_options>();

@@ -156,6 +156,19 @@ def test_masks_and_surfaces(cube):
     assert np.array_equal(surface.facets, faces) and np.array_equal(surface.vertices, vertices)
 
 
+def test_a_surface_that_is_dragged(cube):
+    vertices, faces = cube
+    frame = libicc.Map(libicc.Domain(vertices, faces), libicc.Domain(vertices, faces))
+    for k in range(1, 6):
+        moved = np.array(vertices, float)
+        moved[:, 0] += 0.1 * k * moved[:, 2] ** 2
+        frame = frame.retarget(libicc.Domain(moved, faces))
+        assert frame.certified and frame.source_chart is None
+        assert np.abs(frame(vertices) - moved).max() < 1e-12
+    again = libicc.Map.from_bytes(frame.to_bytes())
+    assert again.retarget(libicc.Domain(vertices, faces)).certified
+
+
 def test_defects():
     assert libicc.boundary_defects([[0, 0], [1, 1], [1, 0], [0, 1]]) == [("crossing", 0, 2)]
 

@@ -47,8 +47,8 @@ typedef void motion(double far, const double *x, double *y);
 static icc_domain *surface_of(const scene *s, const double *vertices)
 {
     icc_domain *domain;
-    const icc_status status = icc_domain_create(&domain, 3, s->n_vertices, vertices, s->n_facets,
-                                                s->facets, NULL, NULL);
+    const icc_status status =
+        icc_domain_create(&domain, 3, s->n_vertices, vertices, s->n_facets, s->facets, NULL, NULL);
     ck_assert(status == ICC_OK || status == ICC_ERR_BOUNDARY);
     return domain;
 }

@@ -361,6 +361,23 @@ fn following_a_target_that_moves() {
 }
 
 #[test]
+fn following_a_surface_that_moves() {
+    let mut vertices = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    let faces = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+    let env = &mut Env::new();
+    let before = Domain::new(3, &vertices, &faces, env).unwrap();
+    let mut frame = Map::new(&before, &before, &MapOptions::default(), env).unwrap();
+    for _ in 0..3 {
+        vertices[9] += 0.1;
+        let target = Domain::new(3, &vertices, &faces, env).unwrap();
+        frame = frame.retarget(&target, 0, env).unwrap();
+        assert_eq!(frame.info().certified, 1);
+    }
+    let corner = frame.apply(&[0.0, 0.0, 1.0], env).unwrap();
+    assert!(farthest(&corner.points, &vertices[9..]) < 1e-12);
+}
+
+#[test]
 fn meshes_are_carried_and_certified() {
     let map = map(&MapOptions { kind: Some(MapKind::Mesh), ..Default::default() });
     let mesh = map.mesh().unwrap();
