@@ -58,10 +58,10 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
                         double slope);
 
-/* Fills in how free points answer a motion of fixed ones, dim n_points displacements of which theirs
- * are 0, by a quadratic model of the symmetric Dirichlet energy. In the plane `rest` are as many:
- * the step to where that is least when nothing else moves. In space the answer is both in one, and
- * `rest` is not used. ICC_ERR_SOLVER when there is none. */
+/* Fills in how free points answer a motion of fixed ones, dim n_points displacements of which those
+ * of free ones are 0, by a quadratic model of the symmetric Dirichlet energy. In the plane `rest`
+ * are as many: the step to where that is least when nothing else moves. In space the answer is both
+ * in one, and `rest` is not used. ICC_ERR_SOLVER when there is none. */
 icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env);
 
