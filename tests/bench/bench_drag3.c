@@ -1,9 +1,9 @@
 /* Surfaces dragged about in space, frame by frame: usage: bench_drag3 NAME.src.obj ..., with
- * NAME.tgt.obj beside each. The map of the pair is made, then its target is moved there and back: by
- * 1, 5 and 10 % of its size a frame and 20 % at most; in one place with a smooth falloff, bent, and
- * twisted. Milliseconds of the processor a frame, one thread, beside those of making the map; frames
- * that were refused, and those made anew; the energy after the last frame and of a map made to there
- * at once. Run by hand. */
+ * NAME.tgt.obj beside each. The map of the pair is made, then its target is moved there and back:
+ * by 1, 5 and 10 % of its size a frame and 20 % at most; in one place with a smooth falloff, bent,
+ * and twisted. Milliseconds of the processor a frame, one thread, beside those of making the map;
+ * frames that were refused, and those made anew; the energy after the last frame and of a map made
+ * to there at once. Run by hand. */
 #include "bench.h"
 
 #include "../meshes.h"
