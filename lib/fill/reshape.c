@@ -139,24 +139,32 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
     }
     for (int i = 0; i < 3; ++i)
         now[i] = best.x[i];
-    return best.worst > before + gain * fabs(before);
+    if (!(best.worst > before + gain * fabs(before)))
+        return false;
+    for (size_t k = 0; k < m->star.n; ++k)
+        for (int c = 0; c < 4; ++c)
+            m->touched[m->tet[m->star.item[k]].v[c]] = m->round;
+    return true;
 }
 
+/* What was tried in vain in the last round is tried again only where something changed since: the
+ * same comes out. */
 static void flip_all(iccp_tets *m)
 {
     const size_t n = m->n_tets;
     for (uint32_t t = 0; t < n; ++t)
-        if (iccp_tet_alive(m, t) && iccp_quality_of(m, t) < good)
+        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && iccp_quality_of(m, t) < good)
             iccp_improve_tet(m, t);
 }
 
-/* Stamps the points of tetrahedra that are not good. */
+/* Stamps the points of tetrahedra that are not good. One that no corner of is touched has none to
+ * be tried. */
 static uint32_t stamp_bad(iccp_tets *m)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
     for (uint32_t t = 0; t < m->n_tets; ++t)
-        for (int i = 0; i < 4; ++i)
-            if (iccp_tet_alive(m, t) && iccp_quality_of(m, t) < good)
+        if (iccp_tet_alive(m, t) && iccp_tet_touched(m, t) && iccp_quality_of(m, t) < good)
+            for (int i = 0; i < 4; ++i)
                 m->seen[m->tet[t].v[i]] = stamp;
     return stamp;
 }
@@ -170,8 +178,10 @@ icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
             iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
         if (status != ICC_OK)
             return status;
+        ++m->round;
         for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
-            if (m->tet_of[p] != ICCP_NO_TET && !iccp_contract_best(m, p, enough))
+            if (m->tet_of[p] != ICCP_NO_TET && iccp_point_touched(m, p) &&
+                !iccp_contract_best(m, p, enough))
                 iccp_smooth_point(m, p);
         flip_all(m);
     }
@@ -186,10 +196,11 @@ icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err)
             iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));
         if (status != ICC_OK)
             return status;
+        ++m->round;
         flip_all(m);
         const uint32_t stamp = stamp_bad(m);
         for (uint32_t p = (uint32_t)m->points.n_fixed; p < m->points.n; ++p)
-            if (m->tet_of[p] != ICCP_NO_TET && m->seen[p] == stamp)
+            if (m->tet_of[p] != ICCP_NO_TET && m->seen[p] == stamp && iccp_point_touched(m, p))
                 iccp_smooth_point(m, p);
     }
     return ICC_OK;

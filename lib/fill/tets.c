@@ -8,7 +8,7 @@ const uint8_t iccp_tet_face[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}
 
 void iccp_tets_init(iccp_tets *m, const iccp_memory *memory)
 {
-    *m = (iccp_tets){.memory = *memory, .free = ICCP_NO_TET, .random = 1};
+    *m = (iccp_tets){.memory = *memory, .free = ICCP_NO_TET, .round = 1, .random = 1};
 }
 
 void iccp_tets_free(iccp_tets *m)
@@ -21,6 +21,7 @@ void iccp_tets_free(iccp_tets *m)
     iccp_free(&m->memory, m->points.dyadic);
     iccp_free(&m->memory, m->tet_of);
     iccp_free(&m->memory, m->seen);
+    iccp_free(&m->memory, m->touched);
     iccp_free(&m->memory, m->tet);
     iccp_free(&m->memory, m->mark);
 }
@@ -53,7 +54,8 @@ uint32_t iccp_tets_add_point(iccp_tets *m, const double *x)
         const size_t room = 2 * p->room + 64;
         if (!iccp_enlarge(&m->memory, &p->x, p->room, room, 3 * sizeof *p->x) ||
             !iccp_enlarge(&m->memory, &m->tet_of, p->room, room, sizeof *m->tet_of) ||
-            !iccp_enlarge(&m->memory, &m->seen, p->room, room, sizeof *m->seen)) {
+            !iccp_enlarge(&m->memory, &m->seen, p->room, room, sizeof *m->seen) ||
+            !iccp_enlarge(&m->memory, &m->touched, p->room, room, sizeof *m->touched)) {
             m->no_memory = true;
             return ICCP_NO_TET;
         }
@@ -62,6 +64,7 @@ uint32_t iccp_tets_add_point(iccp_tets *m, const double *x)
     memcpy(p->x + 3 * p->n, x, 3 * sizeof *x);
     m->tet_of[p->n] = ICCP_NO_TET;
     m->seen[p->n] = 0;
+    m->touched[p->n] = m->round;
     return (uint32_t)p->n++;
 }
 
@@ -96,6 +99,7 @@ uint32_t iccp_tets_new(iccp_tets *m, uint32_t a, uint32_t b, uint32_t c, uint32_
     }
     m->tet[t] = (iccp_tet){{a, b, c, d}, {ICCP_NO_TET, ICCP_NO_TET, ICCP_NO_TET, ICCP_NO_TET}};
     m->tet_of[a] = m->tet_of[b] = m->tet_of[c] = m->tet_of[d] = t;
+    m->touched[a] = m->touched[b] = m->touched[c] = m->touched[d] = m->round;
     ++m->n_alive;
     return t;
 }

@@ -30,13 +30,15 @@ typedef struct iccp_list {
 typedef struct iccp_tets {
     iccp_memory memory;
     iccp_points points;
-    uint32_t *tet_of; /* of each point: a tetrahedron that has it, or NO_TET; room as of points */
-    uint32_t *seen;   /* of each point: a stamp */
+    uint32_t *tet_of;  /* of each point: a tetrahedron that has it, or NO_TET; room as of points */
+    uint32_t *seen;    /* of each point: a stamp */
+    uint32_t *touched; /* of each point: the round in which its star changed last */
     iccp_tet *tet;
     uint32_t *mark; /* of each tetrahedron: a stamp */
     size_t n_tets, room, n_alive;
     uint32_t free; /* a list of those that are gone, linked by across[0] */
     uint32_t stamp;
+    uint32_t round; /* counts the rounds of improvement */
     uint64_t random;
     uint32_t attempt; /* which of several orders things are done in, from 0 */
     uint32_t hint;    /* where to begin to look */
@@ -92,6 +94,21 @@ static inline int iccp_tets_orient(const iccp_tets *m, uint32_t a, uint32_t b, u
                                    uint32_t d)
 {
     return iccp_points_orient(&m->points, a, b, c, d);
+}
+
+/* Whether the star of a point has changed in this round or the one before: if not, what was tried
+ * in vain would be so again. */
+static inline bool iccp_point_touched(const iccp_tets *m, uint32_t point)
+{
+    return m->touched[point] + 1 >= m->round;
+}
+
+/* Whether that of one of the corners has. */
+static inline bool iccp_tet_touched(const iccp_tets *m, uint32_t t)
+{
+    const uint32_t *const v = m->tet[t].v;
+    return iccp_point_touched(m, v[0]) || iccp_point_touched(m, v[1]) ||
+           iccp_point_touched(m, v[2]) || iccp_point_touched(m, v[3]);
 }
 
 /* The sign with which a point sees the face opposite corner i from inside. */
