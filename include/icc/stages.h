@@ -335,7 +335,8 @@ ICC_API const double *icc_function_values(const icc_function *function);
 
 /** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL
  *  outside, NaN where the tree does not reach; borrowed. NULL for decay and distance, and when some
- *  value inside is not positive. */
+ *  value inside is not positive. Those of a chart's function are made when they are first asked
+ *  for, by any thread, 8 bytes a vertex: NULL, too, when there is no memory for them then. */
 ICC_API const double *icc_function_logs(const icc_function *function);
 
 /**

@@ -302,6 +302,19 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
 
 /* ------------------------------------------------------------------- function */
 
+/* With its logarithms, so that icc_function_logs() cannot fail. */
+static icc_status create_function(icc_function **out, const icc_tree *tree,
+                                  const icc_function_options *options, const iccp_env *env,
+                                  icc_error *err)
+{
+    const icc_status status = iccp_function_create(out, tree, options, env, err);
+    if (status != ICC_OK || !(*out)->has_logs || iccp_function_logs(*out) != NULL)
+        return status;
+    iccp_function_release(*out);
+    *out = NULL;
+    return iccp_fail_memory(err);
+}
+
 icc_status icc_function_create(icc_function **out, const icc_tree *tree,
                                const icc_function_options *options, const icc_env *env,
                                icc_error *err)
@@ -318,10 +331,9 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree,
     if (status != ICC_OK)
         return status;
     status = iccp_check_function(&full, "icc_function_options", err);
-    return status == ICC_OK
-               ? iccp_end_function(iccp_function_create(out, tree, &full, &full_env, err), out,
-                                   &full_env, err)
-               : status;
+    return status == ICC_OK ? iccp_end_function(create_function(out, tree, &full, &full_env, err),
+                                                out, &full_env, err)
+                            : status;
 }
 
 void icc_function_free(icc_function *function)
@@ -338,7 +350,7 @@ const double *icc_function_values(const icc_function *function)
 
 const double *icc_function_logs(const icc_function *function)
 {
-    return function != NULL ? function->logs : NULL;
+    return function != NULL ? iccp_function_logs(function) : NULL;
 }
 
 icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)

@@ -155,6 +155,7 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
             iccp_extension_create(&extension, state->field, &state->incidence, SWEEPS, &part[1]);
     if (status == ICC_OK)
         status = iccp_vectors_create(&state->vectors, &extension, &state->incidence, &part[2]);
+    iccp_incidence_trim(&state->incidence);
     iccp_extension_free(&extension);
     chart->own.field.seconds_solve = iccp_seconds() - start;
     return status;

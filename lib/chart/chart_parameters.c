@@ -102,8 +102,10 @@ uint64_t iccp_digest_field(const icc_function *field)
     const size_t n = field->tree->grid->n_vertices;
     uint64_t digest = iccp_digest_u32(ICCP_DIGEST_START, 1, &field->tree->root);
     digest = iccp_digest_f64(digest, n, field->values);
-    if (field->logs != NULL)
-        digest = iccp_digest_f64(digest, n, field->logs);
+    for (size_t v = 0; field->has_logs && v < n; ++v) {
+        const double u = iccp_function_log(field, v);
+        digest = iccp_digest_f64(digest, 1, &u);
+    }
     for (size_t v = 0; field->exponent != NULL && v < n; ++v)
         digest = add(digest, (uint32_t)field->exponent[v], 4);
     return digest;

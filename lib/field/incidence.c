@@ -485,12 +485,18 @@ bool iccp_incidence_touches(const iccp_incidence *incidence, uint32_t facet, uin
     return contact_with(&s, cell, axis) != APART;
 }
 
-void iccp_incidence_free(iccp_incidence *incidence)
+void iccp_incidence_trim(iccp_incidence *incidence)
 {
-    iccp_free(&incidence->memory, incidence->bits);
     iccp_free(&incidence->memory, incidence->faces);
     iccp_free(&incidence->memory, incidence->first);
     iccp_free(&incidence->memory, incidence->facet);
+    incidence->faces = incidence->first = incidence->facet = NULL;
+}
+
+void iccp_incidence_free(iccp_incidence *incidence)
+{
+    iccp_incidence_trim(incidence);
+    iccp_free(&incidence->memory, incidence->bits);
     iccp_free(&incidence->memory, incidence->normal);
     *incidence = (iccp_incidence){.memory = incidence->memory};
 }

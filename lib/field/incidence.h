@@ -28,17 +28,21 @@ typedef struct iccp_incidence {
      * the domain although no vertex of it is inside, or a facet runs through it. Beyond 4-D several
      * simplices share a bit. */
     uint32_t *bits;
+    double *normal; /* dim for each facet: inward, length 1 */
+    /* Until iccp_incidence_trim(): */
     uint32_t *faces; /* by cell, iccp_incidence_face_bit(): a facet may meet a face of that
                         simplex */
     uint32_t *first; /* n_vertices + 1: of the facets that run through simplices at each vertex */
     uint32_t *facet; /* those facets, vertex by vertex */
-    double *normal;  /* dim for each facet: inward, length 1 */
 } iccp_incidence;
 
 /* incidence->memory is set even on failure; free it in any case. */
 icc_status iccp_incidence_create(iccp_incidence *incidence, const icc_domain *domain,
                                  const icc_grid *grid, const iccp_env *env);
 void iccp_incidence_free(iccp_incidence *incidence);
+
+/* Frees what curves do not need, but only vectors while they are made. */
+void iccp_incidence_trim(iccp_incidence *incidence);
 
 /* From how many facets to note at each vertex, to where its first is noted, in `count` too. */
 icc_status iccp_incidence_make_room(iccp_incidence *incidence, uint32_t *count);

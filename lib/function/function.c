@@ -28,22 +28,41 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
     return ICC_OK;
 }
 
-static icc_status assign_logs(icc_function *function, const iccp_unknowns *unknowns,
-                              const iccp_scaled *f)
+/* From a fraction in [0.5, 1) and an exponent: the same bits whichever way the value is kept. */
+static double log_of(double fraction, int32_t exponent)
 {
     static const double LN_2 = 0.69314718055994530942;
+    return iccp_ln(fraction) + LN_2 * exponent;
+}
+
+double iccp_function_log(const icc_function *function, size_t v)
+{
     const icc_tree *tree = function->tree;
-    function->logs = iccp_alloc(&function->memory, tree->grid->n_vertices, sizeof *function->logs);
-    if (function->logs == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t v = 0; v < tree->grid->n_vertices; ++v)
-        function->logs[v] = tree->generation[v] < 0 ? NAN : -HUGE_VAL;
-    for (size_t k = 0; k < unknowns->n; ++k) {
-        const double u = iccp_ln(f->fraction[k]) + LN_2 * f->exponent[k];
-        function->logs[unknowns->vertex[k]] = u;
-        function->info.least_log = iccp_min(function->info.least_log, u);
-    }
-    return ICC_OK;
+    const double value = function->values[v];
+    int shift;
+    if (tree->generation[v] < 0)
+        return NAN;
+    if (!tree->grid->inside[v] || !(value > 0))
+        return -HUGE_VAL;
+    const double fraction = iccp_frexp(value, &shift);
+    return log_of(fraction, shift + (function->exponent != NULL ? function->exponent[v] : 0));
+}
+
+const double *iccp_function_logs(const icc_function *function)
+{
+    const size_t n = function->tree->grid->n_vertices;
+    const double *known = iccp_once_get(&function->logs);
+    if (known != NULL || !function->has_logs)
+        return known;
+    double *fresh = iccp_alloc(&function->memory, n, sizeof *fresh);
+    if (fresh == NULL)
+        return NULL;
+    for (size_t v = 0; v < n; ++v)
+        fresh[v] = iccp_function_log(function, v);
+    known = iccp_once_keep(&function->logs, fresh);
+    if (known != fresh)
+        iccp_free(&function->memory, fresh);
+    return known;
 }
 
 /* Fractions in place of the values, which are kept for those who want plain numbers. */
@@ -115,10 +134,10 @@ static void forget(icc_function *function)
         function->values = function->plain;
     }
     iccp_free(&function->memory, function->exponent);
-    iccp_free(&function->memory, function->logs);
+    iccp_free(&function->memory, iccp_once_get(&function->logs));
+    iccp_once_init(&function->logs);
     function->exponent = NULL;
-    function->plain = function->logs = NULL;
-    function->info.least_log = 0;
+    function->plain = NULL;
 }
 
 icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
@@ -126,6 +145,7 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
 {
     const icc_tree *tree = function->tree;
     bool positive = true;
+    double least_log = 0;
     int32_t least = 0;
     forget(function);
     for (size_t i = 0; i < tree->n_reached; ++i)
@@ -133,10 +153,14 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
     for (size_t k = 0; k < unknowns->n; ++k) {
         function->values[unknowns->vertex[k]] = iccp_scaled_get(f, k, 0);
         positive = positive && f->fraction[k] > 0;
+        if (positive)
+            least_log = iccp_min(least_log, log_of(f->fraction[k], f->exponent[k]));
         least = f->exponent[k] < least ? f->exponent[k] : least;
     }
-    icc_status status = positive ? assign_logs(function, unknowns, f) : ICC_OK;
-    if (status == ICC_OK && positive && least < LEAST_EXPONENT)
+    function->has_logs = positive;
+    function->info.least_log = positive ? least_log : 0;
+    icc_status status = ICC_OK;
+    if (positive && least < LEAST_EXPONENT)
         status = assign_exponents(function, unknowns, f);
     if (status == ICC_OK)
         mirror(function);
@@ -152,6 +176,6 @@ void iccp_function_release(icc_function *function)
     iccp_free(&memory, function->values);
     iccp_free(&memory, function->exponent);
     iccp_free(&memory, function->plain);
-    iccp_free(&memory, function->logs);
+    iccp_free(&memory, iccp_once_get(&function->logs));
     iccp_free(&memory, function);
 }

@@ -2,6 +2,7 @@
 #ifndef ICCP_FUNCTION_H
 #define ICCP_FUNCTION_H
 
+#include "base/once.h"
 #include "math/scaled.h"
 #include "solver/unknowns.h"
 
@@ -12,7 +13,8 @@ struct icc_function {
     double *values;    /* one per grid vertex; NaN where the tree does not reach */
     int32_t *exponent; /* the function is values * 2^exponent; NULL: 0 everywhere, the usual case */
     double *plain;     /* the function as far as doubles hold it; NULL when that is `values` */
-    double *logs;      /* of the function; NULL unless it is positive inside */
+    bool has_logs;     /* it is positive inside */
+    iccp_once logs;    /* of the function, once somebody has asked for them */
 };
 
 /* A function whose values are all NaN. */
@@ -24,6 +26,13 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
  * the function usable only for iccp_function_release(). */
 icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
                                 const iccp_scaled *f);
+
+/* The logarithm of the function at a vertex, of one that has logarithms: -HUGE_VAL outside, NaN
+ * where the tree does not reach. */
+double iccp_function_log(const icc_function *function, size_t v);
+
+/* All of them, made when they are first asked for. NULL where there are none, or no memory. */
+const double *iccp_function_logs(const icc_function *function);
 
 /* NULL is a no-op. Nothing shares a function yet, so it has one owner. */
 void iccp_function_release(icc_function *function);

@@ -444,7 +444,7 @@ START_TEST(memory_is_as_stated)
     ck_assert_int_eq(icc_chart_create(&chart, domain, &options, &env, NULL), ICC_OK);
     const icc_field_info info = field_info_of(chart);
     const double vertices = (double)info.n_grid, rim = 150.0 * (double)info.n_contacts;
-    ck_assert_double_le((double)m.now, 70 * vertices);
+    ck_assert_double_le((double)m.now, 40 * vertices);
     ck_assert_double_le((double)m.most, 70 * vertices + rim);
     icc_chart_free(chart);
     ck_assert_uint_eq(m.now, 0);

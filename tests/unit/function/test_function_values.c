@@ -164,7 +164,10 @@ START_TEST(values_go_on_beyond_doubles)
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
     icc_function_free(field);
     field = steep_field(40); /* 2^-780 needs no exponents */
-    ck_assert(field->exponent == NULL && field->plain == NULL && field->logs != NULL);
+    ck_assert(field->exponent == NULL && field->plain == NULL);
+    ck_assert(field->has_logs && iccp_once_get(&field->logs) == NULL);
+    ck_assert_double_eq(iccp_function_log(field, 41), field->info.least_log);
+    ck_assert(iccp_function_logs(field)[41] == field->info.least_log);
     icc_function_free(field);
 }
 END_TEST

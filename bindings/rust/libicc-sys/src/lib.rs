@@ -1265,8 +1265,8 @@ extern "C" {
     ///
     /// Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
     /// most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a point
-    /// and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 70 bytes a grid
-    /// vertex, and 150 for each of `icc_field_info.n_contacts` while it is made. Foliation and disc mesh
+    /// and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 40 bytes a grid
+    /// vertex, and 70 and 150 for each of `icc_field_info.n_contacts` while it is made. Foliation and disc mesh
     /// the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
     /// about 1 ms at N = 50 and n \< 100, 0.06 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
     /// mesh: in 3-D about 25 us a tetrahedron, 40 us from 80,000 on, of which the certificate takes 2 %, then 1 to 2 us
