@@ -683,10 +683,11 @@ typedef struct icc_chart_report {
  * - gradient: at most O(N^2 + n N) time and memory in 2-D, about 1 ms at N = 50; O(N^dim) beyond,
  *   in 3-D at N = 64 from 0.1 s. A point takes 15 us in each direction in 3-D.
  * - field: O() as gradient; in 3-D at N = 64 from 0.05 to 0.5 s. A point takes 10 us in each
- *   direction (15 without AVX2). At most 40 bytes a grid vertex are kept (in
- *   3-D; 12 more where values lie below 2^-900, 8 more once icc_function_logs() has been called), 5
- *   GB at 512^3; up to 70, and 150 for each of icc_field_info::n_contacts, are needed while it is
- *   made, beside another chart's 40 where it is made twice.
+ *   direction (15 without AVX2). At most 40 bytes a grid vertex and 24 a
+ *   facet are kept (in 3-D; 12 a vertex more where values lie below 2^-900, 8 more once
+ *   icc_function_logs() has been called), 5.4 GB at 512^3; up to 70, and 150 for each of
+ *   icc_field_info::n_contacts, are needed while it is made, beside another chart's 40 where it is
+ *   made twice.
  * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
  *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000. 500
  *   bytes a vertex.
