@@ -7,15 +7,22 @@
 #define ICCP_HAS_SIMD
 #define ICCP_SSE42 __attribute__((target("sse4.2")))
 #define ICCP_AVX2 __attribute__((target("avx2")))
+#define ICCP_AVX512 __attribute__((target("avx512f")))
 #endif
 
-typedef enum iccp_simd_level { ICCP_SIMD_NONE, ICCP_SIMD_SSE42, ICCP_SIMD_AVX2 } iccp_simd_level;
+typedef enum iccp_simd_level {
+    ICCP_SIMD_NONE,
+    ICCP_SIMD_SSE42,
+    ICCP_SIMD_AVX2,
+    ICCP_SIMD_AVX512
+} iccp_simd_level;
 
 /* The highest that this processor has: it has all below, too. */
 static inline iccp_simd_level iccp_simd(void)
 {
 #ifdef ICCP_HAS_SIMD
-    return __builtin_cpu_supports("avx2")     ? ICCP_SIMD_AVX2
+    return __builtin_cpu_supports("avx512f")  ? ICCP_SIMD_AVX512
+           : __builtin_cpu_supports("avx2")   ? ICCP_SIMD_AVX2
            : __builtin_cpu_supports("sse4.2") ? ICCP_SIMD_SSE42
                                               : ICCP_SIMD_NONE;
 #else

@@ -9,7 +9,7 @@ icc_status iccp_flow_follow_as(iccp_simd_level level, const iccp_flow *flow, siz
                                iccp_flow_curve *curves, const iccp_memory *memory)
 {
 #ifdef ICCP_HAS_SIMD
-    if (level == ICCP_SIMD_AVX2)
+    if (level >= ICCP_SIMD_AVX2)
         return iccp_flow_follow4(flow, n, curves, memory);
     if (level == ICCP_SIMD_SSE42)
         return iccp_flow_follow2(flow, n, curves, memory);

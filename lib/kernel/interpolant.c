@@ -477,7 +477,7 @@ void iccp_collocation_evaluate_as(iccp_simd_level level, const iccp_collocation 
     add_tail(&q);
     if (!iccp_cells_box(&collocation->cells, point, collocation->radial.reach, &box))
         return;
-    (level == ICCP_SIMD_AVX2 ? add_kernels_avx2 : add_kernels_portable)(&q, &box);
+    (level >= ICCP_SIMD_AVX2 ? add_kernels_avx2 : add_kernels_portable)(&q, &box);
 }
 
 void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,

@@ -10,7 +10,7 @@ void iccp_sampler_init_as(iccp_simd_level level, iccp_sampler *sampler, const ic
 {
     const iccp_sampler_kernels *lanes = NULL;
 #ifdef ICCP_HAS_SIMD
-    if (level == ICCP_SIMD_AVX2)
+    if (level >= ICCP_SIMD_AVX2)
         lanes = iccp_sampler_avx2(source);
     else if (level == ICCP_SIMD_SSE42)
         lanes = iccp_sampler_sse(source);

@@ -4,7 +4,6 @@
 #include "math/dense.h"
 
 #include "base/compiler.h"
-#include "base/simd.h"
 
 enum { STRIP = 4 };
 
@@ -71,11 +70,6 @@ static void spread_portable(double *x, size_t width, const double *a, const doub
             x[s] -= (a[0] * y[s] + a[1] * y1[s]) + (a[2] * y2[s] + a[3] * y3[s]);
 }
 
-iccp_dense iccp_dense_portable(void)
-{
-    return (iccp_dense){multiply_portable, divide_portable, subtract_portable, spread_portable};
-}
-
 #ifdef ICCP_HAS_SIMD
 
 #include <immintrin.h>
@@ -120,9 +114,9 @@ ICCP_AVX2 static ICCP_INLINE void multiply_width(double *tile, size_t n_strips, 
 ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width, const double *a,
                                     size_t stride, const double *b, size_t depth)
 {
-    if (n_strips == 2)
+    for (; n_strips > 1; n_strips -= 2, a += 2 * stride, tile += 2 * ICCP_TILE * STRIP)
         multiply_width(tile, 2, width, a, stride, b, depth);
-    else
+    if (n_strips == 1)
         multiply_width(tile, 1, width, a, stride, b, depth);
 }
 
@@ -226,18 +220,17 @@ ICCP_AVX2 static void spread_avx2(double *x, size_t width, const double *a, cons
         spread_one(x, a, y, depth);
 }
 
-iccp_dense iccp_dense_choose(void)
-{
-    return iccp_simd() == ICCP_SIMD_AVX2
-               ? (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2, spread_avx2}
-               : iccp_dense_portable();
-}
-
-#else
-
-iccp_dense iccp_dense_choose(void)
-{
-    return iccp_dense_portable();
-}
-
 #endif
+
+iccp_dense iccp_dense_as(iccp_simd_level level)
+{
+    iccp_dense dense = {multiply_portable, divide_portable, subtract_portable, spread_portable};
+#ifdef ICCP_HAS_SIMD
+    if (level >= ICCP_SIMD_AVX2)
+        dense = (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2, spread_avx2};
+    if (level >= ICCP_SIMD_AVX512)
+        dense.multiply = iccp_multiply_avx512;
+#endif
+    (void)level;
+    return dense;
+}

@@ -3,17 +3,24 @@
 #ifndef ICCP_DENSE_H
 #define ICCP_DENSE_H
 
+#include "base/simd.h"
+
 #include <stddef.h>
 #include <stdint.h>
 
-/* Columns of a tile, and of one that is divided by. */
-enum { ICCP_TILE = 6, ICCP_SQUARE = 4 };
+/* Columns of a tile, and of one that is divided by; strips that are multiplied at once. */
+enum { ICCP_TILE = 6, ICCP_SQUARE = 4, ICCP_STRIPS = 4 };
 
 /* tile[24 t + 4 c + r] = the sum over k < depth, in this order, of
- * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (1 or 2), c < width (1, 2, 4
- * or 6) and r < 4. */
+ * a[t * stride + 4 k + r] * b[width * k + c], for strips t < n_strips (ICCP_STRIPS at most), c <
+ * width (1, 2, 4 or 6) and r < 4. */
 typedef void (*iccp_multiply)(double *tile, size_t n_strips, size_t width, const double *a,
                               size_t stride, const double *b, size_t depth);
+
+static inline size_t iccp_strips_at_once(size_t left)
+{
+    return left < ICCP_STRIPS ? left : ICCP_STRIPS;
+}
 
 /* Solves x L' D = strip for x in place: `width` columns, 4 at most, of n_strips strips.
  * scaled[4 k + c] = d_k L(c, k). */
@@ -39,10 +46,17 @@ typedef struct iccp_dense {
     iccp_spread spread;
 } iccp_dense;
 
-/* For every machine. */
-iccp_dense iccp_dense_portable(void);
+/* For processors with AVX-512F: see base/simd.h. */
+void iccp_multiply_avx512(double *tile, size_t n_strips, size_t width, const double *a,
+                          size_t stride, const double *b, size_t depth);
+
+/* For processors that have this; ICCP_SIMD_NONE: for every machine. */
+iccp_dense iccp_dense_as(iccp_simd_level level);
 
 /* The fastest on this machine. */
-iccp_dense iccp_dense_choose(void);
+static inline iccp_dense iccp_dense_choose(void)
+{
+    return iccp_dense_as(iccp_simd());
+}
 
 #endif

@@ -127,18 +127,18 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
     }
 }
 
-/* Takes strips two at a time where there are two, so that `multiply` uses each packed entry twice.
- * Tiles above the diagonal are left out. */
+/* Takes several strips at a time, so that `multiply` uses each packed entry as often. Tiles above
+ * the diagonal are left out. */
 static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const update *u = argument;
     const size_t depth = u->from.columns, stride = STRIP * depth;
     for (size_t n; strip < strips; strip += n) {
         const double *b = u->f->packed;
-        n = strip + 1 < strips ? 2 : 1;
+        n = iccp_strips_at_once(strips - strip);
         for (size_t j = u->block; j < u->block_end && j < STRIP * (strip + n); j += ICCP_TILE) {
             const size_t left = u->block_end - j, width = iccp_panel_width(left);
-            double tile[2 * ICCP_TILE * ICCP_STRIP];
+            double tile[ICCP_STRIPS * ICCP_TILE * ICCP_STRIP];
             u->f->dense.multiply(tile, n, width, u->from.value + strip * stride, stride, b, depth);
             for (size_t t = 0; t < n; ++t)
                 scatter(u, tile + t * ICCP_TILE * STRIP, strip + t, j, left < width ? left : width);

@@ -1,7 +1,7 @@
 /* Blocked L D L^T of a tall dense panel, by columns and left-looking: G. Golub, C. Van Loan, Matrix
  * Computations, section 4.2. Blocks of ICCP_BLOCK columns get the product of all columns before
  * them at once; within a block the same is done for ICCP_SQUARE columns at a time, first for the
- * rows of the block itself, then for two strips after the other, which stay in the cache. */
+ * rows of the block itself, then for a few strips after the other, which stay in the cache. */
 #include "math/panel.h"
 
 #include "base/minmax.h"
@@ -101,7 +101,7 @@ static const double *subtract(const iccp_panel *p, const iccp_dense *dense, doub
 {
     const size_t width = iccp_panel_width(left), here = left < width ? left : width;
     const size_t stride = STRIP * p->columns, depth = last - first;
-    double tile[2 * ICCP_TILE * ICCP_STRIP];
+    double tile[ICCP_STRIPS * ICCP_TILE * ICCP_STRIP];
     dense->multiply(tile, n, width, row + STRIP * first, stride, packed, depth);
     for (size_t t = 0; t < n; ++t)
         for (size_t k = 0; k < STRIP * here; ++k)
@@ -118,7 +118,7 @@ static icc_status update_strips(void *argument, size_t strip, size_t strips)
     for (size_t n; strip < strips; strip += n) {
         double *row = p->value + strip * STRIP * p->columns;
         const double *b = u->packed;
-        n = strip + 1 < strips ? 2 : 1;
+        n = iccp_strips_at_once(strips - strip);
         for (size_t j = u->begin; j < u->end && j < STRIP * (strip + n); j += ICCP_TILE)
             b = subtract(p, u->dense, row, n, j, u->end - j, u->first, u->begin, b);
     }
@@ -179,7 +179,8 @@ static size_t width_at(const block *b, size_t j)
     return b->end - j < ICCP_SQUARE ? b->end - j : ICCP_SQUARE;
 }
 
-/* Columns of the square at j, of n strips, 2 at most. Returns the next square's `packed`. */
+/* Columns of the square at j, of n strips, ICCP_STRIPS at most. Returns the next square's
+ * `packed`. */
 static const double *eliminate_strips(const block *b, size_t j, size_t strip, size_t n,
                                       const double *packed)
 {
@@ -219,7 +220,7 @@ static icc_status eliminate_below(void *argument, size_t strip, size_t strips)
     const block *b = argument;
     for (size_t n; strip < strips; strip += n) {
         const double *packed = b->packed;
-        n = strip + 1 < strips ? 2 : 1;
+        n = iccp_strips_at_once(strips - strip);
         for (size_t j = b->begin; j < b->end; j += ICCP_SQUARE)
             packed = eliminate_strips(b, j, strip, n, packed);
     }

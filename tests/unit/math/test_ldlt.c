@@ -96,17 +96,26 @@ static void fill(double *x, size_t n, random_source *r)
         x[i] = ldexp(random_between(r, -1, 1), random_below(r, 60) - 30);
 }
 
+/* For what this processor has, or less. */
+static iccp_dense dense_for_some(random_source *r)
+{
+    return iccp_dense_as((iccp_simd_level)random_below(r, (int)iccp_simd() + 1));
+}
+
 START_TEST(products_have_the_same_bits_everywhere)
 {
     enum { DEPTH = 70, STRIDE = 4 * DEPTH + 12, STRIP = 4 * ICCP_TILE };
     static const size_t WIDTHS[] = {1, 2, 4, 6};
-    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    const iccp_dense portable = iccp_dense_as(ICCP_SIMD_NONE);
     random_source r = {1};
     for (int k = 0; k < 3000; ++k) {
-        double a[2 * STRIDE], b[ICCP_TILE * DEPTH], x[2 * STRIP], y[2 * STRIP];
-        fill(a, 2 * STRIDE, &r);
+        const iccp_dense fast = dense_for_some(&r);
+        double a[ICCP_STRIPS * STRIDE], b[ICCP_TILE * DEPTH];
+        double x[ICCP_STRIPS * STRIP], y[ICCP_STRIPS * STRIP];
+        fill(a, ICCP_STRIPS * STRIDE, &r);
         fill(b, ICCP_TILE * DEPTH, &r);
-        const size_t width = WIDTHS[random_below(&r, 4)], n = 1 + (size_t)random_below(&r, 2);
+        const size_t width = WIDTHS[random_below(&r, 4)];
+        const size_t n = 1 + (size_t)random_below(&r, ICCP_STRIPS);
         const size_t depth = (size_t)random_below(&r, DEPTH + 1);
         portable.multiply(x, n, width, a, STRIDE, b, depth);
         fast.multiply(y, n, width, a, STRIDE, b, depth);
@@ -126,9 +135,10 @@ END_TEST
 START_TEST(quotients_have_the_same_bits_everywhere)
 {
     enum { STRIPS = 3, STRIDE = 28, N = STRIPS * STRIDE, SQUARE = ICCP_SQUARE * ICCP_SQUARE };
-    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    const iccp_dense portable = iccp_dense_as(ICCP_SIMD_NONE);
     random_source r = {2};
     for (int k = 0; k < 3000; ++k) {
+        const iccp_dense fast = dense_for_some(&r);
         double x[N], y[N], pivot[ICCP_SQUARE], scaled[SQUARE];
         fill(x, N, &r);
         fill(pivot, ICCP_SQUARE, &r);
@@ -147,9 +157,10 @@ END_TEST
 START_TEST(differences_have_the_same_bits_everywhere)
 {
     enum { STRIDE = 60, N = 2 * STRIDE, STRIP = 4 * ICCP_TILE };
-    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    const iccp_dense portable = iccp_dense_as(ICCP_SIMD_NONE);
     random_source r = {3};
     for (int k = 0; k < 3000; ++k) {
+        const iccp_dense fast = dense_for_some(&r);
         double x[N], y[N], z[N], tile[STRIP];
         uint32_t column[ICCP_TILE];
         const size_t width = 1 + (size_t)random_below(&r, ICCP_TILE);
@@ -174,9 +185,10 @@ END_TEST
 START_TEST(rows_spread_with_the_same_bits_everywhere)
 {
     enum { DEPTH = 30 };
-    const iccp_dense portable = iccp_dense_portable(), fast = iccp_dense_choose();
+    const iccp_dense portable = iccp_dense_as(ICCP_SIMD_NONE);
     random_source r = {4};
     for (int k = 0; k < 3000; ++k) {
+        const iccp_dense fast = dense_for_some(&r);
         double x[4 * DEPTH], y[4 * DEPTH], a[4 * DEPTH], rows[16];
         fill(x, 4 * DEPTH, &r);
         fill(a, 4 * DEPTH, &r);
