@@ -135,6 +135,7 @@ elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
     also "Debian packages" packages
+    also "JavaScript" sh bindings/js/test.sh
     if [ "$tier" = long ]; then
         also "other machines" sh tests/ports.sh --long
     else

@@ -130,7 +130,7 @@ static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *
         iccp_cuts cuts = {.memory = env->memory};
         iccp_plmap other = {.memory = env->memory};
         double energy;
-        const iccp_env part = iccp_round(env, tree, 2);
+        const iccp_env part = iccp_round(env, (size_t)tree, 2);
         status = try_tree(&other, &energy, &least, &cuts, scene, cutter, tree, work, &part);
         if (status == ICC_OK) {
             const double detour = iccp_max(detour_of(&cuts, 0), detour_of(&cuts, 1));

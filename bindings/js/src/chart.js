@@ -1,0 +1,66 @@
+// Charts: coordinates of the inside of a domain, a boundary point and a share of the way. See
+// icc_chart_create().
+import { Handle, flat } from './core.js';
+
+/** The infos that only charts of one method have; each is refused by charts of the others. */
+const INFOS = {
+  gradient: ['icc_chart_get_gradient_info'], field: ['icc_chart_get_field_info'],
+  foliation: ['icc_chart_get_foliation_info', 'icc_chart_get_shelling_info'],
+  disc: ['icc_chart_get_disc_info'],
+};
+
+/** The class Chart of an instance. */
+export function chartOf(core, Domain) {
+  return class Chart extends Handle {
+    /** domain: a Domain, or an outline; options as in icc_chart_options: { method: 'disc', ... }. */
+    constructor(domain, options = null, lender = null) {
+      super(core, typeof domain === 'number' ? domain
+        : Domain.with(domain, (d) => core.call('icc_chart_create', d, options)), 'icc_chart_free', lender);
+    }
+
+    static load(bytes) { return new Chart(core.call('icc_chart_load', bytes.length, bytes)); }
+    save() { return core.save('icc_chart_save', this); }
+
+    get info() { return core.info('icc_chart_get_info', this); }
+    get certified() { return this.info.certified === 1; }
+    get domain() { return new Domain(core.call('icc_chart_domain', this), this); }
+
+    /** What only charts of this method have. */
+    get details() {
+      const names = INFOS[this.info.method];
+      const { dim } = this.info;
+      return core.info(names[dim === 2 && this.domain.info.nMeshSimplices === 0 ? 0 : names.length - 1], this);
+    }
+
+    /** Estimates how much of the shape the coordinates miss, from about nPoints points. */
+    report(nPoints = 0) { return core.info('icc_chart_get_report', this, nPoints); }
+
+    /** Coordinates of points: { facet, bary, t, status }. */
+    encode(points) {
+      const p = flat(points), { dim } = this.info, n = p.length / dim;
+      const out = {
+        facet: new Uint32Array(n), bary: new Float64Array(n * dim), t: new Float64Array(n),
+        status: new Int32Array(n),
+      };
+      core.call('icc_chart_encode', this, n, p, out.facet, out.bary, out.t, out.status, null);
+      return out;
+    }
+
+    /** Points of coordinates: { points, status }. */
+    decode({ facet, bary, t }) {
+      const n = t.length;
+      const out = { points: new Float64Array(n * this.info.dim), status: new Int32Array(n) };
+      core.call('icc_chart_decode', this, n, facet, bary, t, out.points, out.status, null);
+      return out;
+    }
+
+    /** The curve through a point, from the boundary to the maximum: flat coordinates. */
+    trace(point) {
+      const p = flat(point), count = new Uint32Array(1);
+      core.call('icc_chart_trace', this, p, 0, null, count);
+      const curve = new Float64Array(count[0] * this.info.dim);
+      core.call('icc_chart_trace', this, p, count[0], curve, count);
+      return curve;
+    }
+  };
+}

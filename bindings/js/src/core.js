@@ -1,0 +1,139 @@
+// Calls of C functions by their declarations, and the objects that live behind them.
+import { functions } from './layouts.js';
+import { IccError } from './error.js';
+import { Memory } from './memory.js';
+
+const isCreated = ([name, type]) => name === 'out' && type.endsWith('**');
+const isImplicit = (parameter) => isCreated(parameter) || parameter[0] === 'env' || parameter[0] === 'err';
+/** Written by the call: copied back. */
+const isWritten = (type) => type.endsWith('*') && !type.startsWith('const ');
+
+/** How the arguments of a function are passed; worked out at its first call. */
+function plan(name) {
+  const [result, parameters] = functions[name];
+  return {
+    result,
+    steps: parameters.map(([key, type]) => ({
+      key, type, implicit: isImplicit([key, type]), copied: type.endsWith('*') && Memory.copies(type),
+      written: isWritten(type), handle: /^(const )?icc_\w+\*$/.test(type) && !Memory.copies(type),
+    })),
+  };
+}
+
+export class Core {
+  #c; #plans = new Map(); #registry = new FinalizationRegistry((drop) => drop());
+
+  constructor(exports) {
+    this.#c = exports;
+    this.memory = new Memory(exports);
+  }
+
+  /** Bytes of memory that the instance has. */
+  get bytes() { return this.#c.memory.buffer.byteLength; }
+
+  /**
+   * Calls a C function. Its arguments are those of C without `out`, `env` and `err`: numbers, handles,
+   * typed arrays and objects for structs; arrays and objects that C writes to are written to. Throws
+   * IccError unless the status is OK; gives the address that a creator wrote, or what C returned.
+   */
+  call(name, ...args) {
+    let p = this.#plans.get(name);
+    if (!p) this.#plans.set(name, p = plan(name));
+    return this.memory.scope(() => this.#run(name, p, args));
+  }
+
+  #run(name, { result, steps }, args) {
+    const m = this.memory;
+    const written = [];
+    let next = 0, created = 0, failure = 0;
+    const values = steps.map((step) => {
+      if (step.implicit) {
+        if (step.key === 'out') return created = m.put('uint32_t*', [0]);
+        return step.key === 'err' ? failure = m.put('icc_error*', {}) : 0;
+      }
+      const value = args[next++];
+      if (step.handle) return value === null || value === undefined ? 0 : value.address;
+      if (!step.copied) return step.type === 'uint64_t' ? BigInt(value) : value;
+      const at = m.put(step.type, value);
+      if (step.written && at !== 0) written.push([step.type, at, value]);
+      return at;
+    });
+    const returned = this.#c[name](...values);
+    if (result !== 'icc_status') return returned;
+    if (returned !== 0) throw new IccError(returned, failure === 0 ? {} : m.read('icc_error', failure));
+    for (const [type, at, value] of written) m.get(type, at, value);
+    return created === 0 ? undefined : m.view.getUint32(created, true);
+  }
+
+  /** The members that a function such as icc_map_get_info() fills in. */
+  info(name, ...args) {
+    const out = {};
+    this.call(name, ...args, out);
+    return out;
+  }
+
+  /** What a function such as icc_map_save() writes in two calls. */
+  save(name, handle) {
+    const size = new Uint32Array(1);
+    this.call(name, handle, 0, null, size);
+    const data = new Uint8Array(size[0]);
+    this.call(name, handle, data.length, data, size);
+    return data;
+  }
+
+  /** Frees `address` by `free` when `owner` is collected, unless forget(owner) comes first. */
+  own(owner, free, address) { this.#registry.register(owner, () => this.#c[free](address), owner); }
+  forget(owner) { this.#registry.unregister(owner); }
+  release(free, address) { this.#c[free](address); }
+}
+
+// Node and browsers of before 2024 have no Symbol.dispose.
+const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
+
+/** An object of C. It is owned, and freed by free(), or when nothing refers to it any more; or borrowed
+ *  from another one, which it keeps alive. */
+export class Handle {
+  #core; #address; #free; #lender;
+
+  constructor(core, address, free, lender = null) {
+    this.#core = core;
+    this.#address = address;
+    this.#free = free;
+    this.#lender = lender;
+    if (lender === null) core.own(this, free, address);
+  }
+
+  get core() { return this.#core; }
+
+  get address() {
+    if (this.#address === 0) throw new TypeError(`this ${this.constructor.name} has been freed`);
+    if (this.#lender !== null) void this.#lender.address;
+    return this.#address;
+  }
+
+  /** Gives the memory back now. What was made from the object stays. */
+  free() {
+    if (this.#address === 0) return;
+    if (this.#lender === null) {
+      this.#core.forget(this);
+      this.#core.release(this.#free, this.#address);
+    }
+    this.#address = 0;
+  }
+
+  [dispose]() { this.free(); }
+}
+
+/** Rows of coordinates, flat: from a typed array as it is, or from [[x, y], ...]. */
+export function flat(points) {
+  if (points instanceof Float64Array) return points;
+  return Float64Array.from(Array.isArray(points) ? points.flat() : points);
+}
+
+/** An array of n doubles: the caller's `out`, or a new one. */
+export function room(out, n, Type = Float64Array) {
+  if (out === undefined || out === null) return new Type(n);
+  if (!(out instanceof Type) || out.length !== n)
+    throw new TypeError(`out must be a ${Type.name} of length ${n}`);
+  return out;
+}

@@ -1,0 +1,133 @@
+// Domains: a boundary and what it encloses. See icc_domain_create() and its kin.
+import { Handle, flat } from './core.js';
+import { constantNames } from './names.js';
+
+const DEFECTS = constantNames('ICC_DEFECT_');
+
+const feature = (kind, points, radius = 0) => {
+  const vertices = flat(points);
+  return { kind, nVertices: vertices.length / 2, vertices, radius };
+};
+
+/** The features of a shape, in the order holes, lines, points. */
+function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
+  return [...holes.map((ring) => feature('hole', ring)), ...lines.map((line) => feature('line', line)),
+    ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
+}
+
+/** The class Domain of an instance. */
+export function domainOf(core) {
+  return class Domain extends Handle {
+    constructor(address, lender = null) { super(core, address, 'icc_domain_free', lender); }
+
+    /** A simple polygon, and what is inside: { holes, lines, points, radii }. */
+    static polygon(outline, features = {}) {
+      const outer = flat(outline);
+      const inside = featuresOf(features);
+      return new Domain(inside.length === 0
+        ? core.call('icc_domain_create', 2, outer.length / 2, outer, 0, null)
+        : core.call('icc_domain_create_features', outer.length / 2, outer, inside.length, inside));
+    }
+
+    /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
+    static surface(vertices, facets, dim = 3) {
+      const v = flat(vertices), f = Uint32Array.from(facets.flat?.() ?? facets);
+      return new Domain(core.call('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
+    }
+
+    /** A conforming mesh of the inside; `facets` may say in which order the boundary's are wanted. */
+    static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
+      const v = flat(vertices), s = Uint32Array.from(simplices.flat?.() ?? simplices);
+      const f = facets === null ? null : Uint32Array.from(facets.flat?.() ?? facets);
+      return new Domain(core.call('icc_domain_create_mesh', dim, v.length / dim, v, s.length / (dim + 1), s,
+        f === null ? 0 : f.length / dim, f));
+    }
+
+    /** A mask of cells: `shape` cells along the axes, the first axis fastest. */
+    static mask(shape, cells) {
+      const n = shape.reduce((product, side) => product * side, 1);
+      if (cells.length !== n) throw new TypeError(`${cells.length} cells are not the ${n} of the shape`);
+      return new Domain(core.call('icc_domain_create_mask', shape.length, Uint32Array.from(shape), cells));
+    }
+
+    /** The shape itself: a Domain as it is, an outline as a polygon; `work` gets it, and what was made
+     *  here is freed. */
+    static with(shape, work) {
+      if (shape instanceof Domain) return work(shape);
+      const made = Domain.polygon(shape);
+      try {
+        return work(made);
+      } finally {
+        made.free();
+      }
+    }
+
+    get info() { return core.info('icc_domain_get_info', this); }
+
+    /** The domain of a surface in space, filled with tetrahedra: { ratio, maxPoints }. */
+    fill(options = null) { return new Domain(core.call('icc_domain_fill', this, options)); }
+
+    /** The boundary as it was given, with the vertices of all features: { vertices, facets }. */
+    boundary() {
+      const { dim, nVertices, nFacets } = this.info;
+      const out = { vertices: new Float64Array(nVertices * dim), facets: new Uint32Array(nFacets * dim) };
+      core.call('icc_domain_get_boundary', this, out.vertices, out.facets);
+      return out;
+    }
+
+    /** The mesh of the inside, if it has one: { vertices, simplices }. */
+    mesh() {
+      const { dim, nMeshVertices, nMeshSimplices } = this.info;
+      const out = {
+        vertices: new Float64Array(nMeshVertices * dim),
+        simplices: new Uint32Array(nMeshSimplices * (dim + 1)),
+      };
+      core.call('icc_domain_get_mesh', this, out.vertices, out.simplices);
+      return out;
+    }
+
+    /** The features inside: [{ kind, orientation, firstVertex, nVertices, firstFacet }]. */
+    features() {
+      return Array.from({ length: this.info.nFeatures }, (_, i) => core.info('icc_domain_get_feature', this, i));
+    }
+
+    /** Where points lie: { where: [1 inside, 2 on the boundary, 3 outside], facet, bary } with the nearest
+     *  facet and barycentric coordinates of the nearest point on it. */
+    locate(points) {
+      const p = flat(points), { dim } = this.info, n = p.length / dim;
+      const out = { where: new Int32Array(n), facet: new Uint32Array(n), bary: new Float64Array(n * dim) };
+      core.call('icc_domain_locate', this, n, p, out.where, out.facet, out.bary);
+      return out;
+    }
+  };
+}
+
+/** Functions about boundaries and masks. */
+export function shapesOf(core) {
+  return {
+    /** What keeps a closed polygon from being a boundary: [{ kind, a, b }], all of it. */
+    boundaryDefects(outline) {
+      const p = flat(outline), count = new Uint32Array(1);
+      core.call('icc_boundary_defects', p.length / 2, p, 0, null, null, count);
+      const kinds = new Int32Array(count[0]), items = new Uint32Array(2 * count[0]);
+      core.call('icc_boundary_defects', p.length / 2, p, count[0], kinds, items, count);
+      return Array.from(kinds, (kind, i) => (
+        { kind: DEFECTS.get(kind).toLowerCase(), a: items[2 * i], b: items[2 * i + 1] }));
+    },
+
+    /** Fills cells of a mask where others touch at an edge or a corner only; gives how many. */
+    repairMask(shape, cells) {
+      const filled = new Uint32Array(1);
+      core.call('icc_mask_repair', shape.length, Uint32Array.from(shape), cells, filled);
+      return filled[0];
+    },
+
+    /** A constrained Delaunay triangulation of a simple polygon and points inside it. */
+    triangulate(nBoundary, points) {
+      const p = flat(points), n = p.length / 2;
+      const triangles = new Uint32Array(3 * (2 * n - 2 - nBoundary));
+      core.call('icc_triangulate', nBoundary, n, p, triangles);
+      return triangles;
+    },
+  };
+}

@@ -1,0 +1,173 @@
+// Kernel coordinates: blending weights for handles. See icc/kernel.h.
+import { Handle, flat, room } from './core.js';
+import { constantOf } from './names.js';
+
+const methodNumber = (method) => (typeof method === 'string' ? constantOf('ICC_WEIGHTS_', method) : method);
+
+/** The classes Shape, Sampling, Weights, Binding and Pose of an instance. */
+export function kernelOf(core) {
+  class Shape extends Handle {
+    /** Regions are Domains; curves are { vertices, segments }. */
+    constructor(regions, { vertices = [], segments = [], dim = regions[0]?.info.dim ?? 2 } = {}) {
+      const v = flat(vertices), s = Uint32Array.from(segments.flat?.() ?? segments);
+      super(core, core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s),
+        'icc_shape_free');
+      this.dim = dim;
+    }
+  }
+
+  class Sampling extends Handle {
+    /** options as in icc_sampling_options: { kind: 'blue', spacing, fixed, ... }. */
+    constructor(shape, options = null) {
+      super(core, typeof shape === 'number' ? shape
+        : core.call('icc_sampling_create', shape, withCount(options, 'fixed', 'nFixed', shape.dim)), 'icc_sampling_free');
+    }
+
+    static fromPoints(shape, points) {
+      const p = flat(points);
+      return new Sampling(core.call('icc_sampling_create_from_points', shape, p.length / shape.dim, p));
+    }
+
+    static load(bytes) { return new Sampling(core.call('icc_sampling_load', bytes.length, bytes)); }
+    save() { return core.save('icc_sampling_save', this); }
+    get info() { return core.info('icc_sampling_get_info', this); }
+
+    points() {
+      const { dim, nSamples } = this.info, out = new Float64Array(nSamples * dim);
+      core.call('icc_sampling_get_points', this, out);
+      return out;
+    }
+  }
+
+  class Weights extends Handle {
+    /** options as in icc_weights_options: { method: 'qp', edges, lines: [{ from, to, parallel }], ... }. */
+    constructor(sampling, handles, options = null) {
+      super(core, typeof sampling === 'number' ? sampling : made(sampling, flat(handles), options), 'icc_weights_free');
+    }
+
+    get info() { return core.info('icc_weights_get_info', this); }
+
+    /** The places that carry weights: { points, initial, values, status }. */
+    nodes() {
+      const { dim, nNodes, nHandles } = this.info;
+      const out = {
+        points: new Float64Array(nNodes * dim), initial: new Float64Array(nNodes * nHandles),
+        values: new Float64Array(nNodes * nHandles), status: new Int32Array(nNodes),
+      };
+      core.call('icc_weights_get_nodes', this, out.points, out.initial, out.values, out.status);
+      return out;
+    }
+
+    /** Weights of all handles at points, point after point. */
+    evaluate(points, { out, gradients = null } = {}) {
+      const p = flat(points), { dim, nHandles } = this.info, n = p.length / dim;
+      const values = room(out, n * nHandles);
+      core.call('icc_weights_evaluate', this, n, p, values, gradients, null, null);
+      return values;
+    }
+
+    report(points) {
+      const p = flat(points);
+      return core.info('icc_weights_get_report', this, p.length / this.info.dim, p);
+    }
+
+    /** New weights, with a brush applied to a handle's. */
+    paint(handle, centre, radius, amount) {
+      return new Weights(core.call('icc_weights_paint', this, handle, flat(centre), radius, amount));
+    }
+
+    /** New weights, with given initial ones at some nodes. */
+    repaint(nodes, values) {
+      return new Weights(core.call('icc_weights_repaint', this, nodes.length, nodes, flat(values)));
+    }
+
+    withMethod(method) { return new Weights(core.call('icc_weights_with_method', this, methodNumber(method))); }
+
+    /** New weights, with a part that moves as if it were rigid, and what was minimised: { weights, energy }. */
+    stiffen(nodes, rigidity = null) {
+      const energy = new Float64Array(2);
+      const address = core.call('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);
+      return { weights: new Weights(address), energy };
+    }
+
+    /** Points with their weights, for repeated poses. */
+    bind(points, options) { return new Binding(this, points, options); }
+  }
+
+  class Binding extends Handle {
+    constructor(weights, points, { derivatives = false } = {}) {
+      super(core, typeof weights === 'number' ? weights : bound(weights, flat(points), derivatives), 'icc_binding_free');
+    }
+
+    static load(bytes) { return new Binding(core.call('icc_binding_load', bytes.length, bytes)); }
+    save() { return core.save('icc_binding_save', this); }
+
+    get info() {
+      const points = new Uint32Array(1), handles = new Uint32Array(1), dim = new Int32Array(1);
+      core.call('icc_binding_get_counts', this, points, handles, dim);
+      return { nPoints: points[0], nHandles: handles[0], dim: dim[0] };
+    }
+
+    /** What was bound: { handles, weights }. */
+    weights() {
+      const { nPoints, nHandles, dim } = this.info;
+      const out = { handles: new Float64Array(nHandles * dim), weights: new Float64Array(nPoints * nHandles) };
+      core.call('icc_binding_get_weights', this, out.handles, out.weights);
+      return out;
+    }
+
+    /** The points under a Pose; `jacobians` takes derivatives, if the binding has them. */
+    pose(pose, { out, jacobians = null } = {}) {
+      const { nPoints, dim } = this.info, images = room(out, nPoints * dim);
+      core.call('icc_binding_pose', this, pose.transforms, images, jacobians);
+      return images;
+    }
+  }
+
+  /** A transform for each handle; it may be changed. */
+  class Pose {
+    constructor(handles, dim = 2) {
+      this.dim = dim;
+      this.handles = flat(handles).slice();
+      this.transforms = new Float64Array(this.handles.length * (dim + 1));
+      this.reset();
+    }
+
+    reset() { core.call('icc_pose_reset', this.dim, this.handles.length / this.dim, this.transforms); return this; }
+
+    #of(handle) {
+      const n = this.dim * (this.dim + 1);
+      if (!(handle >= 0 && handle * this.dim < this.handles.length)) throw new RangeError(`there is no handle ${handle}`);
+      return this.transforms.subarray(handle * n, (handle + 1) * n);
+    }
+
+    move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), flat(offset)); return this; }
+
+    /** Radians, counter-clockwise with y upwards; in space about an axis. */
+    turn(handle, angle, axis = null) {
+      const at = this.handles.subarray(handle * this.dim, (handle + 1) * this.dim);
+      core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : flat(axis), angle);
+      return this;
+    }
+  }
+
+  function withCount(options, member, count, width) {
+    if (!options?.[member]) return options;
+    const values = flat(options[member]);
+    return { ...options, [member]: values, [count]: values.length / width };
+  }
+
+  function made(sampling, handles, options) {
+    let o = options ?? {};
+    if (o.edges) o = { ...o, edges: Uint32Array.from(o.edges.flat()) };
+    if (o.edges) o.nEdges = o.edges.length / 2;
+    if (o.lines) o = { ...o, nLines: o.lines.length };
+    return core.call('icc_weights_create', sampling, handles.length / sampling.info.dim, handles, o);
+  }
+
+  function bound(weights, points, derivatives) {
+    return core.call('icc_binding_create', weights, points.length / weights.info.dim, points, Number(derivatives));
+  }
+
+  return { Shape, Sampling, Weights, Binding, Pose };
+}

@@ -1,0 +1,124 @@
+// Maps from one domain to another. See icc_map_create().
+import { Handle, flat, room } from './core.js';
+
+const CHANNELS = 4; // of ImageData: red, green, blue, opacity
+
+/** A picture as ImageData has them, as icc_picture. */
+const picture = ({ width, height, data }) => ({
+  width, height, channels: CHANNELS, bytes: 1, alpha: 1, stride: CHANNELS * width, pixels: bytesOf(data),
+});
+const bytesOf = (data) => new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
+
+/** The class Map of an instance. */
+export function mapOf(core, Domain, Chart) {
+  class Map extends Handle {
+    /** source, target: Domains, or outlines; options as in icc_map_options: { kind: 'mesh', chart: {...} }. */
+    constructor(source, target, options = null) {
+      super(core, typeof source === 'number' ? source
+        : Domain.with(source, (s) => Domain.with(target, (t) => core.call('icc_map_create', s, t, withTies(options)))),
+      'icc_map_free');
+    }
+
+    static fromCharts(source, target, options = null) {
+      return new Map(core.call('icc_map_create_from_charts', source, target, withTies(options)));
+    }
+
+    static load(bytes) { return new Map(core.call('icc_map_load', bytes.length, bytes)); }
+    save() { return core.save('icc_map_save', this); }
+
+    get info() { return core.info('icc_map_get_info', this); }
+    get certified() { return this.info.certified === 1; }
+    get sourceChart() { return this.#chart('icc_map_source_chart'); }
+    get targetChart() { return this.#chart('icc_map_target_chart'); }
+
+    #chart(name) {
+      const address = core.call(name, this);
+      return address === 0 ? null : new Chart(address, null, this);
+    }
+
+    /** A fairer map: { iterations, levels, tolerance }. */
+    improve(options = null) { return new Map(core.call('icc_map_improve', this, options, null)); }
+
+    /** The map to a target that has moved, in at most so many steps of improvement. */
+    retarget(target, iterations = 0) {
+      return Domain.with(target, (t) => new Map(core.call('icc_map_retarget', this, t, iterations)));
+    }
+
+    /** The mesh of a map of kind mesh: { vertices, images, simplices }. */
+    mesh() {
+      const { dim, nVertices, nSimplices } = this.info;
+      const out = {
+        vertices: new Float64Array(nVertices * dim), images: new Float64Array(nVertices * dim),
+        simplices: new Uint32Array(nSimplices * (dim + 1)),
+      };
+      core.call('icc_map_get_mesh', this, out.vertices, out.images, out.simplices);
+      return out;
+    }
+
+    /** Images of points; NaN where there is none. `out` takes them, `status` a status for each. */
+    apply(points, { out, status = null } = {}) { return this.#points('icc_map_apply', points, out, status, 1); }
+
+    /** Points of images. */
+    inverse(images, { out, status = null } = {}) {
+      return this.#points('icc_map_apply_inverse', images, out, status, 1);
+    }
+
+    /** Derivatives at points, dim * dim numbers each. */
+    jacobian(points, { out, status = null } = {}) {
+      return this.#points('icc_map_jacobian', points, out, status, this.info.dim);
+    }
+
+    #points(name, points, out, status, width) {
+      const p = flat(points), result = room(out, p.length * width);
+      core.call(name, this, p.length / this.info.dim, p, result, status, null);
+      return result;
+    }
+
+    /** Images of the vertices of a mesh, and whether they make a mesh: { images, certificate }. */
+    certify(vertices, simplices) { return this.#carry('icc_map_certify', vertices, simplices); }
+
+    /** The same, with the images of inner vertices moved until no simplex inverts. */
+    repair(vertices, simplices) { return this.#carry('icc_map_repair', vertices, simplices); }
+
+    #carry(name, vertices, simplices) {
+      const v = flat(vertices), { dim } = this.info, s = Uint32Array.from(simplices.flat?.() ?? simplices);
+      const images = new Float64Array(v.length), certificate = {};
+      core.call(name, this, v.length / dim, v, s.length / (dim + 1), s, images, certificate);
+      return { images, certificate };
+    }
+
+    /** Which way round one another features go: [{ vertex: [a, b], source, target, length }], with the
+     *  bends of ties in both. As options `ties` they make such a map again. */
+    ties() { return Array.from({ length: this.info.nTies }, (_, i) => this.#tie(i)); }
+
+    #tie(i) {
+      const info = {};
+      core.call('icc_map_get_tie', this, i, info, null, null);
+      const source = new Float64Array(2 * info.nSource), target = new Float64Array(2 * info.nTarget);
+      core.call('icc_map_get_tie', this, i, info, source, target);
+      return { vertex: info.vertex, source, target, length: info.length };
+    }
+
+    /** Warps a picture into another one; both as ImageData has them: { width, height, data }. */
+    warp(source, target) {
+      const pixels = bytesOf(target.data);
+      core.memory.scope(() => {
+        const address = core.memory.put('uint8_t*', pixels);
+        core.call('icc_map_warp', this, picture(source), { ...picture(target), pixels: address }, null);
+        pixels.set(core.memory.array(Uint8Array, address, pixels.length));
+      });
+      return target;
+    }
+  }
+
+  /** Ties are arrays of { vertex: [a, b], source, target }. */
+  function withTies(options) {
+    if (!options?.ties) return options;
+    const ties = options.ties.map(({ vertex, source = [], target = [] }) => {
+      const s = flat(source), t = flat(target);
+      return { vertex, nSource: s.length / 2, source: s, nTarget: t.length / 2, target: t };
+    });
+    return { ...options, nTies: ties.length, ties };
+  }
+  return Map;
+}

@@ -1,0 +1,152 @@
+// The memory of an instance: what the arguments of one call need, and structs in and out.
+import { structs as layouts } from './layouts.js';
+import { IccError } from './error.js';
+import { camel, numberOf, textOf } from './names.js';
+
+/** The layouts, with the members' names as JavaScript has them. */
+const structs = Object.fromEntries(Object.entries(layouts).map(([name, { size, members }]) => [name,
+  { size, members: Object.fromEntries(Object.entries(members).map(([key, at]) => [camel(key), at])) }]));
+
+const ARENA_BYTES = 1 << 16;
+const ALIGN = 8;
+const OUT_OF_MEMORY = 2;
+
+/** The typed array whose elements a C type has; void is bytes. */
+const ARRAYS = {
+  double: Float64Array, int32_t: Int32Array, icc_status: Int32Array, uint32_t: Uint32Array,
+  size_t: Uint32Array, uint8_t: Uint8Array, void: Uint8Array,
+};
+
+/** "const double*" -> "double". */
+export const pointee = (type) => type.replace(/^const /, '').replace(/(const)?\*$/, '').trim();
+
+export class Memory {
+  #c; #arena; #used = 0; #taken = []; #depth = 0; #view; #text = new TextDecoder();
+
+  constructor(exports) {
+    this.#c = exports;
+    this.#arena = exports.malloc(ARENA_BYTES);
+    this.#view = new DataView(exports.memory.buffer);
+  }
+
+  /** A view of all memory; made anew when that has grown. */
+  get view() {
+    if (this.#view.buffer !== this.#c.memory.buffer) this.#view = new DataView(this.#c.memory.buffer);
+    return this.#view;
+  }
+
+  array(Type, at, n) { return new Type(this.#c.memory.buffer, at, n); }
+
+  /** Runs `work`; what it takes is given back when it ends. Small things come from an arena. */
+  scope(work) {
+    const used = this.#used, taken = this.#taken.length;
+    ++this.#depth;
+    try {
+      return work();
+    } finally {
+      this.#used = used;
+      while (this.#taken.length > taken) this.#c.free(this.#taken.pop());
+      --this.#depth;
+    }
+  }
+
+  take(bytes) {
+    if (this.#depth === 0) throw new TypeError('memory is taken within a scope only');
+    const rounded = Math.ceil(Math.max(bytes, 1) / ALIGN) * ALIGN;
+    if (this.#used + rounded <= ARENA_BYTES) {
+      const at = this.#arena + this.#used;
+      this.#used += rounded;
+      return at;
+    }
+    const at = this.#c.malloc(rounded) >>> 0;
+    if (at === 0) throw new IccError(OUT_OF_MEMORY, { message: `there are no ${bytes} bytes of memory` });
+    this.#taken.push(at);
+    return at;
+  }
+
+  /** Copies an argument that C gets a pointer to: numbers, objects (structs) or handles. */
+  put(type, value) {
+    if (value === null || value === undefined) return 0;
+    const element = pointee(type);
+    if (element.endsWith('*')) return this.put('uint32_t*', Uint32Array.from(value, (x) => x.address));
+    if (structs[element]) return this.#putStructs(element, Array.isArray(value) ? value : [value]);
+    const Type = ARRAYS[element];
+    const values = value instanceof Type ? value
+      : Type.from(Array.isArray(value) ? value.flat() : value);
+    const at = this.take(values.byteLength);
+    this.array(Type, at, values.length).set(values);
+    return at;
+  }
+
+  #putStructs(name, values) {
+    const { size } = structs[name];
+    const at = this.take(size * values.length);
+    this.array(Uint8Array, at, size * values.length).fill(0);
+    values.forEach((value, i) => this.#putStruct(name, at + i * size, value));
+    return at;
+  }
+
+  #putStruct(name, at, value) {
+    const { size, members } = structs[name];
+    if (members.size) this.view.setUint32(at, size, true);
+    for (const [key, item] of Object.entries(value)) {
+      if (item === undefined || item === null) continue;
+      if (key === 'size' || !members[key]) throw new TypeError(`${name} has no member ${key}`);
+      const [offset, type] = members[key];
+      this.#putMember(type, at + offset, numberOf(name, key, item));
+    }
+  }
+
+  #putMember(type, at, value) {
+    const array = /^(\w+)\[(\d+)\]$/.exec(type);
+    if (array) {
+      const Type = ARRAYS[array[1]];
+      this.array(Type, at, Number(array[2])).set(value);
+    } else if (type.endsWith('*')) {
+      const pointer = typeof value === 'number' ? value : this.put(type, value);
+      this.view.setUint32(at, pointer, true);
+    } else if (type === 'double') this.view.setFloat64(at, value, true);
+    else if (type === 'uint64_t') this.view.setBigUint64(at, BigInt(value), true);
+    else if (type === 'int64_t') this.view.setBigInt64(at, BigInt(value), true);
+    else this.view.setInt32(at, Number(value), true);
+  }
+
+  /** The members of a struct that C has filled in; pointers are left out. */
+  read(name, at) {
+    const out = {};
+    for (const [key, [offset, type]] of Object.entries(structs[name].members))
+      if (key !== 'size' && !type.includes('*')) out[key] = textOf(name, key, this.#readMember(type, at + offset));
+    return out;
+  }
+
+  #readMember(type, at) {
+    const array = /^(\w+)\[(\d+)\]$/.exec(type);
+    if (array?.[1] === 'char') return this.string(at);
+    if (array) return Array.from(this.array(ARRAYS[array[1]], at, Number(array[2])));
+    switch (type) {
+      case 'double': return this.view.getFloat64(at, true);
+      case 'int64_t': return Number(this.view.getBigInt64(at, true));
+      case 'uint64_t': return Number(this.view.getBigUint64(at, true));
+      case 'size_t': case 'uint32_t': return this.view.getUint32(at, true);
+      default: return this.view.getInt32(at, true);
+    }
+  }
+
+  string(at) {
+    const bytes = this.array(Uint8Array, at, this.#c.memory.buffer.byteLength - at);
+    return this.#text.decode(bytes.slice(0, bytes.indexOf(0)));
+  }
+
+  /** Copies back what C has written into an argument that it got a pointer to. */
+  get(type, at, value) {
+    const element = pointee(type);
+    if (structs[element]) Object.assign(value, this.read(element, at));
+    else value.set(this.array(value.constructor, at, value.length));
+  }
+
+  /** True if a pointer of this type is one to values of the caller, to be copied. */
+  static copies(type) {
+    const element = pointee(type);
+    return Boolean(ARRAYS[element] || structs[element] || element.endsWith('*'));
+  }
+}

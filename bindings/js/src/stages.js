@@ -1,0 +1,96 @@
+// The stages of Integral Curve Coordinates by themselves: grid, tree, function. See icc/stages.h.
+import { Handle, flat } from './core.js';
+
+/** The classes Grid, Tree and GridFunction of an instance. */
+export function stagesOf(core) {
+  const copied = (Type, address, n) => (address === 0 ? null : core.memory.array(Type, address, n).slice());
+
+  class Grid extends Handle {
+    /** domain: a Domain; cells along its longest side. */
+    constructor(domain, cells = 0, lender = null) {
+      super(core, typeof domain === 'number' ? domain : core.call('icc_grid_create', domain, cells), 'icc_grid_free', lender);
+    }
+
+    /** A mask of vertices, the first axis fastest. */
+    static mask(shape, inside) {
+      return new Grid(core.call('icc_grid_create_mask', shape.length, Uint32Array.from(shape), inside));
+    }
+
+    get info() { return core.info('icc_grid_get_info', this); }
+    refine() { return new Grid(core.call('icc_grid_refine', this)); }
+    restrict(keep) { return new Grid(core.call('icc_grid_restrict', this, keep)); }
+
+    /** One byte per vertex, 1 inside. */
+    inside() { return copied(Uint8Array, core.call('icc_grid_inside', this), this.info.nVertices); }
+
+    /** The grassfire's maximum: { vertex, rounds }, with the round in which each vertex burns. */
+    findMaximum() {
+      const vertex = new Uint32Array(1), rounds = new Uint32Array(this.info.nVertices);
+      core.call('icc_grid_find_maximum', this, vertex, rounds);
+      return { vertex: vertex[0], rounds };
+    }
+
+    findNearest(point) {
+      const vertex = new Uint32Array(1);
+      core.call('icc_grid_find_nearest', this, flat(point), vertex);
+      return vertex[0];
+    }
+  }
+
+  class Tree extends Handle {
+    /** options as in icc_tree_options: { form: 'thesis', axisOrder }. */
+    constructor(grid, root, options = null, lender = null) {
+      super(core, typeof grid === 'number' ? grid : core.call('icc_tree_create', grid, root, options), 'icc_tree_free', lender);
+    }
+
+    get grid() { return new Grid(core.call('icc_tree_grid', this), 0, this); }
+    get root() { return core.call('icc_tree_root', this) >>> 0; }
+    get #n() { return this.grid.info.nVertices; }
+
+    /** The parent of each vertex; 4294967295 for those without. */
+    parents() { return copied(Uint32Array, core.call('icc_tree_parents', this), this.#n); }
+    generations() { return copied(Int32Array, core.call('icc_tree_generations', this), this.#n); }
+    report() { return core.info('icc_tree_get_report', this); }
+
+    /** An order of the vertices that has no critical one but the root: { rank, report }. */
+    grow(values = null) {
+      const rank = new Uint32Array(this.#n), report = {};
+      core.call('icc_tree_grow', this, values, rank, report);
+      return { rank, report };
+    }
+
+    rankReport(rank) { return core.info('icc_tree_get_rank_report', this, rank); }
+  }
+
+  class GridFunction extends Handle {
+    /** options as in icc_function_options: { function: 'laplace', constraints: 'all', ... }. */
+    constructor(tree, options = null, lender = null) {
+      super(core, typeof tree === 'number' ? tree : core.call('icc_function_create', tree, options), 'icc_function_free', lender);
+    }
+
+    /** The function of a chart of method gradient or field, or null. */
+    static ofChart(chart) {
+      const address = core.call('icc_chart_function', chart);
+      return address === 0 ? null : new GridFunction(address, null, chart);
+    }
+
+    get info() { return core.info('icc_function_get_info', this); }
+    get tree() { return new Tree(core.call('icc_function_tree', this), 0, null, this); }
+    get #n() { return this.tree.grid.info.nVertices; }
+
+    values() { return copied(Float64Array, core.call('icc_function_values', this), this.#n); }
+    logs() { return copied(Float64Array, core.call('icc_function_logs', this), this.#n); }
+    report() { return core.info('icc_function_get_report', this); }
+
+    /** Compression (1) and expansion (2) edges in the plane: { edges, kinds, tested }. */
+    edges() {
+      const count = new Uint32Array(1), tested = new Uint32Array(1);
+      core.call('icc_function_get_edges', this, 0, null, null, count, tested);
+      const edges = new Uint32Array(2 * count[0]), kinds = new Int32Array(count[0]);
+      core.call('icc_function_get_edges', this, count[0], edges, kinds, count, tested);
+      return { edges, kinds, tested: tested[0] };
+    }
+  }
+
+  return { Grid, Tree, GridFunction };
+}

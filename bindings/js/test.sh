@@ -1,0 +1,22 @@
+#!/bin/sh
+# Builds the npm package and tests it: the same bits as everywhere, and what its users call.
+# usage: bindings/js/test.sh    (installs clang, lld, wasi-libc and libclang-rt-dev-wasm32; needs node and npm)
+# ICC_MAPS=N in the environment: so many maps are made and freed (500).
+set -eu
+cd "$(dirname "$0")/../.."
+. cmake/deps.sh
+if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
+    echo "left out: node or npm is missing"
+    exit 77
+fi
+need clang lld wasi-libc libclang-rt-dev-wasm32
+mkdir -p build/wasm
+quietly build/wasm/configure.log cmake --preset wasm
+quietly build/wasm/build.log cmake --build --preset wasm --parallel "$(nproc)"
+run="node --no-warnings bindings/js/tools/run.js build/wasm/bindings/js/golden.wasm"
+for mode in objects results; do
+    # The command is a list of words.
+    # shellcheck disable=SC2086
+    sh tests/golden/check.sh tests/golden/$mode.txt $run $mode
+done
+ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test

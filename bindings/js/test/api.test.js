@@ -1,0 +1,142 @@
+// The package as its users see it. usage: ICC_PACKAGE=FOLDER node --test test
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import test from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const at = (file) => import(pathToFileURL(`${process.env.ICC_PACKAGE}/src/${file}`));
+const { load, IccError } = await at('index.js');
+const { structs, functions } = await at('layouts.js');
+const { ENUMERATIONS } = await at('names.js');
+const icc = await load();
+
+const SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]];
+const LEANING = [[0, 0], [4, 1], [5, 5], [-1, 4]];
+const CROSSED = [[0, 0], [4, 4], [4, 0], [0, 4]];
+const near = (a, b, tolerance = 1e-12) => {
+  assert.equal(a.length, b.length);
+  for (let i = 0; i < a.length; ++i) assert.ok(Math.abs(a[i] - b[i]) <= tolerance, `${a[i]} is not ${b[i]}`);
+};
+
+test('the module imports a clock only', () => {
+  const imports = WebAssembly.Module.imports(icc.module);
+  assert.deepEqual(imports.map(({ module, name }) => `${module}.${name}`), ['icc.clock']);
+});
+
+test('every public function is exported, and nearly all are called by the classes', () => {
+  const exported = new Set(WebAssembly.Module.exports(icc.module).map(({ name }) => name));
+  const names = Object.keys(functions);
+  assert.deepEqual(names.filter((name) => !exported.has(name)), []);
+  const folder = `${process.env.ICC_PACKAGE}/src`;
+  const code = fs.readdirSync(folder).filter((file) => file.endsWith('.js') && file !== 'layouts.js')
+    .map((file) => fs.readFileSync(`${folder}/${file}`, 'utf8')).join('\n');
+  const unused = names.filter((name) => !code.includes(`'${name}'`));
+  assert.ok(unused.length <= 0.05 * names.length, unused.join(' '));
+});
+
+test('members that hold words are members of the structs', () => {
+  for (const [struct, member] of ENUMERATIONS) assert.ok(structs[struct].members[member], `${struct}.${member}`);
+});
+
+test('a map takes points there and back, follows its target, and is saved', () => {
+  const map = new icc.Map(SQUARE, LEANING);
+  assert.equal(map.certified, true);
+  assert.equal(map.info.kind, 'mesh');
+  const points = Float64Array.of(1, 1, 2, 3, 3.5, 1.25);
+  const images = map.apply(points), out = new Float64Array(6);
+  assert.equal(map.inverse(images, { out }), out);
+  near(out, points);
+  assert.ok(Number.isNaN(map.apply([[9, 9]])[0]));
+  const moved = map.retarget([[0, 0], [4, 0.5], [5, 5], [-1, 4]]);
+  assert.equal(moved.certified, true);
+  assert.equal(moved.sourceChart, null);
+  assert.equal(map.sourceChart.info.method, 'disc');
+  assert.deepEqual(icc.Map.load(map.save()).apply(points), images);
+  const { vertices, simplices } = map.mesh();
+  assert.equal(map.certify(vertices, simplices).certificate.nInverted, 0);
+  const [a, b, c, d] = map.jacobian([[1.01, 1.02]]);
+  assert.ok(a * d - b * c > 0);
+});
+
+test('features go to their places', () => {
+  const inside = (x) => icc.Domain.polygon(SQUARE, {
+    points: [[x, 1]], lines: [[[2, 2], [3, 3]]], holes: [[[1, 2.5], [1.5, 2.5], [1.2, 3]]],
+  });
+  const map = new icc.Map(inside(1), inside(3));
+  assert.equal(map.certified, true);
+  near(map.apply([[1, 1]]), [3, 1]);
+  assert.equal(new icc.Map(inside(1), inside(3), { ties: map.ties() }).info.classKept, 1);
+});
+
+test('a picture is warped; the identity copies it', () => {
+  const data = Uint8ClampedArray.from({ length: 64 }, (_, i) => (i % 4 === 3 ? 255 : 3 * i));
+  const source = { width: 4, height: 4, data };
+  const target = { width: 4, height: 4, data: new Uint8ClampedArray(64) };
+  new icc.Map(SQUARE, SQUARE).warp(source, target);
+  assert.deepEqual(target.data, source.data);
+});
+
+test('a surface is filled, and mapped', () => {
+  const cube = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
+  const faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7],
+    [0, 4, 2], [2, 4, 6], [1, 3, 5], [3, 7, 5]];
+  const sheared = cube.map(([x, y, z]) => [x + z, y, z]);
+  const map = new icc.Map(icc.Domain.surface(cube, faces), icc.Domain.surface(sheared, faces));
+  assert.equal(map.certified, true);
+  near(map.apply([[0.5, 0.5, 0.5]]), [1, 0.5, 0.5], 0.2);
+  assert.ok(icc.Domain.surface(cube, faces).fill().info.nMeshSimplices >= 5);
+});
+
+test('charts, and the stages by themselves', () => {
+  const chart = new icc.Chart(SQUARE, { method: 'foliation' });
+  near(chart.decode(chart.encode([[1, 1]])).points, [1, 1]);
+  assert.ok(chart.trace([1, 1]).length > 4);
+  assert.ok(chart.details.nMeshSimplices > 0);
+  const grid = new icc.Grid(icc.Domain.polygon(SQUARE), 20);
+  const tree = new icc.Tree(grid, grid.findMaximum().vertex);
+  assert.equal(tree.report().nCousinViolations, 0);
+  const laplace = new icc.GridFunction(tree, { function: 'laplace' });
+  assert.equal(laplace.values()[tree.root], 1);
+  assert.equal(laplace.report().nMaxima, 1);
+});
+
+test('kernel coordinates: weights, poses, painting', () => {
+  const handles = [[1, 1], [3, 1], [2, 3]];
+  const shape = new icc.Shape([icc.Domain.polygon(SQUARE)]);
+  const sampling = new icc.Sampling(shape, { spacing: 0.3, fixed: handles });
+  const weights = new icc.Weights(sampling, handles, { method: 'qp', edges: [[0, 1]] });
+  const values = weights.evaluate([[2, 2]]);
+  near([values[0] + values[1] + values[2]], [1], 1e-9);
+  const binding = weights.bind([[2, 2]]), pose = new icc.Pose(handles);
+  near(binding.pose(pose), [2, 2], 1e-9);
+  for (const handle of [0, 1, 2]) pose.move(handle, [1, 0]);
+  near(binding.pose(pose), [3, 2], 1e-9);
+  assert.notDeepEqual(weights.paint(0, [2, 2], 1, 0.5).evaluate([[2, 2]]), values);
+  assert.equal(weights.withMethod('equality').info.method, 'equality');
+  assert.deepEqual(icc.Sampling.load(sampling.save()).points(), sampling.points());
+});
+
+test('errors name what is at fault', () => {
+  assert.throws(() => icc.Domain.polygon(CROSSED), (e) => e instanceof IccError && e.code === 'BOUNDARY' &&
+    e.item === 'facet' && e.index === 0 && /edges 0 and 2/.test(e.message));
+  assert.deepEqual(icc.boundaryDefects(CROSSED), [{ kind: 'crossing', a: 0, b: 2 }]);
+  assert.throws(() => new icc.Map(SQUARE, LEANING, { knid: 'mesh' }), /no member knid/);
+  assert.throws(() => new icc.Map(SQUARE, LEANING, { kind: 'mehs' }), /none of 'curves', 'mesh'/);
+  assert.throws(() => new icc.Map(SQUARE, LEANING).apply([[1, 1]], { out: new Float64Array(3) }), /length 2/);
+});
+
+test('what is freed is gone, and a loop of maps needs no more memory', () => {
+  const map = new icc.Map(SQUARE, LEANING);
+  map.free();
+  map.free();
+  assert.throws(() => map.info, /has been freed/);
+  const once = () => {
+    const made = new icc.Map(SQUARE, LEANING, { iterations: -1 });
+    made.apply([[1, 1]]);
+    made.free();
+  };
+  for (let i = 0; i < 20; ++i) once();
+  const before = icc.memoryBytes;
+  for (let i = 0; i < Number(process.env.ICC_MAPS ?? 500); ++i) once();
+  assert.equal(icc.memoryBytes, before);
+});

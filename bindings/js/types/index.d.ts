@@ -1,0 +1,165 @@
+/** Rows of coordinates: flat, or one array a point. */
+export type Points = Float64Array | readonly number[] | readonly (readonly number[])[];
+export type Indices = Uint32Array | readonly number[] | readonly (readonly number[])[];
+/** The members of a struct of C, in camel case. */
+export type Info = Record<string, any>;
+export type Options = Record<string, any>;
+/** Pixels as ImageData has them. */
+export interface Picture { width: number; height: number; data: Uint8ClampedArray | Uint8Array }
+export interface Results { out?: Float64Array; status?: Int32Array }
+export type Source = BufferSource | WebAssembly.Module | Response;
+
+export class IccError extends Error {
+  readonly code: string;
+  readonly index: number;
+  readonly item: string;
+  readonly side: 'source' | 'target' | null;
+}
+
+export interface Handle { free(): void }
+export interface Features {
+  holes?: readonly Points[]; lines?: readonly Points[]; points?: readonly Points[]; radii?: readonly number[];
+}
+
+export interface Domain extends Handle {
+  readonly info: Info;
+  fill(options?: Options): Domain;
+  boundary(): { vertices: Float64Array; facets: Uint32Array };
+  mesh(): { vertices: Float64Array; simplices: Uint32Array };
+  features(): Info[];
+  locate(points: Points): { where: Int32Array; facet: Uint32Array; bary: Float64Array };
+}
+export interface DomainClass {
+  polygon(outline: Points, features?: Features): Domain;
+  surface(vertices: Points, facets: Indices, dim?: number): Domain;
+  mesh(vertices: Points, simplices: Indices, options?: { dim?: number; facets?: Indices | null }): Domain;
+  mask(shape: readonly number[], cells: Uint8Array): Domain;
+}
+export type ShapeLike = Domain | Points;
+
+export interface Coordinates { facet: Uint32Array; bary: Float64Array; t: Float64Array }
+export interface Chart extends Handle {
+  readonly info: Info;
+  readonly details: Info;
+  readonly certified: boolean;
+  readonly domain: Domain;
+  report(nPoints?: number): Info;
+  encode(points: Points): Coordinates & { status: Int32Array };
+  decode(coordinates: Coordinates): { points: Float64Array; status: Int32Array };
+  trace(point: Points): Float64Array;
+  save(): Uint8Array;
+}
+export interface ChartClass { new (domain: ShapeLike, options?: Options | null): Chart; load(bytes: Uint8Array): Chart }
+
+export interface Tie { vertex: number[]; source: Float64Array; target: Float64Array; length: number[] }
+export interface Map extends Handle {
+  readonly info: Info;
+  readonly certified: boolean;
+  readonly sourceChart: Chart | null;
+  readonly targetChart: Chart | null;
+  improve(options?: Options | null): Map;
+  retarget(target: ShapeLike, iterations?: number): Map;
+  mesh(): { vertices: Float64Array; images: Float64Array; simplices: Uint32Array };
+  apply(points: Points, results?: Results): Float64Array;
+  inverse(images: Points, results?: Results): Float64Array;
+  jacobian(points: Points, results?: Results): Float64Array;
+  certify(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Info };
+  repair(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Info };
+  ties(): Tie[];
+  warp<P extends Picture>(source: Picture, target: P): P;
+  save(): Uint8Array;
+}
+export interface MapClass {
+  new (source: ShapeLike, target: ShapeLike, options?: Options | null): Map;
+  fromCharts(source: Chart, target: Chart, options?: Options | null): Map;
+  load(bytes: Uint8Array): Map;
+}
+
+export interface Shape extends Handle { readonly dim: number }
+export interface Sampling extends Handle { readonly info: Info; points(): Float64Array; save(): Uint8Array }
+export interface Weights extends Handle {
+  readonly info: Info;
+  nodes(): { points: Float64Array; initial: Float64Array; values: Float64Array; status: Int32Array };
+  evaluate(points: Points, results?: { out?: Float64Array; gradients?: Float64Array }): Float64Array;
+  report(points: Points): Info;
+  paint(handle: number, centre: Points, radius: number, amount: number): Weights;
+  repaint(nodes: Uint32Array, values: Points): Weights;
+  withMethod(method: string): Weights;
+  stiffen(nodes: Uint32Array, rigidity?: Float64Array | null): { weights: Weights; energy: Float64Array };
+  bind(points: Points, options?: { derivatives?: boolean }): Binding;
+}
+export interface Binding extends Handle {
+  readonly info: { nPoints: number; nHandles: number; dim: number };
+  weights(): { handles: Float64Array; weights: Float64Array };
+  pose(pose: Pose, results?: { out?: Float64Array; jacobians?: Float64Array }): Float64Array;
+  save(): Uint8Array;
+}
+export interface Pose {
+  readonly transforms: Float64Array;
+  reset(): Pose;
+  move(handle: number, offset: Points): Pose;
+  turn(handle: number, angle: number, axis?: Points | null): Pose;
+}
+export interface Grid extends Handle {
+  readonly info: Info;
+  refine(): Grid;
+  restrict(keep: Uint8Array): Grid;
+  inside(): Uint8Array;
+  findMaximum(): { vertex: number; rounds: Uint32Array };
+  findNearest(point: Points): number;
+}
+export interface Tree extends Handle {
+  readonly grid: Grid;
+  readonly root: number;
+  parents(): Uint32Array;
+  generations(): Int32Array;
+  report(): Info;
+  grow(values?: Float64Array | null): { rank: Uint32Array; report: Info };
+  rankReport(rank: Uint32Array): Info;
+}
+export interface GridFunction extends Handle {
+  readonly info: Info;
+  readonly tree: Tree;
+  values(): Float64Array;
+  logs(): Float64Array | null;
+  report(): Info;
+  edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
+}
+
+export interface Instance {
+  readonly module: WebAssembly.Module;
+  readonly Domain: DomainClass;
+  readonly Chart: ChartClass;
+  readonly Map: MapClass;
+  readonly Shape: new (regions: readonly Domain[], curves?: { vertices?: Points; segments?: Indices; dim?: number }) => Shape;
+  readonly Sampling: {
+    new (shape: Shape, options?: Options | null): Sampling;
+    fromPoints(shape: Shape, points: Points): Sampling;
+    load(bytes: Uint8Array): Sampling;
+  };
+  readonly Weights: new (sampling: Sampling, handles: Points, options?: Options | null) => Weights;
+  readonly Binding: {
+    new (weights: Weights, points: Points, options?: { derivatives?: boolean }): Binding;
+    load(bytes: Uint8Array): Binding;
+  };
+  readonly Pose: new (handles: Points, dim?: number) => Pose;
+  readonly Grid: { new (domain: Domain, cells?: number): Grid; mask(shape: readonly number[], inside: Uint8Array): Grid };
+  readonly Tree: new (grid: Grid, root: number, options?: Options | null) => Tree;
+  readonly GridFunction: {
+    new (tree: Tree, options?: Options | null): GridFunction;
+    ofChart(chart: Chart): GridFunction | null;
+  };
+  boundaryDefects(outline: Points): { kind: string; a: number; b: number }[];
+  repairMask(shape: readonly number[], cells: Uint8Array): number;
+  triangulate(nBoundary: number, points: Points): Uint32Array;
+  call(name: string, ...args: unknown[]): any;
+  readonly memoryBytes: number;
+  readonly version: string;
+  readonly versionNumber: number;
+  statusName(status: number): string;
+  codeOf(status: number): string;
+}
+
+/** Makes an instance of the library, with a memory of its own. */
+export function load(source?: Source | Promise<Source>): Promise<Instance>;
+export const constants: Readonly<Record<string, number>>;
