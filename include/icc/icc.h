@@ -994,10 +994,10 @@ typedef struct icc_map_info {
  * Kind mesh in 3-D starts from the source's mesh. Where that cannot be repaired, the map is the
  * inverse of one that starts from the target's mesh; where that cannot be either, points are added
  * to both. Every tetrahedron of a map of kind mesh is checked, exactly, before and after; that one
- * of these ways comes to a map is not guaranteed, only seen on all pairs tried but the very uneven
- * (docs/3d.md). Cost: Newton steps on all tetrahedra, at most 160 on each mesh, without what
- * crosses it from boundary to boundary in the second half; then 480 on each, which may grow to
- * twice as many tetrahedra meanwhile. Most maps take less than 20.
+ * of these ways comes to a map is not guaranteed, only seen on most pairs tried; docs/3d.md names
+ * them, and one that it was not seen on. Cost: Newton steps on all tetrahedra, at most 160 on each
+ * mesh, without what crosses it from boundary to boundary in the second half; then 480 on each,
+ * which may grow to twice as many tetrahedra meanwhile. Most maps take less than 20.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
