@@ -1,0 +1,388 @@
+// Mode cage: a picture, a cage around a part of it, and the map that follows the cage as it is dragged.
+import { button, download, draw, make, pick } from './dom.js';
+import { Drawing } from './drawing.js';
+import { cageSide } from './cage_side.js';
+import { readShape, writeGeoJson, writeText } from './formats.js';
+import { History } from './history.js';
+import { writeLink } from './link.js';
+import { foldedOf } from './mesh.js';
+import { Overlay } from './overlay.js';
+import { Panel } from './panel.js';
+import { SAMPLES } from './samples.js';
+import { boxOf, moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
+
+const FAINT = { light: [0.91, 0.91, 0.89, 0.72], dark: [0.07, 0.075, 0.08, 0.72] };
+const TOOLS = {
+  move: ['Move', 'M5 3l6 16 2.2-6.8L20 10z'], corner: ['Add corner', 'M4 18L12 6l8 12M12 3v6M9 6h6'],
+  hole: ['Hole', 'M12 4a8 8 0 1 0 .01 0M12 9a3 3 0 1 0 .01 0'], line: ['Line', 'M5 19L19 5M5 19h.01M19 5h.01'],
+  point: ['Pin', 'M12 21v-8M8 9a4 4 0 1 0 8 0a4 4 0 1 0-8 0'], remove: ['Remove', 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13'],
+  outline: ['New cage', 'M6 4l12 3 2 9-9 4-8-7z'],
+};
+
+export class CageMode {
+  view = { look: 'picture', mesh: false, compare: 'mean-value' };
+  #remote; #say; #changed; #history; #live; #mesh = null; #number = 0; #mapped = null; #tool = 'move'; #image; #name = '';
+  #drawings; #trouble = null; #buttons;
+  /** What a test looks at. */
+  stats = { frames: 0, uncertified: 0, folded: 0, other: 0, times: [], refused: 0 };
+
+  constructor(remote, { say, changed }) {
+    this.#remote = remote;
+    this.#say = say;
+    this.#changed = changed;
+    this.before = new Panel('Before');
+    this.after = new Panel('After');
+    this.other = new Panel('Compared');
+    this.after.element.classList.add('first');
+    this.#build();
+  }
+
+  #build() {
+    const acts = (side) => ({
+      grab: (handle) => this.#grab(side, handle), drag: (handle, by) => this.#drag(side, handle, by),
+      drop: () => this.#commit(), remove: (handle) => this.#remove(handle), add: (handle) => this.#add(handle),
+    });
+    this.overlays = { before: new Overlay(this.before, acts('source')), after: new Overlay(this.after, acts('target')),
+      other: new Overlay(this.other, {}) };
+    this.#drawings = ['before', 'after'].map((side) => new Drawing(this[side], this.overlays[side]));
+    for (const side of ['before', 'after']) this.#watch(side);
+    this.side = cageSide(this);
+    this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
+      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
+    const tools = make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Tools' },
+      ...this.#buttons.slice(0, 2), make('hr'), ...this.#buttons.slice(2, 5), make('hr'), ...this.#buttons.slice(5));
+    this.element = make('div', { class: 'mode cage' }, tools, make('div', { class: 'panels' },
+      this.after.element, this.before.element, this.other.element), this.side.element);
+  }
+
+  /* -------------------------------------------------------------- the document */
+
+  get #now() { return this.#history.now; }
+  get canUndo() { return this.#history?.canUndo ?? false; }
+  get canRedo() { return this.#history?.canRedo ?? false; }
+  get shapes() { return this.#now; }
+  get image() { return this.#image; }
+
+  sample(key) {
+    const [, paint, cage] = SAMPLES[key];
+    this.#name = key;
+    this.open(paint(), outlineOf(cage));
+  }
+
+  /** Shows a picture with a cage, and where that is now; without a cage, one round most of it. */
+  open(image, source = null, target = source) {
+    const { width: w, height: h } = image, inset = 0.1;
+    this.#image = image;
+    for (const panel of [this.before, this.after, this.other]) panel.picture(image);
+    if (!source) {
+      const corners = [[inset, inset], [1 - inset, inset], [1 - inset, 1 - inset], [inset, 1 - inset]];
+      source = target = outlineOf(corners.flatMap((a, k) => [0, 1, 2].map((i) =>
+        [w, h].map((size, axis) => size * (a[axis] + ((corners[(k + 1) % 4][axis] - a[axis]) * i) / 3)))));
+    }
+    this.side.sample.value = this.#name;
+    this.#begin(source, target);
+  }
+
+  #begin(source, target) {
+    this.#history = new History({ source, target, number: ++this.#number });
+    this.#mapped = null;
+    this.#mesh = null;
+    this.#go(this.#now, 'cage.create');
+  }
+
+  /** A new state, and its map. */
+  #push(source, target, operation) {
+    this.#go(this.#history.push({ source, target, number: ++this.#number }), operation);
+  }
+
+  #go(state, operation) {
+    this.#live = { source: state.source, target: state.target };
+    this.#showShapes();
+    this.#ask(operation, state.number);
+    this.#changed();
+  }
+
+  undo() { if (this.canUndo) this.#go(this.#history.undo(), 'cage.recall'); }
+  redo() { if (this.canRedo) this.#go(this.#history.redo(), 'cage.recall'); }
+  reset() { if (!same(this.#now.source, this.#now.target)) this.#push(this.#now.source, this.#now.source, 'cage.create'); }
+
+  /* -------------------------------------------------------------- the map */
+
+  #ask(operation, number) {
+    const { source, target } = this.#live;
+    const follows = operation === undefined && this.#mapped === source;
+    const name = operation ?? (follows ? 'cage.follow' : 'cage.create');
+    const args = { source, target, number, compare: this.view.compare };
+    this.#remote.latest('cage', name, args, (result) => this.#take(result, { source, target, number, name }));
+  }
+
+  #take(result, asked) {
+    this.#trouble = result.error ? result : null;
+    if (result.error) {
+      ++this.stats.refused;
+      // Features could not go straight there: a new map may go another way round.
+      if (asked.number !== undefined && asked.name === 'cage.follow' && result.error.code === 'CERTIFICATE')
+        this.#ask('cage.create', asked.number);
+    } else if (result.images) {
+      this.#mesh = { ...result, shape: asked };
+      this.#mapped = asked.source;
+      this.#count(this.#mesh);
+    }
+    this.render();
+  }
+
+  #count(mesh) {
+    const s = this.stats;
+    mesh.folded = foldedOf(mesh.vertices, mesh.images, mesh.simplices);
+    mesh.otherFolded = mesh.other ? foldedOf(mesh.vertices, mesh.other, mesh.simplices) : null;
+    ++s.frames;
+    s.uncertified += mesh.certified ? 0 : 1;
+    s.folded += mesh.folded.length / 3;
+    s.other = Math.max(s.other, (mesh.otherFolded?.length ?? 0) / 3);
+    s.times.push(mesh.ms);
+  }
+
+  improve() { this.#go(this.#history.push({ ...this.#now, number: ++this.#number }), 'cage.improve'); }
+
+  setView(change) {
+    Object.assign(this.view, change);
+    if (change.compare) this.#ask('cage.recall', this.#now.number);
+    this.render();
+  }
+
+  /* -------------------------------------------------------------- what is seen */
+
+  render() {
+    const started = performance.now(), mesh = this.#mesh, { look, compare } = this.view, lines = this.view.mesh;
+    const dark = matchMedia('(prefers-color-scheme: dark)').matches, whole = FAINT[dark ? 'dark' : 'light'];
+    this.other.element.hidden = compare === 'none';
+    if (mesh) {
+      const from = mesh.vertices, triangles = mesh.simplices;
+      this.before.show({ at: from, from, triangles }, { look: look === 'heat' ? 'picture' : look, mesh: lines, whole });
+      this.after.show({ at: mesh.images, from, triangles }, { look, mesh: lines });
+      if (mesh.other) this.other.show({ at: mesh.other, from, triangles: reached(mesh.other, triangles), folded: mesh.otherFolded },
+        { look, mesh: lines });
+    }
+    this.#showShapes();
+    this.#showCertificate();
+    this.stats.draw = performance.now() - started;
+  }
+
+  #showShapes() {
+    const { source, target } = this.#live, bad = this.#trouble;
+    const crossing = (list) => (list ?? []).filter((d) => d.kind === 'crossing' || d.kind === 'touch').flatMap((d) => [d.a, d.b]);
+    this.overlays.before.show(source, { bad: crossing(bad?.sourceDefects) });
+    this.overlays.after.show(target, { bad: crossing(bad?.targetDefects) });
+    this.overlays.other.show(this.#mesh?.shape.target ?? target, { editable: false });
+    this.side.pins.hidden = !source.some((part) => part.kind === 'point');
+  }
+
+  #showCertificate() {
+    const mesh = this.#mesh, { card } = this.side, { badge } = this.after;
+    const count = (n) => n.toLocaleString('en');
+    if (this.#trouble) {
+      card.set({ state: 'bad', title: 'No map to here', lines: [this.#reason(), ...(mesh ? ['The last good picture stays.'] : [])] });
+      [badge.dataset.state, badge.textContent] = ['bad', 'refused'];
+    } else if (mesh) {
+      const n = mesh.simplices.length / 3, folds = mesh.folded.length / 3;
+      card.set(mesh.certified
+        ? { state: 'good', title: 'Certified one-to-one', lines: [`${count(n)} triangles, each checked exactly; ${folds} folded`,
+          `mean distortion ${(mesh.energy / 4).toFixed(2)} (1 is rigid), made in ${mesh.ms.toFixed(1)} ms`] }
+        : { state: 'bad', title: 'Not certified', lines: [`${count(folds)} of ${count(n)} triangles folded`] });
+      [badge.dataset.state, badge.textContent] = mesh.certified ? ['good', `certified, ${folds} folded`] : ['bad', 'not certified'];
+    }
+    if (!mesh) return;
+    const other = this.other.badge, folds = mesh.otherFolded && mesh.otherFolded.length / 3;
+    this.other.element.querySelector('strong').textContent = this.side.compare.selectedOptions[0].textContent;
+    if (mesh.refused) [other.dataset.state, other.textContent] = ['', mesh.refused];
+    else if (folds !== null) [other.dataset.state, other.textContent] = [folds ? 'bad' : 'good', `${count(folds)} folded`];
+  }
+
+  #reason() {
+    const { error, sourceDefects, targetDefects } = this.#trouble;
+    const defect = [...sourceDefects, ...targetDefects].find((d) => d.kind === 'crossing' || d.kind === 'touch');
+    if (!defect) return `${error.message}.`;
+    return `Edges ${defect.a + 1} and ${defect.b + 1} ${defect.kind === 'crossing' ? 'cross' : 'touch'}.`;
+  }
+
+  /** The place under the pointer, in both pictures. */
+  #watch(side) {
+    const panel = this[side], forth = side === 'before', there = forth ? this.after : this.before;
+    const spot = (p, at) => draw('circle', { class: 'spot', cx: at[0], cy: at[1], r: 5 * p.unit });
+    const clear = () => { for (const s of ['before', 'after']) { this.overlays[s].mark(); this[s].note.textContent = ''; } };
+    panel.svg.addEventListener('pointerleave', clear);
+    panel.svg.addEventListener('pointermove', (event) => {
+      if (this.#drawings.some((d) => d.active) || Object.values(this.overlays).some((o) => o.busy)) return;
+      const at = panel.at(event);
+      this.#remote.latest('spot', 'cage.points', { points: Float64Array.from(at), forth }, ({ points }) => {
+        if (this.#drawings.some((d) => d.active)) return;
+        if (!points?.length || Number.isNaN(points[0])) { clear(); return; }
+        this.overlays[side].mark(spot(panel, at));
+        this.overlays[forth ? 'after' : 'before'].mark(spot(there, points));
+        const text = (p) => `${p[0].toFixed(1)}, ${p[1].toFixed(1)}`;
+        panel.note.textContent = text(at);
+        there.note.textContent = `${forth ? 'goes to' : 'comes from'} ${text(points)}`;
+      });
+    });
+  }
+
+  /* -------------------------------------------------------------- edits */
+
+  tool(key) {
+    this.#tool = key;
+    for (const b of this.#buttons) b.setAttribute('aria-pressed', b.dataset.tool === key);
+    for (const d of this.#drawings) d.end();
+    if (['hole', 'line', 'point', 'outline'].includes(key))
+      this.#drawings.forEach((d, k) => d.begin(key, (points) => this.#drawn(key, points, k === 0)));
+    if (key === 'corner') this.#drawings.forEach((d, k) => d.begin('point', ([p]) => this.#cornerAt(p, k === 0)));
+    this.#say({ hole: 'Click the corners of the hole; click the first again to close it.',
+      line: 'Click the points of the line; click the last again to end it.', point: 'Click where the pin is to be.',
+      outline: 'Click the corners of the new cage; click the first again to close it.', corner: 'Click beside an edge.',
+      remove: 'Click a corner, a pin or a line to remove it.' }[key] ?? '');
+  }
+
+  async #drawn(kind, points, before) {
+    this.tool('move');
+    if (kind === 'outline') { const shape = outlineOf(points); this.#push(shape, shape, 'cage.create'); return; }
+    const result = await this.#remote.call('cage.points', { points: Float64Array.from(points.flat()), forth: before });
+    const others = points.map((_, i) => [result.points[2 * i], result.points[2 * i + 1]]);
+    if (others.length === 0 || others.flat().some(Number.isNaN)) { this.#say('It has to lie inside the cage.'); return; }
+    const part = (p) => ({ kind, points: p, ...(kind === 'point' ? { radius: 0 } : {}) });
+    const { source, target } = this.#now;
+    this.#push(withPart(source, part(before ? points : others)), withPart(target, part(before ? others : points)), 'cage.create');
+  }
+
+  #cornerAt(at, before) {
+    const shape = before ? this.#now.source : this.#now.target;
+    const found = shape.map((part, k) => ({ k, ...(part.kind === 'point' ? { distance: Infinity } : nearestEdge(part, at)) }))
+      .sort((a, b) => a.distance - b.distance)[0];
+    this.#addAt(found.k, found.i, Math.min(0.9, Math.max(0.1, found.t)));
+  }
+
+  #add(handle) { if (handle.vertices) this.#addAt(handle.part, handle.vertices[0], 0.5); }
+
+  #addAt(k, i, t) {
+    const { source, target } = this.#now;
+    if (source[k].kind === 'point') return;
+    this.#push(withCorner(source, k, i, t), withCorner(target, k, i, t), 'cage.create');
+    this.overlays.after.focus(k, i + 1);
+  }
+
+  #remove({ part, type, vertices }) {
+    if (type === 'all' || type === 'edge') return;
+    const { source, target } = this.#now;
+    const without = (shape) => (type === 'part' ? shape.filter((_, k) => k !== part) : withoutVertex(shape, part, vertices[0]));
+    if (without(source) === null) { this.#say('A cage has three corners at least.'); return; }
+    this.#push(without(source), without(target), 'cage.create');
+  }
+
+  #grab(side, handle) {
+    if (this.#tool !== 'remove') return true;
+    this.#remove(handle);
+    return false;
+  }
+
+  /** In the picture before, what has not been moved yet moves in both. */
+  #drag(side, handle, by) {
+    const apply = (shape) => (handle.type === 'all' ? movedAll(shape, by) : moved(shape, handle.part, handle.vertices, by));
+    const { source, target } = this.#live;
+    if (side === 'target') this.#live = { source, target: apply(target) };
+    else this.#live = { source: apply(source), target: this.#together(handle) ? apply(target) : target };
+    this.#showShapes();
+    this.#ask();
+  }
+
+  #together({ type, part, vertices }) {
+    const { source, target } = this.#live;
+    if (type === 'all') return same(source, target);
+    const picked = (shape) => shape[part].points.filter((_, i) => vertices === null || vertices.includes(i));
+    return same(picked(source), picked(target));
+  }
+
+  #commit() {
+    const { source, target } = this.#live;
+    if (source === this.#now.source && target === this.#now.target) return;
+    this.#push(source, target, source === this.#mapped ? 'cage.follow' : 'cage.create');
+  }
+
+  pinSize(radius) {
+    const sized = (shape) => shape.map((part) => (part.kind === 'point' ? { ...part, radius } : part));
+    this.#push(sized(this.#now.source), sized(this.#now.target), 'cage.create');
+  }
+
+  /* -------------------------------------------------------------- files */
+
+  openPicture() { pick('image/*', (file) => this.take(file)); }
+  openCage() { pick('.txt,.json,.geojson,.svg', (file) => this.take(file)); }
+
+  /** A file that was opened, dropped or pasted: a picture or a cage. */
+  async take(file) {
+    try {
+      if (file.type.startsWith('image/') && file.type !== 'image/svg+xml') {
+        this.#name = '';
+        this.open(await createImageBitmap(file));
+      } else this.takeCage(await file.text());
+    } catch (error) {
+      this.#say(`${file.name || 'What was pasted'} could not be read. ${error.message}`);
+    }
+  }
+
+  /** A cage; scaled to the picture when it does not lie in it. */
+  takeCage(text) {
+    let shape = readShape(text, draw);
+    const { width: w, height: h } = this.#image;
+    const [left, top, right, bottom] = boxOf(shape.flatMap((part) => part.points));
+    if (left < -w || top < -h || right > 2 * w || bottom > 2 * h || Math.max(right - left, bottom - top) < w / 8) {
+      const scale = 0.8 * Math.min(w / (right - left), h / (bottom - top));
+      shape = shape.map((part) => ({ ...part, points: part.points.map(([x, y]) =>
+        [w / 2 + (x - (left + right) / 2) * scale, h / 2 + (y - (top + bottom) / 2) * scale]) }));
+    }
+    this.#push(shape, shape, 'cage.create');
+  }
+
+  saveCage(format) {
+    const { source, target } = this.#now;
+    const [write, ending, type] = format === 'text' ? [writeText, 'txt', 'text/plain'] : [writeGeoJson, 'geojson', 'application/geo+json'];
+    download(`before.${ending}`, write(source), type);
+    download(`after.${ending}`, write(target), type);
+  }
+
+  async savePicture() {
+    const { width, height } = this.#image;
+    const sheet = Object.assign(document.createElement('canvas'), { width, height }), g = sheet.getContext('2d');
+    g.drawImage(this.#image, 0, 0);
+    const picture = g.getImageData(0, 0, width, height);
+    const { pixels, error } = await this.#remote.call('cage.warp',
+      { picture: { width, height, data: picture.data }, width, height });
+    if (error) { this.#say(error.message); return; }
+    g.putImageData(new ImageData(pixels, width, height), 0, 0);
+    sheet.toBlob((blob) => download('warped.png', blob));
+  }
+
+  /** What a link has: the cages, and the picture if it is one of ours. */
+  get state() { return { mode: 'cage', sample: this.#name, source: this.#now.source, target: this.#now.target, view: this.view }; }
+
+  restore({ sample, source, target, view }) {
+    Object.assign(this.view, view);
+    this.#name = sample in SAMPLES ? sample : 'butterfly';
+    this.open(SAMPLES[this.#name][1](), source, target);
+  }
+
+  async copyLink() {
+    location.hash = await writeLink(this.state);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.#say('The link is copied. It holds the cages; a picture of your own stays with you.');
+    } catch {
+      this.#say('The link is in the address bar.');
+    }
+  }
+}
+
+/** Triangles all of whose corners have an image. */
+function reached(images, triangles) {
+  return triangles.every((i) => !Number.isNaN(images[2 * i])) ? triangles
+    : Uint32Array.from(Array.from({ length: triangles.length / 3 }, (_, t) => [...triangles.subarray(3 * t, 3 * t + 3)])
+      .filter((t) => t.every((i) => !Number.isNaN(images[2 * i]))).flat());
+}
+

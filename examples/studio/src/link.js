@@ -1,0 +1,25 @@
+// The state in the part of the address after '#': it stays in the browser.
+
+const base64 = (bytes) => btoa(String.fromCharCode(...bytes)).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
+const bytesOf = (text) => Uint8Array.from(atob(text.replaceAll('-', '+').replaceAll('_', '/')), (c) => c.charCodeAt(0));
+
+const through = async (bytes, stream) =>
+  new Uint8Array(await new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer());
+
+const rounded = (key, value) => (typeof value === 'number' ? Math.round(value * 100) / 100 : value);
+
+export async function writeLink(state) {
+  const bytes = new TextEncoder().encode(JSON.stringify(state, rounded));
+  return `#s=${base64(await through(bytes, new CompressionStream('deflate-raw')))}`;
+}
+
+/** The state of a link, or null where there is none that can be read. */
+export async function readLink(hash) {
+  if (!hash.startsWith('#s=')) return null;
+  try {
+    const bytes = await through(bytesOf(hash.slice(3)), new DecompressionStream('deflate-raw'));
+    return JSON.parse(new TextDecoder().decode(bytes));
+  } catch {
+    return null;
+  }
+}

@@ -1,0 +1,119 @@
+// The page: unpacks the library, starts the engine in a worker, shows one mode at a time.
+import { $, button, make } from './dom.js';
+import { CageMode } from './cage.js';
+import { readLink } from './link.js';
+import { Remote } from './remote.js';
+import { buffersOf, startEngine } from './engine.js';
+
+const UNDO = 'M8 5L4 9l4 4M4 9h9a6 6 0 0 1 0 12h-3', REDO = 'M16 5l4 4-4 4M20 9h-9a6 6 0 0 0 0 12h3';
+const MODES = { cage: 'Cage' };
+const SHOWN_MS = 5000;
+
+async function unpack(text) {
+  const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+}
+
+/** The worker: the same program, without a page. */
+function serve() {
+  let run = null;
+  const early = [];
+  const answer = ({ id, name, args }) => {
+    try {
+      const result = run(name, args);
+      globalThis.postMessage({ id, result }, buffersOf(result));
+    } catch (error) {
+      globalThis.postMessage({ id, failure: `${error.stack ?? error}` });
+    }
+  };
+  globalThis.onmessage = async ({ data }) => {
+    if (!data.module) { if (run) answer(data); else early.push(data); return; }
+    run = await startEngine(data.module);
+    early.splice(0).forEach(answer);
+  };
+}
+
+class Page {
+  #timer; #modes = {}; #mode = null;
+
+  constructor(remote) {
+    this.remote = remote;
+    const keys = { undo: [UNDO, 'Undo', 'Ctrl+Z'], redo: [REDO, 'Redo', 'Ctrl+Y'] };
+    $('history').append(...Object.entries(keys).map(([id, [path, text, key]]) =>
+      button(text, path, () => this.#mode[id](), { id, title: `${text} (${key})` })));
+    $('modes').append(...Object.entries(MODES).map(([key, text]) =>
+      button(text, null, () => this.show(key), { 'data-mode': key })));
+    document.addEventListener('keydown', (event) => this.#key(event));
+    this.#takeFiles();
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.#mode?.render());
+  }
+
+  say(text) {
+    clearTimeout(this.#timer);
+    $('toast').textContent = text;
+    if (text) this.#timer = setTimeout(() => { $('toast').textContent = ''; }, SHOWN_MS);
+  }
+
+  #make(key) {
+    const tools = { say: (text) => this.say(text), changed: () => this.#changed(), modes: this.#modes };
+    return new { cage: CageMode }[key](this.remote, tools);
+  }
+
+  show(key) {
+    const mode = this.#modes[key] ??= this.#make(key);
+    for (const b of $('modes').children) b.toggleAttribute('aria-current', false);
+    $('modes').querySelector(`[data-mode=${key}]`).setAttribute('aria-current', 'page');
+    $('main').replaceChildren(mode.element);
+    this.#mode = mode;
+    mode.enter?.();
+    this.#changed();
+    return mode;
+  }
+
+  #changed() {
+    $('undo').disabled = !this.#mode?.canUndo;
+    $('redo').disabled = !this.#mode?.canRedo;
+  }
+
+  #key(event) {
+    const key = event.key.toLowerCase();
+    if (event.key === 'Escape') this.#mode.tool?.('move');
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || !['z', 'y'].includes(key)) return;
+    event.preventDefault();
+    if (key === 'y' || event.shiftKey) this.#mode.redo(); else this.#mode.undo();
+  }
+
+  /** Files that are dropped or pasted. */
+  #takeFiles() {
+    const give = async (data) => {
+      const file = data.files[0];
+      if (file) await this.#mode.take?.(file);
+      else if (data.getData('text')) await this.#mode.take?.(new File([data.getData('text')], 'the text', { type: 'text/plain' }));
+    };
+    document.addEventListener('dragover', (e) => { e.preventDefault(); document.body.classList.add('dropping'); });
+    document.addEventListener('dragleave', (e) => e.relatedTarget ?? document.body.classList.remove('dropping'));
+    document.addEventListener('drop', (e) => {
+      e.preventDefault();
+      document.body.classList.remove('dropping');
+      give(e.dataTransfer);
+    });
+    document.addEventListener('paste', (e) => give(e.clipboardData));
+  }
+}
+
+async function start() {
+  try {
+    const module = await WebAssembly.compile(await unpack($('wasm').textContent));
+    const remote = await Remote.start(module, $('program').textContent, (failure) => { throw new Error(failure); });
+    const page = new Page(remote);
+    const state = await readLink(location.hash);
+    const cage = page.show('cage');
+    if (state?.mode === 'cage') cage.restore(state); else cage.sample('butterfly');
+    globalThis.studio = { page, remote, cage };
+  } catch (error) {
+    $('main').replaceChildren(make('p', { class: 'loading' }, `${error.message}`));
+    throw error;
+  }
+}
+
+if (typeof document === 'undefined') serve(); else start();

@@ -1,0 +1,159 @@
+// The handles of a shape on a panel: seen, dragged by mouse, touch and pen, moved by keys.
+import { draw } from './dom.js';
+import { CLOSED, centreOf, edgesOf } from './shape.js';
+
+const TARGET = 13;             // pixels from a handle within which a touch is one on it: 26 across
+const DOT = 5, SMALL = 3.2;
+const MOST_EDGES = 60;         // vertices of a part, beyond which edges have no handles
+const ROOM = 56;               // pixels that an edge needs for one
+const NAMES = { outline: 'corner', hole: 'hole corner', line: 'line point', point: 'pin' };
+const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+
+/**
+ * acts: { grab(handle), drag(handle, from, to), drop(handle), remove(handle), add(handle) }, where a handle
+ * is { type: 'vertex' | 'edge' | 'part' | 'all', part, vertices }.
+ */
+export class Overlay {
+  #panel; #acts; #shape = null; #handles = []; #held = new Map(); #paths = []; #marks; #bad = new Set();
+
+  constructor(panel, acts) {
+    this.#panel = panel;
+    this.#acts = acts;
+    this.#marks = draw('g', { class: 'marks' });
+    this.lines = draw('g', { class: 'lines' });
+    this.grips = draw('g', { class: 'grips' });
+    panel.svg.append(this.lines, this.#marks, this.grips);
+    panel.resized = () => this.#place();
+    const { svg } = panel;
+    svg.addEventListener('pointerdown', (e) => this.#down(e));
+    svg.addEventListener('pointermove', (e) => this.#move(e));
+    for (const end of ['pointerup', 'pointercancel']) svg.addEventListener(end, (e) => this.#up(e));
+    svg.addEventListener('keydown', (e) => this.#key(e));
+  }
+
+  get busy() { return this.#held.size > 0; }
+
+  /** Shows a shape. Elements are made anew only when its make-up changes. */
+  show(shape, { editable = true, bad = [] } = {}) {
+    const before = this.#shape;
+    const alike = before && editable === this.editable && before.length === shape.length
+      && before.every((part, k) => part.kind === shape[k].kind && part.points.length === shape[k].points.length);
+    this.#shape = shape;
+    this.editable = editable;
+    this.#bad = new Set(bad);
+    if (!alike) this.#build();
+    this.#place();
+  }
+
+  #build() {
+    this.#paths = this.#shape.map(({ kind }) => ['casing', ''].map((more) => draw('path', { class: `part ${kind} ${more}` })));
+    this.bad = draw('path', { class: 'part crossing' });
+    this.lines.replaceChildren(...this.#paths.flat(), this.bad);
+    this.#handles = [];
+    if (this.editable) this.#shape.forEach((part, k) => this.#buildPart(part, k));
+    if (this.editable) this.#grip({ type: 'all', part: 0, vertices: null }, 'move everything', 'all');
+    this.grips.replaceChildren(...this.#handles.map((handle) => handle.element));
+  }
+
+  #buildPart(part, k) {
+    const n = part.points.length;
+    if (n <= MOST_EDGES && part.kind !== 'point')
+      for (const [i, j] of edgesOf(part))
+        this.#grip({ type: 'edge', part: k, vertices: [i, j] }, `${part.kind} edge ${i + 1}`, 'edge');
+    if (k > 0 && n > 1) this.#grip({ type: 'part', part: k, vertices: null }, `move ${part.kind} ${k}`, 'whole');
+    part.points.forEach((_, i) => this.#grip({ type: 'vertex', part: k, vertices: [i] },
+      `${NAMES[part.kind]} ${part.kind === 'point' ? k : i + 1}`, part.kind));
+  }
+
+  #grip(handle, label, kind) {
+    const element = draw('g', {
+      class: `grip ${kind}`, tabindex: 0, role: 'button', 'aria-label': label,
+      'data-type': handle.type, 'data-part': handle.part, 'data-vertex': handle.vertices?.[0] ?? '',
+    }, draw('circle', { class: 'reach' }), draw(kind === 'all' || kind === 'whole' ? 'path' : 'circle', { class: 'dot' }));
+    handle.element = element;
+    element.handle = handle;
+    this.#handles.push(handle);
+  }
+
+  #place() {
+    if (!this.#shape) return;
+    const u = this.#panel.unit;
+    this.#shape.forEach(({ kind, points }, k) => {
+      const d = points.length < 2 ? '' : `M${points.map((p) => p.join()).join('L')}${CLOSED[kind] ? 'Z' : ''}`;
+      for (const path of this.#paths[k]) path.setAttribute('d', d);
+    });
+    const outline = this.#shape[0].points, n = outline.length;
+    this.bad?.setAttribute('d', [...this.#bad].filter((i) => i < n)
+      .map((i) => `M${outline[i].join()}L${outline[(i + 1) % n].join()}`).join(''));
+    for (const handle of this.#handles) this.#placeOne(handle, u);
+  }
+
+  #placeOne(handle, u) {
+    const { element, type, part, vertices } = handle, { points } = this.#shape[part];
+    const ends = vertices?.map((i) => points[i]);
+    const [x, y] = this.#centre(handle);
+    const [reach, dot] = element.children;
+    element.setAttribute('transform', `translate(${x} ${y}) scale(${u})`);
+    reach.setAttribute('r', TARGET);
+    if (type === 'vertex') dot.setAttribute('r', points.length > MOST_EDGES ? SMALL : DOT);
+    if (type === 'edge') {
+      dot.setAttribute('r', SMALL);
+      const room = Math.hypot(ends[0][0] - ends[1][0], ends[0][1] - ends[1][1]) / u > ROOM;
+      element.toggleAttribute('data-tight', !room);
+    }
+    if (type === 'part' || type === 'all') dot.setAttribute('d', 'M-7 0H7M0-7V7M-4-4l-3 4 3 4M4-4l3 4-3 4M-4-4l4-3 4 3M-4 4l4 3 4-3');
+  }
+
+  #centre({ type, part, vertices }) {
+    const { points } = this.#shape[part];
+    if (type === 'vertex') return points[vertices[0]];
+    if (type === 'edge') return centreOf(vertices.map((i) => points[i]));
+    return centreOf(points);
+  }
+
+  #down(event) {
+    const handle = event.target.closest?.('.grip')?.handle;
+    if (!handle || event.button > 0) return;
+    event.preventDefault();
+    handle.element.focus({ preventScroll: true });
+    this.#panel.svg.setPointerCapture(event.pointerId);
+    if (this.#acts.grab?.(handle, event) === false) return;
+    handle.element.classList.add('held');
+    this.#held.set(event.pointerId, { handle, at: this.#panel.at(event) });
+  }
+
+  #move(event) {
+    const held = this.#held.get(event.pointerId);
+    if (!held) return;
+    const at = this.#panel.at(event);
+    this.#acts.drag(held.handle, [at[0] - held.at[0], at[1] - held.at[1]]);
+    held.at = at;
+  }
+
+  #up(event) {
+    const held = this.#held.get(event.pointerId);
+    if (!held) return;
+    this.#held.delete(event.pointerId);
+    held.handle.element.classList.remove('held');
+    this.#acts.drop(held.handle);
+  }
+
+  #key(event) {
+    const handle = event.target.closest?.('.grip')?.handle, by = KEYS[event.key];
+    if (!handle || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (by) {
+      const step = (event.shiftKey ? 10 : 1) * Math.max(1, this.#panel.unit);
+      this.#acts.drag(handle, by.map((v) => v * step));
+      this.#acts.drop(handle);
+    } else if (event.key === 'Delete' || event.key === 'Backspace') this.#acts.remove?.(handle);
+    else if (event.key === '+' || event.key === 'Insert' || (event.key === 'Enter' && handle.type === 'edge')) this.#acts.add?.(handle);
+    else return;
+    event.preventDefault();
+  }
+
+  focus(part, vertex) { this.grips.querySelector(`[data-type=vertex][data-part="${part}"][data-vertex="${vertex}"]`)?.focus(); }
+
+  /** Something drawn on top: a dot under the pointer, a line that is being drawn. */
+  mark(...elements) { this.#marks.replaceChildren(...elements); }
+}
+

@@ -1,0 +1,98 @@
+// A panel: a picture by WebGL, and a drawing with handles on it, in the same coordinates.
+import { Renderer, WHAT } from './gl.js';
+import { draw, make } from './dom.js';
+import { energiesOf, linesOf } from './mesh.js';
+
+const MARGIN = 0.1;            // around the picture, as a share of its longer side
+const RED = [0.86, 0.16, 0.14, 0.92];
+
+export class Panel {
+  #stage; #image = null; #last = null;
+
+  constructor(title, { role = 'group' } = {}) {
+    this.canvas = make('canvas', { 'aria-hidden': 'true' });
+    this.svg = draw('svg', { class: 'overlay', role, 'aria-label': title });
+    this.note = make('span', { class: 'note' });
+    this.badge = make('output', { class: 'badge' });
+    this.#stage = make('div', { class: 'stage' }, this.canvas, this.svg);
+    this.element = make('figure', { class: 'panel' },
+      make('figcaption', {}, make('strong', {}, title), this.note, this.badge), this.#stage);
+    this.renderer = new Renderer(this.canvas, () => this.redraw());
+    this.box = [0, 0, 1, 1];
+    new ResizeObserver(() => { this.redraw(); this.resized?.(); }).observe(this.#stage);
+  }
+
+  /** The picture, and so what of the plane is seen. */
+  picture(image) {
+    const { width, height } = image, margin = MARGIN * Math.max(width, height);
+    this.#image = image;
+    this.renderer.picture(image);
+    this.look([-margin, -margin, width + 2 * margin, height + 2 * margin]);
+  }
+
+  look(box) {
+    this.box = box;
+    this.svg.setAttribute('viewBox', box.join(' '));
+    this.redraw();
+    this.resized?.();
+  }
+
+  /** How much of the plane a pixel of the screen is. */
+  get unit() {
+    const { clientWidth: w, clientHeight: h } = this.canvas;
+    return w && h ? 1 / Math.min(w / this.box[2], h / this.box[3]) : 1;
+  }
+
+  /** The place of an event in the plane. */
+  at(event) {
+    const r = this.svg.getBoundingClientRect(), u = this.unit;
+    return [this.box[0] + this.box[2] / 2 + (event.clientX - r.left - r.width / 2) * u,
+      this.box[1] + this.box[3] / 2 + (event.clientY - r.top - r.height / 2) * u];
+  }
+
+  /** Shows triangles: { at, from, triangles, folded, values } and how: { look, mesh, whole }. */
+  show(mesh, view) {
+    this.#last = [mesh, view];
+    this.redraw();
+  }
+
+  redraw() {
+    if (!this.#last || !this.#image) return;
+    const [{ at, from, triangles, folded, values }, view] = this.#last, r = this.renderer;
+    r.begin(this.box);
+    if (view.whole) this.#whole(view.whole);
+    if (!triangles) return;
+    const square = Math.max(this.#image.width, this.#image.height) / 32;
+    if (view.look === 'heat') this.#heat(at, from, triangles, view.energies);
+    else {
+      r.vertices(at, from, values);
+      r.draw(WHAT[view.look] ?? 0, triangles, { square, over: view.over ?? 1 });
+    }
+    if (view.look === 'heat') r.vertices(at, from);
+    if (view.mesh) r.draw(WHAT.flat, linesOf(triangles), { lines: true, colour: view.ink ?? [0.1, 0.3, 0.5, 0.45] });
+    if (folded?.length) r.draw(WHAT.flat, folded, { colour: RED });
+  }
+
+  /** All of the picture, faint. */
+  #whole(strength) {
+    const { width: w, height: h } = this.#image, corners = [0, 0, w, 0, w, h, 0, h];
+    this.renderer.vertices(corners, corners);
+    this.renderer.draw(WHAT.picture, Uint32Array.of(0, 1, 2, 0, 2, 3));
+    const [r, g, b] = strength;
+    this.renderer.draw(WHAT.flat, Uint32Array.of(0, 1, 2, 0, 2, 3), { colour: [r, g, b, strength[3]] });
+  }
+
+  /** The energy of each triangle as its colour: 4 is an isometry, 40 and more the far end. */
+  #heat(at, from, triangles, energies = energiesOf(from, at, triangles)) {
+    const n = triangles.length, p = new Float32Array(2 * n), q = new Float32Array(2 * n), v = new Float32Array(n);
+    for (let k = 0; k < n; ++k) {
+      const i = triangles[k];
+      p[2 * k] = at[2 * i]; p[2 * k + 1] = at[2 * i + 1];
+      q[2 * k] = from[2 * i]; q[2 * k + 1] = from[2 * i + 1];
+      v[k] = Math.log10(Math.max(energies[(k / 3) | 0], 4) / 4);
+    }
+    this.renderer.vertices(p, q, v);
+    this.renderer.draw(WHAT.values, Uint32Array.from({ length: n }, (_, k) => k), { over: 0.86 });
+  }
+}
+
