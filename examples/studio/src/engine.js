@@ -3,12 +3,15 @@
 import { load } from 'libicc';
 import { plain } from './errors.js';
 import { cageOperations } from './cage_engine.js';
+import { handleOperations } from './handle_engine.js';
+import { stageOperations } from './stage_engine.js';
+import { spaceOperations } from './space_engine.js';
 
 /** Runs operations by their names. An error of the library is a result, too: { error }. */
 export async function startEngine(module) {
   const icc = await load(module);
   const operations = {
-    ...cageOperations(icc),
+    ...cageOperations(icc), ...handleOperations(icc), ...stageOperations(icc), ...spaceOperations(icc),
     version: () => ({ version: icc.version }),
   };
   return (name, args) => {

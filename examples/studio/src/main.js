@@ -1,12 +1,15 @@
 // The page: unpacks the library, starts the engine in a worker, shows one mode at a time.
 import { $, button, make } from './dom.js';
 import { CageMode } from './cage.js';
+import { HandleMode } from './handles.js';
+import { StageMode } from './stages.js';
+import { SpaceMode } from './space.js';
 import { readLink } from './link.js';
 import { Remote } from './remote.js';
 import { buffersOf, startEngine } from './engine.js';
 
 const UNDO = 'M8 5L4 9l4 4M4 9h9a6 6 0 0 1 0 12h-3', REDO = 'M16 5l4 4-4 4M20 9h-9a6 6 0 0 0 0 12h3';
-const MODES = { cage: 'Cage' };
+const MODES = { cage: ['Cage', CageMode], handles: ['Handles', HandleMode], stages: ['Stages', StageMode], space: ['Space', SpaceMode] };
 const SHOWN_MS = 5000;
 
 async function unpack(text) {
@@ -34,14 +37,15 @@ function serve() {
 }
 
 class Page {
-  #timer; #modes = {}; #mode = null;
+  #timer; #mode = null;
+  modes = {};
 
   constructor(remote) {
     this.remote = remote;
     const keys = { undo: [UNDO, 'Undo', 'Ctrl+Z'], redo: [REDO, 'Redo', 'Ctrl+Y'] };
     $('history').append(...Object.entries(keys).map(([id, [path, text, key]]) =>
       button(text, path, () => this.#mode[id](), { id, title: `${text} (${key})` })));
-    $('modes').append(...Object.entries(MODES).map(([key, text]) =>
+    $('modes').append(...Object.entries(MODES).map(([key, [text]]) =>
       button(text, null, () => this.show(key), { 'data-mode': key })));
     document.addEventListener('keydown', (event) => this.#key(event));
     this.#takeFiles();
@@ -55,12 +59,12 @@ class Page {
   }
 
   #make(key) {
-    const tools = { say: (text) => this.say(text), changed: () => this.#changed(), modes: this.#modes };
-    return new { cage: CageMode }[key](this.remote, tools);
+    const tools = { say: (text) => this.say(text), changed: () => this.#changed(), modes: this.modes };
+    return new MODES[key][1](this.remote, tools);
   }
 
   show(key) {
-    const mode = this.#modes[key] ??= this.#make(key);
+    const mode = this.modes[key] ??= this.#make(key);
     for (const b of $('modes').children) b.toggleAttribute('aria-current', false);
     $('modes').querySelector(`[data-mode=${key}]`).setAttribute('aria-current', 'page');
     $('main').replaceChildren(mode.element);
@@ -109,7 +113,7 @@ async function start() {
     const state = await readLink(location.hash);
     const cage = page.show('cage');
     if (state?.mode === 'cage') cage.restore(state); else cage.sample('butterfly');
-    globalThis.studio = { page, remote, cage };
+    globalThis.studio = { page, remote, cage, modes: page.modes };
   } catch (error) {
     $('main').replaceChildren(make('p', { class: 'loading' }, `${error.message}`));
     throw error;

@@ -6,12 +6,15 @@ const TARGET = 13;             // pixels from a handle within which a touch is o
 const DOT = 5, SMALL = 3.2;
 const MOST_EDGES = 60;         // vertices of a part, beyond which edges have no handles
 const ROOM = 56;               // pixels that an edge needs for one
+const TURN = 0.01;             // radians that a pixel turns
+const STEP = Math.PI / 36;     // and a key
 const NAMES = { outline: 'corner', hole: 'hole corner', line: 'line point', point: 'pin' };
 const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /**
- * acts: { grab(handle), drag(handle, from, to), drop(handle), remove(handle), add(handle) }, where a handle
- * is { type: 'vertex' | 'edge' | 'part' | 'all', part, vertices }.
+ * acts: { grab(handle), drag(handle, by), turn(handle, angle), drop(handle), remove(handle), add(handle) },
+ * where a handle is { type: 'vertex' | 'edge' | 'part' | 'all', part, vertices }. Handles turn by the right
+ * button, with Shift, or by the keys , and . if there is turn().
  */
 export class Overlay {
   #panel; #acts; #shape = null; #handles = []; #held = new Map(); #paths = []; #marks; #bad = new Set();
@@ -29,6 +32,7 @@ export class Overlay {
     svg.addEventListener('pointermove', (e) => this.#move(e));
     for (const end of ['pointerup', 'pointercancel']) svg.addEventListener(end, (e) => this.#up(e));
     svg.addEventListener('keydown', (e) => this.#key(e));
+    if (acts.turn) svg.addEventListener('contextmenu', (e) => e.preventDefault());
   }
 
   get busy() { return this.#held.size > 0; }
@@ -50,8 +54,13 @@ export class Overlay {
     this.bad = draw('path', { class: 'part crossing' });
     this.lines.replaceChildren(...this.#paths.flat(), this.bad);
     this.#handles = [];
-    if (this.editable) this.#shape.forEach((part, k) => this.#buildPart(part, k));
-    if (this.editable) this.#grip({ type: 'all', part: 0, vertices: null }, 'move everything', 'all');
+    const all = this.editable === true;
+    this.#shape.forEach((part, k) => {
+      if (all || (this.editable === 'points' && part.kind === 'point')) this.#buildPart(part, k);
+      if (this.editable === 'points' && part.kind === 'bone')
+        this.#grip({ type: 'edge', part: k, vertices: [0, 1] }, `bone ${part.name}`, 'edge');
+    });
+    if (all) this.#grip({ type: 'all', part: 0, vertices: null }, 'move everything', 'all');
     this.grips.replaceChildren(...this.#handles.map((handle) => handle.element));
   }
 
@@ -62,7 +71,7 @@ export class Overlay {
         this.#grip({ type: 'edge', part: k, vertices: [i, j] }, `${part.kind} edge ${i + 1}`, 'edge');
     if (k > 0 && n > 1) this.#grip({ type: 'part', part: k, vertices: null }, `move ${part.kind} ${k}`, 'whole');
     part.points.forEach((_, i) => this.#grip({ type: 'vertex', part: k, vertices: [i] },
-      `${NAMES[part.kind]} ${part.kind === 'point' ? k : i + 1}`, part.kind));
+      part.name ?? `${NAMES[part.kind]} ${part.kind === 'point' ? k : i + 1}`, part.kind));
   }
 
   #grip(handle, label, kind) {
@@ -113,20 +122,24 @@ export class Overlay {
 
   #down(event) {
     const handle = event.target.closest?.('.grip')?.handle;
-    if (!handle || event.button > 0) return;
+    if (!handle || (event.button > 0 && !this.#acts.turn)) return;
     event.preventDefault();
     handle.element.focus({ preventScroll: true });
     this.#panel.svg.setPointerCapture(event.pointerId);
     if (this.#acts.grab?.(handle, event) === false) return;
     handle.element.classList.add('held');
-    this.#held.set(event.pointerId, { handle, at: this.#panel.at(event) });
+    const turning = this.#acts.turn && (event.button === 2 || event.shiftKey || event.altKey);
+    this.#held.set(event.pointerId, { handle, turning, at: this.#panel.at(event) });
   }
 
   #move(event) {
     const held = this.#held.get(event.pointerId);
     if (!held) return;
-    const at = this.#panel.at(event);
-    this.#acts.drag(held.handle, [at[0] - held.at[0], at[1] - held.at[1]]);
+    const [left, top, width, height] = this.#panel.box, [x, y] = this.#panel.at(event);
+    const at = [Math.min(left + width, Math.max(left, x)), Math.min(top + height, Math.max(top, y))];
+    const by = [at[0] - held.at[0], at[1] - held.at[1]];
+    if (held.turning) this.#acts.turn(held.handle, (by[0] / this.#panel.unit) * TURN);
+    else this.#acts.drag(held.handle, by);
     held.at = at;
   }
 
@@ -145,11 +158,17 @@ export class Overlay {
       const step = (event.shiftKey ? 10 : 1) * Math.max(1, this.#panel.unit);
       this.#acts.drag(handle, by.map((v) => v * step));
       this.#acts.drop(handle);
+    } else if (this.#acts.turn && (event.key === ',' || event.key === '.')) {
+      this.#acts.turn(handle, (event.key === '.' ? 1 : -1) * STEP);
+      this.#acts.drop(handle);
     } else if (event.key === 'Delete' || event.key === 'Backspace') this.#acts.remove?.(handle);
     else if (event.key === '+' || event.key === 'Insert' || (event.key === 'Enter' && handle.type === 'edge')) this.#acts.add?.(handle);
     else return;
     event.preventDefault();
   }
+
+  /** Marks the handle of a part as the chosen one. */
+  choose(part) { for (const { element, part: k, type } of this.#handles) element.classList.toggle('chosen', type === 'vertex' && k === part); }
 
   focus(part, vertex) { this.grips.querySelector(`[data-type=vertex][data-part="${part}"][data-vertex="${vertex}"]`)?.focus(); }
 

@@ -141,7 +141,7 @@ const around = ([left, top, right, bottom], per) => {
     a.map((v, axis) => v + ((corners[(k + 1) % 4][axis] - v) * i) / per)));
 };
 
-const mirrored = (half) => [...half, ...half.filter(([x]) => x !== 320).reverse().map(([x, y]) => [640 - x, y])];
+export const mirrored = (half) => [...half, ...half.filter(([x]) => x !== 320).reverse().map(([x, y]) => [640 - x, y])];
 
 /** name -> [what it is called, the picture, its cage] */
 export const SAMPLES = {

@@ -3,8 +3,8 @@
 // new shape, so that undoing is a matter of keeping the old one.
 
 export const ORDER = ['outline', 'hole', 'line', 'point'];
-export const CLOSED = { outline: true, hole: true, line: false, point: false };
-export const LEAST = { outline: 3, hole: 3, line: 2, point: 1 };
+export const CLOSED = { outline: true, hole: true, line: false, point: false, region: true };
+export const LEAST = { outline: 3, hole: 3, line: 2, point: 1, region: 3 };
 
 export const outlineOf = (points) => [{ kind: 'outline', points }];
 

@@ -1,0 +1,330 @@
+// Mode handles: the interface of the thesis (Kernel Coordinates, section 6.3). A pose on one side, the
+// weights of the chosen handle on the other, where they can be painted.
+import { button, download, make, pick } from './dom.js';
+import { Brush } from './brush.js';
+import { Drawing } from './drawing.js';
+import { handleSide } from './handle_side.js';
+import { History } from './history.js';
+import { foldedOf } from './mesh.js';
+import { Overlay } from './overlay.js';
+import { Panel } from './panel.js';
+import { atRest, placeOf, restOf, turnPair } from './pose.js';
+import { RIGS } from './rigs.js';
+import { SAMPLES } from './samples.js';
+
+const TOOLS = {
+  move: ['Pose', 'M5 3l6 16 2.2-6.8L20 10z'], handle: ['Handle', 'M12 5a7 7 0 1 0 .01 0M12 9v6M9 12h6'],
+  bone: ['Bone', 'M6 18L18 6M4 16a2 2 0 1 0 4 4M16 4a2 2 0 1 0 4 4'], line: ['Straight', 'M4 20L20 4M4 20h.01M20 4h.01'],
+  parallel: ['Parallel', 'M3 17L15 5M9 19L21 7'], region: ['Rigid area', 'M6 4l12 3 2 9-9 4-8-7z'],
+  paint: ['Paint', 'M14 4l6 6-8 8H6v-6zM4 21h9'], rigid: ['Rigid brush', 'M14 4l6 6-8 8H6v-6zM16 21h4M18 19v4'],
+  remove: ['Remove', 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13'],
+};
+const LEAST_LOG = 4;           // decades of the logarithmic scale
+
+export class HandleMode {
+  view = { scale: 'linear' };
+  stats = { frames: 0, folded: 0, certified: 0, times: [] };
+  #remote; #say; #changed; #modes; #history = null; #live = null; #mesh = null; #values = null; #chosen = 0; #number = 0;
+  #image; #tool = 'move'; #brush = { radius: 60, amount: 0.3 }; #drag = null; #certified = null; #trouble = null; #bone = null; #buttons;
+
+  constructor(remote, { say, changed, modes }) {
+    Object.assign(this, { pose: new Panel('Pose'), rest: new Panel('Weights') });
+    [this.#remote, this.#say, this.#changed, this.#modes] = [remote, say, changed, modes];
+    this.pose.element.classList.add('first');
+    this.overlays = {
+      pose: new Overlay(this.pose, {
+        grab: (h) => this.#grab(h), drag: (h, by) => this.#change(h, { by }), turn: (h, angle) => this.#change(h, { angle }),
+        drop: () => this.#drop(), remove: (h) => this.#remove(h),
+      }),
+      rest: new Overlay(this.rest, { grab: (h) => this.#grab(h), drag: () => {}, drop: () => {} }),
+    };
+    this.drawings = [new Drawing(this.pose, this.overlays.pose), new Drawing(this.rest, this.overlays.rest)];
+    this.brush = new Brush(this.rest, this.overlays.rest, { stroke: (at) => this.#preview(at), done: (strokes) => this.#paint(strokes) });
+    this.side = handleSide(this);
+    this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
+      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
+    this.element = make('div', { class: 'mode handles' },
+      make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Tools' }, ...this.#buttons),
+      make('div', { class: 'panels two' }, this.pose.element, this.rest.element), this.side.element);
+  }
+
+  enter() { if (!this.#history) this.rig('star'); }
+  render() { this.#show(); }
+
+  get #now() { return this.#history.now; }
+  get canUndo() { return this.#history?.canUndo ?? false; }
+  get canRedo() { return this.#history?.canRedo ?? false; }
+  undo() { if (this.canUndo) this.#go(this.#history.undo(), 'handles.recall'); }
+  redo() { if (this.canRedo) this.#go(this.#history.redo(), 'handles.recall'); }
+  get state() { return this.#now; }
+
+  rig(key) {
+    const cage = this.#modes.cage;
+    const outline = key === 'cage' ? cage.shapes.source[0].points : null;
+    const rig = key === 'cage' ? { outline, handles: outline, bones: outline.map((_, i) => [i, (i + 1) % outline.length]) } : RIGS[key][1];
+    this.#image = rig.sample ? SAMPLES[rig.sample][1]() : cage.image;
+    for (const panel of [this.pose, this.rest]) panel.picture(this.#image);
+    this.side.rig.value = key;
+    this.tool('move');
+    this.#chosen = 0;
+    const { method = 'qp', grid = false, handles, bones } = rig;
+    this.#history = new History({ outline: rig.outline, handles, bones, lines: [], regions: [], method, grid, spacing: 12,
+      transforms: atRest(handles.length), number: ++this.#number });
+    this.#go(this.#now, 'handles.make');
+  }
+
+  /** A new state; `weights` when they change with it, by an operation. */
+  #push(change, operation = null, more = {}) {
+    const state = { ...this.#now, ...change, ...(operation ? { number: ++this.#number } : {}) };
+    this.#go(this.#history.push(state), operation ?? 'handles.pose', more);
+  }
+
+  #go(state, operation, more = {}) {
+    this.#live = state;
+    this.#certified = null;
+    this.side.setMethod(state.method);
+    this.#changed();
+    this.#remote.latest('handles', operation, { ...state, handle: this.#chosen, ...more }, (result) => this.#take(result));
+  }
+
+  #take(result) {
+    this.#trouble = result.error ?? null;
+    if (result.error) { this.#say(`${result.error.message}.`); this.#show(); return; }
+    const { images, vertices, triangles, values } = result;
+    if (triangles) this.#mesh = { vertices, triangles, ...result };
+    if (values) this.#values = values;
+    if (images) this.#mesh.images = images;
+    if (result.transforms) this.#live = { ...this.#live, transforms: result.transforms };
+    this.#mesh.folded = foldedOf(this.#mesh.vertices, this.#mesh.images, this.#mesh.triangles);
+    ++this.stats.frames;
+    this.stats.folded = this.#mesh.folded.length / 3;
+    this.stats.times.push(result.ms);
+    this.#show();
+  }
+
+  /* -------------------------------------------------------------- what is seen */
+
+  #show() {
+    const mesh = this.#certified ?? this.#mesh, rest = this.#mesh;
+    if (!mesh || !this.#live) return;
+    this.pose.show({ at: mesh.images, from: mesh.vertices, triangles: mesh.triangles, folded: mesh.folded }, { look: 'picture' });
+    const log = this.view.scale === 'log';
+    const colours = this.#values?.map((w) => (log ? 1 + Math.log10(Math.max(Math.abs(w), 10 ** -LEAST_LOG)) / LEAST_LOG : w));
+    this.rest.show({ at: rest.vertices, from: rest.vertices, triangles: rest.triangles, values: colours }, { look: 'values', over: 0.86 });
+    this.ends.firstChild.textContent = log ? `10⁻⁴` : '0';
+    this.rest.note.textContent = `of handle ${this.#chosen + 1}`;
+    this.#showHandles(mesh);
+    this.#showCard(mesh);
+    this.side.setFacts({ Handles: this.#live.handles.length, Samples: rest.nSamples, 'Beyond reach of QP': rest.nInfeasible,
+      'Width of kernel': `${rest.sigma.toFixed(1)} px` });
+  }
+
+  #showHandles(mesh) {
+    const { handles, transforms, bones, lines, regions, outline } = this.#live;
+    const places = handles.map((_, h) => placeOf(transforms, handles, h));
+    const parts = (at) => [...bones.map(([a, b], k) => ({ kind: 'bone', points: [at[a], at[b]], name: String(k + 1) })),
+      ...at.map((p, h) => ({ kind: 'point', points: [p], name: `handle ${h + 1}` }))];
+    this.overlays.pose.show([{ kind: 'outline', points: [...edge(mesh)] }, ...parts(places)], { editable: 'points' });
+    this.overlays.rest.show([{ kind: 'outline', points: outline }, ...lines.map((l) => ({ kind: 'line', points: [l.from, l.to] })),
+      ...regions.map((points) => ({ kind: 'region', points })), ...parts(handles)], { editable: 'points' });
+    this.overlays.pose.choose(1 + bones.length + this.#chosen);
+    this.overlays.rest.choose(1 + lines.length + regions.length + bones.length + this.#chosen);
+  }
+
+  #showCard(mesh) {
+    const folds = mesh.folded.length / 3, n = mesh.triangles.length / 3, { badge } = this.pose, { card } = this.side;
+    const text = `${folds} of ${n} triangles folded`;
+    if (this.#certified) card.set({ state: 'good', title: 'Certified one-to-one', lines: [text, 'The map through the outline of this pose.'] });
+    else card.set({ state: 'bad', title: 'Not certified', lines: [text, 'Poses by weights promise nothing.'] });
+    [badge.dataset.state, badge.textContent] = this.#certified ? ['good', `certified, ${folds} folded`] : [folds ? 'bad' : '', `${folds} folded`];
+  }
+
+  setView(change) { Object.assign(this.view, change); this.#show(); }
+  setBrush(change) { Object.assign(this.#brush, change); this.brush.radius = this.#brush.radius; }
+
+  /* -------------------------------------------------------------- the pose */
+
+  /** The handles that a grip of the overlay stands for: one, or the two of a bone. */
+  #handlesOf({ type, part }) {
+    const { bones } = this.#live;
+    return type === 'edge' ? bones[part - 1] : [part - 1 - bones.length];
+  }
+
+  #grab(handle) {
+    const { bones, lines, regions } = this.#live;
+    const fromRest = handle.element.closest('svg') === this.rest.svg;
+    const own = fromRest ? { ...handle, part: handle.part - lines.length - regions.length } : handle;
+    const picked = this.#handlesOf(own);
+    if (this.#tool === 'remove') { this.#remove(own); return false; }
+    if (own.type === 'vertex') this.choose(picked[0]);
+    if (this.#tool === 'bone' && own.type === 'vertex') { this.#join(picked[0], bones); return false; }
+    return !fromRest;
+  }
+
+  choose(h) {
+    this.#chosen = h;
+    this.#remote.latest('weights', 'handles.weights', { handle: h }, ({ values }) => { if (values?.length) { this.#values = values; this.#show(); } });
+  }
+
+  #join(h, bones) {
+    const a = this.#bone;
+    if (a === null || a === h) { this.#bone = h; this.#say('Click the other end of the bone.'); return; }
+    this.tool('move');
+    const alike = ([x, y]) => (x === a && y === h) || (x === h && y === a);
+    this.#push({ bones: bones.some(alike) ? bones.filter((b) => !alike(b)) : [...bones, [a, h]] }, 'handles.make');
+  }
+
+  /** All changes since a drag began, so that a frame that is skipped is not missed. */
+  #change(handle, { by = [0, 0], angle = 0 }) {
+    const picked = this.#handlesOf(handle), { handles } = this.#now;
+    this.#drag ??= { transforms: this.#live.transforms, offset: [0, 0], angle: 0, asked: 0, shown: 0 };
+    const d = this.#drag, number = ++d.asked;
+    d.offset = [d.offset[0] + by[0], d.offset[1] + by[1]];
+    d.angle += angle;
+    const places = picked.map((h) => placeOf(d.transforms, handles, h));
+    const changes = d.angle && picked.length > 1
+      ? turnPair(picked, places, d.angle).map((c) => ({ ...c, offset: c.offset.map((v, a) => v + d.offset[a]) }))
+      : picked.map((h) => ({ handle: h, offset: d.offset, angle: d.angle }));
+    this.#certified = null;
+    this.#remote.latest('handles', 'handles.pose', { transforms: d.transforms, changes, handles }, (result) => {
+      this.#take(result);
+      d.shown = number;
+      if (d.dropped && d.shown === d.asked) this.#settle();
+    });
+  }
+
+  #drop() {
+    const d = this.#drag;
+    if (!d) return;
+    this.#drag = null;
+    d.dropped = true;
+    if (d.shown === d.asked) this.#settle();
+  }
+
+  /** The drag has ended, and its last pose has come. */
+  #settle() {
+    if (this.#live.transforms === this.#now.transforms) return;
+    this.#live = this.#history.push({ ...this.#now, transforms: this.#live.transforms });
+    this.#changed();
+  }
+
+  reset() { this.#push({ transforms: atRest(this.#now.handles.length) }); }
+  method(method) { this.#push({ method }, 'handles.method'); }
+  spacing(spacing) { this.#push({ spacing }, 'handles.make'); }
+
+  async certify() {
+    const { handles, transforms, outline } = this.#live;
+    const onRing = (p) => outline.some(([x, y]) => x === p[0] && y === p[1]);
+    const held = handles.map((_, h) => h).filter((h) => !onRing(handles[h]));
+    const result = await this.#remote.call('handles.certify', { transforms, handles, held });
+    if (result.error) {
+      const crossing = result.targetDefects?.some((d) => d.kind === 'crossing');
+      this.#say(crossing ? 'The outline of this pose crosses itself: no one-to-one map has it.' : `${result.error.message}.`);
+      return;
+    }
+    this.#certified = { ...result, folded: foldedOf(result.vertices, result.images, result.triangles) };
+    this.stats.certified += result.certified ? 1 : 0;
+    this.#show();
+  }
+
+  /* -------------------------------------------------------------- edits of the rig */
+
+  tool(key) {
+    this.#tool = key;
+    this.#bone = null;
+    for (const b of this.#buttons) b.setAttribute('aria-pressed', b.dataset.tool === key);
+    for (const d of this.drawings) d.end();
+    this.brush.set(key === 'paint' || key === 'rigid');
+    if (key === 'handle') this.drawings.forEach((d, k) => d.begin('point', ([p]) => this.#addHandle(p, k === 0)));
+    if (key === 'line' || key === 'parallel') this.drawings[1].begin('line', (points) => this.#addLine(points, key === 'parallel'));
+    if (key === 'region') this.drawings[1].begin('region', (points) => { this.tool('move'); this.#push({ regions: [...this.#now.regions, points] }, 'handles.make'); });
+    this.#say({ handle: 'Click where the handle is to be.', bone: 'Click one end of the bone.',
+      line: 'In the weights: click both ends of a line, then its end again.', region: 'In the weights: click the corners of what is to stay rigid.',
+      parallel: 'In the weights: both ends of a line that stays parallel to the last one.',
+      paint: 'Paint in the weights. They are optimised when you lift the pointer.', rigid: 'Paint what is to move as if rigid.',
+      remove: 'Click a handle or a bone.' }[key] ?? '');
+  }
+
+  #addHandle(at, posed) {
+    this.tool('move');
+    const p = posed ? restOf(this.#mesh, at) : at;
+    if (!p) { this.#say('A handle lies inside the shape.'); return; }
+    const { handles, transforms } = this.#now, moved = posed ? [at[0] - p[0], at[1] - p[1]] : [0, 0];
+    this.#chosen = handles.length;
+    this.#push({ handles: [...handles, p], transforms: Float64Array.from([...transforms, 1, 0, moved[0], 0, 1, moved[1]]) }, 'handles.make');
+  }
+
+  #addLine([from, to], parallel) {
+    this.tool('move');
+    const { lines } = this.#now;
+    if (parallel && lines.length === 0) { this.#say('There is no line yet that it could be parallel to.'); return; }
+    const other = lines.at(-1), d = parallel && [other.to[0] - other.from[0], other.to[1] - other.from[1]];
+    const share = parallel && ((to[0] - from[0]) * d[0] + (to[1] - from[1]) * d[1]) / (d[0] ** 2 + d[1] ** 2);
+    const end = parallel ? [from[0] + share * d[0], from[1] + share * d[1]] : to;
+    this.#push({ lines: [...lines, { from, to: end, parallel: parallel ? lines.length : 0 }] }, 'handles.make');
+  }
+
+  #remove(handle) {
+    const picked = this.#handlesOf(handle), { handles, bones, transforms } = this.#now;
+    if (picked.length > 1) { this.#push({ bones: bones.filter((b) => b !== picked) }, 'handles.make'); return; }
+    const [h] = picked, low = (i) => (i > h ? i - 1 : i);
+    if (handles.length <= 3) { this.#say('There are three handles at least.'); return; }
+    this.#chosen = 0;
+    this.#push({ handles: handles.filter((_, i) => i !== h), bones: bones.filter((b) => !b.includes(h)).map((b) => b.map(low)),
+      transforms: transforms.filter((_, i) => Math.floor(i / 6) !== h) }, 'handles.make');
+  }
+
+  /** What the brush will do, before it is optimised. */
+  #preview([u, v]) {
+    if (this.#tool !== 'paint') return;
+    const { vertices } = this.#mesh, { radius, amount } = this.#brush;
+    this.#values = this.#values.map((w, i) => {
+      const d = Math.hypot(vertices[2 * i] - u, vertices[2 * i + 1] - v) / radius;
+      return d < 1 ? w + (amount * (1 - d * d) ** 2) / 4 : w;
+    });
+    this.#show();
+  }
+
+  #paint(strokes) { this.#push({}, 'handles.paint', { strokes, ...this.#brush, rigid: this.#tool === 'rigid' }); }
+
+  /* -------------------------------------------------------------- files */
+
+  savePose() {
+    const { outline, handles, bones, transforms } = this.#now;
+    download('pose.json', `${JSON.stringify({ outline, handles, bones, transforms: [...transforms] })}\n`, 'application/json');
+  }
+
+  loadPose() {
+    pick('.json', async (file) => {
+      try {
+        const { transforms } = JSON.parse(await file.text());
+        if (transforms?.length !== this.#now.transforms.length || !transforms.every(Number.isFinite)) throw new Error('It is for other handles.');
+        this.#push({ transforms: Float64Array.from(transforms) });
+      } catch (error) { this.#say(`${file.name}: ${error.message}`); }
+    });
+  }
+
+  async saveSampling() { download('sampling.icc', (await this.#remote.call('handles.save')).sampling, 'application/octet-stream'); }
+
+  loadSampling() { pick('.icc', async (file) => this.#push({}, 'handles.load', { bytes: new Uint8Array(await file.arrayBuffer()) })); }
+}
+
+/** The outline of triangles as they are drawn: the vertices before the inner ones. */
+function* edge({ images, triangles }) {
+  const next = new Map(), inner = new Set();
+  for (let t = 0; t < triangles.length; t += 3)
+    for (let k = 0; k < 3; ++k) {
+      const a = triangles[t + k], b = triangles[t + ((k + 1) % 3)];
+      inner.add(a * 67108864 + b);
+    }
+  for (const key of inner) {
+    const a = Math.floor(key / 67108864), b = key % 67108864;
+    if (!inner.has(b * 67108864 + a)) next.set(a, b);
+  }
+  const [first] = next.keys();
+  let at = first;
+  for (let i = 0; i <= next.size; ++i) {
+    yield [images[2 * at], images[2 * at + 1]];
+    at = next.get(at);
+  }
+}
