@@ -1,15 +1,15 @@
 // Mode cage: a picture, a cage around a part of it, and the map that follows the cage as it is dragged.
-import { button, download, draw, make, pick } from './dom.js';
+import { button, draw, make } from './dom.js';
+import { CageFiles } from './cage_files.js';
+import { comparisonOf, meetingEdges, reached, reportOf } from './cage_report.js';
 import { Drawing } from './drawing.js';
 import { cageSide } from './cage_side.js';
-import { readShape, writeGeoJson, writeText } from './formats.js';
 import { History } from './history.js';
-import { writeLink } from './link.js';
 import { foldedOf } from './mesh.js';
 import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
 import { SAMPLES } from './samples.js';
-import { boxOf, moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
+import { moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
 
 const FAINT = { light: [0.91, 0.91, 0.89, 0.72], dark: [0.07, 0.075, 0.08, 0.72] };
 const TOOLS = {
@@ -22,7 +22,7 @@ const TOOLS = {
 export class CageMode {
   view = { look: 'picture', mesh: false, compare: 'mean-value' };
   #remote; #say; #changed; #history; #live; #mesh = null; #number = 0; #mapped = null; #tool = 'move'; #image; #name = '';
-  #drawings; #trouble = null; #buttons;
+  #drawings; #trouble = null; #buttons; #files;
   /** What a test looks at. */
   stats = { frames: 0, uncertified: 0, folded: 0, other: 0, times: [], refused: 0 };
 
@@ -34,6 +34,7 @@ export class CageMode {
     this.after = new Panel('After');
     this.other = new Panel('Compared');
     this.after.element.classList.add('first');
+    this.#files = new CageFiles(this, remote, say);
     this.#build();
   }
 
@@ -46,7 +47,7 @@ export class CageMode {
       other: new Overlay(this.other, {}) };
     this.#drawings = ['before', 'after'].map((side) => new Drawing(this[side], this.overlays[side]));
     for (const side of ['before', 'after']) this.#watch(side);
-    this.side = cageSide(this);
+    this.side = cageSide(this, this.#files);
     this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
       button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
     const tools = make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Tools' },
@@ -88,6 +89,15 @@ export class CageMode {
     this.#mapped = null;
     this.#mesh = null;
     this.#go(this.#now, 'cage.create');
+  }
+
+  /** Other shapes, which can be undone. */
+  edit(source, target = source) { this.#push(source, target, 'cage.create'); }
+
+  /** A picture of the user's own. */
+  own(image) {
+    this.#name = '';
+    this.open(image);
   }
 
   /** A new state, and its map. */
@@ -170,39 +180,20 @@ export class CageMode {
 
   #showShapes() {
     const { source, target } = this.#live, bad = this.#trouble;
-    const crossing = (list) => (list ?? []).filter((d) => d.kind === 'crossing' || d.kind === 'touch').flatMap((d) => [d.a, d.b]);
-    this.overlays.before.show(source, { bad: crossing(bad?.sourceDefects) });
-    this.overlays.after.show(target, { bad: crossing(bad?.targetDefects) });
+    this.overlays.before.show(source, { bad: meetingEdges(bad?.sourceDefects) });
+    this.overlays.after.show(target, { bad: meetingEdges(bad?.targetDefects) });
     this.overlays.other.show(this.#mesh?.shape.target ?? target, { editable: false });
     this.side.pins.hidden = !source.some((part) => part.kind === 'point');
   }
 
   #showCertificate() {
-    const mesh = this.#mesh, { card } = this.side, { badge } = this.after;
-    const count = (n) => n.toLocaleString('en');
-    if (this.#trouble) {
-      card.set({ state: 'bad', title: 'No map to here', lines: [this.#reason(), ...(mesh ? ['The last good picture stays.'] : [])] });
-      [badge.dataset.state, badge.textContent] = ['bad', 'refused'];
-    } else if (mesh) {
-      const n = mesh.simplices.length / 3, folds = mesh.folded.length / 3;
-      card.set(mesh.certified
-        ? { state: 'good', title: 'Certified one-to-one', lines: [`${count(n)} triangles, each checked exactly; ${folds} folded`,
-          `mean distortion ${(mesh.energy / 4).toFixed(2)} (1 is rigid), made in ${mesh.ms.toFixed(1)} ms`] }
-        : { state: 'bad', title: 'Not certified', lines: [`${count(folds)} of ${count(n)} triangles folded`] });
-      [badge.dataset.state, badge.textContent] = mesh.certified ? ['good', `certified, ${folds} folded`] : ['bad', 'not certified'];
-    }
+    const mesh = this.#mesh, { card, compare } = this.side;
+    const { certificate, badge } = reportOf(mesh, this.#trouble);
+    if (certificate) card.set(certificate);
+    [this.after.badge.dataset.state, this.after.badge.textContent] = badge;
     if (!mesh) return;
-    const other = this.other.badge, folds = mesh.otherFolded && mesh.otherFolded.length / 3;
-    this.other.element.querySelector('strong').textContent = this.side.compare.selectedOptions[0].textContent;
-    if (mesh.refused) [other.dataset.state, other.textContent] = ['', mesh.refused];
-    else if (folds !== null) [other.dataset.state, other.textContent] = [folds ? 'bad' : 'good', `${count(folds)} folded`];
-  }
-
-  #reason() {
-    const { error, sourceDefects, targetDefects } = this.#trouble;
-    const defect = [...sourceDefects, ...targetDefects].find((d) => d.kind === 'crossing' || d.kind === 'touch');
-    if (!defect) return `${error.message}.`;
-    return `Edges ${defect.a + 1} and ${defect.b + 1} ${defect.kind === 'crossing' ? 'cross' : 'touch'}.`;
+    this.other.element.querySelector('strong').textContent = compare.selectedOptions[0].textContent;
+    [this.other.badge.dataset.state, this.other.badge.textContent] = comparisonOf(mesh);
   }
 
   /** The place under the pointer, in both pictures. */
@@ -310,54 +301,10 @@ export class CageMode {
     this.#push(sized(this.#now.source), sized(this.#now.target), 'cage.create');
   }
 
-  /* -------------------------------------------------------------- files */
+  /* -------------------------------------------------------------- files and links */
 
-  openPicture() { pick('image/*', (file) => this.take(file)); }
-  openCage() { pick('.txt,.json,.geojson,.svg', (file) => this.take(file)); }
-
-  /** A file that was opened, dropped or pasted: a picture or a cage. */
-  async take(file) {
-    try {
-      if (file.type.startsWith('image/') && file.type !== 'image/svg+xml') {
-        this.#name = '';
-        this.open(await createImageBitmap(file));
-      } else this.takeCage(await file.text());
-    } catch (error) {
-      this.#say(`${file.name || 'What was pasted'} could not be read. ${error.message}`);
-    }
-  }
-
-  /** A cage; scaled to the picture when it does not lie in it. */
-  takeCage(text) {
-    let shape = readShape(text, draw);
-    const { width: w, height: h } = this.#image;
-    const [left, top, right, bottom] = boxOf(shape.flatMap((part) => part.points));
-    if (left < -w || top < -h || right > 2 * w || bottom > 2 * h || Math.max(right - left, bottom - top) < w / 8) {
-      const scale = 0.8 * Math.min(w / (right - left), h / (bottom - top));
-      shape = shape.map((part) => ({ ...part, points: part.points.map(([x, y]) =>
-        [w / 2 + (x - (left + right) / 2) * scale, h / 2 + (y - (top + bottom) / 2) * scale]) }));
-    }
-    this.#push(shape, shape, 'cage.create');
-  }
-
-  saveCage(format) {
-    const { source, target } = this.#now;
-    const [write, ending, type] = format === 'text' ? [writeText, 'txt', 'text/plain'] : [writeGeoJson, 'geojson', 'application/geo+json'];
-    download(`before.${ending}`, write(source), type);
-    download(`after.${ending}`, write(target), type);
-  }
-
-  async savePicture() {
-    const { width, height } = this.#image;
-    const sheet = Object.assign(document.createElement('canvas'), { width, height }), g = sheet.getContext('2d');
-    g.drawImage(this.#image, 0, 0);
-    const picture = g.getImageData(0, 0, width, height);
-    const { pixels, error } = await this.#remote.call('cage.warp',
-      { picture: { width, height, data: picture.data }, width, height });
-    if (error) { this.#say(error.message); return; }
-    g.putImageData(new ImageData(pixels, width, height), 0, 0);
-    sheet.toBlob((blob) => download('warped.png', blob));
-  }
+  /** A file that was opened, dropped or pasted. */
+  take(file) { return this.#files.take(file); }
 
   /** What a link has: the cages, and the picture if it is one of ours. */
   get state() { return { mode: 'cage', sample: this.#name, source: this.#now.source, target: this.#now.target, view: this.view }; }
@@ -367,22 +314,4 @@ export class CageMode {
     this.#name = sample in SAMPLES ? sample : 'butterfly';
     this.open(SAMPLES[this.#name][1](), source, target);
   }
-
-  async copyLink() {
-    location.hash = await writeLink(this.state);
-    try {
-      await navigator.clipboard.writeText(location.href);
-      this.#say('The link is copied. It holds the cages; a picture of your own stays with you.');
-    } catch {
-      this.#say('The link is in the address bar.');
-    }
-  }
 }
-
-/** Triangles all of whose corners have an image. */
-function reached(images, triangles) {
-  return triangles.every((i) => !Number.isNaN(images[2 * i])) ? triangles
-    : Uint32Array.from(Array.from({ length: triangles.length / 3 }, (_, t) => [...triangles.subarray(3 * t, 3 * t + 3)])
-      .filter((t) => t.every((i) => !Number.isNaN(images[2 * i]))).flat());
-}
-

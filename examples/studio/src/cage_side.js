@@ -23,7 +23,7 @@ export function certificateCard() {
   return card;
 }
 
-export function cageSide(mode) {
+export function cageSide(mode, files) {
   const view = mode.view, card = certificateCard();
   const scale = make('div', { hidden: true }, make('div', { class: 'scale' }),
     make('div', { class: 'ends' }, make('span', {}, 'rigid'), make('span', {}, 'stretched ten times')));
@@ -47,13 +47,13 @@ export function cageSide(mode) {
       button('Make fairer', null, () => mode.improve(), { class: 'framed', id: 'improve' }),
       button('Reset', null, () => mode.reset(), { class: 'framed', id: 'reset' }))),
     section('Picture', sample, make('div', { class: 'row' },
-      button('Open …', null, () => mode.openPicture(), { class: 'framed' }),
-      button('Save PNG', null, () => mode.savePicture(), { class: 'framed', id: 'save' }))),
+      button('Open …', null, () => files.openPicture(), { class: 'framed' }),
+      button('Save PNG', null, () => files.savePicture(), { class: 'framed', id: 'save' }))),
     section('Cage', make('div', { class: 'row' },
-      button('Load …', null, () => mode.openCage(), { class: 'framed' }),
-      button('Save text', null, () => mode.saveCage('text'), { class: 'framed' }),
-      button('Save GeoJSON', null, () => mode.saveCage('geojson'), { class: 'framed' }),
-      button('Copy link', null, () => mode.copyLink(), { class: 'framed', id: 'link' }))),
+      button('Load …', null, () => files.openCage(), { class: 'framed' }),
+      button('Save text', null, () => files.saveCage('text'), { class: 'framed' }),
+      button('Save GeoJSON', null, () => files.saveCage('geojson'), { class: 'framed' }),
+      button('Copy link', null, () => files.copyLink(), { class: 'framed', id: 'link' }))),
     make('p', { class: 'hint' }, 'Drop or paste a picture, or a cage as text, GeoJSON or SVG. Keys: ',
       make('kbd', {}, 'Tab'), ' to a handle, ', make('kbd', {}, '←↑→↓'), ' to move it, ', make('kbd', {}, '+'), ' and ',
       make('kbd', {}, 'Del'), ' to add and remove.'));

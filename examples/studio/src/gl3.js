@@ -52,15 +52,16 @@ export class Renderer3 {
     gl.enable(gl.DEPTH_TEST);
   }
 
-  /** Triangles: nine coordinates each, and a tone (red, green, blue, how strong its edges are). */
-  triangles(at, tones) {
+  /** Triangles: for each corner three coordinates, how far it is from each edge, and a tone (red, green, blue,
+   *  how strong its edges are). */
+  triangles(at, corners, tones) {
     const gl = this.#gl, n = at.length / 3;
     const fill = (name, values) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, this.#buffers[name]);
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.DYNAMIC_DRAW);
     };
-    fill('at', at);
-    fill('corner', Float32Array.from({ length: 3 * n }, (_, i) => (i % 9 === 0 || i % 9 === 4 || i % 9 === 8 ? 1 : 0)));
+    fill('at', Float32Array.from(at));
+    fill('corner', Float32Array.from(corners));
     fill('tone', tones);
     this.#n = n;
   }

@@ -3,7 +3,7 @@ import { button, choice, make, section, slider } from './dom.js';
 import { certificateCard } from './cage_side.js';
 import { RIGS } from './rigs.js';
 
-export function handleSide(mode) {
+export function handleSide(mode, files) {
   const card = certificateCard();
   const rig = make('select', { 'aria-label': 'Shape', id: 'rig' },
     ...Object.entries(RIGS).map(([key, [name]]) => make('option', { value: key }, name)),
@@ -24,10 +24,10 @@ export function handleSide(mode) {
     section('Shape', rig,
       slider('Spacing of samples', { min: 6, max: 24, step: 1, value: 12, text: (v) => `${v} px` }, (v) => mode.spacing(v)), facts),
     section('Files', make('div', { class: 'row' },
-      button('Save pose', null, () => mode.savePose(), { class: 'framed' }),
-      button('Load pose …', null, () => mode.loadPose(), { class: 'framed' }),
-      button('Save sampling', null, () => mode.saveSampling(), { class: 'framed' }),
-      button('Load sampling …', null, () => mode.loadSampling(), { class: 'framed' }))),
+      button('Save pose', null, () => files.savePose(), { class: 'framed' }),
+      button('Load pose …', null, () => files.loadPose(), { class: 'framed' }),
+      button('Save sampling', null, () => files.saveSampling(), { class: 'framed' }),
+      button('Load sampling …', null, () => files.loadSampling(), { class: 'framed' }))),
     make('p', { class: 'hint' }, 'Drag a handle to move it; drag with the right button, or with ', make('kbd', {}, 'Shift'),
       ', to turn it. Keys: arrows move, ', make('kbd', {}, ','), ' and ', make('kbd', {}, '.'), ' turn.'));
   const setMethod = (key) => { element.querySelector(`input[name=method][value=${key}]`).checked = true; };

@@ -1,11 +1,12 @@
 // Mode handles: the interface of the thesis (Kernel Coordinates, section 6.3). A pose on one side, the
 // weights of the chosen handle on the other, where they can be painted.
-import { button, download, make, pick } from './dom.js';
+import { button, make } from './dom.js';
 import { Brush } from './brush.js';
 import { Drawing } from './drawing.js';
+import { HandleFiles } from './handle_files.js';
 import { handleSide } from './handle_side.js';
 import { History } from './history.js';
-import { foldedOf } from './mesh.js';
+import { foldedOf, rimOf } from './mesh.js';
 import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
 import { atRest, placeOf, restOf, turnPair } from './pose.js';
@@ -40,7 +41,7 @@ export class HandleMode {
     };
     this.drawings = [new Drawing(this.pose, this.overlays.pose), new Drawing(this.rest, this.overlays.rest)];
     this.brush = new Brush(this.rest, this.overlays.rest, { stroke: (at) => this.#preview(at), done: (strokes) => this.#paint(strokes) });
-    this.side = handleSide(this);
+    this.side = handleSide(this, new HandleFiles(this, remote, say));
     this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
       button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
     this.element = make('div', { class: 'mode handles' },
@@ -73,7 +74,9 @@ export class HandleMode {
     this.#go(this.#now, 'handles.make');
   }
 
-  /** A new state; `weights` when they change with it, by an operation. */
+  /** A new state; an operation where the weights change with it. */
+  edit(change, operation, more) { this.#push(change, operation, more); }
+
   #push(change, operation = null, more = {}) {
     const state = { ...this.#now, ...change, ...(operation ? { number: ++this.#number } : {}) };
     this.#go(this.#history.push(state), operation ?? 'handles.pose', more);
@@ -124,7 +127,7 @@ export class HandleMode {
     const places = handles.map((_, h) => placeOf(transforms, handles, h));
     const parts = (at) => [...bones.map(([a, b], k) => ({ kind: 'bone', points: [at[a], at[b]], name: String(k + 1) })),
       ...at.map((p, h) => ({ kind: 'point', points: [p], name: `handle ${h + 1}` }))];
-    this.overlays.pose.show([{ kind: 'outline', points: [...edge(mesh)] }, ...parts(places)], { editable: 'points' });
+    this.overlays.pose.show([{ kind: 'outline', points: rimOf(mesh) }, ...parts(places)], { editable: 'points' });
     this.overlays.rest.show([{ kind: 'outline', points: outline }, ...lines.map((l) => ({ kind: 'line', points: [l.from, l.to] })),
       ...regions.map((points) => ({ kind: 'region', points })), ...parts(handles)], { editable: 'points' });
     this.overlays.pose.choose(1 + bones.length + this.#chosen);
@@ -286,45 +289,4 @@ export class HandleMode {
   }
 
   #paint(strokes) { this.#push({}, 'handles.paint', { strokes, ...this.#brush, rigid: this.#tool === 'rigid' }); }
-
-  /* -------------------------------------------------------------- files */
-
-  savePose() {
-    const { outline, handles, bones, transforms } = this.#now;
-    download('pose.json', `${JSON.stringify({ outline, handles, bones, transforms: [...transforms] })}\n`, 'application/json');
-  }
-
-  loadPose() {
-    pick('.json', async (file) => {
-      try {
-        const { transforms } = JSON.parse(await file.text());
-        if (transforms?.length !== this.#now.transforms.length || !transforms.every(Number.isFinite)) throw new Error('It is for other handles.');
-        this.#push({ transforms: Float64Array.from(transforms) });
-      } catch (error) { this.#say(`${file.name}: ${error.message}`); }
-    });
-  }
-
-  async saveSampling() { download('sampling.icc', (await this.#remote.call('handles.save')).sampling, 'application/octet-stream'); }
-
-  loadSampling() { pick('.icc', async (file) => this.#push({}, 'handles.load', { bytes: new Uint8Array(await file.arrayBuffer()) })); }
-}
-
-/** The outline of triangles as they are drawn: the vertices before the inner ones. */
-function* edge({ images, triangles }) {
-  const next = new Map(), inner = new Set();
-  for (let t = 0; t < triangles.length; t += 3)
-    for (let k = 0; k < 3; ++k) {
-      const a = triangles[t + k], b = triangles[t + ((k + 1) % 3)];
-      inner.add(a * 67108864 + b);
-    }
-  for (const key of inner) {
-    const a = Math.floor(key / 67108864), b = key % 67108864;
-    if (!inner.has(b * 67108864 + a)) next.set(a, b);
-  }
-  const [first] = next.keys();
-  let at = first;
-  for (let i = 0; i <= next.size; ++i) {
-    yield [images[2 * at], images[2 * at + 1]];
-    at = next.get(at);
-  }
 }

@@ -1,5 +1,7 @@
 // Triangles before and after: which fold, and how much each is stretched.
 
+const MOST_VERTICES = 67108864;
+
 /** Twice the signed area of triangle t of `triangles`. */
 export function areaOf(points, triangles, t) {
   const a = 2 * triangles[t], b = 2 * triangles[t + 1], c = 2 * triangles[t + 2];
@@ -41,11 +43,25 @@ export function linesOf(triangles) {
   for (let t = 0; t < triangles.length; t += 3) {
     for (let k = 0; k < 3; ++k) {
       const a = triangles[t + k], b = triangles[t + (k + 1) % 3];
-      const key = a < b ? a * 67108864 + b : b * 67108864 + a;
+      const key = a < b ? a * MOST_VERTICES + b : b * MOST_VERTICES + a;
       if (seen.has(key)) continue;
       seen.add(key);
       lines.push(a, b);
     }
   }
   return Uint32Array.from(lines);
+}
+
+/** The outline of the images: edges of one triangle only, in the order of their ring. */
+export function rimOf({ images, triangles }) {
+  const edges = new Set(), next = new Map();
+  for (let t = 0; t < triangles.length; t += 3)
+    for (let k = 0; k < 3; ++k) edges.add(triangles[t + k] * MOST_VERTICES + triangles[t + ((k + 1) % 3)]);
+  for (const key of edges) {
+    const a = Math.floor(key / MOST_VERTICES), b = key % MOST_VERTICES;
+    if (!edges.has(b * MOST_VERTICES + a)) next.set(a, b);
+  }
+  const rim = [];
+  for (let [at] = next.keys(); rim.length < next.size; at = next.get(at)) rim.push([images[2 * at], images[2 * at + 1]]);
+  return rim;
 }

@@ -1,5 +1,4 @@
-// A bar of triangles in space, what bends it, and what of a solid is seen: faces between what a plane
-// leaves and what it takes away.
+// A bar of triangles in space, what bends it, and what of a solid a plane leaves.
 
 const LENGTH = 3, SIDE = 0.5;
 const ALONG = 14, ACROSS = 3;
@@ -45,29 +44,68 @@ export function deform(points, { bend, twist, waist }) {
 }
 
 const SIDES = [[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]];
+const EDGES = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+const between = (a, b, s) => a.map((v, k) => v + s * (b[k] - v));
 
-/**
- * The faces of the tetrahedra whose centre has less than `cut` along an axis of the source, that no two of
- * these share: as triangles, with 1 for those that the plane has opened.
- */
-export function visible({ vertices, simplices }, axis, cut) {
+/** Faces of one tetrahedron only: the surface. */
+function surfaceOf(simplices) {
   const faces = new Map();
-  let kept = 0;
-  for (let t = 0; t < simplices.length; t += 4) {
-    const v = simplices.subarray(t, t + 4);
-    const below = (vertices[3 * v[0] + axis] + vertices[3 * v[1] + axis] + vertices[3 * v[2] + axis] + vertices[3 * v[3] + axis]) / 4 <= cut;
-    kept += below ? 1 : 0;
+  for (let t = 0; t < simplices.length; t += 4)
     for (const side of SIDES) {
-      const face = side.map((k) => v[k]), key = [...face].sort((a, b) => a - b).join();
-      const found = faces.get(key);
-      if (found) { found.n += below ? 1 : 0; ++found.all; if (below) found.face = face; } else faces.set(key, { face, n: below ? 1 : 0, all: 1 });
+      const face = side.map((k) => simplices[t + k]), key = [...face].sort((a, b) => a - b).join();
+      if (faces.has(key)) faces.set(key, null); else faces.set(key, face);
     }
-  }
-  const shown = [...faces.values()].filter(({ n }) => n === 1);
-  return { triangles: Uint32Array.from(shown.flatMap(({ face }) => face)), opened: shown.map(({ all }) => all === 2), kept };
+  return [...faces.values()].filter(Boolean);
 }
 
-/** Six times the volume of each tetrahedron that is not positive, counted. */
+/** The part of a polygon where the height is not above 0; points are arrays that end with it. */
+function clip(polygon) {
+  return polygon.flatMap((p, i) => {
+    const q = polygon[(i + 1) % polygon.length], [u, v] = [p.at(-1), q.at(-1)];
+    const crossing = (u > 0) !== (v > 0) ? [between(p, q, u / (u - v))] : [];
+    return u > 0 ? crossing : [p, ...crossing];
+  });
+}
+
+/** Where a plane cuts a tetrahedron: a triangle, or a quadrangle in the order of its ring. */
+function section(corners) {
+  const cuts = EDGES.filter(([i, j]) => (corners[i].at(-1) > 0) !== (corners[j].at(-1) > 0));
+  const at = ([i, j]) => between(corners[i], corners[j], corners[i].at(-1) / (corners[i].at(-1) - corners[j].at(-1)));
+  if (cuts.length !== 4) return cuts.map(at);
+  const [first, ...others] = cuts, shares = (e, f) => e.some((v) => f.includes(v));
+  const opposite = others.find((e) => !shares(e, first));
+  const [second, fourth] = others.filter((e) => e !== opposite);
+  return [first, second, opposite, fourth].map(at);
+}
+
+/**
+ * What is left of a solid below a plane of the source, and where the map takes it: the map is linear in each
+ * tetrahedron, so that the cut is exact on both sides. Arrays for Renderer3: { before, after, corners, opened }.
+ */
+export function sliced({ vertices, images, simplices }, axis, cut) {
+  const out = { before: [], after: [], corners: [], opened: [] };
+  const corner = (v) => [...vertices.subarray(3 * v, 3 * v + 3), ...images.subarray(3 * v, 3 * v + 3), vertices[3 * v + axis] - cut];
+  const add = (polygon, opened) => {
+    for (let i = 1; i + 1 < polygon.length; ++i) {
+      const three = [polygon[0], polygon[i], polygon[i + 1]];
+      const hidden = [0, i + 2 < polygon.length ? 1 : 0, i > 1 ? 1 : 0];       // edges that only cut the polygon up
+      three.forEach((p, k) => {
+        out.before.push(p[0], p[1], p[2]);
+        out.after.push(p[3], p[4], p[5]);
+        out.corners.push(...hidden.map((h, e) => h + (e === k ? 1 : 0)));
+      });
+      out.opened.push(opened);
+    }
+  };
+  for (const face of surfaceOf(simplices)) add(clip(face.map(corner)), false);
+  for (let t = 0; t < simplices.length; t += 4) {
+    const corners = [0, 1, 2, 3].map((k) => corner(simplices[t + k])), above = corners.filter((p) => p.at(-1) > 0).length;
+    if (above > 0 && above < 4) add(section(corners), true);
+  }
+  return out;
+}
+
+/** Tetrahedra whose image is not positive, counted. */
 export function turnedOver({ images, simplices }) {
   let count = 0;
   for (let t = 0; t < simplices.length; t += 4) {

@@ -3,7 +3,7 @@ import { button, choice, make, section, slider } from './dom.js';
 import { certificateCard } from './cage_side.js';
 import { Renderer3 } from './gl3.js';
 import { History } from './history.js';
-import { bar, deform, turnedOver, visible } from './solid.js';
+import { bar, deform, sliced, turnedOver } from './solid.js';
 
 const OUTSIDE = [0.55, 0.65, 0.74, 0.6], OPENED = [0.93, 0.62, 0.30, 1];
 const HALF = { 0: 1.51, 1: 0.51, 2: 0.51 };
@@ -38,7 +38,7 @@ class View3 {
 export class SpaceMode {
   stats = { frames: 0, uncertified: 0, turned: 0, times: [] };
   #remote; #changed; #bar = bar(); #solid = null; #trouble = null; #axis = 1; #cut = 0; #history; #live; #sliders;
-  #look = { turn: 0.6, tilt: 0.45, distance: 6.4 };
+  #look = { turn: 0.6, tilt: -0.6, distance: 5 };
 
   constructor(remote, { changed }) {
     [this.#remote, this.#changed] = [remote, changed];
@@ -104,11 +104,10 @@ export class SpaceMode {
   #fill() {
     this.#show();
     if (!this.#solid) return;
-    const { vertices, images } = this.#solid;
-    const { triangles, opened } = visible(this.#solid, this.#axis, this.#cut * HALF[this.#axis]);
-    const tones = Float32Array.from({ length: triangles.length * 4 }, (_, i) => (opened[Math.floor(i / 12)] ? OPENED : OUTSIDE)[i % 4]);
-    for (const [view, points] of [[this.before, vertices], [this.after, images]])
-      view.renderer.triangles(Float32Array.from({ length: triangles.length * 3 }, (_, i) => points[3 * triangles[Math.floor(i / 3)] + (i % 3)]), tones);
+    const { before, after, corners, opened } = sliced(this.#solid, this.#axis, this.#cut * HALF[this.#axis]);
+    const tones = Float32Array.from({ length: opened.length * 12 }, (_, i) => (opened[Math.floor(i / 12)] ? OPENED : OUTSIDE)[i % 4]);
+    this.before.renderer.triangles(before, corners, tones);
+    this.after.renderer.triangles(after, corners, tones);
     this.#draw();
   }
 

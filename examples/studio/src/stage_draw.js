@@ -50,7 +50,7 @@ export function levelLines({ shape: [w, h] }, height, n) {
     for (let x = 0; x + 1 < w; ++x) {
       const v = x + w * y;
       for (const tri of [[v, v + 1, v + w + 1], [v, v + w + 1, v + w]])
-        for (let level = 0; level < n; ++level) cut(tri, (level + 0.5) / n);
+        if (tri.every((u) => height[u] >= 0)) for (let level = 0; level < n; ++level) cut(tri, (level + 0.5) / n);
     }
   return pieces;
 }
@@ -100,8 +100,10 @@ const STEPS = {
     for (const [a, b] of d.lines) trail(g, [x + s * a[0], y + s * a[1], x + s * b[0], y + s * b[1]]);
   },
   walk(g, u, d, at) {
-    STEPS.levels(g, 0.5 * u, d);
-    g.lineWidth = 2.6 * u;
+    g.globalAlpha = 0.35;
+    STEPS.levels(g, 0.7 * u, d);
+    g.globalAlpha = 1;
+    g.lineWidth = 1.5 * u;
     for (let k = 0; k < d.kinds.length; ++k) {
       g.strokeStyle = d.kinds[k] === 1 ? '#d64038' : '#17734f';
       trail(g, [...at(d.edges[2 * k]), ...at(d.edges[2 * k + 1])]);
