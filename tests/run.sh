@@ -137,6 +137,11 @@ elif [ "$sanitized" = no ]; then
     also "Debian packages" packages
     also "JavaScript" sh bindings/js/test.sh
     if [ "$tier" = long ]; then
+        also "the studio" sh examples/studio/test.sh --long
+    else
+        also "the studio" sh examples/studio/test.sh
+    fi
+    if [ "$tier" = long ]; then
         also "other machines" sh tests/ports.sh --long
     else
         also "other machines" sh tests/ports.sh arm64 s390x

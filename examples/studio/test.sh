@@ -1,0 +1,24 @@
+#!/bin/sh
+# Drives the studio in Debian's chromium, without a network but for npm's puppeteer-core; screenshots in
+# build/wasm/studio/shots.
+# usage: examples/studio/test.sh [--long]    (after bindings/js/test.sh, which builds the page)
+set -eu
+cd "$(dirname "$0")/../.."
+folder=$PWD/build/wasm/studio
+for program in chromium node npm; do
+    if ! command -v "$program" >/dev/null; then
+        echo "the studio is not tested: $program is missing"
+        exit 0
+    fi
+done
+. cmake/deps.sh
+mkdir -p "$folder/shots"
+cp examples/studio/test/*.js "$folder"
+if [ ! -d "$folder/node_modules/puppeteer-core" ]; then
+    echo '{ "private": true, "type": "module" }' >"$folder/package.json"
+    quietly "$folder/npm.log" npm install --silent --no-audit --no-fund --prefix "$folder" puppeteer-core@24
+fi
+[ "${1:-}" != --long ] || export STUDIO_LONG=1
+STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package CHROMIUM=$(command -v chromium) \
+    SHOTS=$folder/shots \
+    node --test --test-reporter=spec "$folder/studio.test.js"

@@ -1,0 +1,313 @@
+// The studio in Chromium, by mouse, touch and keys. Needs STUDIO (the page), STUDIO_PACKAGE, CHROMIUM, and SHOTS (a folder
+// for screenshots); STUDIO_LONG=1 drags through every picture and rig.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, before, test } from 'node:test';
+import { LOOKS, TOUCH, again, centre, drag, open, settle, show } from './browser.js';
+
+const { STUDIO, STUDIO_PACKAGE, CHROMIUM, SHOTS, STUDIO_LONG } = process.env;
+const AFTER = 'figure.first ';
+const corner = (i) => `${AFTER}[data-type=vertex][data-part="0"][data-vertex="${i}"]`;
+const LONG_FRAMES = 500;
+let browser, page, wrong;
+
+before(async () => { ({ browser, page, wrong } = await open(STUDIO, CHROMIUM)); });
+after(async () => browser?.close());
+
+const cage = () => page.evaluate(() => ({ ...studio.cage.stats, times: [...studio.cage.stats.times], canUndo: studio.cage.canUndo,
+  shapes: studio.cage.shapes, certificate: document.getElementById('certificate')?.textContent }));
+const shot = async (name) => {
+  for (const [look, viewport] of Object.entries(LOOKS)) {
+    await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: look === 'dark' ? 'dark' : 'light' }]);
+    await page.setViewport(viewport);
+    await settle(page);
+    await page.screenshot({ path: `${SHOTS}/${name}-${look}.png` });
+  }
+  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
+  await page.setViewport(LOOKS.light);
+  await settle(page);
+};
+
+const focus = (selector) => page.$eval(selector, (element) => element.focus());
+
+/** A fresh page of the sample. */
+async function sample(name) {
+  await page.select('#sample', name);
+  await settle(page);
+  await page.evaluate(() => Object.assign(studio.cage.stats, { frames: 0, uncertified: 0, folded: 0, other: 0, times: [], refused: 0 }));
+}
+
+test('one file of at most a megabyte', () => assert.ok(fs.statSync(STUDIO).size <= 1 << 20));
+
+test('a corner is dragged by mouse: certified in every frame, nothing folds, mean value coordinates do', async () => {
+  await sample('butterfly');
+  await drag(page, corner(4), [-90, 90], 12);
+  await drag(page, corner(5), [-170, -40], 12);
+  const state = await cage();
+  assert.ok(state.frames >= 24, `${state.frames} frames`);
+  assert.equal(state.uncertified, 0);
+  assert.equal(state.folded, 0);
+  assert.ok(state.other > 0);
+  assert.match(state.certificate, /Certified one-to-one/);
+});
+
+test('undo and redo restore the cage to the bit', async () => {
+  const now = (await cage()).shapes;
+  await page.click('#undo');
+  await settle(page);
+  const undone = (await cage()).shapes;
+  assert.notDeepEqual(undone.target, now.target);
+  await page.keyboard.down('Control');
+  await page.keyboard.press('y');
+  await page.keyboard.up('Control');
+  await settle(page);
+  assert.deepEqual((await cage()).shapes.target, now.target);
+});
+
+test('a cage that crosses itself is refused: the edges are named, the last good picture stays', async () => {
+  await sample('squares');
+  await drag(page, corner(2), [0, 460], 6);
+  const state = await cage();
+  assert.match(state.certificate, /Edges \d+ and \d+ (cross|touch)/);
+  assert.match(state.certificate, /last good picture stays/);
+  assert.ok(state.refused > 0);
+  assert.equal(state.uncertified, 0);
+  const crossing = await page.$eval(`${AFTER}.crossing`, (path) => path.getAttribute('d'));
+  assert.match(crossing, /^M/);
+  await shot('refused');
+  await page.click('#reset');
+  await settle(page);
+  assert.match((await cage()).certificate, /Certified/);
+});
+
+test('keys move, add and remove corners', async () => {
+  await sample('letter');
+  const n = (await cage()).shapes.target[0].points.length;
+  await focus(corner(3));
+  for (let k = 0; k < 4; ++k) await page.keyboard.press('ArrowDown');
+  await settle(page);
+  const moved = (await cage()).shapes;
+  assert.ok(moved.target[0].points[3][1] > moved.source[0].points[3][1]);
+  await page.keyboard.press('+');
+  await settle(page);
+  assert.equal((await cage()).shapes.target[0].points.length, n + 1);
+  await page.keyboard.press('Delete');
+  await settle(page);
+  assert.equal((await cage()).shapes.target[0].points.length, n);
+  assert.equal((await cage()).folded, 0);
+});
+
+test('a hole, a line and a pin inside; the pin is dragged', async () => {
+  await sample('owl');
+  const [x, y] = await centre(page, `${AFTER}.overlay`);
+  const clicks = async (tool, ...places) => {
+    await page.click(`[data-tool=${tool}]`);
+    for (const [u, v] of places) { await page.mouse.click(x + u, y + v); await settle(page); }
+    await settle(page);
+  };
+  await clicks('hole', [-40, 70], [40, 70], [0, 130], [-40, 70]);
+  await clicks('line', [-70, 20], [70, 20], [70, 20]);
+  await clicks('point', [0, -40]);
+  const { shapes } = await cage();
+  assert.deepEqual(shapes.source.map((part) => part.kind), ['outline', 'hole', 'line', 'point']);
+  await drag(page, `${AFTER}[data-type=vertex][data-part="3"]`, [30, -20], 8);
+  const state = await cage();
+  assert.equal(state.uncertified, 0);
+  assert.equal(state.folded, 0);
+  assert.match(state.certificate, /Certified/);
+  await shot('features');
+});
+
+test('the place under the pointer is shown in both pictures', async () => {
+  await sample('butterfly');
+  const [x, y] = await centre(page, `${AFTER}.overlay`);
+  await page.mouse.move(x + 60, y - 30);
+  await settle(page);
+  const note = await page.$eval('.cage .panel:not(.first) .note', (e) => e.textContent);
+  assert.match(note, /^comes from [\d.]+, [\d.]+$/);
+});
+
+test('the view: squares, distortion, triangles, every comparison', async () => {
+  await drag(page, corner(4), [-80, 60], 4);
+  for (const compare of ['thin-plate', 'gradient', 'none', 'mean-value']) {
+    await page.select('#compare', compare);
+    await settle(page);
+  }
+  await page.click('.cage .toggle input');
+  await page.click('input[name=look][value=heat]');
+  await shot('distortion');
+  await page.click('input[name=look][value=squares]');
+  await shot('squares');
+  await page.click('input[name=look][value=picture]');
+  await page.click('.cage .toggle input');
+  await shot('cage');
+});
+
+test('cages as text, GeoJSON and SVG; a link brings them back', async () => {
+  const load = (text) => page.evaluate((t) => studio.cage.take(new File([t], 'cage.txt')), text).then(() => settle(page));
+  const outline = async () => (await cage()).shapes.source[0].points;
+  await load('100 100\n500 100\n500 500\n100 500\n');
+  assert.deepEqual(await outline(), [[100, 100], [500, 100], [500, 500], [100, 500]]);
+  await load('{"type":"Polygon","coordinates":[[[80,90],[500,100],[400,500],[80,90]]]}');
+  assert.deepEqual(await outline(), [[80, 90], [500, 100], [400, 500]]);
+  await load('<svg xmlns="http://www.w3.org/2000/svg"><path d="M100 100h400v300l-50 80H100z"/></svg>');
+  assert.deepEqual(await outline(), [[100, 100], [500, 100], [500, 400], [450, 480], [100, 480]]);
+  await page.click('#link');
+  await page.waitForFunction('location.hash.length > 3');
+  await again(page, LOOKS.light);
+  assert.deepEqual(await outline(), [[100, 100], [500, 100], [500, 400], [450, 480], [100, 480]]);
+  await page.evaluate(() => { location.hash = ''; });
+});
+
+test('handles: moved, turned, painted, by every method, made certified', async () => {
+  await show(page, 'handles');
+  const handle = (i) => `${AFTER}[aria-label="handle ${i}"]`;
+  const stats = () => page.evaluate(() => ({ ...studio.modes.handles.stats, state: studio.modes.handles.state }));
+  await drag(page, handle(5), [50, 40], 6);
+  await drag(page, handle(5), [40, 0], 4, 'right');
+  assert.notEqual((await stats()).state.transforms[6 * 4 + 1], 0);
+  await shot('handles');
+  await page.click('#certify');
+  await settle(page);
+  assert.match(await page.$eval('.handles .certificate', (e) => e.textContent), /Certified one-to-one\s*0 of/);
+  await page.click('#rest');
+  await settle(page);
+  assert.equal((await stats()).folded, 0);
+  for (const method of ['qp', 'equality', 'l1']) {
+    await page.click(`input[name=method][value=${method}]`);
+    await settle(page);
+    assert.equal((await stats()).state.method, method);
+  }
+  await page.click('[data-tool=paint]');
+  const [x, y] = await centre(page, '.handles .panel:not(.first) .overlay');
+  const number = (await stats()).state.number;
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 40, y, { steps: 4 });
+  await page.mouse.up();
+  await settle(page);
+  assert.ok((await stats()).state.number > number);
+  await page.select('#rig', 'figure');
+  await settle(page);
+  await drag(page, handle(5), [-20, -90], 6);
+  await page.click('input[name=scale][value=log]');
+  await shot('figure');
+});
+
+test('poses of the thesis’ shapes equal those of the library to the bit', async () => {
+  const { load } = await import(`${STUDIO_PACKAGE}/src/index.js`);
+  const icc = await load();
+  for (const rig of ['star', 'figure', 'butterfly']) {
+    await page.select('#rig', rig);
+    await settle(page);
+    await drag(page, `${AFTER}[aria-label="handle 4"]`, [20, 14], 3);
+    await drag(page, `${AFTER}[aria-label="handle 3"]`, [30, 0], 3, 'right');
+    const seen = await page.evaluate(async () => {
+      const { state } = studio.modes.handles;
+      const { images, vertices } = await studio.remote.call('handles.recall', { ...state, handle: 0 });
+      const changes = [{ handle: 1, offset: [12.5, -3.25], angle: 0.3 }, { handle: 2, offset: [0, 7], angle: 0 }];
+      const next = await studio.remote.call('handles.pose', { ...state, changes });
+      const plain = (o) => Object.fromEntries(Object.entries(o).map(([k, v]) => [k, ArrayBuffer.isView(v) ? [...v] : v]));
+      return plain({ ...state, vertices, images, next: [...next.transforms], nextImages: [...next.images] });
+    });
+    const domain = icc.Domain.polygon(seen.outline), shape = new icc.Shape([domain]);
+    const weights = new icc.Weights(new icc.Sampling(shape, { kind: 'blue', spacing: seen.spacing }), seen.handles,
+      { method: seen.method, edges: seen.bones });
+    const binding = weights.bind(Float64Array.from(seen.vertices)), pose = new icc.Pose(seen.handles);
+    pose.transforms.set(seen.transforms);
+    assert.deepEqual([...binding.pose(pose)], seen.images, rig);
+    pose.turn(1, 0.3).move(1, [12.5, -3.25]).move(2, [0, 7]);
+    assert.deepEqual([...pose.transforms], seen.next, rig);
+    assert.deepEqual([...binding.pose(pose)], seen.nextImages, rig);
+  }
+});
+
+test('stages: every step, and a walk', async () => {
+  await show(page, 'stages');
+  for (const step of ['grid', 'fire', 'tree', 'function', 'levels', 'walk']) {
+    await page.click(`input[name=step][value=${step}]`);
+    await settle(page);
+  }
+  const [x, y] = await centre(page, '.stages .first .overlay');
+  await page.mouse.move(x + 40, y + 10);
+  await settle(page);
+  assert.match(await page.$eval('.stages .first .note', (e) => e.textContent), /^edge \d+, .* t = 0\.\d+$/);
+  await shot('stages');
+});
+
+test('space: the bar is bent and cut, certified', async () => {
+  await show(page, 'space');
+  const set = (index, value) => page.evaluate((i, v) => {
+    const input = document.querySelectorAll('.space .slider input')[i];
+    input.value = v;
+    for (const type of ['input', 'change']) input.dispatchEvent(new Event(type));
+  }, index, value).then(() => settle(page));
+  for (const bend of [2, 2.6, 3.2]) await set(0, bend);
+  await set(1, 1);
+  await set(3, 0.2);
+  const stats = await page.evaluate(() => studio.modes.space.stats);
+  assert.ok(stats.frames >= 4);
+  assert.equal(stats.uncertified, 0);
+  assert.equal(stats.turned, 0);
+  await shot('space');
+});
+
+test('every control has a name and is 24 pixels across at least', async () => {
+  for (const mode of ['cage', 'handles', 'stages', 'space']) {
+    await page.click(`[data-mode=${mode}]`);
+    await settle(page);
+    const bad = await page.evaluate(() => [...document.querySelectorAll('button, select, input, [role=button], canvas[tabindex]')]
+      .filter((e) => e.checkVisibility() && getComputedStyle(e).display !== 'none').map((e) => {
+        const box = (e.closest('label') ?? e.querySelector('.reach') ?? e).getBoundingClientRect();
+        const name = e.getAttribute('aria-label') || e.closest('label')?.textContent || e.textContent;
+        return [e.outerHTML.slice(0, 80), name.trim(), Math.round(Math.min(box.width, box.height))];
+      }).filter(([, name, size]) => name === '' || size < 24));
+    assert.deepEqual(bad, []);
+  }
+});
+
+test('by touch', async () => {
+  await again(page, TOUCH);
+  await sample('harbour');
+  await drag(page, corner(1), [10, 60], 10, 'touch');
+  const state = await cage();
+  assert.ok(state.frames >= 10);
+  assert.equal(state.uncertified + state.folded, 0);
+  await again(page, LOOKS.light);
+});
+
+test('five hundred frames on five pictures and three rigs', { skip: !STUDIO_LONG }, async () => {
+  let frames = 0, refused = 0;
+  const times = [];
+  const names = ['butterfly', 'owl', 'squares', 'harbour', 'letter'];
+  for (let round = 0; frames < LONG_FRAMES; ++round) {
+    const name = names[round % names.length];
+    await sample(name);
+    const n = (await cage()).shapes.target[0].points.length, i = (5 * round + 2) % n;
+    const angle = 2.4 * round, by = [70 * Math.cos(angle), 70 * Math.sin(angle)];
+    if (round % 3 === 2) {
+      await focus(corner(i));
+      for (let k = 0; k < 12; ++k) { await page.keyboard.press(by[0] > 0 ? 'ArrowRight' : 'ArrowUp'); await settle(page); }
+    } else await drag(page, corner(i), by, 24);
+    const state = await cage();
+    assert.equal(state.uncertified, 0, name);
+    assert.equal(state.folded, 0, name);
+    frames += state.frames;
+    refused += state.refused;
+    times.push(...state.times);
+  }
+  await show(page, 'handles');
+  for (const rig of ['star', 'figure', 'butterfly']) {
+    await page.select('#rig', rig);
+    await settle(page);
+    for (const h of [2, 4, 5]) await drag(page, `${AFTER}[aria-label="handle ${h}"]`, [24, 18], 8);
+    await page.click('#certify');
+    await settle(page);
+    assert.match(await page.$eval('.handles .certificate', (e) => e.textContent), /Certified one-to-one\s*0 of/, rig);
+  }
+  times.sort((a, b) => a - b);
+  console.log(`# ${frames} frames, ${refused} refused; in the worker median ${times[times.length >> 1].toFixed(1)} ms, `
+    + `95 % ${times[Math.floor(0.95 * times.length)].toFixed(1)} ms (wall)`);
+});
+
+test('no page error, no request', () => assert.deepEqual(wrong, []));
