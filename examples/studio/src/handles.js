@@ -139,7 +139,7 @@ export class HandleMode {
     const text = `${folds} of ${n} triangles folded`;
     if (this.#certified) card.set({ state: 'good', title: 'Certified one-to-one', lines: [text, 'The map through the outline of this pose.'] });
     else card.set({ state: 'bad', title: 'Not certified', lines: [text, 'Poses by weights promise nothing.'] });
-    [badge.dataset.state, badge.textContent] = this.#certified ? ['good', `certified, ${folds} folded`] : [folds ? 'bad' : '', `${folds} folded`];
+    [badge.dataset.state, badge.textContent] = this.#certified ? ['good', `certified, ${folds} folded`] : ['bad', `not certified, ${folds} folded`];
   }
 
   setView(change) { Object.assign(this.view, change); this.#show(); }
