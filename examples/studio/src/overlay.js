@@ -6,6 +6,7 @@ const TARGET = 13;             // pixels from a handle within which a touch is o
 const DOT = 5, SMALL = 3.2;
 const MOST_EDGES = 60;         // vertices of a part, beyond which edges have no handles
 const ROOM = 56;               // pixels that an edge needs for one
+const same = ([x, y], [u, v]) => x === u && y === v;
 const TURN = 0.01;             // radians that a pixel turns
 const STEP = Math.PI / 36;     // and a key
 const NAMES = { outline: 'corner', hole: 'hole corner', line: 'line point', point: 'pin' };
@@ -18,6 +19,7 @@ const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDo
  */
 export class Overlay {
   #panel; #acts; #shape = null; #handles = []; #held = new Map(); #paths = []; #marks; #bad = new Set();
+  #placed = null; #unit = 0;
 
   constructor(panel, acts) {
     this.#panel = panel;
@@ -50,6 +52,7 @@ export class Overlay {
   }
 
   #build() {
+    this.#placed = null;
     this.#paths = this.#shape.map(({ kind }) => ['casing', ''].map((more) => draw('path', { class: `part ${kind} ${more}` })));
     this.bad = draw('path', { class: 'part crossing' });
     this.lines.replaceChildren(...this.#paths.flat(), this.bad);
@@ -84,17 +87,27 @@ export class Overlay {
     this.#handles.push(handle);
   }
 
+  /** Puts everything where it is now; what has not changed since is left alone. */
   #place() {
     if (!this.#shape) return;
-    const u = this.#panel.unit;
-    this.#shape.forEach(({ kind, points }, k) => {
+    const u = this.#panel.unit, all = u !== this.#unit || this.#placed === null;
+    this.#shape.forEach((part, k) => {
+      if (!all && this.#placed[k] === part) return;
+      const { kind, points } = part;
       const d = points.length < 2 ? '' : `M${points.map((p) => p.join()).join('L')}${CLOSED[kind] ? 'Z' : ''}`;
       for (const path of this.#paths[k]) path.setAttribute('d', d);
     });
     const outline = this.#shape[0].points, n = outline.length;
-    this.bad?.setAttribute('d', [...this.#bad].filter((i) => i < n)
-      .map((i) => `M${outline[i].join()}L${outline[(i + 1) % n].join()}`).join(''));
-    for (const handle of this.#handles) this.#placeOne(handle, u);
+    const bad = [...this.#bad].filter((i) => i < n);
+    if (bad.length > 0 || this.bad?.getAttribute('d'))
+      this.bad.setAttribute('d', bad.map((i) => `M${outline[i].join()}L${outline[(i + 1) % n].join()}`).join(''));
+    for (const handle of this.#handles) {
+      const part = this.#shape[handle.part], old = all ? undefined : this.#placed[handle.part];
+      const still = old && (old === part || handle.vertices?.every((i) => same(old.points[i], part.points[i])));
+      if (!still) this.#placeOne(handle, u);
+    }
+    this.#placed = this.#shape;
+    this.#unit = u;
   }
 
   #placeOne(handle, u) {

@@ -6,6 +6,8 @@ import { energiesOf, linesOf } from './mesh.js';
 const MARGIN = 0.1;            // around the picture, as a share of its longer side
 const RED = [0.86, 0.16, 0.14, 0.92];
 
+const equal = (a, b) => a === b || (a && b && a.length === b.length && a.every((v, i) => v === b[i]));
+
 export class Panel {
   #stage; #image = null; #last = null;
 
@@ -52,8 +54,11 @@ export class Panel {
 
   /** Shows triangles: { at, from, triangles, folded, values } and how: { look, mesh, whole }. */
   show(mesh, view) {
+    const [old, how] = this.#last ?? [];
+    const still = old && equal(old.at, mesh.at) && equal(old.from, mesh.from) && equal(old.triangles, mesh.triangles)
+      && old.values === mesh.values && equal(old.folded, mesh.folded) && JSON.stringify(how) === JSON.stringify(view);
     this.#last = [mesh, view];
-    this.redraw();
+    if (!still) this.redraw();
   }
 
   redraw() {
