@@ -23,11 +23,11 @@ export function stagesOf(core) {
     /** One byte per vertex, 1 inside. */
     inside() { return copied(Uint8Array, core.call('icc_grid_inside', this), this.info.nVertices); }
 
-    /** The grassfire's maximum: { vertex, rounds }, with the round in which each vertex burns. */
+    /** The grassfire's maximum: { vertex, rounds }, with how many rounds it burnt before that. */
     findMaximum() {
-      const vertex = new Uint32Array(1), rounds = new Uint32Array(this.info.nVertices);
+      const vertex = new Uint32Array(1), rounds = new Uint32Array(1);
       core.call('icc_grid_find_maximum', this, vertex, rounds);
-      return { vertex: vertex[0], rounds };
+      return { vertex: vertex[0], rounds: rounds[0] };
     }
 
     findNearest(point) {

@@ -93,7 +93,9 @@ test('charts, and the stages by themselves', () => {
   assert.ok(chart.trace([1, 1]).length > 4);
   assert.ok(chart.details.nMeshSimplices > 0);
   const grid = new icc.Grid(icc.Domain.polygon(SQUARE), 20);
-  const tree = new icc.Tree(grid, grid.findMaximum().vertex);
+  const { vertex, rounds } = grid.findMaximum();
+  assert.equal(rounds, 9); // 20 vertices across: the two in the middle are the tenth from either side
+  const tree = new icc.Tree(grid, vertex);
   assert.equal(tree.report().nCousinViolations, 0);
   const laplace = new icc.GridFunction(tree, { function: 'laplace' });
   assert.equal(laplace.values()[tree.root], 1);

@@ -105,7 +105,7 @@ export interface Grid extends Handle {
   refine(): Grid;
   restrict(keep: Uint8Array): Grid;
   inside(): Uint8Array;
-  findMaximum(): { vertex: number; rounds: Uint32Array };
+  findMaximum(): { vertex: number; rounds: number };
   findNearest(point: Points): number;
 }
 export interface Tree extends Handle {

@@ -23,7 +23,7 @@ export function stageOperations(icc) {
       chartOf(target, { cells, function: kind });
       const { edges, kinds, tested } = icc.GridFunction.ofChart(charts[0]).edges();
       return {
-        grid: grid.info, inside: grid.inside(), maximum: vertex, rounds: rounds[0], parents: tree.parents(),
+        grid: grid.info, inside: grid.inside(), maximum: vertex, rounds, parents: tree.parents(),
         generations: tree.generations(), report: tree.report(), values: f.values(), critical: f.report(),
         edges, kinds, tested, chart: charts[0].report(),
       };
