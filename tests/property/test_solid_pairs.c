@@ -14,9 +14,11 @@
 
 /* ---- shapes ---- */
 
+typedef enum shape_kind { SPHERE, CUBE, BODY } shape_kind;
+
 /* Six limbs of that length along the axes of a ball, twisted by so many radians a unit of z. */
 typedef struct test_shape {
-    enum { SPHERE, CUBE, BODY } kind;
+    shape_kind kind;
     double length, twist;
 } test_shape;
 
@@ -188,7 +190,7 @@ START_TEST(random_pairs)
     random_source r = {11};
     for (int k = share_of(40); k > 0; --k) {
         const test_shape body = {BODY, 1 + 7 * random_unit(&r), random_unit(&r) - 0.5};
-        const test_shape other = {(int)(3 * random_unit(&r)), 1 + 4 * random_unit(&r),
+        const test_shape other = {(shape_kind)(3 * random_unit(&r)), 1 + 4 * random_unit(&r),
                                   random_unit(&r) - 0.5};
         check_both_ways(k % 4 == 0 ? 4 : 3, &body, &other);
     }
