@@ -113,6 +113,14 @@ bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex)
     return false;
 }
 
+bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map)
+{
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        if (!iccp_simplicial_is_free(map, s) && !iccp_simplicial_is_positive(map, s))
+            return true;
+    return false;
+}
+
 void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size_t simplex,
                               double *jacobian)
 {

@@ -53,6 +53,10 @@ size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_
 /* Whether the image of a corner is not fixed. */
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex);
 
+/* Whether the image of a simplex whose corners are all fixed is not positive: no repair can help
+ * it. Only the images of fixed points are looked at. */
+bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map);
+
 /* Of one simplex, forward or back; row by row. */
 void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size_t simplex,
                               double *jacobian);

@@ -274,3 +274,18 @@ uint32_t iccp_solid_add_point(iccp_solid_edit *edit, const double *point, const 
     memcpy(edit->map->images + 3 * mesh->n_points, image, 3 * sizeof *image);
     return (uint32_t)mesh->n_points++;
 }
+
+icc_status iccp_solid_check(iccp_solid_map *map, const icc_domain *source, const iccp_env *env)
+{
+    iccp_simplices *mesh = map->own;
+    iccp_simplicial_map before = iccp_solid_simplicial(map);
+    before.images = mesh->points;
+    if (iccp_simplicial_count_at_once(&before, env) > 0)
+        return ICC_ERR_CERTIFICATE;
+    iccp_free(&mesh->memory, mesh->across);
+    mesh->across = NULL;
+    icc_status status = iccp_simplices_join(mesh, source->n_facets, source->facets, NULL);
+    if (status == ICC_OK)
+        status = iccp_simplices_check_shape(mesh, NULL);
+    return status == ICC_OK || status == ICC_ERR_MEMORY ? status : ICC_ERR_CERTIFICATE;
+}

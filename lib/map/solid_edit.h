@@ -3,6 +3,7 @@
 #ifndef ICCP_SOLID_EDIT_H
 #define ICCP_SOLID_EDIT_H
 
+#include "domain/domain.h"
 #include "map/solid_map.h"
 
 /* The most tetrahedra round an edge that is looked at. */
@@ -30,6 +31,11 @@ typedef struct iccp_ring {
 /* `map` stays where it is, with a mesh of its own, until the edit is freed. */
 icc_status iccp_solid_edit_create(iccp_solid_edit *edit, iccp_solid_map *map);
 void iccp_solid_edit_free(iccp_solid_edit *edit);
+
+/* Whether a mesh that was changed is what it was: the ball that fills `source`, with its surface,
+ * every tetrahedron positive before the map, exactly. It knows its neighbours again. Else
+ * ICC_ERR_CERTIFICATE. */
+icc_status iccp_solid_check(iccp_solid_map *map, const icc_domain *source, const iccp_env *env);
 
 icc_status iccp_solid_edit_begin(iccp_solid_edit *edit);
 

@@ -181,35 +181,24 @@ static icc_status jump(journey *j, size_t *n_left, const iccp_env *env)
     return status;
 }
 
-/* Whether a tetrahedron with all corners on the surface is not positive where these go: its edges
- * inside must be cut. */
-static bool must_be_cut(const journey *j)
-{
-    iccp_simplicial_map there = iccp_solid_simplicial(j->map);
-    const iccp_simplicial_map here = there;
-    there.images = j->target->vertices;
-    for (size_t t = 0; t < here.n_simplices; ++t)
-        if (!iccp_simplicial_is_free(&here, t) && !iccp_simplicial_is_positive(&there, t))
-            return true;
-    return false;
-}
-
 static icc_status go_there(journey *j, size_t *n_left, const iccp_env *env)
 {
     static const size_t TURNS[] = {PATIENCE, LAST_PATIENCE};
-    const iccp_simplicial_map simplicial = iccp_solid_simplicial(j->map);
-    bool reached = iccp_simplicial_count_at_once(&simplicial, env) > 0;
+    const iccp_simplicial_map here = iccp_solid_simplicial(j->map);
+    iccp_simplicial_map there = here; /* of the surface alone */
+    there.images = j->target->vertices;
     icc_status status = ICC_OK;
-    if (reached)
+    if (iccp_simplicial_count_at_once(&here, env) > 0)
         return jump(j, n_left, env); /* by rounding in the new frame */
     *n_left = 1;
-    if (must_be_cut(j)) {
+    if (iccp_simplicial_is_hopeless(&there)) {
         size_t n;
         status = iccp_solid_refine(j->map, j->source, true, &n, env);
     }
     if (status == ICC_OK)
         status = move_in_common(j, env);
     for (int k = 0; k < 2 && status == ICC_OK && *n_left > 0; ++k) {
+        bool reached;
         status = carry(j, TURNS[k], &reached, env);
         if (status == ICC_OK && !reached)
             status = jump(j, n_left, env);

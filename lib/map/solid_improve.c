@@ -43,7 +43,6 @@ static icc_status descend(void *map, const iccp_descent *descent, bool both_side
 icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)
 {
     const size_t n = 3 * map->mesh->n_points;
-    copy->stretch = map->stretch;
     copy->images = iccp_alloc(&copy->memory, n, sizeof *copy->images);
     if (copy->images == NULL || iccp_simplices_copy(&copy->own, map->mesh, &copy->memory) != ICC_OK)
         return ICC_ERR_MEMORY;
@@ -71,21 +70,11 @@ static icc_status change(iccp_solid_map *map, bool cuts, size_t *n_changes, cons
     return status;
 }
 
-/* The same ball with the same surface, and every tetrahedron positive before and after. */
 static icc_status certify(iccp_solid_map *map, const icc_domain *source, const iccp_env *env)
 {
-    iccp_simplices *mesh = map->own;
-    iccp_simplicial_map before = iccp_solid_simplicial(map), after = before;
-    before.images = mesh->points;
-    if (iccp_simplicial_count_at_once(&before, env) > 0 ||
-        iccp_simplicial_count_at_once(&after, env) > 0)
-        return ICC_ERR_CERTIFICATE;
-    iccp_free(&mesh->memory, mesh->across);
-    mesh->across = NULL;
-    icc_status status = iccp_simplices_join(mesh, source->n_facets, source->facets, NULL);
-    if (status == ICC_OK)
-        status = iccp_simplices_check_shape(mesh, NULL);
-    return status == ICC_OK || status == ICC_ERR_MEMORY ? status : ICC_ERR_CERTIFICATE;
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    return iccp_simplicial_count_at_once(&simplicial, env) > 0 ? ICC_ERR_CERTIFICATE
+                                                               : iccp_solid_check(map, source, env);
 }
 
 static void exchange(iccp_solid_map *a, iccp_solid_map *b)
@@ -98,7 +87,7 @@ static void exchange(iccp_solid_map *a, iccp_solid_map *b)
 icc_status iccp_solid_refine(iccp_solid_map *map, const icc_domain *source, bool cuts,
                              size_t *n_changes, const iccp_env *env)
 {
-    iccp_solid_map next = {.memory = map->memory};
+    iccp_solid_map next = {.memory = map->memory, .stretch = map->stretch};
     const iccp_simplicial_map now = iccp_solid_simplicial(map);
     icc_status status = iccp_solid_copy(&next, map);
     if (status == ICC_OK)

@@ -5,8 +5,8 @@
 #include "map/improve.h"
 #include "map/solid_map.h"
 
-/* Fills in a map that is all 0 but for its memory: with a mesh of its own, and without what finds
- * points. */
+/* Fills in a map that is all 0 but for its memory and stretch: with a mesh of its own, and without
+ * what finds points. */
 icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map);
 
 /* Changes the mesh where the energy falls for it: flips, and with `cuts` edges inside from boundary

@@ -130,14 +130,11 @@ icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
 {
     iccp_solid_map *copy = new_map(source, target, memory);
     const icc_status status = copy != NULL ? copy_map(copy, map) : ICC_ERR_MEMORY;
-    const double stretch =
-        copy != NULL ? iccp_cbrt(fabs(target->measure) / fabs(source->measure)) : 0;
     *out = NULL;
     if (status != ICC_OK) {
         iccp_solid_map_free(copy);
         return status;
     }
-    copy->stretch = stretch;
     *out = copy;
     return ICC_OK;
 }

@@ -114,22 +114,6 @@ static icc_status add_points(iccp_solid_map *map, size_t *n_cut)
     return status;
 }
 
-/* The same ball with the same surface, every tetrahedron positive before the map. */
-static icc_status check(const iccp_solid_map *map, const icc_domain *source)
-{
-    iccp_simplices *mesh = map->own;
-    iccp_simplicial_map before = iccp_solid_simplicial(map);
-    before.images = mesh->points;
-    if (iccp_simplicial_count_inverted(&before) > 0)
-        return ICC_ERR_CERTIFICATE;
-    iccp_free(&mesh->memory, mesh->across);
-    mesh->across = NULL;
-    icc_status status = iccp_simplices_join(mesh, source->n_facets, source->facets, NULL);
-    if (status == ICC_OK)
-        status = iccp_simplices_check_shape(mesh, NULL);
-    return status == ICC_OK || status == ICC_ERR_MEMORY ? status : ICC_ERR_CERTIFICATE;
-}
-
 icc_status iccp_solid_mend(iccp_solid_map *map, const icc_domain *source, size_t *n_left,
                            const iccp_env *env)
 {
@@ -148,5 +132,5 @@ icc_status iccp_solid_mend(iccp_solid_map *map, const icc_domain *source, size_t
         if (n_cut == 0)
             break;
     }
-    return status == ICC_OK ? check(map, source) : status;
+    return status == ICC_OK ? iccp_solid_check(map, source, env) : status;
 }

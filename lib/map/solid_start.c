@@ -33,14 +33,14 @@ typedef struct start {
 } start;
 
 /* NaN for a vertex without an image: the repair finds one. */
-static icc_status find_images(void *argument, size_t find_start, size_t end)
+static icc_status find_images(void *argument, size_t begin, size_t end)
 {
     const start *s = argument;
     const iccp_frame *from = &s->way.source->domain->frame, *to = &s->way.target->domain->frame;
     icc_status status = ICC_OK;
     iccp_path path;
     iccp_path_init(&path, s->memory);
-    for (size_t i = find_start; i < end && status != ICC_ERR_MEMORY; ++i) {
+    for (size_t i = begin; i < end && status != ICC_ERR_MEMORY; ++i) {
         const size_t v = s->mesh->n_boundary + i;
         double point[3], image[3];
         iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
@@ -88,18 +88,6 @@ static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env
     return ICC_OK;
 }
 
-/* Whether a tetrahedron is inverted whose corners are all on the boundary: no repair can help
- * it. */
-static bool is_hopeless(const iccp_solid_map *map)
-{
-    const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
-    for (size_t t = 0; t < simplicial.n_simplices; ++t)
-        if (!iccp_simplicial_is_free(&simplicial, t) &&
-            !iccp_simplicial_is_positive(&simplicial, t))
-            return true;
-    return false;
-}
-
 /* With points between boundary vertices; *done says whether there is room for any. */
 static icc_status begin_without_chords(iccp_solid_map *map, direction way, bool *done,
                                        const iccp_env *env)
@@ -120,7 +108,8 @@ static icc_status fit(iccp_solid_map *map, direction way, icc_map_info *info, co
     iccp_env part[4];
     iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
     icc_status status = find_start(map, way, &part[0]);
-    if (status == ICC_OK && is_hopeless(map))
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    if (status == ICC_OK && iccp_simplicial_is_hopeless(&simplicial))
         status = begin_without_chords(map, way, &cut, &part[1]);
     if (status == ICC_OK)
         status = repair(map, info, &part[2]);
