@@ -138,12 +138,9 @@ elif [ "$sanitized" = no ]; then
     also "JavaScript" sh bindings/js/test.sh
     if [ "$tier" = long ]; then
         also "the studio" sh examples/studio/test.sh --long
-    else
-        also "the studio" sh examples/studio/test.sh
-    fi
-    if [ "$tier" = long ]; then
         also "other machines" sh tests/ports.sh --long
     else
+        also "the studio" sh examples/studio/test.sh
         also "other machines" sh tests/ports.sh arm64 s390x
     fi
 fi
