@@ -28,8 +28,7 @@ export function chartOf(core, Domain) {
     /** What only charts of this method have. */
     get details() {
       const names = INFOS[this.info.method];
-      const { dim } = this.info;
-      return core.info(names[dim === 2 && this.domain.info.nMeshSimplices === 0 ? 0 : names.length - 1], this);
+      return core.info(names[this.dim === 2 && this.domain.info.nMeshSimplices === 0 ? 0 : names.length - 1], this);
     }
 
     /** Estimates how much of the shape the coordinates miss, from about nPoints points. */
@@ -37,7 +36,7 @@ export function chartOf(core, Domain) {
 
     /** Coordinates of points: { facet, bary, t, status }. */
     encode(points) {
-      const p = flat(points), { dim } = this.info, n = p.length / dim;
+      const p = flat(points), { dim } = this, n = p.length / dim;
       const out = {
         facet: new Uint32Array(n), bary: new Float64Array(n * dim), t: new Float64Array(n),
         status: new Int32Array(n),
@@ -49,7 +48,7 @@ export function chartOf(core, Domain) {
     /** Points of coordinates: { points, status }. */
     decode({ facet, bary, t }) {
       const n = t.length;
-      const out = { points: new Float64Array(n * this.info.dim), status: new Int32Array(n) };
+      const out = { points: new Float64Array(n * this.dim), status: new Int32Array(n) };
       core.call('icc_chart_decode', this, n, facet, bary, t, out.points, out.status, null);
       return out;
     }
@@ -58,7 +57,7 @@ export function chartOf(core, Domain) {
     trace(point) {
       const p = flat(point), count = new Uint32Array(1);
       core.call('icc_chart_trace', this, p, 0, null, count);
-      const curve = new Float64Array(count[0] * this.info.dim);
+      const curve = new Float64Array(count[0] * this.dim);
       core.call('icc_chart_trace', this, p, count[0], curve, count);
       return curve;
     }

@@ -93,7 +93,7 @@ const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 /** An object of C. It is owned, and freed by free(), or when nothing refers to it any more; or borrowed
  *  from another one, which it keeps alive. */
 export class Handle {
-  #core; #address; #free; #lender;
+  #core; #address; #free; #lender; #dim;
 
   constructor(core, address, free, lender = null) {
     this.#core = core;
@@ -104,6 +104,9 @@ export class Handle {
   }
 
   get core() { return this.#core; }
+
+  /** The dimension, of what has an info; asked for once. */
+  get dim() { return (this.#dim ??= this.info.dim); }
 
   get address() {
     if (this.#address === 0) throw new TypeError(`this ${this.constructor.name} has been freed`);

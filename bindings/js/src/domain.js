@@ -94,7 +94,7 @@ export function domainOf(core) {
     /** Where points lie: { where: [1 inside, 2 on the boundary, 3 outside], facet, bary } with the nearest
      *  facet and barycentric coordinates of the nearest point on it. */
     locate(points) {
-      const p = flat(points), { dim } = this.info, n = p.length / dim;
+      const p = flat(points), { dim } = this, n = p.length / dim;
       const out = { where: new Int32Array(n), facet: new Uint32Array(n), bary: new Float64Array(n * dim) };
       core.call('icc_domain_locate', this, n, p, out.where, out.facet, out.bary);
       return out;

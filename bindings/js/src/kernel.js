@@ -7,13 +7,16 @@ const methodNumber = (method) => (typeof method === 'string' ? constantOf('ICC_W
 /** The classes Shape, Sampling, Weights, Binding and Pose of an instance. */
 export function kernelOf(core) {
   class Shape extends Handle {
+    #dim;
     /** Regions are Domains; curves are { vertices, segments }. */
-    constructor(regions, { vertices = [], segments = [], dim = regions[0]?.info.dim ?? 2 } = {}) {
+    constructor(regions, { vertices = [], segments = [], dim = regions[0]?.dim ?? 2 } = {}) {
       const v = flat(vertices), s = Uint32Array.from(segments.flat?.() ?? segments);
       super(core, core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s),
         'icc_shape_free');
-      this.dim = dim;
+      this.#dim = dim;
     }
+
+    get dim() { return this.#dim; }
   }
 
   class Sampling extends Handle {
@@ -68,7 +71,7 @@ export function kernelOf(core) {
 
     report(points) {
       const p = flat(points);
-      return core.info('icc_weights_get_report', this, p.length / this.info.dim, p);
+      return core.info('icc_weights_get_report', this, p.length / this.dim, p);
     }
 
     /** New weights, with a brush applied to a handle's. */
@@ -162,11 +165,11 @@ export function kernelOf(core) {
     if (o.edges) o = { ...o, edges: Uint32Array.from(o.edges.flat()) };
     if (o.edges) o.nEdges = o.edges.length / 2;
     if (o.lines) o = { ...o, nLines: o.lines.length };
-    return core.call('icc_weights_create', sampling, handles.length / sampling.info.dim, handles, o);
+    return core.call('icc_weights_create', sampling, handles.length / sampling.dim, handles, o);
   }
 
   function bound(weights, points, derivatives) {
-    return core.call('icc_binding_create', weights, points.length / weights.info.dim, points, Number(derivatives));
+    return core.call('icc_binding_create', weights, points.length / weights.dim, points, Number(derivatives));
   }
 
   return { Shape, Sampling, Weights, Binding, Pose };

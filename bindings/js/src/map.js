@@ -65,12 +65,12 @@ export function mapOf(core, Domain, Chart) {
 
     /** Derivatives at points, dim * dim numbers each. */
     jacobian(points, { out, status = null } = {}) {
-      return this.#points('icc_map_jacobian', points, out, status, this.info.dim);
+      return this.#points('icc_map_jacobian', points, out, status, this.dim);
     }
 
     #points(name, points, out, status, width) {
       const p = flat(points), result = room(out, p.length * width);
-      core.call(name, this, p.length / this.info.dim, p, result, status, null);
+      core.call(name, this, p.length / this.dim, p, result, status, null);
       return result;
     }
 
@@ -81,7 +81,7 @@ export function mapOf(core, Domain, Chart) {
     repair(vertices, simplices) { return this.#carry('icc_map_repair', vertices, simplices); }
 
     #carry(name, vertices, simplices) {
-      const v = flat(vertices), { dim } = this.info, s = Uint32Array.from(simplices.flat?.() ?? simplices);
+      const v = flat(vertices), { dim } = this, s = Uint32Array.from(simplices.flat?.() ?? simplices);
       const images = new Float64Array(v.length), certificate = {};
       core.call(name, this, v.length / dim, v, s.length / (dim + 1), s, images, certificate);
       return { images, certificate };

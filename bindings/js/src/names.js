@@ -4,9 +4,15 @@ import { constants } from './layouts.js';
 /** "n_mesh_vertices" -> "nMeshVertices". */
 export const camel = (name) => name.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
 
+const enumerations = new Map();
+
 /** The constants with a prefix: number -> name without it. */
-export const constantNames = (prefix) => new Map(Object.entries(constants)
-  .filter(([name]) => name.startsWith(prefix)).map(([name, value]) => [value, name.slice(prefix.length)]));
+export function constantNames(prefix) {
+  if (!enumerations.has(prefix))
+    enumerations.set(prefix, new Map(Object.entries(constants).filter(([name]) => name.startsWith(prefix))
+      .map(([name, value]) => [value, name.slice(prefix.length)])));
+  return enumerations.get(prefix);
+}
 
 /** Members that hold a number of an enumeration: struct, member, prefix of the constants. */
 export const ENUMERATIONS = [

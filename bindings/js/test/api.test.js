@@ -85,6 +85,9 @@ test('a surface is filled, and mapped', () => {
   assert.equal(map.certified, true);
   near(map.apply([[0.5, 0.5, 0.5]]), [1, 0.5, 0.5], 0.2);
   assert.ok(icc.Domain.surface(cube, faces).fill().info.nMeshSimplices >= 5);
+  const moved = map.improve({ iterations: 2, levels: -1 }).retarget(icc.Domain.surface(cube, faces));
+  assert.equal(moved.dim, 3);
+  assert.equal(icc.Map.load(moved.save()).retarget(icc.Domain.surface(sheared, faces)).certified, true);
 });
 
 test('charts, and the stages by themselves', () => {

@@ -23,6 +23,7 @@ export interface Features {
 
 export interface Domain extends Handle {
   readonly info: Info;
+  readonly dim: number;
   fill(options?: Options): Domain;
   boundary(): { vertices: Float64Array; facets: Uint32Array };
   mesh(): { vertices: Float64Array; simplices: Uint32Array };
@@ -40,6 +41,7 @@ export type ShapeLike = Domain | Points;
 export interface Coordinates { facet: Uint32Array; bary: Float64Array; t: Float64Array }
 export interface Chart extends Handle {
   readonly info: Info;
+  readonly dim: number;
   readonly details: Info;
   readonly certified: boolean;
   readonly domain: Domain;
@@ -54,6 +56,7 @@ export interface ChartClass { new (domain: ShapeLike, options?: Options | null):
 export interface Tie { vertex: number[]; source: Float64Array; target: Float64Array; length: number[] }
 export interface Map extends Handle {
   readonly info: Info;
+  readonly dim: number;
   readonly certified: boolean;
   readonly sourceChart: Chart | null;
   readonly targetChart: Chart | null;
@@ -76,9 +79,10 @@ export interface MapClass {
 }
 
 export interface Shape extends Handle { readonly dim: number }
-export interface Sampling extends Handle { readonly info: Info; points(): Float64Array; save(): Uint8Array }
+export interface Sampling extends Handle { readonly info: Info; readonly dim: number; points(): Float64Array; save(): Uint8Array }
 export interface Weights extends Handle {
   readonly info: Info;
+  readonly dim: number;
   nodes(): { points: Float64Array; initial: Float64Array; values: Float64Array; status: Int32Array };
   evaluate(points: Points, results?: { out?: Float64Array; gradients?: Float64Array }): Float64Array;
   report(points: Points): Info;
@@ -90,6 +94,7 @@ export interface Weights extends Handle {
 }
 export interface Binding extends Handle {
   readonly info: { nPoints: number; nHandles: number; dim: number };
+  readonly dim: number;
   weights(): { handles: Float64Array; weights: Float64Array };
   pose(pose: Pose, results?: { out?: Float64Array; jacobians?: Float64Array }): Float64Array;
   save(): Uint8Array;
