@@ -1,43 +1,32 @@
 // Maps of cages: made, followed, kept for undo, compared.
 import { blend, meanValue, thinPlate } from './baseline.js';
 import { plain } from './errors.js';
+import { Kept } from './kept.js';
 import { domainArguments, flatOf, verticesOf } from './shape.js';
 
-const MOST_KEPT = 24;          // maps, so that undo is at once
 const MOST_COMPARED = 600;     // vertices of a cage: a thin-plate spline takes their cube
 const FRAME_STEPS = 2;         // of improvement, in a frame of dragging
 
 export function cageOperations(icc) {
-  const kept = new Map();      // number of a state -> its map
-  let map = null, compared = null;
+  const maps = new Kept();
+  let compared = null;
 
   const domainOf = (shape) => icc.Domain.polygon(...domainArguments(shape));
-  const isKept = (which) => [...kept.values()].includes(which);
 
-  function become(next) {
-    if (map !== null && map !== next && !isKept(map)) map.free();
-    map = next;
-  }
-
-  function keep(number) {
-    if (number === undefined) return;
-    kept.set(number, map);
-    while (kept.size > MOST_KEPT) {
-      const [oldest, its] = kept.entries().next().value;
-      kept.delete(oldest);
-      if (its !== map && !isKept(its)) its.free();
+  /** The domain of a shape; its errors say whose it is. */
+  function sideOf(shape, side) {
+    try { return domainOf(shape); } catch (error) {
+      if (error instanceof icc.IccError) error.side ??= side;
+      throw error;
     }
   }
 
   /** Runs `work` with the domains of both shapes. */
   function withDomains(source, target, work) {
-    const from = domainOf(source);
+    const from = sideOf(source, 'source');
     try {
-      const to = domainOf(target);
+      const to = sideOf(target, 'target');
       try { return work(from, to); } finally { to.free(); }
-    } catch (error) {
-      if (error instanceof icc.IccError && !error.side && from) error.which = 'target';
-      throw error;
     } finally {
       from.free();
     }
@@ -46,14 +35,14 @@ export function cageOperations(icc) {
   const create = (source, target) => withDomains(source, target, (a, b) => new icc.Map(a, b));
 
   function follow(target) {
-    const to = domainOf(target);
-    try { return map.retarget(to, FRAME_STEPS); } finally { to.free(); }
+    const to = sideOf(target, 'target');
+    try { return maps.now.retarget(to, FRAME_STEPS); } finally { to.free(); }
   }
 
   /** The map as the page draws it. */
   function picture({ source, target, compare }) {
-    const { vertices, images, simplices } = map.mesh();
-    const { certified, energy, nSimplices, kind, classKept, detour } = map.info;
+    const { vertices, images, simplices } = maps.now.mesh();
+    const { certified, energy, nSimplices, kind, classKept, detour } = maps.now.info;
     return {
       vertices, images, simplices, certified: certified === 1 && kind === 'mesh', energy, nSimplices,
       classKept, detour, ...comparison(source, target, compare, vertices),
@@ -88,43 +77,40 @@ export function cageOperations(icc) {
   return {
     /** A map anew. */
     'cage.create'({ source, target, number, compare }) {
-      try { become(create(source, target)); } catch (error) { return trouble(error, source, target); }
-      keep(number);
+      try { maps.become(create(source, target), number); } catch (error) { return trouble(error, source, target); }
       return picture({ source, target, compare });
     },
 
     /** The map to a target that has moved; the old one stays when there is none. */
     'cage.follow'({ source, target, number, compare }) {
-      try { become(follow(target)); } catch (error) { return trouble(error, source, target); }
-      keep(number);
+      try { maps.become(follow(target), number); } catch (error) { return trouble(error, source, target); }
       return picture({ source, target, compare });
     },
 
     /** The map of a state that was kept, or a new one. */
     'cage.recall'({ source, target, number, compare }) {
-      if (!kept.has(number)) return this['cage.create']({ source, target, number, compare });
-      become(kept.get(number));
+      if (!maps.get(number)) return this['cage.create']({ source, target, number, compare });
+      maps.become(maps.get(number));
       return picture({ source, target, compare });
     },
 
     /** A fairer one. */
     'cage.improve'({ source, target, number, compare }) {
-      if (map === null) return {};
-      const before = map.info.energy;
-      become(map.improve());
-      keep(number);
+      if (maps.now === null) return {};
+      const before = maps.now.info.energy;
+      maps.become(maps.now.improve(), number);
       return { before, ...picture({ source, target, compare }) };
     },
 
     /** Where points come from, or go to. */
     'cage.points'({ points, forth }) {
-      if (map === null) return { points: [] };
-      return { points: forth ? map.apply(points) : map.inverse(points) };
+      if (maps.now === null) return { points: [] };
+      return { points: forth ? maps.now.apply(points) : maps.now.inverse(points) };
     },
 
     'cage.warp'({ picture: from, width, height }) {
       const to = { width, height, data: new Uint8ClampedArray(4 * width * height) };
-      map.warp(from, to);
+      maps.now.warp(from, to);
       return { pixels: to.data };
     },
   };

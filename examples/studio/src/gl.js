@@ -51,14 +51,31 @@ export function programOf(gl, vertex, fragment) {
   return program;
 }
 
+/** Buffers for the attributes of a program, { name: numbers of a vertex }. */
+export function buffersOf(gl, program, widths) {
+  return Object.fromEntries(Object.entries(widths).map(([name, width]) => {
+    const place = gl.getAttribLocation(program, name), buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, width, gl.FLOAT, false, 0, 0);
+    return [name, buffer];
+  }));
+}
+
+/** WebGL2 on a canvas. */
+export function contextOf(canvas) {
+  const gl = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
+  if (!gl) throw new Error('This page draws with WebGL2, which this browser does not offer.');
+  return gl;
+}
+
 export class Renderer {
   #gl; #canvas; #buffers; #uniforms; #picture = null; #redraw;
 
   constructor(canvas, redraw) {
     this.#canvas = canvas;
     this.#redraw = redraw;
-    this.#gl = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
-    if (!this.#gl) throw new Error('This page draws with WebGL2, which this browser does not offer.');
+    this.#gl = contextOf(canvas);
     canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
     canvas.addEventListener('webglcontextrestored', () => {
       this.#prepare();
@@ -70,14 +87,7 @@ export class Renderer {
 
   #prepare() {
     const gl = this.#gl, program = programOf(gl, VERTEX, FRAGMENT);
-    this.#buffers = { index: gl.createBuffer() };
-    for (const [name, width] of [['at', 2], ['from', 2], ['value', 1]]) {
-      const place = gl.getAttribLocation(program, name), buffer = gl.createBuffer();
-      this.#buffers[name] = buffer;
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, width, gl.FLOAT, false, 0, 0);
-    }
+    this.#buffers = { index: gl.createBuffer(), ...buffersOf(gl, program, { at: 2, from: 2, value: 1 }) };
     this.#uniforms = Object.fromEntries(['view', 'size', 'what', 'flat_colour', 'square', 'over']
       .map((name) => [name, gl.getUniformLocation(program, name)]));
     gl.bindTexture(gl.TEXTURE_2D, gl.createTexture());

@@ -1,5 +1,5 @@
 // Triangles in space by WebGL2: flat faces, lit, with their edges.
-import { programOf } from './gl.js';
+import { buffersOf, contextOf, programOf } from './gl.js';
 
 const VERTEX = `#version 300 es
 uniform mat4 view; in vec3 at, corner; in vec4 tone; out vec3 place, c; out vec4 t;
@@ -33,21 +33,13 @@ export function camera({ turn, tilt, distance, centre = [0, 0, 0] }, ratio) {
 }
 
 export class Renderer3 {
-  #gl; #canvas; #buffers = {}; #uniforms; #n = 0;
+  #gl; #canvas; #buffers; #uniforms; #n = 0;
 
   constructor(canvas) {
     this.#canvas = canvas;
-    const gl = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
-    if (!gl) throw new Error('This page draws with WebGL2, which this browser does not offer.');
-    this.#gl = gl;
+    const gl = this.#gl = contextOf(canvas);
     const program = programOf(gl, VERTEX, FRAGMENT);
-    for (const [name, width] of [['at', 3], ['corner', 3], ['tone', 4]]) {
-      const place = gl.getAttribLocation(program, name), buffer = gl.createBuffer();
-      this.#buffers[name] = buffer;
-      gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-      gl.enableVertexAttribArray(place);
-      gl.vertexAttribPointer(place, width, gl.FLOAT, false, 0, 0);
-    }
+    this.#buffers = buffersOf(gl, program, { at: 3, corner: 3, tone: 4 });
     this.#uniforms = { view: gl.getUniformLocation(program, 'view'), eye: gl.getUniformLocation(program, 'eye') };
     gl.enable(gl.DEPTH_TEST);
   }

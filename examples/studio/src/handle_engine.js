@@ -1,13 +1,13 @@
 // Kernel coordinates: samplings, weights and poses, and the certified map to a pose's outline.
 import { plain } from './errors.js';
+import { Kept } from './kept.js';
 import { flatOf } from './shape.js';
 
-const MOST_KEPT = 24;          // weights, so that undo is at once
 const INSIDE = 1;              // Domain.locate()
 
 export function handleOperations(icc) {
-  const kept = new Map();      // number of a state -> its weights
-  let sampling = null, key = '', weights = null, binding = null, mesh = null;
+  const weights = new Kept();
+  let sampling = null, key = '', binding = null, mesh = null;
 
   /** What is drawn: triangles between samples, with the outline cut as finely. */
   function triangulate(outline, spacing) {
@@ -51,16 +51,9 @@ export function handleOperations(icc) {
   }
 
   function become(next, number) {
-    if (weights !== null && weights !== next && ![...kept.values()].includes(weights)) weights.free();
-    weights = next;
-    if (number !== undefined) kept.set(number, weights);
-    while (kept.size > MOST_KEPT) {
-      const [oldest, its] = kept.entries().next().value;
-      kept.delete(oldest);
-      if (its !== weights && ![...kept.values()].includes(its)) its.free();
-    }
+    weights.become(next, number);
     binding?.free();
-    binding = weights.bind(mesh.vertices);
+    binding = next.bind(mesh.vertices);
   }
 
   /** The weights of one handle at the vertices that are drawn. */
@@ -81,7 +74,7 @@ export function handleOperations(icc) {
   }
 
   const shown = ({ handle, transforms, handles }) => {
-    const { nSamples, nEdge } = sampling.info, { nInfeasible, sigma } = weights.info;
+    const { nSamples, nEdge } = sampling.info, { nInfeasible, sigma } = weights.now.info;
     return {
       vertices: mesh.vertices.slice(), triangles: mesh.triangles.slice(), values: column(handle),
       images: binding.pose(posed(transforms, [], handles)), nSamples, nEdge, nInfeasible, sigma,
@@ -110,8 +103,8 @@ export function handleOperations(icc) {
 
     'handles.recall'(state) {
       sample(state);
-      if (!kept.has(state.number)) return this['handles.make'](state);
-      become(kept.get(state.number));
+      if (!weights.get(state.number)) return this['handles.make'](state);
+      become(weights.get(state.number));
       return shown(state);
     },
 
@@ -125,7 +118,7 @@ export function handleOperations(icc) {
 
     /** Strokes of a brush: each node's weight is changed once, then all are optimised. */
     'handles.paint'({ strokes, radius, amount, rigid, ...state }) {
-      const { points, values } = weights.nodes(), m = state.handles.length;
+      const { points, values } = weights.now.nodes(), m = state.handles.length;
       const height = (x, y) => Math.max(...strokes.map(([u, v]) => {
         const d = Math.hypot(x - u, y - v) / radius;
         return d < 1 ? (1 - d * d) ** 2 : 0;
@@ -133,19 +126,19 @@ export function handleOperations(icc) {
       const nodes = nodesNear(points, (x, y) => height(x, y) > 0);
       if (nodes.length === 0) return shown(state);
       if (rigid) {
-        const { weights: made } = weights.stiffen(Uint32Array.from(nodes),
+        const { weights: made } = weights.now.stiffen(Uint32Array.from(nodes),
           Float64Array.from(nodes, (i) => Math.max(1e-3, amount * height(points[2 * i], points[2 * i + 1]))));
         become(made, state.number);
         return shown(state);
       }
       const wanted = nodes.flatMap((i) => Array.from({ length: m }, (_, j) => values[i * m + j]
         + (j === state.handle ? amount * height(points[2 * i], points[2 * i + 1]) : 0)));
-      become(weights.repaint(Uint32Array.from(nodes), Float64Array.from(wanted)), state.number);
+      become(weights.now.repaint(Uint32Array.from(nodes), Float64Array.from(wanted)), state.number);
       return shown(state);
     },
 
     'handles.method'(state) {
-      become(weights.withMethod(state.method), state.number);
+      become(weights.now.withMethod(state.method), state.number);
       return shown(state);
     },
 
@@ -168,7 +161,7 @@ export function handleOperations(icc) {
       }
     },
 
-    'handles.report': () => ({ report: weights.report(mesh.vertices) }),
+    'handles.report': () => ({ report: weights.now.report(mesh.vertices) }),
     'handles.save': () => ({ sampling: sampling.save() }),
 
     /** A sampling that was saved, in place of one that is made. */

@@ -1,27 +1,22 @@
-// A panel: a picture by WebGL, and a drawing with handles on it, in the same coordinates.
+// A panel: a picture by WebGL under a drawing of handles.
 import { Renderer, WHAT } from './gl.js';
-import { draw, make } from './dom.js';
+import { make } from './dom.js';
 import { energiesOf, linesOf } from './mesh.js';
+import { Sheet } from './sheet.js';
 
 const MARGIN = 0.1;            // around the picture, as a share of its longer side
 const RED = [0.86, 0.16, 0.14, 0.92];
 
 const equal = (a, b) => a === b || (a && b && a.length === b.length && a.every((v, i) => v === b[i]));
 
-export class Panel {
-  #stage; #image = null; #last = null;
+export class Panel extends Sheet {
+  #image = null; #last = null;
 
-  constructor(title, { role = 'group' } = {}) {
-    this.canvas = make('canvas', { 'aria-hidden': 'true' });
-    this.svg = draw('svg', { class: 'overlay', role, 'aria-label': title });
-    this.note = make('span', { class: 'note' });
+  constructor(title, { role } = {}) {
+    super(title, { role, redraw: () => this.redraw() });
     this.badge = make('output', { class: 'badge' });
-    this.#stage = make('div', { class: 'stage' }, this.canvas, this.svg);
-    this.element = make('figure', { class: 'panel' },
-      make('figcaption', {}, make('strong', {}, title), this.note, this.badge), this.#stage);
+    this.caption.append(this.badge);
     this.renderer = new Renderer(this.canvas, () => this.redraw());
-    this.box = [0, 0, 1, 1];
-    new ResizeObserver(() => { this.redraw(); this.resized?.(); }).observe(this.#stage);
   }
 
   /** The picture, and so what of the plane is seen. */
@@ -33,23 +28,8 @@ export class Panel {
   }
 
   look(box) {
-    this.box = box;
-    this.svg.setAttribute('viewBox', box.join(' '));
+    super.look(box);
     this.redraw();
-    this.resized?.();
-  }
-
-  /** How much of the plane a pixel of the screen is. */
-  get unit() {
-    const { clientWidth: w, clientHeight: h } = this.canvas;
-    return w && h ? 1 / Math.min(w / this.box[2], h / this.box[3]) : 1;
-  }
-
-  /** The place of an event in the plane. */
-  at(event) {
-    const r = this.svg.getBoundingClientRect(), u = this.unit;
-    return [this.box[0] + this.box[2] / 2 + (event.clientX - r.left - r.width / 2) * u,
-      this.box[1] + this.box[3] / 2 + (event.clientY - r.top - r.height / 2) * u];
   }
 
   /** Shows triangles: { at, from, triangles, folded, values } and how: { look, mesh, whole }. */

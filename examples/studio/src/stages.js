@@ -1,7 +1,8 @@
 // Mode stages: the papers' Integral Curve Coordinates step by step, on the outline of mode cage.
-import { choice, draw, make, section, slider } from './dom.js';
+import { choice, make, section, slider } from './dom.js';
 import { drawStep, grassfire, levelLines, levels } from './stage_draw.js';
 import { Overlay } from './overlay.js';
+import { Sheet } from './sheet.js';
 
 const LEVELS = 24;
 const STEPS = { grid: '1 Grid', fire: '2 Fire', tree: '3 Tree', function: '4 Function', levels: '5 Levels', walk: '6 Walk' };
@@ -26,32 +27,6 @@ const TEXTS = {
     'Area not covered': `${(100 * d.chart.uncovered).toFixed(1)} %`, 'Coordinates that collapse': `${(100 * d.chart.collapsed).toFixed(1)} %` }],
 };
 
-/** A panel for drawings of a canvas. */
-class Sheet {
-  constructor(title, redraw) {
-    this.canvas = make('canvas', { 'aria-hidden': 'true' });
-    this.svg = draw('svg', { class: 'overlay', role: 'group', 'aria-label': title });
-    this.note = make('span', { class: 'note' });
-    const stage = make('div', { class: 'stage' }, this.canvas, this.svg);
-    this.element = make('figure', { class: 'panel' }, make('figcaption', {}, make('strong', {}, title), this.note), stage);
-    this.box = [0, 0, 1, 1];
-    new ResizeObserver(() => { redraw(); this.resized?.(); }).observe(stage);
-  }
-
-  look(box) { this.box = box; this.svg.setAttribute('viewBox', box.join(' ')); this.resized?.(); }
-
-  get unit() {
-    const { clientWidth: w, clientHeight: h } = this.canvas;
-    return w && h ? 1 / Math.min(w / this.box[2], h / this.box[3]) : 1;
-  }
-
-  at(event) {
-    const r = this.svg.getBoundingClientRect(), u = this.unit;
-    return [this.box[0] + this.box[2] / 2 + (event.clientX - r.left - r.width / 2) * u,
-      this.box[1] + this.box[3] / 2 + (event.clientY - r.top - r.height / 2) * u];
-  }
-}
-
 export class StageMode {
   canUndo = false;
   canRedo = false;
@@ -60,8 +35,8 @@ export class StageMode {
 
   constructor(remote, { say, modes }) {
     [this.#remote, this.#say, this.#cage] = [remote, say, modes.cage];
-    this.source = new Sheet('Before', () => this.render());
-    this.target = new Sheet('After', () => this.render());
+    this.source = new Sheet('Before', { redraw: () => this.render() });
+    this.target = new Sheet('After', { redraw: () => this.render() });
     this.source.element.classList.add('first');
     this.overlays = [this.source, this.target].map((sheet) => new Overlay(sheet, {}));
     this.text = make('p', { class: 'lesson', 'aria-live': 'polite' });
