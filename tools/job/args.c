@@ -159,7 +159,7 @@ static bool is_name(const char *name, const char *text, size_t n)
 
 static const option *find_long(const command *c, const char *name, size_t n)
 {
-    for (size_t i = 0; i < N_OPTIONS; i++)
+    for (size_t i = 0; i < n_options; i++)
         if (options[i].commands & c->bit &&
             (is_name(options[i].name, name, n) || is_name(options[i].former, name, n)))
             return &options[i];
@@ -168,7 +168,7 @@ static const option *find_long(const command *c, const char *name, size_t n)
 
 static const option *find_short(const command *c, char letter)
 {
-    for (size_t i = 0; i < N_OPTIONS; i++)
+    for (size_t i = 0; i < n_options; i++)
         if (options[i].commands & c->bit && options[i].letter == letter)
             return &options[i];
     return NULL;
@@ -245,7 +245,7 @@ static void print_option(const option *o)
 /* One group of a command's options; nothing if it has none of them. */
 static void print_group(const command *c, bool papers, const char *heading)
 {
-    for (size_t i = 0; i < N_OPTIONS; i++) {
+    for (size_t i = 0; i < n_options; i++) {
         const option *o = &options[i];
         if (!(o->commands & c->bit) || o->papers != papers)
             continue;

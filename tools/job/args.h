@@ -13,7 +13,7 @@ typedef struct args {
     const char *command;
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
-    const char *triangulation, *ties;
+    const char *triangulation, *source_crs, *target_crs, *ties;
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;

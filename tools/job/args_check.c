@@ -27,6 +27,9 @@ static int check_method(const args *a, const command *c)
         return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
     if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangulation needs a map of kind mesh, which is the default");
+    if (a->triangulation == NULL && (a->source_crs != NULL || a->target_crs != NULL))
+        return misused(c->name, "--%s-crs is written into the file of --triangulation",
+                       a->source_crs != NULL ? "source" : "target");
     if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
     return DONE;

@@ -40,7 +40,7 @@ const char *choice_name(const choice *choices, int32_t value)
 }
 
 #define AT(member) offsetof(args, member)
-const option options[N_OPTIONS] = {
+const option options[] = {
     {.name = "source",
      .letter = 's',
      .kind = OPTION_TEXT,
@@ -200,6 +200,18 @@ const option options[N_OPTIONS] = {
      .offset = AT(triangulation),
      .value = "FILE.json",
      .help = "write the map's triangles as well, for PROJ (tinshift)"},
+    {.name = "source-crs",
+     .kind = OPTION_TEXT,
+     .commands = FOR_MAP,
+     .offset = AT(source_crs),
+     .value = "CRS",
+     .help = "the source's reference system, as EPSG:2056, for --triangulation"},
+    {.name = "target-crs",
+     .kind = OPTION_TEXT,
+     .commands = FOR_MAP,
+     .offset = AT(target_crs),
+     .value = "CRS",
+     .help = "the target's reference system, for --triangulation"},
     {.name = "ties",
      .kind = OPTION_TEXT,
      .commands = FOR_MAP | FOR_INFO,
@@ -468,4 +480,5 @@ const option options[N_OPTIONS] = {
      .help = "no progress bar"},
     {.name = "help", .letter = 'h', .kind = OPTION_HELP, .commands = FOR_ALL, .help = "this text"},
 };
+const size_t n_options = sizeof options / sizeof *options;
 #undef AT

@@ -44,7 +44,7 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
 
-enum { N_OPTIONS = 64 };
-extern const option options[N_OPTIONS];
+extern const option options[];
+extern const size_t n_options;
 
 #endif

@@ -3,6 +3,7 @@
 #include "job/triangulation.h"
 
 #include "base/allocate.h"
+#include "base/json.h"
 
 #include <stdlib.h>
 
@@ -23,12 +24,23 @@ static part_mesh take_mesh(const icc_map *map)
     return m;
 }
 
+static void write_crs(FILE *stream, const char *member, const char *crs)
+{
+    if (crs == NULL)
+        return;
+    fprintf(stream, "\"%s\": ", member);
+    json_string(stream, crs);
+    fputs(",\n", stream);
+}
+
 /* Column by column, as "vertices_columns" and "triangles_columns" say; one part behind the other. */
-static void write_meshes(FILE *stream, size_t n, const part_mesh *meshes)
+static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh *meshes)
 {
     const char *comma = "";
     fputs("{\n\"file_type\": \"triangulation_file\",\n\"format_version\": \"1.1\",\n", stream);
     fprintf(stream, "\"publisher\": \"libicc %s\",\n", icc_version());
+    write_crs(stream, "input_crs", a->source_crs);
+    write_crs(stream, "output_crs", a->target_crs);
     fputs("\"transformed_components\": [\"horizontal\"],\n\"fallback_strategy\": \"none\",\n"
           "\"vertices_columns\": [\"source_x\", \"source_y\", \"target_x\", \"target_y\"],\n"
           "\"triangles_columns\": [\"idx_vertex1\", \"idx_vertex2\", \"idx_vertex3\"],\n"
@@ -77,7 +89,7 @@ int triangulation_write(const job *j)
     part_mesh *meshes = need(1 + j->n_parts, sizeof *meshes);
     for (size_t i = 0; i <= j->n_parts; i++)
         meshes[i] = take_mesh(i == 0 ? j->map : j->parts[i - 1].map);
-    write_meshes(file.stream, 1 + j->n_parts, meshes);
+    write_meshes(file.stream, j->args, 1 + j->n_parts, meshes);
     for (size_t i = 0; i <= j->n_parts; i++) {
         free(meshes[i].from);
         free(meshes[i].to);

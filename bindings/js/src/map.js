@@ -55,6 +55,25 @@ export function mapOf(core, Domain, Chart) {
       return out;
     }
 
+    /** The mesh of a map of kind mesh in the plane as a triangulation for PROJ (+proj=tinshift), in JSON. The names of
+     * reference systems, { sourceCrs: 'EPSG:2056', targetCrs }, are noted in it. */
+    toProj({ sourceCrs, targetCrs } = {}) {
+      if (this.dim !== 2)
+        throw new RangeError(`PROJ's triangulations are of the plane; this map has dimension ${this.dim}`);
+      const { vertices, images, simplices } = this.mesh();
+      const rows = (values, width) => Array.from({ length: values.length / width },
+        (_, i) => [...values.subarray(width * i, width * (i + 1))]);
+      const to = rows(images, 2);
+      return JSON.stringify({
+        file_type: 'triangulation_file', format_version: '1.1', publisher: `libicc ${core.memory.string(core.call('icc_version'))}`,
+        input_crs: sourceCrs, output_crs: targetCrs,
+        transformed_components: ['horizontal'], fallback_strategy: 'none',
+        vertices_columns: ['source_x', 'source_y', 'target_x', 'target_y'],
+        triangles_columns: ['idx_vertex1', 'idx_vertex2', 'idx_vertex3'],
+        vertices: rows(vertices, 2).map((from, i) => [...from, ...to[i]]), triangles: rows(simplices, 3),
+      });
+    }
+
     /** Images of points; NaN where there is none. `out` takes them, `status` a status for each. */
     apply(points, { out, status = null } = {}) { return this.#points('icc_map_apply', points, out, status, 1); }
 

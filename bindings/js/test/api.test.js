@@ -54,6 +54,11 @@ test('a map takes points there and back, follows its target, and is saved', () =
   assert.deepEqual(icc.Map.load(map.save()).apply(points), images);
   const { vertices, simplices } = map.mesh();
   assert.equal(map.certify(vertices, simplices).certificate.nInverted, 0);
+  const tin = JSON.parse(map.toProj({ sourceCrs: 'EPSG:2056' }));
+  assert.equal(tin.file_type, 'triangulation_file');
+  assert.equal(tin.input_crs, 'EPSG:2056');
+  assert.deepEqual(tin.triangles.flat(), [...simplices]);
+  assert.deepEqual(tin.vertices.map((row) => row.slice(0, 2)).flat(), [...vertices]);
   const [a, b, c, d] = map.jacobian([[1.01, 1.02]]);
   assert.ok(a * d - b * c > 0);
 });

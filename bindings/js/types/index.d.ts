@@ -63,6 +63,7 @@ export interface Map extends Handle {
   improve(options?: Options | null): Map;
   retarget(target: ShapeLike, iterations?: number): Map;
   mesh(): { vertices: Float64Array; images: Float64Array; simplices: Uint32Array };
+  toProj(systems?: { sourceCrs?: string; targetCrs?: string }): string;
   apply(points: Points, results?: Results): Float64Array;
   inverse(images: Points, results?: Results): Float64Array;
   jacobian(points: Points, results?: Results): Float64Array;

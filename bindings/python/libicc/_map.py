@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import json
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, overload
 
@@ -212,6 +213,27 @@ class Map(Saved):
         triangles = np.empty((info.n_simplices, info.dim + 1), dtype=np.uint32)
         check(lib.map_get_mesh(self, address(vertices), address(images), address(triangles)))
         return vertices, images, triangles
+
+    def to_proj(self, *, source_crs: Optional[Any] = None, target_crs: Optional[Any] = None) -> str:
+        """The mesh of a map of kind mesh in the plane as a triangulation for PROJ, in JSON. From a file, PROJ
+        applies it by ``+proj=tinshift +file=FILE``, and so do all that use PROJ: pyproj, GDAL, QGIS, PostGIS.
+
+        Args:
+            source_crs, target_crs: reference systems that are noted in it, such as "EPSG:2056" or a
+                ``pyproj.CRS``; nothing is transformed by them
+        """
+        if self.dim != 2:
+            raise ValueError(f"PROJ's triangulations are of the plane; this map has dimension {self.dim}")
+        vertices, images, triangles = self.mesh()
+        systems = {"input_crs": source_crs, "output_crs": target_crs}
+        return json.dumps({
+            "file_type": "triangulation_file", "format_version": "1.1",
+            "publisher": "libicc " + lib.version().decode(),
+            **{key: str(crs) for key, crs in systems.items() if crs is not None},
+            "transformed_components": ["horizontal"], "fallback_strategy": "none",
+            "vertices_columns": ["source_x", "source_y", "target_x", "target_y"],
+            "triangles_columns": ["idx_vertex1", "idx_vertex2", "idx_vertex3"],
+            "vertices": np.hstack([vertices, images]).tolist(), "triangles": triangles.tolist()})
 
     def _carry(self, function: Any, vertices: ArrayLike, simplices: ArrayLike, progress: Optional[Progress],
                threads: Optional[int]) -> Tuple[Floats, SimpleNamespace]:

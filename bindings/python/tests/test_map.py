@@ -1,4 +1,5 @@
 import gc
+import json
 import threading
 
 import libicc
@@ -35,6 +36,21 @@ def test_charts(before, inside, method):
     curve = chart.trace(inside[good][0])
     assert np.abs(curve[-1] - chart.info.maximum).max() < 1e-12
     assert chart.domain.dim == 2
+
+
+def test_a_map_for_proj(before, after, inside):
+    mapping = libicc.Map(before, after)
+    content = json.loads(mapping.to_proj(source_crs="EPSG:2056"))
+    assert content["file_type"] == "triangulation_file" and content["input_crs"] == "EPSG:2056"
+    assert "output_crs" not in content
+    vertices, images, triangles = mapping.mesh()
+    assert content["vertices"] == np.hstack([vertices, images]).tolist()
+    assert content["triangles"] == triangles.tolist()
+
+
+def test_a_map_that_proj_cannot_have(before, after):
+    with pytest.raises(libicc.UnsupportedError):
+        libicc.Map(before, after, "curves").to_proj()
 
 
 OWN = {"gradient": ("n_compression", "function", "tree"), "field": ("n_infeasible", "n_contacts"),

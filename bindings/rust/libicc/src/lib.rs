@@ -44,6 +44,7 @@ pub mod kernel;
 mod map;
 mod object;
 mod picture;
+mod proj;
 mod sampling;
 mod slices;
 pub mod stages;

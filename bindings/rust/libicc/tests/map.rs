@@ -450,3 +450,24 @@ fn masks_are_repaired() {
     assert!(Domain::from_mask(&[2, 2], &[1; 3], env).is_err());
     assert!(Domain::from_mask(&[usize::MAX, 2], &[1; 3], env).is_err());
 }
+
+#[test]
+fn proj_gets_a_triangulation() {
+    let map = map(&MapOptions::default());
+    let text = map.to_proj(Some("EPSG:2056"), Some("a \"local\" one")).unwrap();
+    let mesh = map.mesh().unwrap();
+    let last = &mesh.simplices[mesh.simplices.len() - 3..];
+    for part in [
+        "\"file_type\": \"triangulation_file\"",
+        "\"input_crs\": \"EPSG:2056\",",
+        "\"output_crs\": \"a \\\"local\\\" one\",",
+        &format!("[{}, {}, {}]]", last[0], last[1], last[2]),
+    ] {
+        assert!(text.contains(part), "{part} is not in it");
+    }
+    let rows = text.matches("\n[").count();
+    assert_eq!(rows, mesh.vertices.len() / 2 + mesh.simplices.len() / 3);
+    let curves = MapOptions { kind: Some(MapKind::Curves), ..MapOptions::default() };
+    let map = Map::new(&domain(&BEFORE), &domain(&AFTER), &curves, &mut Env::new()).unwrap();
+    assert_eq!(map.to_proj(None, None).unwrap_err().status, Status::UNSUPPORTED);
+}
