@@ -1,6 +1,7 @@
 #!/bin/sh
 # Tests the Rust crates with a library that is installed: layout, tests, doc tests, example; linked dynamically
-# found by pkg-config, statically found by pkg-config, and both from a folder.
+# found by pkg-config, statically found by pkg-config, and both from a folder; and with the C library compiled from
+# the sources in the crate.
 # usage: test.sh PREFIX          where `cmake --install` has put libicc
 #        CARGO, RUSTC and RUSTDOC choose the tools, CARGO_TARGET_DIR where things are built.
 set -eu
@@ -61,6 +62,24 @@ if [ -e "$libdir/libicc.a" ]; then
     fi
     LIBICC_DIR=$prefix LIBICC_STATIC=1 "$CARGO" build --offline --quiet --release --example warp_picture
 fi
+
+# As somebody gets them who has nothing else: the crates as they are packed, and the C sources in one of them.
+tell "vendored"
+crates=$work/crates
+(
+    cd libicc-sys
+    "$CARGO" package --offline --quiet --allow-dirty --no-verify --target-dir "$work/packed" 2>"$work/package.log" ||
+        { cat "$work/package.log" >&2; exit 1; }
+)
+mkdir "$crates"
+tar -C "$crates" -xzf "$work"/packed/package/libicc-sys-*.crate
+mv "$crates"/libicc-sys-* "$crates/libicc-sys"
+cp -rL libicc "$crates"
+(
+    unset PKG_CONFIG_PATH
+    cd "$crates/libicc"
+    "$CARGO" test --offline --quiet --features vendored --test map
+)
 
 # Comments are compiled, too.
 tell "documentation"

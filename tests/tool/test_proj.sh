@@ -2,7 +2,7 @@
 # What --triangulation writes, applied by those who read it: PROJ's own command to points, GDAL to a layer of a GeoPackage
 # and to a GeoTIFF. All of it agrees with what the command itself makes of them.
 # usage: test_proj.sh TOOL SCRATCH
-set -u
+# shellcheck source-path=SCRIPTDIR source=lib.sh
 . "$(dirname "$0")/lib.sh"
 for program in cct ogr2ogr gdalwarp; do
     if ! command -v "$program" >/dev/null; then

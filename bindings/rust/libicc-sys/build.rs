@@ -1,5 +1,6 @@
 //! Finds libicc and tells Cargo how to link it.
 //!
+//! - the feature `vendored`: compiled here from the sources in the folder `c`, by CMake and a C compiler, and linked in.
 //! - `LIBICC_DIR`: a folder with the library, or a prefix that it was installed to. Without it the command
 //!   `pkg-config` (or `PKG_CONFIG`) is asked.
 //! - `LIBICC_STATIC=1`, or the feature `static`: libicc.a instead of libicc.so.
@@ -23,12 +24,50 @@ fn main() {
     if env::var_os("DOCS_RS").is_some() {
         return;
     }
+    if env::var_os("CARGO_FEATURE_VENDORED").is_some() {
+        return link_folder(&compiled(), true);
+    }
     let linked_in = env::var_os("CARGO_FEATURE_STATIC").is_some()
         || env::var("LIBICC_STATIC").map_or(false, |value| !value.is_empty() && value != "0");
     match env::var("LIBICC_DIR") {
         Ok(dir) if !dir.is_empty() => link_folder(Path::new(&dir), linked_in),
         _ => link_installed(linked_in),
     }
+}
+
+/// The folder where libicc.a has been compiled.
+fn compiled() -> PathBuf {
+    let sources = Path::new(&variable("CARGO_MANIFEST_DIR")).join("c");
+    let folder = Path::new(&variable("OUT_DIR")).join("c");
+    println!("cargo:rerun-if-changed={}", sources.display());
+    println!("cargo:include={}", sources.join("include").display());
+    cmake(Command::new("cmake").arg("-S").arg(&sources).arg("-B").arg(&folder).args([
+        "-DCMAKE_BUILD_TYPE=Release",
+        "-DCMAKE_POSITION_INDEPENDENT_CODE=ON",
+        "-DICC_BUILD_SHARED=OFF",
+        "-DICC_BUILD_TOOLS=OFF",
+    ]));
+    let jobs = env::var("NUM_JOBS").unwrap_or_else(|_| "1".to_string());
+    cmake(Command::new("cmake").arg("--build").arg(&folder).args([
+        "--target",
+        "icc_static",
+        "--parallel",
+        &jobs,
+    ]));
+    folder
+}
+
+fn cmake(command: &mut Command) {
+    match command.output() {
+        Err(why) => fail(&format!("the feature vendored needs CMake 3.25 or later: {}", why)),
+        Ok(output) if !output.status.success() => fail(&String::from_utf8_lossy(&output.stderr)),
+        Ok(_) => (),
+    }
+}
+
+/// A variable that Cargo sets.
+fn variable(name: &str) -> String {
+    env::var(name).unwrap_or_else(|_| fail(&format!("{} is not set: run this by Cargo", name)))
 }
 
 fn link_folder(dir: &Path, linked_in: bool) {
