@@ -20,3 +20,4 @@ for mode in objects results; do
     sh tests/golden/check.sh tests/golden/$mode.txt $run $mode
 done
 ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test
+sh bindings/js/test/user/test.sh "$PWD"/build/wasm/libicc-*.tgz "$PWD/build/wasm/user"

@@ -1,6 +1,7 @@
 // Charts: coordinates of the inside of a domain, a boundary point and a share of the way. See
 // icc_chart_create().
 import { Handle, flat } from './core.js';
+import { withDomain } from './domain.js';
 
 /** The infos that only charts of one method have; each is refused by charts of the others. */
 const INFOS = {
@@ -15,7 +16,7 @@ export function chartOf(core, Domain) {
     /** domain: a Domain, or an outline; options as in icc_chart_options: { method: 'disc', ... }. */
     constructor(domain, options = null, lender = null) {
       super(core, typeof domain === 'number' ? domain
-        : Domain.with(domain, (d) => core.call('icc_chart_create', d, options)), 'icc_chart_free', lender);
+        : withDomain(Domain, domain, (d) => core.call('icc_chart_create', d, options)), 'icc_chart_free', lender);
     }
 
     static load(bytes) { return new Chart(core.call('icc_chart_load', bytes.length, bytes)); }

@@ -1,7 +1,8 @@
 // Calls of C functions by their declarations, and the objects that live behind them.
-import { functions } from './layouts.js';
+import { Env } from './env.js';
 import { IccError } from './error.js';
-import { Memory } from './memory.js';
+import { functions } from './layouts.js';
+import { Memory, pointee } from './memory.js';
 
 const isCreated = ([name, type]) => name === 'out' && type.endsWith('**');
 const isImplicit = (parameter) => isCreated(parameter) || parameter[0] === 'env' || parameter[0] === 'err';
@@ -16,6 +17,7 @@ function plan(name) {
     steps: parameters.map(([key, type]) => ({
       key, type, implicit: isImplicit([key, type]), copied: type.endsWith('*') && Memory.copies(type),
       written: isWritten(type), handle: /^(const )?icc_\w+\*$/.test(type) && !Memory.copies(type),
+      handles: /^(const )?icc_\w+\*(const)?\*$/.test(type), kind: pointee(type).replace(/(const)?\*$/, ''),
     })),
   };
 }
@@ -26,6 +28,7 @@ export class Core {
   constructor(exports) {
     this.#c = exports;
     this.memory = new Memory(exports);
+    this.env = new Env(exports, this.memory);
   }
 
   /** Bytes of memory that the instance has. */
@@ -49,10 +52,11 @@ export class Core {
     const values = steps.map((step) => {
       if (step.implicit) {
         if (step.key === 'out') return created = m.put('uint32_t*', [0]);
-        return step.key === 'err' ? failure = m.put('icc_error*', {}) : 0;
+        return step.key === 'err' ? failure = m.put('icc_error*', {}) : this.env.address;
       }
       const value = args[next++];
-      if (step.handle) return value === null || value === undefined ? 0 : value.address;
+      if (step.handle) return this.#addressOf(name, step, value);
+      if (step.handles) return m.put('uint32_t*', Uint32Array.from(value, (v) => this.#addressOf(name, step, v)));
       if (!step.copied) return step.type === 'uint64_t' ? BigInt(value) : value;
       const at = m.put(step.type, value);
       if (step.written && at !== 0) written.push([step.type, at, value]);
@@ -60,9 +64,19 @@ export class Core {
     });
     const returned = this.#c[name](...values);
     if (result !== 'icc_status') return returned;
+    if (returned !== 0) this.env.rethrow();
     if (returned !== 0) throw new IccError(returned, failure === 0 ? {} : m.read('icc_error', failure));
     for (const [type, at, value] of written) m.get(type, at, value);
     return created === 0 ? undefined : m.view.getUint32(created, true);
+  }
+
+  /** The address of an argument that is an object of C: of the right class, and of this instance. */
+  #addressOf(name, { key, kind }, value) {
+    if (value === null || value === undefined) return 0;
+    const given = value instanceof Handle ? `a ${value.constructor.name}` : String(value);
+    if (value?.kind !== kind) throw new TypeError(`${name}: ${key} is ${given}, but has to be of ${kind}`);
+    if (value.core !== this) throw new TypeError(`${name}: ${key} is ${given} of another instance`);
+    return value.address;
   }
 
   /** The members that a function such as icc_map_get_info() fills in. */
@@ -105,6 +119,9 @@ export class Handle {
 
   get core() { return this.#core; }
 
+  /** The type in C. */
+  get kind() { return this.#free.replace(/_free$/, ''); }
+
   /** The dimension, of what has an info; asked for once. */
   get dim() { return (this.#dim ??= this.info.dim); }
 
@@ -130,6 +147,8 @@ export class Handle {
 /** Rows of coordinates, flat: from a typed array as it is, or from [[x, y], ...]. */
 export function flat(points) {
   if (points instanceof Float64Array) return points;
+  if (typeof points !== 'object' || points?.length === undefined)
+    throw new TypeError('points are a Float64Array, or an array of numbers or of points');
   return Float64Array.from(Array.isArray(points) ? points.flat() : points);
 }
 

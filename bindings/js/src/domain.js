@@ -15,6 +15,17 @@ function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
+/** Runs `work` with a shape: a Domain as it is, an outline as a polygon that is freed afterwards. */
+export function withDomain(Domain, shape, work) {
+  if (shape instanceof Handle) return work(shape);
+  const made = Domain.polygon(shape);
+  try {
+    return work(made);
+  } finally {
+    made.free();
+  }
+}
+
 /** The class Domain of an instance. */
 export function domainOf(core) {
   return class Domain extends Handle {
@@ -48,18 +59,6 @@ export function domainOf(core) {
       const n = shape.reduce((product, side) => product * side, 1);
       if (cells.length !== n) throw new TypeError(`${cells.length} cells are not the ${n} of the shape`);
       return new Domain(core.call('icc_domain_create_mask', shape.length, Uint32Array.from(shape), cells));
-    }
-
-    /** The shape itself: a Domain as it is, an outline as a polygon; `work` gets it, and what was made
-     *  here is freed. */
-    static with(shape, work) {
-      if (shape instanceof Domain) return work(shape);
-      const made = Domain.polygon(shape);
-      try {
-        return work(made);
-      } finally {
-        made.free();
-      }
     }
 
     get info() { return core.info('icc_domain_get_info', this); }

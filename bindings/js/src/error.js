@@ -16,4 +16,12 @@ export class IccError extends Error {
     this.item = details.item ?? 'none';
     this.side = [null, 'source', 'target'][details.side ?? 0] ?? null;
   }
+
+  /** Its members, to be sent to another thread. */
+  get plain() {
+    const { message, code, index, item, side } = this;
+    return { message, code, index, item, side };
+  }
+
+  static fromPlain(plain) { return Object.assign(new IccError(0, plain), plain); }
 }

@@ -129,12 +129,18 @@ export function kernelOf(core) {
 
   /** A transform for each handle; it may be changed. */
   class Pose {
+    #dim; #handles; #transforms;
+
     constructor(handles, dim = 2) {
-      this.dim = dim;
-      this.handles = flat(handles).slice();
-      this.transforms = new Float64Array(this.handles.length * (dim + 1));
+      this.#dim = dim;
+      this.#handles = flat(handles).slice();
+      this.#transforms = new Float64Array(this.#handles.length * (dim + 1));
       this.reset();
     }
+
+    get dim() { return this.#dim; }
+    get handles() { return this.#handles; }
+    get transforms() { return this.#transforms; }
 
     reset() { core.call('icc_pose_reset', this.dim, this.handles.length / this.dim, this.transforms); return this; }
 

@@ -1,5 +1,6 @@
 // Maps from one domain to another. See icc_map_create().
 import { Handle, flat, room } from './core.js';
+import { withDomain } from './domain.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
@@ -15,7 +16,7 @@ export function mapOf(core, Domain, Chart) {
     /** source, target: Domains, or outlines; options as in icc_map_options: { kind: 'mesh', chart: {...} }. */
     constructor(source, target, options = null) {
       super(core, typeof source === 'number' ? source
-        : Domain.with(source, (s) => Domain.with(target, (t) => core.call('icc_map_create', s, t, withTies(options)))),
+        : withDomain(Domain, source, (s) => withDomain(Domain, target, (t) => core.call('icc_map_create', s, t, withTies(options)))),
       'icc_map_free');
     }
 
@@ -41,7 +42,7 @@ export function mapOf(core, Domain, Chart) {
 
     /** The map to a target that has moved, in at most so many steps of improvement. */
     retarget(target, iterations = 0) {
-      return Domain.with(target, (t) => new Map(core.call('icc_map_retarget', this, t, iterations)));
+      return withDomain(Domain, target, (t) => new Map(core.call('icc_map_retarget', this, t, iterations)));
     }
 
     /** The mesh of a map of kind mesh: { vertices, images, simplices }. */

@@ -68,7 +68,6 @@ export class Memory {
   put(type, value) {
     if (value === null || value === undefined) return 0;
     const element = pointee(type);
-    if (element.endsWith('*')) return this.put('uint32_t*', Uint32Array.from(value, (x) => x.address));
     if (structs[element]) return this.#putStructs(element, Array.isArray(value) ? value : [value]);
     const Type = ARRAYS[element];
     const values = value instanceof Type ? value

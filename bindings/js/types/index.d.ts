@@ -1,3 +1,4 @@
+/// <reference lib="esnext.disposable" />
 /** Rows of coordinates: flat, or one array a point. */
 export type Points = Float64Array | readonly number[] | readonly (readonly number[])[];
 export type Indices = Uint32Array | readonly number[] | readonly (readonly number[])[];
@@ -16,7 +17,7 @@ export class IccError extends Error {
   readonly side: 'source' | 'target' | null;
 }
 
-export interface Handle { free(): void }
+export interface Handle { free(): void; [Symbol.dispose](): void }
 export interface Features {
   holes?: readonly Points[]; lines?: readonly Points[]; points?: readonly Points[]; radii?: readonly number[];
 }
@@ -101,6 +102,8 @@ export interface Binding extends Handle {
   save(): Uint8Array;
 }
 export interface Pose {
+  readonly dim: number;
+  readonly handles: Float64Array;
   readonly transforms: Float64Array;
   reset(): Pose;
   move(handle: number, offset: Points): Pose;
@@ -132,6 +135,14 @@ export interface GridFunction extends Handle {
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
 }
 
+/** What calls tell while they run, and how they are stopped. */
+export interface Env {
+  /** The stage, and the share of the call that is done; true cancels it. */
+  progress?: ((stage: string, share: number) => boolean | void) | null;
+  log?: ((line: string) => void) | null;
+  signal?: AbortSignal | null;
+}
+
 export interface Instance {
   readonly module: WebAssembly.Module;
   readonly Domain: DomainClass;
@@ -159,6 +170,8 @@ export interface Instance {
   repairMask(shape: readonly number[], cells: Uint8Array): number;
   triangulate(nBoundary: number, points: Points): Uint32Array;
   call(name: string, ...args: unknown[]): any;
+  /** Watches the calls in `work`, and stops them. */
+  during<T>(env: Env, work: () => T): T;
   readonly memoryBytes: number;
   readonly version: string;
   readonly versionNumber: number;
@@ -168,4 +181,49 @@ export interface Instance {
 
 /** Makes an instance of the library, with a memory of its own. */
 export function load(source?: Source | Promise<Source>): Promise<Instance>;
+
+/** What a worker has: promises of values, and objects by reference. */
+type Object_ = Handle | Pose;
+export type Far<T> = T extends Object_ ? Away<T> : T extends null ? null
+  : T extends { weights: Weights; energy: infer E } ? { weights: Away<Weights>; energy: E } : T;
+type Given<A> = { [K in keyof A]: A[K] extends Object_ ? Away<A[K]> : A[K] | Near<A[K]> };
+type Near<T> = T extends readonly Domain[] ? readonly Away<Domain>[] : T extends ShapeLike ? T | Away<Domain> : T;
+export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
+  readonly [K in Exclude<keyof T, 'free' | typeof Symbol.dispose>]: T[K] extends (...args: infer A) => infer R
+    ? (...args: Given<A>) => Promise<Far<R>> : Promise<Far<T[K]>>;
+};
+type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
+export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
+  ? { create(...args: Given<A>): Promise<Far<T>> } : {});
+type Class = 'Domain' | 'Chart' | 'Map' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction';
+type AwayFunctions = { [K in 'boundaryDefects' | 'triangulate' | 'statusName' | 'codeOf']:
+  Instance[K] extends (...args: infer A) => infer R ? (...args: A) => Promise<R> : never };
+
+/** A Worker of a browser, or of node's worker_threads. */
+export interface WorkerLike { postMessage(message: any, transfer?: any): void; terminate(): unknown }
+
+/** Calls of the operations that serve() answers in a worker, one at a time. */
+export class Remote {
+  static start(worker: WorkerLike | MakeOperations, source?: Source | Promise<Source>): Promise<Remote>;
+  /** True if a call that is under way can be stopped. */
+  readonly stops: boolean;
+  call(name: string, argument?: unknown, env?: Env & { lost?: (result: any) => void }): Promise<any>;
+  latest<T>(channel: string, work: () => Promise<T>): Promise<T | undefined>;
+  close(): void;
+}
+export type MakeOperations = (icc: Instance) => Record<string, (argument: any) => unknown>;
+export function serve(make: MakeOperations): Promise<void>;
+
+/** The classes of an instance in a worker. */
+export type AsyncIcc = { readonly [K in Class]: AwayClass<Instance[K]> } & AwayFunctions & {
+  readonly stops: boolean;
+  /** Watches the calls that `work` begins before it waits for any, and stops them. */
+  during<T>(env: Env, work: () => T): T;
+  /** Of works that come while one of the channel is under way, only the last is run; the others give undefined. */
+  latest<T>(channel: string, work: () => Promise<T>): Promise<T | undefined>;
+  close(): void;
+};
+export const AsyncIcc: {
+  start(options?: { source?: Source | Promise<Source>; worker?: WorkerLike }): Promise<AsyncIcc>;
+};
 export const constants: Readonly<Record<string, number>>;

@@ -1,4 +1,5 @@
 // Mode cage: a picture, a cage around a part of it, and the map that follows the cage as it is dragged.
+import { ask } from './ask.js';
 import { button, draw, make } from './dom.js';
 import { CageFiles } from './cage_files.js';
 import { comparisonOf, meetingEdges, reached, reportOf } from './cage_report.js';
@@ -123,7 +124,7 @@ export class CageMode {
     const follows = operation === undefined && this.#mapped === source;
     const name = operation ?? (follows ? 'cage.follow' : 'cage.create');
     const args = { source, target, number, compare: this.view.compare };
-    this.#remote.latest('cage', name, args, (result) => this.#take(result, { source, target, number, name }));
+    ask(this.#remote, 'cage', name, args, (result) => this.#take(result, { source, target, number, name }));
   }
 
   #take(result, asked) {
@@ -205,7 +206,7 @@ export class CageMode {
     panel.svg.addEventListener('pointermove', (event) => {
       if (this.#drawings.some((d) => d.active) || Object.values(this.overlays).some((o) => o.busy)) return;
       const at = panel.at(event);
-      this.#remote.latest('spot', 'cage.points', { points: Float64Array.from(at), forth }, ({ points }) => {
+      ask(this.#remote, 'spot', 'cage.points', { points: Float64Array.from(at), forth }, ({ points }) => {
         if (this.#drawings.some((d) => d.active)) return;
         if (!points?.length || Number.isNaN(points[0])) { clear(); return; }
         this.overlays[side].mark(spot(panel, at));

@@ -1,6 +1,5 @@
 // Maps of cages: made, followed, kept for undo, compared.
 import { blend, meanValue, thinPlate } from './baseline.js';
-import { plain } from './errors.js';
 import { Kept } from './kept.js';
 import { domainArguments, flatOf, verticesOf } from './shape.js';
 
@@ -71,7 +70,7 @@ export function cageOperations(icc) {
   function trouble(error, source, target) {
     if (!(error instanceof icc.IccError)) throw error;
     const list = (shape) => icc.boundaryDefects(flatOf(shape[0].points)).slice(0, 32);
-    return { error: plain(error), sourceDefects: list(source), targetDefects: list(target) };
+    return { error: error.plain, sourceDefects: list(source), targetDefects: list(target) };
   }
 
   return {

@@ -1,5 +1,4 @@
 // Kernel coordinates: samplings, weights and poses, and the certified map to a pose's outline.
-import { plain } from './errors.js';
 import { Kept } from './kept.js';
 import { flatOf } from './shape.js';
 
@@ -157,7 +156,7 @@ export function handleOperations(icc) {
         return { vertices, images: moved, triangles: simplices, certified: certified === 1 && kind === 'mesh', nSimplices, energy };
       } catch (error) {
         if (!(error instanceof icc.IccError)) throw error;
-        return { error: plain(error), targetDefects: icc.boundaryDefects(after).slice(0, 8) };
+        return { error: error.plain, targetDefects: icc.boundaryDefects(after).slice(0, 8) };
       }
     },
 

@@ -1,5 +1,6 @@
 // Mode handles: the interface of the thesis (Kernel Coordinates, section 6.3). A pose on one side, the
 // weights of the chosen handle on the other, where they can be painted.
+import { ask } from './ask.js';
 import { button, make } from './dom.js';
 import { Brush } from './brush.js';
 import { Drawing } from './drawing.js';
@@ -87,7 +88,7 @@ export class HandleMode {
     this.#certified = null;
     this.side.setMethod(state.method);
     this.#changed();
-    this.#remote.latest('handles', operation, { ...state, handle: this.#chosen, ...more }, (result) => this.#take(result));
+    ask(this.#remote, 'handles', operation, { ...state, handle: this.#chosen, ...more }, (result) => this.#take(result));
   }
 
   #take(result) {
@@ -166,7 +167,7 @@ export class HandleMode {
 
   choose(h) {
     this.#chosen = h;
-    this.#remote.latest('weights', 'handles.weights', { handle: h }, ({ values }) => { if (values?.length) { this.#values = values; this.#show(); } });
+    ask(this.#remote, 'weights', 'handles.weights', { handle: h }, ({ values }) => { if (values?.length) { this.#values = values; this.#show(); } });
   }
 
   #join(h, bones) {
@@ -189,7 +190,7 @@ export class HandleMode {
       ? turnPair(picked, places, d.angle).map((c) => ({ ...c, offset: c.offset.map((v, a) => v + d.offset[a]) }))
       : picked.map((h) => ({ handle: h, offset: d.offset, angle: d.angle }));
     this.#certified = null;
-    this.#remote.latest('handles', 'handles.pose', { transforms: d.transforms, changes, handles }, (result) => {
+    ask(this.#remote, 'handles', 'handles.pose', { transforms: d.transforms, changes, handles }, (result) => {
       this.#take(result);
       d.shown = number;
       if (d.dropped && d.shown === d.asked) this.#settle();

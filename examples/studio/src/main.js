@@ -5,8 +5,8 @@ import { HandleMode } from './handles.js';
 import { StageMode } from './stages.js';
 import { SpaceMode } from './space.js';
 import { readLink } from './link.js';
-import { Remote } from './remote.js';
-import { buffersOf, startEngine } from './engine.js';
+import { Remote, serve } from 'libicc';
+import { operationsOf } from './engine.js';
 
 const UNDO = 'M8 5L4 9l4 4M4 9h9a6 6 0 0 1 0 12h-3', REDO = 'M16 5l4 4-4 4M20 9h-9a6 6 0 0 0 0 12h3';
 const MODES = { cage: ['Cage', CageMode], handles: ['Handles', HandleMode], stages: ['Stages', StageMode], space: ['Space', SpaceMode] };
@@ -17,23 +17,15 @@ async function unpack(text) {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
 }
 
-/** The worker: the same program, without a page. */
-function serve() {
-  let run = null;
-  const early = [];
-  const answer = ({ id, name, args }) => {
-    try {
-      const result = run(name, args);
-      globalThis.postMessage({ id, result }, buffersOf(result));
-    } catch (error) {
-      globalThis.postMessage({ id, failure: `${error.stack ?? error}` });
-    }
-  };
-  globalThis.onmessage = async ({ data }) => {
-    if (!data.module) { if (run) answer(data); else early.push(data); return; }
-    run = await startEngine(data.module);
-    early.splice(0).forEach(answer);
-  };
+/** The engine in a worker that is made from the page's own text, so that it works from file://, too; on
+ *  this thread where there are no workers. */
+async function startEngine(module, text) {
+  try {
+    const worker = new Worker(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })));
+    return Object.assign(await Remote.start(worker, module), { place: 'worker' });
+  } catch {
+    return Object.assign(await Remote.start(operationsOf, module), { place: 'page' });
+  }
 }
 
 class Page {
@@ -108,7 +100,7 @@ class Page {
 async function start() {
   try {
     const module = await WebAssembly.compile(await unpack($('wasm').textContent));
-    const remote = await Remote.start(module, $('program').textContent, (failure) => { throw new Error(failure); });
+    const remote = await startEngine(module, $('program').textContent);
     const page = new Page(remote);
     const state = await readLink(location.hash);
     const cage = page.show('cage');
@@ -120,4 +112,4 @@ async function start() {
   }
 }
 
-if (typeof document === 'undefined') serve(); else start();
+if (typeof document === 'undefined') serve(operationsOf); else start();

@@ -1,4 +1,5 @@
 // Mode space: a bar and the same bar bent, filled with tetrahedra, cut open.
+import { ask } from './ask.js';
 import { button, choice, make, section, slider } from './dom.js';
 import { certificateCard } from './cage_side.js';
 import { Renderer3 } from './gl3.js';
@@ -88,7 +89,7 @@ export class SpaceMode {
 
   #ask(operation) {
     const { points, facets } = this.#bar;
-    this.#remote.latest('space', operation, { points, facets, target: deform(points, this.#live) }, (result) => {
+    ask(this.#remote, 'space', operation, { points, facets, target: deform(points, this.#live) }, (result) => {
       this.#trouble = result.error ?? null;
       if (!result.error) {
         this.#solid = result;

@@ -1,4 +1,5 @@
 // Mode stages: the papers' Integral Curve Coordinates step by step, on the outline of mode cage.
+import { ask } from './ask.js';
 import { choice, make, section, slider } from './dom.js';
 import { drawStep, grassfire, levelLines, levels } from './stage_draw.js';
 import { Overlay } from './overlay.js';
@@ -75,7 +76,7 @@ export class StageMode {
     const m = 0.1 * Math.max(image.width, image.height);
     for (const sheet of [this.source, this.target]) sheet.look([-m, -m, image.width + 2 * m, image.height + 2 * m]);
     this.#walk = null;
-    this.#remote.latest('stages', 'stages.make', { source: source[0].points, target: target[0].points, cells: this.#cells, kind: this.#kind },
+    ask(this.#remote, 'stages', 'stages.make', { source: source[0].points, target: target[0].points, cells: this.#cells, kind: this.#kind },
       (result) => {
         if (result.error) { this.#say(`${result.error.message}.`); return; }
         const burnt = grassfire(result.grid, result.inside), height = levels(result.values, result.inside);
@@ -88,7 +89,7 @@ export class StageMode {
   #move(point) {
     if (!this.#data) return;
     this.#point = point;
-    this.#remote.latest('walk', 'stages.trace', { point }, (result) => {
+    ask(this.#remote, 'walk', 'stages.trace', { point }, (result) => {
       this.#walk = result.curve ? result : null;
       const to = result.image && !Number.isNaN(result.image[0]) ? result.image : null;
       this.source.note.textContent = result.curve ? `edge ${result.facet + 1}, ${((1 - result.share) * 100).toFixed(1)} % along it, t = ${result.t.toFixed(3)}` : '';
