@@ -21,3 +21,14 @@ for mode in objects results; do
 done
 ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test
 sh bindings/js/test/user/test.sh "$PWD"/build/wasm/libicc-*.tgz "$PWD/build/wasm/user"
+
+# Built again, elsewhere: the same bytes.
+again=build/wasm-again
+rm -rf "$again"
+quietly build/wasm/again.log env -u CMAKE_C_COMPILER_LAUNCHER cmake --preset wasm -B "$again"
+quietly build/wasm/again.log cmake --build "$again" --parallel "$(nproc)"
+for file in package/src/libicc.wasm package/src/layouts.js studio.html; do
+    cmp "build/wasm/$file" "$again/$file"
+done
+cmp build/wasm/libicc-*.tgz "$again"/libicc-*.tgz
+rm -rf "$again"
