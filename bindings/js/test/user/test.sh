@@ -3,15 +3,16 @@
 # `tsc --strict`. Needs npm's registry.
 # usage: bindings/js/test/user/test.sh ARCHIVE FOLDER
 set -eu
-here=$(cd "$(dirname "$0")" && pwd)
+cd "$(dirname "$0")/../../../.."
 archive=$1
 folder=$2
-. "$here/../../../../cmake/deps.sh"
+here=bindings/js/test/user
+. cmake/deps.sh
 rm -rf "$folder/node_modules/libicc" "$folder/package-lock.json"
 mkdir -p "$folder"
 echo '{ "private": true, "type": "module" }' >"$folder/package.json"
 quietly "$folder/npm.log" npm install --silent --no-audit --no-fund --prefix "$folder" "$archive" typescript@5
-sed -n '/^    import/,/^$/s/^    //p' "$here/../../README.md" >"$folder/example.js"
+sed -n '/^    import/,/^$/s/^    //p' bindings/js/README.md >"$folder/example.js"
 printed=$(cd "$folder" && node example.js)
 case $printed in
     true*Float64Array*) ;;
