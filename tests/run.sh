@@ -135,11 +135,12 @@ elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
     also "Debian packages" packages
-    also "JavaScript" sh bindings/js/test.sh
     if [ "$tier" = long ]; then
+        also "JavaScript" sh bindings/js/test.sh --long
         also "the studio" sh examples/studio/test.sh --long
         also "other machines" sh tests/ports.sh --long
     else
+        also "JavaScript" sh bindings/js/test.sh
         also "the studio" sh examples/studio/test.sh
         also "other machines" sh tests/ports.sh arm64 s390x
     fi

@@ -1,8 +1,9 @@
 #!/bin/sh
 # Builds the npm package and tests it: the same bits as everywhere, and what its users call.
-# usage: bindings/js/test.sh    (installs clang, lld, wasi-libc and libclang-rt-dev-wasm32; needs node and npm)
-# ICC_MAPS=N in the environment: so many maps are made and freed (500).
+# usage: bindings/js/test.sh [--long]   (installs clang, lld, wasi-libc and libclang-rt-dev-wasm32; needs node and npm)
+# --long: all shapes are compared with native builds, and 10,000 maps are made and freed (else 500)
 set -eu
+long=${1:-}
 cd "$(dirname "$0")/../.."
 . cmake/deps.sh
 if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
@@ -13,13 +14,31 @@ need clang lld wasi-libc libclang-rt-dev-wasm32
 mkdir -p build/wasm
 quietly build/wasm/configure.log cmake --preset wasm
 quietly build/wasm/build.log cmake --build --preset wasm --parallel "$(nproc)"
+bytes=$(gzip -9nc build/wasm/package/src/libicc.wasm | wc -c)
+if [ "$bytes" -gt 450000 ]; then
+    echo "libicc.wasm has $bytes bytes when gzipped, more than 450,000" >&2
+    exit 1
+fi
 run="node --no-warnings bindings/js/tools/run.js build/wasm/bindings/js/golden.wasm"
 for mode in objects results; do
     # The command is a list of words.
     # shellcheck disable=SC2086
     sh tests/golden/check.sh tests/golden/$mode.txt $run $mode
 done
+[ "$long" != --long ] || export ICC_MAPS=10000
 ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test
+
+# The same bits as those native builds that there are.
+for program in build/*/tests/cages; do
+    if [ ! -x "$program" ] || [ ! -d ../shared/data ]; then
+        continue
+    fi
+    if [ "$long" = --long ]; then
+        sh bindings/js/parity.sh hash "$program"
+    else
+        sh bindings/js/parity.sh hash "$program" d01 d02 d11 d18 t08
+    fi
+done
 sh bindings/js/test/user/test.sh "$PWD"/build/wasm/libicc-*.tgz "$PWD/build/wasm/user"
 
 # Built again, elsewhere: the same bytes.

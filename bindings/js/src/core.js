@@ -73,10 +73,9 @@ export class Core {
   /** The address of an argument that is an object of C: of the right class, and of this instance. */
   #addressOf(name, { key, kind }, value) {
     if (value === null || value === undefined) return 0;
+    if (value.kind === kind && value.core === this) return value.address;
     const given = value instanceof Handle ? `a ${value.constructor.name}` : String(value);
-    if (value?.kind !== kind) throw new TypeError(`${name}: ${key} is ${given}, but has to be of ${kind}`);
-    if (value.core !== this) throw new TypeError(`${name}: ${key} is ${given} of another instance`);
-    return value.address;
+    throw new TypeError(`${name}: ${key} is ${given}${value.kind === kind ? ' of another instance' : `, but has to be of ${kind}`}`);
   }
 
   /** The members that a function such as icc_map_get_info() fills in. */
@@ -107,20 +106,21 @@ const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 /** An object of C. It is owned, and freed by free(), or when nothing refers to it any more; or borrowed
  *  from another one, which it keeps alive. */
 export class Handle {
-  #core; #address; #free; #lender; #dim;
+  #core; #address; #free; #lender; #kind; #dim;
 
   constructor(core, address, free, lender = null) {
     this.#core = core;
     this.#address = address;
     this.#free = free;
     this.#lender = lender;
+    this.#kind = free.slice(0, -'_free'.length);
     if (lender === null) core.own(this, free, address);
   }
 
   get core() { return this.#core; }
 
   /** The type in C. */
-  get kind() { return this.#free.replace(/_free$/, ''); }
+  get kind() { return this.#kind; }
 
   /** The dimension, of what has an info; asked for once. */
   get dim() { return (this.#dim ??= this.info.dim); }
