@@ -15,13 +15,18 @@ if [ ! -d $data ]; then
 fi
 [ $# -gt 0 ] || set -- d t01 t05 t08
 module=build/wasm/bindings/js/cages.wasm
+flags=--no-warnings
+# Times are those of code that has been compiled: all of it, before it runs.
+[ "$mode" = hash ] || flags="$flags --no-liftoff --no-wasm-lazy-compilation --no-wasm-tier-up"
 different=0
 compared=0
 for shape in "$@"; do
     for source in "$data"/[23]d/"$shape"*.src.*; do
         target=$(echo "$source" | sed 's/\.src\./.tgt./')
         native=$("$program" "$mode" "$source" "$target")
-        wasm=$(node --no-warnings bindings/js/tools/run.js $module "$mode" "$(realpath "$source")" "$(realpath "$target")")
+        # The flags are a list of words.
+        # shellcheck disable=SC2086
+        wasm=$(node $flags bindings/js/tools/run.js $module "$mode" "$(realpath "$source")" "$(realpath "$target")")
         compared=$((compared + 1))
         if [ "$mode" = time ]; then
             echo "$native $wasm" | awk '{

@@ -91,10 +91,14 @@ export class AsyncIcc {
 
   /** Sends a call; objects go and come by their numbers. `self` is the object that is called. */
   async request(name, argument, self = null) {
-    const lost = (result) => this.#received(result, null)?.free?.();
+    const known = { self, object: argument.object };
+    const lost = (result) => {
+      const made = this.#received(result, known);
+      if (made !== self) made?.free?.();
+    };
     const args = argument.args?.map((value) => this.#sent(value));
     const result = await this.#remote.call(name, { ...argument, ...(args && { args }) }, { ...this.#now, lost });
-    return this.#received(result, self);
+    return this.#received(result, known);
   }
 
   #sent(value) {
@@ -102,12 +106,12 @@ export class AsyncIcc {
     return Array.isArray(value) && value[0] instanceof RemoteObject ? value.map((v) => this.#sent(v)) : value;
   }
 
-  #received(value, self) {
+  #received(value, known) {
     if (value === null || typeof value !== 'object' || Object.getPrototypeOf(value) !== Object.prototype) return value;
     const { object, name } = value;
     if (object === undefined)
-      return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, this.#received(member, self)]));
-    if (self !== null && self.numberFor(this) === object) return self;
+      return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, this.#received(member, known)]));
+    if (known.self && known.object === object) return known.self;
     const made = new this.#classes[name](this, object);
     this.#registry.register(made, object, made);
     return made;

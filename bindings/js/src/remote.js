@@ -114,6 +114,7 @@ export class Remote {
       const { work, resolve, reject } = state.next;
       state.next = null;
       try { resolve(await work()); } catch (error) { reject(error); }
+      await null; // whoever waits for that goes on first
     }
     state.busy = false;
   }

@@ -10,7 +10,7 @@ void main() {
   gl_Position = vec4(at * view.xy + view.zw, 0, 1);
 }`;
 
-// what: 0 the picture, 1 squares, 2 a value from 0 to 1 as a colour, 3 one colour
+// what: as in what.js; a value is from 0 to 1, shown as a colour
 const FRAGMENT = `#version 300 es
 precision highp float;
 uniform sampler2D picture; uniform int what; uniform vec4 flat_colour; uniform float square, over;
@@ -32,8 +32,6 @@ void main() {
   }
   colour = p;
 }`;
-
-export const WHAT = { picture: 0, squares: 1, values: 2, flat: 3 };
 
 /** A program of two shaders. */
 export function programOf(gl, vertex, fragment) {
@@ -62,20 +60,17 @@ export function buffersOf(gl, program, widths) {
   }));
 }
 
-/** WebGL2 on a canvas. */
-export function contextOf(canvas) {
-  const gl = canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
-  if (!gl) throw new Error('This page draws with WebGL2, which this browser does not offer.');
-  return gl;
-}
+/** WebGL2 on a canvas; null where the browser does not offer it. */
+export const contextOf = (canvas) => canvas.getContext('webgl2', { antialias: true, preserveDrawingBuffer: true });
 
 export class Renderer {
   #gl; #canvas; #buffers; #uniforms; #picture = null; #redraw;
 
-  constructor(canvas, redraw) {
+  /** gl: the canvas' context; redraw: called when that has been lost and restored. */
+  constructor(canvas, gl, redraw) {
     this.#canvas = canvas;
     this.#redraw = redraw;
-    this.#gl = contextOf(canvas);
+    this.#gl = gl;
     canvas.addEventListener('webglcontextlost', (event) => event.preventDefault());
     canvas.addEventListener('webglcontextrestored', () => {
       this.#prepare();
@@ -109,10 +104,7 @@ export class Renderer {
 
   /** Begins a frame; box: what of the plane is to be seen, [left, top, width, height]. */
   begin([left, top, width, height]) {
-    const gl = this.#gl, ratio = Math.min(2, globalThis.devicePixelRatio || 1);
-    const w = Math.max(1, Math.round(this.#canvas.clientWidth * ratio));
-    const h = Math.max(1, Math.round(this.#canvas.clientHeight * ratio));
-    if (this.#canvas.width !== w || this.#canvas.height !== h) [this.#canvas.width, this.#canvas.height] = [w, h];
+    const gl = this.#gl, { width: w, height: h } = this.#canvas;
     gl.viewport(0, 0, w, h);
     gl.clearColor(0, 0, 0, 0);
     gl.clear(gl.COLOR_BUFFER_BIT);

@@ -38,6 +38,7 @@ export class Renderer3 {
   constructor(canvas) {
     this.#canvas = canvas;
     const gl = this.#gl = contextOf(canvas);
+    if (!gl) throw new Error('This mode draws with WebGL2, which this browser does not offer.');
     const program = programOf(gl, VERTEX, FRAGMENT);
     this.#buffers = buffersOf(gl, program, { at: 3, corner: 3, tone: 4 });
     this.#uniforms = { view: gl.getUniformLocation(program, 'view'), eye: gl.getUniformLocation(program, 'eye') };

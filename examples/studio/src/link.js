@@ -13,8 +13,9 @@ export async function writeLink(state) {
   return `#s=${base64(await through(bytes, new CompressionStream('deflate-raw')))}`;
 }
 
-/** The state of a link, or null where there is none that can be read. */
+/** The state of a link, or null where there is none that can be read. The name of a mode is one, too. */
 export async function readLink(hash) {
+  if (/^#[a-z]+$/.test(hash)) return { mode: hash.slice(1) };
   if (!hash.startsWith('#s=')) return null;
   try {
     const bytes = await through(bytesOf(hash.slice(3)), new DecompressionStream('deflate-raw'));

@@ -56,7 +56,8 @@ class Page {
   }
 
   show(key) {
-    const mode = this.modes[key] ??= this.#make(key);
+    try { this.modes[key] ??= this.#make(key); } catch (error) { this.say(error.message); return null; }
+    const mode = this.modes[key];
     for (const b of $('modes').children) b.toggleAttribute('aria-current', false);
     $('modes').querySelector(`[data-mode=${key}]`).setAttribute('aria-current', 'page');
     $('main').replaceChildren(mode.element);
@@ -104,7 +105,8 @@ async function start() {
     const page = new Page(remote);
     const state = await readLink(location.hash);
     const cage = page.show('cage');
-    if (state?.mode === 'cage') cage.restore(state); else cage.sample('butterfly');
+    if (state?.source) cage.restore(state); else cage.sample('butterfly');
+    if (Object.hasOwn(MODES, state?.mode ?? '')) page.show(state.mode);
     globalThis.studio = { page, remote, cage, modes: page.modes };
   } catch (error) {
     $('main').replaceChildren(make('p', { class: 'loading' }, `${error.message}`));

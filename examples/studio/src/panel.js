@@ -1,22 +1,33 @@
-// A panel: a picture by WebGL under a drawing of handles.
-import { Renderer, WHAT } from './gl.js';
+// A panel: a picture by WebGL, or without it by a 2-D canvas, under a drawing of handles.
+import { Renderer2D } from './canvas2d.js';
 import { make } from './dom.js';
+import { Renderer, contextOf } from './gl.js';
 import { energiesOf, linesOf } from './mesh.js';
 import { Sheet } from './sheet.js';
+import { WHAT } from './what.js';
 
 const MARGIN = 0.1;            // around the picture, as a share of its longer side
 const RED = [0.86, 0.16, 0.14, 0.92];
 
 const equal = (a, b) => a === b || (a && b && a.length === b.length && a.every((v, i) => v === b[i]));
 
+/** Makes a canvas as large as it is seen, in pixels of the screen. */
+function fit(canvas) {
+  const ratio = Math.min(2, globalThis.devicePixelRatio || 1);
+  const [w, h] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
+  if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+}
+
 export class Panel extends Sheet {
   #image = null; #last = null;
 
   constructor(title, { role } = {}) {
-    super(title, { role, redraw: () => this.redraw() });
+    const redraw = () => this.redraw();
+    super(title, { role, redraw });
     this.badge = make('output', { class: 'badge' });
     this.caption.append(this.badge);
-    this.renderer = new Renderer(this.canvas, () => this.redraw());
+    const gl = contextOf(this.canvas);
+    this.renderer = gl ? new Renderer(this.canvas, gl, redraw) : new Renderer2D(this.canvas);
   }
 
   /** The picture, and so what of the plane is seen. */
@@ -44,6 +55,7 @@ export class Panel extends Sheet {
   redraw() {
     if (!this.#last || !this.#image) return;
     const [{ at, from, triangles, folded, values }, view] = this.#last, r = this.renderer;
+    fit(this.canvas);
     r.begin(this.box);
     if (view.whole) this.#whole(view.whole);
     if (!triangles) return;

@@ -159,6 +159,101 @@ test('cages as text, GeoJSON and SVG; a link brings them back', async () => {
   await page.evaluate(() => { location.hash = ''; });
 });
 
+/** A picture as its bytes: two colours. */
+const painted = () => page.evaluate(async () => {
+  const sheet = new OffscreenCanvas(300, 200), g = sheet.getContext('2d');
+  g.fillStyle = 'teal';
+  g.fillRect(0, 0, 300, 200);
+  g.fillStyle = 'gold';
+  g.fillRect(60, 40, 180, 120);
+  return [...new Uint8Array(await (await sheet.convertToBlob()).arrayBuffer())];
+});
+const sizeOf = (bytes) => [bytes.readUInt32BE(16), bytes.readUInt32BE(20)]; // of a PNG
+
+test('pictures and cages are opened, dropped and pasted; the picture is saved', async () => {
+  const file = `${SHOTS}/opened.png`, saved = `${SHOTS}/saved`, bytes = await painted();
+  fs.writeFileSync(file, Uint8Array.from(bytes));
+  const open = async (label, what) => {
+    const [chooser] = await Promise.all([page.waitForFileChooser(), page.evaluate((text) =>
+      [...document.querySelectorAll('.cage button')].find((b) => b.textContent === text).click(), label)]);
+    await chooser.accept([what]);
+  };
+  const image = () => page.evaluate(() => [studio.cage.image.width, studio.cage.image.height]);
+  const give = (type, member, data) => page.evaluate((t, m, { text, png }) => {
+    const transfer = new DataTransfer();
+    if (text) transfer.setData('text', text);
+    else transfer.items.add(new File([Uint8Array.from(png)], 'given.png', { type: 'image/png' }));
+    document.dispatchEvent(new (t === 'paste' ? ClipboardEvent : DragEvent)(t, { [m]: transfer, bubbles: true, cancelable: true }));
+  }, type, member, data);
+  const comes = (width) => page.waitForFunction(`studio.cage.image.width === ${width}`);
+
+  await sample('owl');
+  await open('Open …', file);
+  await comes(300);
+  await settle(page);
+  assert.deepEqual(await image(), [300, 200]);
+  await drag(page, corner(0), [12, 12], 3);
+
+  fs.rmSync(saved, { recursive: true, force: true });
+  const session = await browser.target().createCDPSession();
+  await session.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: saved });
+  await page.click('#save');
+  const warped = `${saved}/warped.png`;
+  for (let k = 0; k < 100 && !fs.existsSync(warped); ++k) await new Promise((done) => { setTimeout(done, 50); });
+  assert.deepEqual(sizeOf(fs.readFileSync(warped)), [300, 200]);
+
+  for (const [type, member] of [['drop', 'dataTransfer'], ['paste', 'clipboardData']]) {
+    await sample('owl');
+    await give(type, member, { png: bytes });
+    await comes(300);
+    await give(type, member, { text: '20 20\n280 20\n280 180\n20 180\n' });
+    await page.waitForFunction('studio.cage.shapes.source[0].points.length === 4');
+    await settle(page);
+    assert.match((await cage()).certificate, /Certified/, type);
+  }
+  fs.writeFileSync(`${SHOTS}/cage.txt`, '30 20\n280 20\n150 180\n');
+  await open('Load …', `${SHOTS}/cage.txt`);
+  await page.waitForFunction('studio.cage.shapes.source[0].points.length === 3');
+  await give('drop', 'dataTransfer', { text: 'no cage' });
+  await page.waitForFunction('document.getElementById("toast").textContent.includes("could not be read")');
+});
+
+test('without WebGL2 a 2-D canvas shows the same', async () => {
+  const shown = () => page.evaluate(() => {
+    const from = document.querySelector('figure.first canvas'), sheet = new OffscreenCanvas(64, 64), g = sheet.getContext('2d');
+    g.drawImage(from, 0, 0, 64, 64);
+    return [...g.getImageData(0, 0, 64, 64).data];
+  });
+  const moved = async () => {
+    await sample('butterfly');
+    await drag(page, corner(4), [-90, 90], 6);
+    return shown();
+  };
+  const usual = await moved();
+  const { identifier } = await page.evaluateOnNewDocument(() => {
+    const { getContext } = HTMLCanvasElement.prototype;
+    HTMLCanvasElement.prototype.getContext = function other(kind, ...rest) {
+      return kind === 'webgl2' ? null : getContext.call(this, kind, ...rest);
+    };
+  });
+  await again(page, LOOKS.light);
+  const plain = await moved();
+  const apart = usual.reduce((sum, v, i) => sum + Math.abs(v - plain[i]), 0) / usual.length;
+  assert.ok(apart < 4 && usual.some((v) => v > 0), `${apart} of 255 on the average`);
+  for (const look of ['heat', 'squares', 'picture']) {
+    await page.click(`input[name=look][value=${look}]`);
+    await settle(page);
+    if (look !== 'picture') assert.notDeepEqual(await shown(), plain);
+  }
+  assert.equal((await cage()).uncertified, 0);
+  await shot('canvas');
+  await page.click('[data-mode=space]');
+  await page.waitForFunction('document.getElementById("toast").textContent.includes("WebGL2")');
+  await show(page, 'handles');
+  await page.removeScriptToEvaluateOnNewDocument(identifier);
+  await again(page, LOOKS.light);
+});
+
 test('handles: moved, turned, painted, by every method, made certified', async () => {
   await show(page, 'handles');
   const handle = (i) => `${AFTER}[aria-label="handle ${i}"]`;

@@ -1,0 +1,34 @@
+// The blocks of docs/tutorials/browser.md, one after another, with stand-ins for what a page has.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import test from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const { load, AsyncIcc } = await import(pathToFileURL(`${process.env.ICC_PACKAGE}/src/index.js`));
+const page = new URL('../../../docs/tutorials/browser.md', import.meta.url);
+
+test('every block of the tutorial runs', async () => {
+  const blocks = [...fs.readFileSync(page, 'utf8').matchAll(/^```js\n([^]*?)^```$/gm)].map(([, block]) => block);
+  assert.ok(blocks.length >= 7);
+  const printed = [], drawn = [], bar = {}, stop = {}, canvas = {};
+  const cage = [[0, 0], [4, 0], [4, 4], [2, 5], [0, 4]];
+  const moved = (outline, { by }) => outline.map(([x, y], i) => (i === 3 ? [x, y + by] : [x, y]));
+  // One name is declared in several blocks; Node of before 2025 knows no `using`.
+  const called = blocks.map((block) => (block.includes('function frame(') ? `${block}frame(moved(cage, { by: 0.1 }));` : block));
+  const code = `${called.join('\n').replace(/^(const|let|using) /gm, 'var ').replace(/^import .*$/gm, '')}\nreturn { icc, chart };`;
+  const make = Object.getPrototypeOf(async () => {}).constructor;
+  const parameters = { load, AsyncIcc, cage, moved, canvas, bar, stop, points: [[1, 1], [2, 2]],
+    draw: (...what) => drawn.push(what), console: { log: (...what) => printed.push(what) } };
+  const { icc, chart } = await make(...Object.keys(parameters), code)(...Object.values(parameters));
+  assert.deepEqual(printed[0], [true]);
+  assert.deepEqual(printed[2][0].map((v) => Math.round(v * 1e9) / 1e9), Float64Array.of(1, 1));
+  assert.deepEqual(printed[3].slice(0, 2), ['BOUNDARY', 0]);
+  assert.match(printed[3][2], /^edges 0 and 2 cross/);
+  assert.equal(drawn.length, 2); // a frame, and a pose
+  assert.equal(bar.value, 1);
+  assert.equal((await chart.info).method, 'gradient');
+  const before = drawn.length;
+  await Promise.all([0.1, 0.2, 0.3].map((by) => canvas.onpointermove({ by })));
+  assert.equal(drawn.length - before, 2); // the first and the latest
+  icc.close();
+});
