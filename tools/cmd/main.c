@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/say.h"
 #include "cmd/commands.h"
+#include "cmd/completion.h"
 
 #include <errno.h>
 #include <icc/icc.h>
@@ -177,7 +178,8 @@ static void print_help(void)
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
-    puts("\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version.\n"
+    puts("\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version;\n"
+         "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them.\n"
          "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
          "some\n"
          "points have no image.\n(Not related to ICC colour profiles.)");
@@ -242,6 +244,8 @@ int main(int argc, char **argv)
         print_help();
     else if (strcmp(name, "help") == 0)
         return flushed(help_with(argc > 2 ? argv[2] : NULL));
+    else if (strcmp(name, "completion") == 0)
+        return flushed(completion_print(argc > 2 ? argv[2] : NULL, N_COMMANDS, commands));
     else
         return misused(NULL, "there is no command '%.40s'", name);
     return flushed(DONE);
