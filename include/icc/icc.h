@@ -1004,6 +1004,24 @@ ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const
                                   icc_error *err);
 
 /**
+ * Makes the map between two polygons whose vertices correspond: icc_domain_create() of both, then
+ * icc_map_create() without options.
+ *
+ * @param[out] out the map; owned by the caller, see icc_map_free()
+ * @param n        number of vertices of each, at least 3
+ * @param before   2 n coordinates x, y
+ * @param after    2 n coordinates x, y, the same way round
+ * @param env      may be NULL
+ * @param err      may be NULL; `side` is 1 for `before`, 2 for `after`; `index` is the vertex at
+ *                 fault
+ * @return as icc_domain_create() and icc_map_create()
+ *
+ * Cost: that of those.
+ */
+ICC_API icc_status icc_map_create_polygons(icc_map **out, size_t n, const double *before,
+                                           const double *after, const icc_env *env, icc_error *err);
+
+/**
  * Makes a map from two charts, which must use the same method, on domains that correspond as
  * icc_map_create() requires. Kind mesh uses the source chart's mesh. Only the options `kind` and
  * `iterations` are used. The map keeps the charts alive.

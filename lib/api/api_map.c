@@ -20,21 +20,12 @@ static icc_status read_options(icc_map_options *full, const icc_map_options *opt
     return status;
 }
 
-icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
-                          const icc_map_options *options, const icc_env *env, icc_error *err)
+static icc_status create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                         const icc_map_options *options, const iccp_env *env, icc_error *err)
 {
-    if (out != NULL)
-        *out = NULL;
-    const char *missing = out == NULL      ? "out"
-                          : source == NULL ? "source"
-                          : target == NULL ? "target"
-                                           : NULL;
-    iccp_env full_env;
     icc_map_options full;
     icc_chart_options chart;
-    icc_status status = iccp_begin(&full_env, env, missing, err);
-    if (status == ICC_OK)
-        status = read_options(&full, options, err);
+    icc_status status = read_options(&full, options, err);
     if (status == ICC_OK)
         status = iccp_read_chart_options(&chart, full.chart, source->dim, err);
     if (status == ICC_OK)
@@ -47,8 +38,63 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
         return status;
     icc_chart_options charts[2] = {chart, chart};
     charts[1].maximum = full.target_maximum;
-    return iccp_end_map(iccp_map_create(out, source, target, &full, charts, &full_env, err), out,
-                        &full_env, err);
+    return iccp_map_create(out, source, target, &full, charts, env, err);
+}
+
+icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
+                          const icc_map_options *options, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL      ? "out"
+                          : source == NULL ? "source"
+                          : target == NULL ? "target"
+                                           : NULL;
+    iccp_env full;
+    const icc_status status = iccp_begin(&full, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_end_map(create(out, source, target, options, &full, err), out, &full, err);
+}
+
+/* The domains take the first twentieth of the call. */
+static icc_status create_from_polygons(icc_map **out, size_t n, const double *const vertices[2],
+                                       const iccp_env *env, icc_error *err)
+{
+    icc_domain *domains[2] = {NULL, NULL};
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; side++) {
+        const iccp_env part = iccp_part(env, NULL, side * 0.025, (side + 1) * 0.025);
+        status = iccp_domain_create(&domains[side], 2, n, vertices[side], 0, NULL, &part, err);
+        if (status != ICC_OK)
+            iccp_fail_side(err, status, side + 1);
+    }
+    const iccp_env rest = iccp_part(env, NULL, 0.05, 1);
+    if (status == ICC_OK)
+        status = create(out, domains[0], domains[1], NULL, &rest, err);
+    iccp_domain_release(domains[0]);
+    iccp_domain_release(domains[1]);
+    return status;
+}
+
+icc_status icc_map_create_polygons(icc_map **out, size_t n, const double *before,
+                                   const double *after, const icc_env *env, icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL      ? "out"
+                          : before == NULL ? "before"
+                          : after == NULL  ? "after"
+                                           : NULL;
+    const double *const vertices[2] = {before, after};
+    iccp_env full;
+    icc_status status = iccp_begin(&full, env, missing, err);
+    if (status == ICC_OK && n > ICCP_MAX_COUNT)
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, "%zu vertices are too many; at most %zu", n,
+                           ICCP_MAX_COUNT);
+    if (status != ICC_OK)
+        return status;
+    return iccp_end_map(create_from_polygons(out, n, vertices, &full, err), out, &full, err);
 }
 
 icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,

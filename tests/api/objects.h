@@ -289,6 +289,19 @@ static inline icc_status call_map_create(const objects *o, outcome *out, const i
     return status;
 }
 
+static inline icc_status call_map_create_polygons(const objects *o, outcome *out,
+                                                  const icc_env *env, icc_error *err)
+{
+    static const double BEFORE[] = {0, 0, 4, 0, 4, 4, 0, 4}, AFTER[] = {0, 0, 4, 0, 6, 3, 0, 4};
+    icc_map *map = (icc_map *)&map;
+    icc_status status = icc_map_create_polygons(&map, 4, BEFORE, AFTER, env, err);
+    HANDED_OVER(status, map);
+    if (status == ICC_OK)
+        status = use_map(o, map, out, err);
+    icc_map_free(map);
+    return status;
+}
+
 static inline icc_status call_map_create_from_charts(const objects *o, outcome *out,
                                                      const icc_env *env, icc_error *err)
 {
@@ -815,6 +828,7 @@ static const call CALLS[] = {
     {"icc_chart_trace", call_chart_trace},
     {"icc_chart_load", call_chart_load},
     {"icc_map_create", call_map_create},
+    {"icc_map_create_polygons", call_map_create_polygons},
     {"icc_map_create_from_charts", call_map_create_from_charts},
     {"icc_map_apply", call_map_apply},
     {"icc_map_apply_inverse", call_map_apply_inverse},

@@ -172,6 +172,17 @@ START_TEST(maps_refuse_bad_arguments)
     EXPLAINED(icc_map_create(NULL, o.source, o.target, NULL, NULL, &err));
     NOT_MADE(m, icc_map_create(&m, NULL, o.target, NULL, NULL, &err));
     NOT_MADE(m, icc_map_create(&m, o.source, NULL, NULL, NULL, &err));
+    static const double SQUARE[] = {0, 0, 1, 0, 1, 1, 0, 1}, BOW[] = {0, 0, 1, 0, 0, 1, 1, 1};
+    EXPLAINED(icc_map_create_polygons(NULL, 4, SQUARE, SQUARE, NULL, &err));
+    NOT_MADE(m, icc_map_create_polygons(&m, 4, NULL, SQUARE, NULL, &err));
+    NOT_MADE(m, icc_map_create_polygons(&m, 4, SQUARE, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_create_polygons(&m, (size_t)-1, SQUARE, SQUARE, NULL, &err));
+    ck_assert_int_eq(icc_map_create_polygons(&m, 2, SQUARE, SQUARE, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(icc_map_create_polygons(&m, 4, BOW, SQUARE, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(err.side, 1);
+    ck_assert_int_eq(icc_map_create_polygons(&m, 4, SQUARE, BOW, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(err.side, 2);
+    ck_assert_ptr_null(m);
     EXPLAINED(icc_map_create_from_charts(NULL, o.chart, o.target_chart, NULL, NULL, &err));
     NOT_MADE(m, icc_map_create_from_charts(&m, NULL, o.target_chart, NULL, NULL, &err));
     NOT_MADE(m, icc_map_create_from_charts(&m, o.chart, NULL, NULL, NULL, &err));

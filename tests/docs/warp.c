@@ -11,7 +11,6 @@ int main(void)
     static unsigned char pixels[SIDE * SIDE], result[SIDE * SIDE];
     icc_picture picture = {sizeof picture, SIDE, SIDE, 1, 1, 0, SIDE, NULL}, warped;
     icc_error err = {sizeof err, ICC_OK, 0, -1, ICC_ITEM_NONE, ""};
-    icc_domain *source = NULL, *target = NULL;
     icc_map *map = NULL;
     picture.pixels = memset(pixels, 200, sizeof pixels);
     warped = picture;
@@ -22,7 +21,5 @@ int main(void)
     if (result[4 * SIDE + 4] != 200 || result[0] != 0)
         err.status = ICC_ERR_ARGUMENT;
     icc_map_free(map);
-    icc_domain_free(target);
-    icc_domain_free(source);
     return err.status != ICC_OK;
 }

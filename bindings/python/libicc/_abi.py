@@ -84,6 +84,7 @@ chart_trace chart* f64* size f64* size* env* error*
 chart_save chart* size void* size*
 chart_load chart** size void* env* error*
 map_create map** domain* domain* map_options* env* error*
+map_create_polygons map** size f64* f64* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*
 map_improve map** map* improve_options* improve_report* env* error*
 map_retarget map** map* domain* i32 env* error*

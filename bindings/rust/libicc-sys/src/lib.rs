@@ -1471,6 +1471,17 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Makes the map between two polygons whose vertices correspond: `icc_domain_create()` of both, then
+    /// `icc_map_create()` without options. `before` and `after` have 2 n coordinates.
+    pub fn icc_map_create_polygons(
+        out: *mut *mut icc_map,
+        n: usize,
+        before: *const f64,
+        after: *const f64,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Makes a map from two charts, which must use the same method and domains that correspond as
     /// `icc_map_create()` asks. Kind mesh takes the source chart's mesh. Of the options `kind` and
     /// `iterations` are used. The map keeps the charts alive.
