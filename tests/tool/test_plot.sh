@@ -59,6 +59,64 @@ for cage in far.txt small.txt wide.txt; do
     well_formed drawing.svg
 done
 
+# In space: a plane takes a half away, and the picture is a PNG or in an SVG.
+make_cubes
+# pixels FILE: a PNG's width and height.
+pixels() {
+    od -A n -t u1 -j 16 -N 8 "$1" | awk '{ print 256 * $3 + $4, 256 * $7 + $8 }'
+}
+for kind in "--map mesh" "--map curves" "--method field"; do
+    # shellcheck disable=SC2086 # two words
+    run 0 plot -s cube.obj -t moved.obj $kind drawing.svg
+    for part in 'source: cut' 'target: image of the cut' 'clip-path="url(#side-1)"'; do
+        holds drawing.svg "$part"
+    done
+    well_formed drawing.svg
+    # shellcheck disable=SC2086
+    run 0 plot -s cube.obj -t moved.obj $kind drawing.png
+    [ ! -s out ] || complain "plot writes to stdout"
+    pixels drawing.png | awk '{ exit !($1 > 400 && $1 < 1100 && $2 > 200 && $2 < 480) }' ||
+        complain "a picture of $(pixels drawing.png)"
+done
+cp drawing.png first.png
+run 0 plot -s cube.obj -t moved.obj --method field --threads 1 drawing.png
+same drawing.png first.png "with one thread"
+run 0 plot -s cube.obj -t moved.obj --slice 0.5,0.5,0.2,0,0,-3 --view 1,1,-2 drawing.png
+cmp -s drawing.png first.png && complain "--slice and --view change nothing"
+run 0 plot -s cube.obj -t moved.obj --slice 0.5,0.5,0.2,0,0,-1 --view 2,2,-4 again.png
+same drawing.png again.png "lengths of vectors"
+for scale in e-200 e200; do
+    sed "s/^v \(.*\) \(.*\) \(.*\)/v \1$scale \2$scale \3$scale/" cube.obj >odd.obj
+    run 0 plot -s odd.obj -t odd.obj drawing.svg
+    well_formed drawing.svg
+done
+refuses() { # EXIT MESSAGE ARGUMENT...
+    code=$1
+    message=$2
+    shift 2
+    run "$code" plot "$@" none.png
+    says "$message"
+    [ ! -e none.png ] || complain "a picture was written: $*"
+}
+cubes='-s cube.obj -t moved.obj'
+# shellcheck disable=SC2086 # four words
+{
+    refuses 1 'the plane of --slice misses the shape' $cubes --slice 0,0,2,0,0,1
+    refuses 1 'the plane of --slice misses the shape' $cubes --slice 0,0,-1e300,0,0,1
+    refuses 2 '--slice has a normal of length 0' $cubes --slice 1,1,1,0,0,0
+    refuses 2 '--slice must be NX,NY,NZ or X,Y,Z,NX,NY,NZ' $cubes --slice 1,1
+    refuses 2 '--view must be X,Y,Z, and not 0,0,0' $cubes --view 0,0,0
+    refuses 2 '--view must be X,Y,Z, and not 0,0,0' $cubes --view 1,1
+    refuses 2 '--view must be in front of the plane' $cubes --slice 0,0,1 --view 1,1,-0.1
+    refuses 2 '--triangles is for pictures of the plane' $cubes --triangles
+    refuses 2 '--lines is for pictures of the plane' $cubes --lines 7
+    refuses 2 '--y-down is for pictures of the plane' $cubes --y-down
+}
+refuses 2 'a picture in space is of a map: --target FILE' -s cube.obj
+refuses 2 'in the plane OUT is an SVG or a VTK file' -s source.txt
+refuses 2 '--slice is for shapes in space' -s source.txt --slice 1,0,0
+refuses 2 '--view is for shapes in space' -s source.txt --view 1,0,0
+
 echo old >drawing.svg
 run 1 plot -s nowhere drawing.svg
 holds drawing.svg old

@@ -69,8 +69,8 @@ misnamed() { # NAME ARGUMENT...
 for name in o.jpg o.TIF o.webp o.svg o.txt o.png.gz; do
     misnamed "$name" warp -s nowhere -t nowhere nowhere.png "$name"
 done
+for name in o.jpg o.pdf o.obj o.json; do misnamed "$name" plot -s nowhere "$name"; done
 for name in o.png o.pdf o.obj o.json; do
-    misnamed "$name" plot -s nowhere "$name"
     misnamed "$name" weights -s nowhere -a nowhere --picture "$name"
 done
 for name in o.stl o.gltf o.txt o.png o.msh; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done

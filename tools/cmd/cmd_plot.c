@@ -6,6 +6,7 @@
 
 #include "cmd/commands.h"
 
+#include "job/output_name.h"
 #include "plot/plot.h"
 
 #include <math.h>
@@ -238,6 +239,27 @@ static int make_columns(plot *x)
     return result;
 }
 
+/* In the plane. */
+static int plot_plane(plot *x)
+{
+    const args *a = x->job.args;
+    const char *format = output_format(a->operands[0]);
+    if (a->n_slice > 0 || a->n_view > 0)
+        return misused(a->command, "--%s is for shapes in space",
+                       a->n_slice > 0 ? "slice" : "view");
+    if (format != NULL && strcmp(format, "PNG") == 0)
+        return misused(a->command, "in the plane OUT is an SVG or a VTK file, not a PNG");
+    int result = job_read_plane(&x->job, "an SVG (unlike OUT.vtk)");
+    if (result == DONE && a->triangles && a->target == NULL)
+        result =
+            misused(a->command, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+    if (result == DONE)
+        result = make_columns(x);
+    if (result == DONE)
+        result = make_drawing(x);
+    return result == DONE ? write_drawing(x) : result;
+}
+
 int run_plot(const args *a)
 {
     const char *dot = strrchr(a->operands[0], '.');
@@ -246,16 +268,9 @@ int run_plot(const args *a)
     plot x = {0};
     double began = seconds_now();
     job_start(&x.job, a);
-    int result = job_read_plane(&x.job, "an SVG (unlike OUT.vtk)");
-    if (result == DONE && a->triangles && x.job.args->target == NULL)
-        result =
-            misused(a->command, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+    int result = job_read_cages(&x.job);
     if (result == DONE)
-        result = make_columns(&x);
-    if (result == DONE)
-        result = make_drawing(&x);
-    if (result == DONE)
-        result = write_drawing(&x);
+        result = job_dim(&x.job) == 3 ? plot_solid(&x.job) : plot_plane(&x);
     if (result == DONE)
         result = report_points(&x.job, 0, 0, seconds_now() - began);
     for (size_t i = 0; i < x.n_columns; i++)

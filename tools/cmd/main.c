@@ -113,7 +113,7 @@ static const command commands[] = {
      .bit = FOR_PLOT,
      .n_operands = 1,
      .run = run_plot,
-     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk",
+     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.png|OUT.vtk",
      .summary = "Draws cage, integral curves, maximum and what they are made of",
      .details =
          "With a target: both shapes side by side, and a u v map and a checkerboard that "
@@ -121,6 +121,9 @@ static const command commands[] = {
          "inherits. --function takes several names here, with commas between, and "
          "each may end\n"
          "in :constrained or :unconstrained; then there is a column for each.\n\n"
+         "In space, with a target: both bodies cut by a plane, with a grid on the cut that the "
+         "target\n"
+         "inherits, as SVG or PNG.\n\n"
          "OUT.vtk, for ParaView, has the source alone, in the plane or in space: grid, tree, "
          "boundary and\n"
          "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "

@@ -39,6 +39,8 @@ typedef struct args {
     double along[ICC_MAX_DIM];
     size_t n_along;
     bool logarithmic;
+    double slice[ICC_MAX_DIM], view[ICC_MAX_DIM];
+    size_t n_slice, n_view;
     /* what to do */
     bool fill, fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
         compression, has_background;

@@ -5,6 +5,7 @@
 #include "job/output_name.h"
 
 #include <icc/kernel.h>
+#include <math.h>
 #include <string.h>
 
 /* Options that only some methods have. */
@@ -149,6 +150,23 @@ static int check_fill(const args *a, const command *c)
     return a->n_operands < 2 ? misused(c->name, "usage: libicc mesh --fill SURFACE OUT") : DONE;
 }
 
+static bool is_zero(const double v[3])
+{
+    return !(fabs(v[0]) + fabs(v[1]) + fabs(v[2]) > 0);
+}
+
+/* What cuts bodies, and from where they are seen. */
+static int check_views(const args *a, const command *c)
+{
+    if (a->n_slice != 0 && a->n_slice != 3 && a->n_slice != 6)
+        return misused(c->name, "--slice must be NX,NY,NZ or X,Y,Z,NX,NY,NZ");
+    if (a->n_slice > 0 && is_zero(a->slice + a->n_slice - 3))
+        return misused(c->name, "--slice has a normal of length 0");
+    if (a->n_view != 0 && (a->n_view != 3 || is_zero(a->view)))
+        return misused(c->name, "--view must be X,Y,Z, and not 0,0,0");
+    return DONE;
+}
+
 static int check_charts(const args *a, const command *c)
 {
     if (a->fill)
@@ -156,6 +174,8 @@ static int check_charts(const args *a, const command *c)
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
     int result = check_method(a, c);
+    if (result == DONE)
+        result = check_views(a, c);
     return result == DONE ? check_functions(a, c) : result;
 }
 

@@ -135,7 +135,7 @@ static const char *formats_of_operand(const args *a, const command *c)
            : c->bit & FOR_WARP               ? "PNG"
            : a->fill                         ? "Medit, VTK"
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
-           : c->bit & FOR_PLOT               ? "SVG, VTK"
+           : c->bit & FOR_PLOT               ? "SVG, PNG, VTK"
            : c->bit & FOR_POSE && a->binding ? "text"
            : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, PNG"
                                              : NULL;

@@ -54,6 +54,9 @@ int plot_pattern(const panel *p, job *j, const places *from, pattern what);
  * space. */
 int plot_vtk(const args *a);
 
+/* The figure of a map in space: OUT.svg or OUT.png. */
+int plot_solid(job *j);
+
 /* Integral curves from points spread evenly along the boundary. */
 typedef struct curves {
     size_t n;
