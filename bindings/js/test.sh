@@ -1,7 +1,8 @@
 #!/bin/sh
 # Builds the npm package and tests it: the same bits as everywhere, and what its users call.
 # usage: bindings/js/test.sh [--long]   (installs clang, lld, wasi-libc and libclang-rt-dev-wasm32; needs node and npm)
-# --long: all shapes are compared with native builds, and 10,000 maps are made and freed (else 500)
+# --long: all shapes are compared with native builds, 10,000 maps are made and freed (else 500), and tests/unit is
+# run by node, too
 set -eu
 long=${1:-}
 cd "$(dirname "$0")/../.."
@@ -51,3 +52,11 @@ for file in package/src/libicc.wasm package/src/layouts.js studio.html; do
 done
 cmp build/wasm/libicc-*.tgz "$again"/libicc-*.tgz
 rm -rf "$again"
+
+if [ "$long" = --long ]; then
+    unit=build/wasm-unit
+    mkdir -p $unit
+    quietly $unit/configure.log cmake --preset wasm -B $unit -DICC_WASM_UNIT_TESTS=ON
+    quietly $unit/build.log cmake --build $unit --parallel "$(nproc)"
+    ctest --test-dir $unit/bindings/js --parallel "$(nproc)" --output-on-failure
+fi

@@ -8,6 +8,6 @@ const [file, ...args] = process.argv.slice(2);
 const folders = args.filter((arg) => path.isAbsolute(arg)).flatMap((arg) => [arg, path.dirname(arg)])
   .filter((folder) => fs.existsSync(folder) && fs.statSync(folder).isDirectory());
 const preopens = { '.': '.', ...Object.fromEntries(folders.map((folder) => [folder, folder])) };
-const wasi = new WASI({ version: 'preview1', args: [file, ...args], preopens });
+const wasi = new WASI({ version: 'preview1', args: [file, ...args], env: process.env, preopens });
 const module = await WebAssembly.compile(fs.readFileSync(file));
 process.exit(wasi.start(await WebAssembly.instantiate(module, wasi.getImportObject())));

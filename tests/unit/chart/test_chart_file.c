@@ -398,9 +398,9 @@ enum {
     PIECES = COUNTS + 16
 };
 
-static size_t get64(const bytes *b, size_t at)
+static uint64_t get64(const bytes *b, size_t at)
 {
-    size_t value = 0;
+    uint64_t value = 0;
     for (size_t i = 8; i-- > 0;)
         value = value << 8 | b->data[at + i];
     return value;
@@ -412,7 +412,8 @@ START_TEST(false_foliations_are_refused)
 {
     icc_chart *chart = small_chart(0), *loaded;
     bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
-    const size_t n_inner = get64(&b, COUNTS), n_triangles = get64(&b, COUNTS + 8);
+    const size_t n_inner = (size_t)get64(&b, COUNTS);
+    const size_t n_triangles = (size_t)get64(&b, COUNTS + 8);
     const size_t points = PIECES + 4 * N_CORNERS, triangles = points + 16 * n_inner;
     const size_t centre = triangles + 12 * n_triangles + 8;
     ck_assert_uint_eq(n_triangles, story_of(chart).n_mesh_simplices);

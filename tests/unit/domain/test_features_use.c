@@ -441,7 +441,7 @@ START_TEST(arguments)
                  {3, 2},
                  {1, SIZE_MAX},
                  {2, SIZE_MAX / 2},
-                 {1, (size_t)1 << 40}};
+                 {1, (size_t)(UINT64_C(1) << 40)}};
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
