@@ -545,8 +545,8 @@ typedef struct icc_chart_info {
     int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
     int32_t cells;               /**< cells along the longest side that were used; method field in
                                       thin shapes: twice those asked for, where those do not do, and
-                                      one more where that saves the certificate; 0 on a domain's
-                                      mesh */
+                                      one more where that saves the certificate, or up to half as
+                                      many more where none were asked for; 0 on a domain's mesh */
     double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
     double spacing;              /**< distance of grid or lattice neighbours; 0 on a domain's
                                       mesh */

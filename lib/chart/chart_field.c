@@ -32,6 +32,10 @@ static const size_t MOST_REFINED = (size_t)1 << 24;
  * thin shapes get smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
 static const double PLANE_BUDGET = 16384, INSIDE_BUDGET = 65536, BUDGET = 4194304;
 
+/* Of so many contacts one may be other than inward for a grid to be worth another try: on real
+ * surfaces that can be certified at all, the default grid had at most one of 2,800. */
+enum { FEW_CONTACTS = 1000 };
+
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
 {
     enum { FEWEST = 8 };
@@ -289,17 +293,25 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
 
 bool iccp_chart_field_is_unlucky(const icc_chart *chart)
 {
-    return chart->info.reason == ICC_REASON_STRAY && chart->domain->mask == NULL &&
-           chart->info.cells < ICCP_MAX_CELLS;
+    const icc_field_info *own = &chart->own.field;
+    const bool few = own->n_not_inward <= own->n_contacts / FEW_CONTACTS;
+    return (chart->info.reason == ICC_REASON_STRAY ||
+            (chart->info.reason == ICC_REASON_NOT_INWARD && few)) &&
+           chart->domain->mask == NULL && chart->info.cells < ICCP_MAX_CELLS / 2;
 }
 
-icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
+/* A chart with another number of cells; NULL if it is not certified. */
+static icc_status try_cells(icc_chart **out, const icc_chart *chart, int32_t cells,
+                            const iccp_env *env)
 {
     const iccp_field_state *state = chart->state;
     icc_chart_options options = state->parameters.options;
-    options.cells = chart->info.cells + 1;
-    iccp_log(env, "field: %zu vertices were given up at %ld cells; %ld are tried",
-             chart->own.field.n_stray, (long)chart->info.cells, (long)options.cells);
+    options.cells = cells;
+    iccp_log(env,
+             "field: %zu vertices were given up, %zu contacts are not inward at %ld cells; %ld "
+             "are tried",
+             chart->own.field.n_stray, chart->own.field.n_not_inward, (long)chart->info.cells,
+             (long)cells);
     const icc_status status = iccp_chart_field_create(
         out, chart->domain, &options, iccp_chart_parameters_maximum(&state->parameters), env, NULL);
     if (*out != NULL && !(*out)->info.certified) {
@@ -307,6 +319,24 @@ icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const
         *out = NULL;
     }
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
+}
+
+/* Where the caller has asked for a number of cells, it is only moved by one; half as many again are
+ * less than four times as many vertices in space. */
+icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
+{
+    const iccp_field_state *state = chart->state;
+    const int32_t cells = chart->info.cells;
+    const int32_t tried[] = {cells + 1, cells + cells / 4, cells + cells / 2,
+                             cells + cells / 2 + 1};
+    const bool is_open =
+        state->parameters.options.cells == 0 && chart->own.field.n_grid <= MOST_REFINED / 4;
+    const size_t n = is_open ? sizeof tried / sizeof *tried : 1;
+    icc_status status = ICC_OK;
+    *out = NULL;
+    for (size_t i = 0; i < n && status == ICC_OK && *out == NULL; ++i)
+        status = try_cells(out, chart, tried[i], env);
+    return status;
 }
 
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,

@@ -12,12 +12,12 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const icc_chart_options *options, const double *maximum,
                                    const iccp_env *env, icc_error *err);
 
-/* Whether nothing but vertices that were given up denies the certificate, which chance may have put
- * where they are. */
+/* Whether nothing but vertices that were given up, or a few contacts that are not inward, denies
+ * the certificate, which chance may have put where they are. */
 bool iccp_chart_field_is_unlucky(const icc_chart *chart);
 
-/* The same with one cell more, and so with the grid elsewhere; NULL if that is not certified
- * either. */
+/* The same with one cell more, and so with the grid elsewhere, or, where the number was open, a
+ * quarter or a half more; the first that is certified, or NULL. */
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env);
 
 /* The function of a chart of this method. */
