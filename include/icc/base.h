@@ -49,7 +49,8 @@ enum {
     ICC_ERR_CERTIFICATE = 10, /**< a result could not be certified */
     ICC_ERR_CANCELLED = 11,   /**< the progress callback asked to stop */
     ICC_ERR_UNSUPPORTED = 12, /**< this combination is not supported */
-    ICC_ERR_FORMAT = 13       /**< input data is malformed */
+    ICC_ERR_FORMAT = 13,      /**< input data is malformed */
+    ICC_ERR_AMBIGUOUS = 14    /**< several answers are equally good */
 };
 
 /** Limits and markers. */
@@ -138,6 +139,7 @@ typedef struct icc_env {
      *  - "warp": pictures are warped, or points posed
      *  - "sample": samples are spread over a shape
      *  - "weights": kernel coordinates are computed
+     *  - "match": outlines are compared
      *  - "load": an object is read back */
     int32_t (*progress)(void *user, const char *stage, double share);
     /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any

@@ -846,6 +846,121 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
 ICC_API icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data,
                                   const icc_env *env, icc_error *err);
 
+/* ------------------------------------------------------------------- match */
+
+/** Two domains that do not correspond, and which points of them go together. */
+typedef struct icc_match icc_match;
+
+/** How icc_match_create() takes rotations. */
+enum {
+    ICC_MATCH_UPRIGHT = 1, /**< of pairings that are nearly as good, the one that turns the shape
+                                least: as people expect of letters, squares and maps */
+    ICC_MATCH_FREE = 2     /**< any rotation is as good as any other */
+};
+
+/** How icc_match_create() pairs what lies between landmarks. */
+enum {
+    ICC_MATCH_ELASTIC = 1, /**< by shape: like parts go to like parts */
+    ICC_MATCH_ARC = 2      /**< by arc length; needs a landmark */
+};
+
+/** Options of icc_match_create(). */
+typedef struct icc_match_options {
+    size_t size;       /**< set by the caller: `sizeof(icc_match_options)` */
+    int32_t turning;   /**< without landmarks: `ICC_MATCH_UPRIGHT` or `ICC_MATCH_FREE`; 0: upright
+                        */
+    int32_t between;   /**< `ICC_MATCH_ELASTIC` or `ICC_MATCH_ARC`; 0: elastic */
+    double least_sure; /**< without landmarks, a pairing with less icc_match_info::sure is refused;
+                            0: 1.06; 1: none is */
+    double drop;       /**< where vertices of the two outlines are paired with points that lie
+                            within this share of the perimeter of each other, both vertices become
+                            one pair and the two added points are dropped; at most 0.01; 0: only
+                            where they lie within 0.3 of the shorter edge at them */
+} icc_match_options;
+
+/** What icc_match_get_info() reports. */
+typedef struct icc_match_info {
+    size_t size;        /**< set by the caller: `sizeof(icc_match_info)` */
+    int32_t dim;        /**< dimension */
+    int32_t mirrored;   /**< 1: the target looks like a mirror image of the source. A map cannot
+                             mirror, so this is said and not used; without landmarks only */
+    size_t n_vertices;  /**< common vertices of the two domains */
+    size_t n_landmarks; /**< landmarks; they are among these */
+    size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
+    double cost;        /**< of the pairing: 0 for similar shapes, at most 4; HUGE_VAL by arc
+                             length */
+    double second;      /**< of the best one that differs from it by more than 5 % of the
+                             perimeter; HUGE_VAL: no other was found, or there were landmarks */
+    double sure;        /**< (second + 0.05) / (cost + 0.05): 1 if another pairing is as good; a
+                             comparison, not a probability */
+    double turn;        /**< the source is turned by so many degrees, counter-clockwise, to lie as
+                             the target does */
+    double least_slope; /**< share of the target's perimeter over that of the source's, of the edge
+                             that shrinks most, */
+    double most_slope;  /**< and of the one that grows most */
+} icc_match_info;
+
+/**
+ * Pairs the boundaries of two domains that need not have the same number of vertices, the same
+ * first vertex or the same sense, and makes two domains of the same shapes with common vertices,
+ * ready for icc_map_create().
+ *
+ * Without landmarks all starting points are compared, by how the outlines turn at several scales;
+ * then rotations are tried, and the best pairing is followed. It is a heuristic: what is
+ * guaranteed is that the result is a monotone pairing that passes through all landmarks, not that
+ * it is the one you mean. Every vertex of the two domains is in the result bit by bit and in its
+ * order; the others are added on edges, rounded. The result begins with the source's vertex 0 and
+ * has the source's sense. It is checked as icc_domain_create() checks it.
+ *
+ * @param[out] out    the match; owned by the caller, see icc_match_free()
+ * @param source      a domain of the plane, without features or a mesh
+ * @param target      likewise
+ * @param n_landmarks how many pairs of points are known, at most 1000
+ * @param landmarks   n_landmarks * 2 dim coordinates: a point of the source, then one of the
+ *                    target. The nearest vertex within 0.5 % of the shape's diameter is taken, or
+ *                    else the nearest boundary point; a point on the boundary is taken as it is.
+ *                    NULL if there are none
+ * @param options     may be NULL
+ * @param env         may be NULL
+ * @param err         may be NULL; `index` is the landmark at fault
+ * @return ::ICC_OK; ::ICC_ERR_AMBIGUOUS (another pairing is nearly as good: give a landmark);
+ *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
+ *         where another one does, or does not follow it round both outlines alike);
+ *         ::ICC_ERR_UNSUPPORTED (another dimension, features or a mesh); ::ICC_ERR_BOUNDARY (the
+ *         common vertices cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
+ *         ::ICC_ERR_CANCELLED
+ *
+ * Cost: some 0.3 s and 6 MB whatever the number of vertices n, and O(n log n). Deterministic.
+ */
+ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
+                                    const icc_domain *target, size_t n_landmarks,
+                                    const double *landmarks, const icc_match_options *options,
+                                    const icc_env *env, icc_error *err);
+
+/** Frees a match. */
+ICC_API void icc_match_free(icc_match *match);
+
+/** The source with the common vertices; borrowed. */
+ICC_API const icc_domain *icc_match_source(const icc_match *match);
+
+/** The target with the common vertices; borrowed. */
+ICC_API const icc_domain *icc_match_target(const icc_match *match);
+
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_match_get_info(const icc_match *match, icc_match_info *info);
+
+/**
+ * Reports where the common vertices come from.
+ *
+ * @param match       the match
+ * @param[out] source icc_match_info::n_vertices numbers of vertices of the source that was given,
+ *                    UINT32_MAX for one that was added; or NULL
+ * @param[out] target likewise of the target
+ * @return ::ICC_OK or ::ICC_ERR_ARGUMENT
+ */
+ICC_API icc_status icc_match_get_origins(const icc_match *match, uint32_t *source,
+                                         uint32_t *target);
+
 /* --------------------------------------------------------------------- map */
 
 /** A map from one domain to another that agrees with the boundaries. */

@@ -31,6 +31,7 @@ const char *icc_status_name(icc_status status)
         [ICC_ERR_CANCELLED] = "ICC_ERR_CANCELLED",
         [ICC_ERR_UNSUPPORTED] = "ICC_ERR_UNSUPPORTED",
         [ICC_ERR_FORMAT] = "ICC_ERR_FORMAT",
+        [ICC_ERR_AMBIGUOUS] = "ICC_ERR_AMBIGUOUS",
     };
     if (status < 0 || (size_t)status >= sizeof names / sizeof names[0])
         return "unknown status";

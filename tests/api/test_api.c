@@ -1143,7 +1143,8 @@ START_TEST(everything_has_a_name)
                                         "ICC_ERR_CERTIFICATE",
                                         "ICC_ERR_CANCELLED",
                                         "ICC_ERR_UNSUPPORTED",
-                                        "ICC_ERR_FORMAT"};
+                                        "ICC_ERR_FORMAT",
+                                        "ICC_ERR_AMBIGUOUS"};
     for (int32_t k = 0; k < 14; ++k)
         ck_assert_str_eq(icc_status_name(k), NAMES[k]);
     static const int32_t UNKNOWN[] = {-1, 14, INT32_MAX, INT32_MIN};

@@ -1,0 +1,96 @@
+#include "api/check.h"
+#include "base/error.h"
+#include "base/options.h"
+#include "match/landmarks.h"
+#include "match/match.h"
+
+#include <math.h>
+#include <string.h>
+
+ICCP_END(match)
+
+static const double max_drop = .01;
+
+static icc_status check_options(const icc_match_options *options, size_t n_landmarks,
+                                icc_error *err)
+{
+    if (options->turning < 0 || options->turning > ICC_MATCH_FREE)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.turning is %ld",
+                         (long)options->turning);
+    if (options->between < 0 || options->between > ICC_MATCH_ARC)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.between is %ld",
+                         (long)options->between);
+    if (options->between == ICC_MATCH_ARC && n_landmarks == 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "matching by arc length needs a landmark, where to begin");
+    if (!(options->least_sure >= 0 && isfinite(options->least_sure)))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.least_sure is %g; it must be finite and not negative",
+                         options->least_sure);
+    if (!(options->drop >= 0 && options->drop <= max_drop))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.drop is %g; it must lie in [0, %g]", options->drop,
+                         max_drop);
+    return ICC_OK;
+}
+
+icc_status icc_match_create(icc_match **out, const icc_domain *source, const icc_domain *target,
+                            size_t n_landmarks, const double *landmarks,
+                            const icc_match_options *options, const icc_env *env, icc_error *err)
+{
+    iccp_env full;
+    icc_match_options given;
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL                            ? "out"
+                          : source == NULL                       ? "source"
+                          : target == NULL                       ? "target"
+                          : n_landmarks > 0 && landmarks == NULL ? "landmarks"
+                                                                 : NULL;
+    icc_status status = iccp_begin(&full, env, missing, err);
+    if (status == ICC_OK)
+        status = iccp_read_struct(&given, sizeof given, options, "icc_match_options", err);
+    if (status == ICC_OK && n_landmarks > ICCP_MAX_LANDMARKS)
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, "%zu landmarks are too many; at most %d",
+                           n_landmarks, ICCP_MAX_LANDMARKS);
+    if (status == ICC_OK)
+        status = check_options(&given, n_landmarks, err);
+    if (status != ICC_OK)
+        return status;
+    return iccp_end_match(
+        iccp_match_create(out, source, target, n_landmarks, landmarks, &given, &full, err), out,
+        &full, err);
+}
+
+void icc_match_free(icc_match *match)
+{
+    iccp_match_release(match);
+}
+
+const icc_domain *icc_match_source(const icc_match *match)
+{
+    return match != NULL ? match->domain[0] : NULL;
+}
+
+const icc_domain *icc_match_target(const icc_match *match)
+{
+    return match != NULL ? match->domain[1] : NULL;
+}
+
+icc_status icc_match_get_info(const icc_match *match, icc_match_info *info)
+{
+    if (match == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    return iccp_write_struct(info, &match->info, sizeof match->info, "icc_match_info", NULL);
+}
+
+icc_status icc_match_get_origins(const icc_match *match, uint32_t *source, uint32_t *target)
+{
+    if (match == NULL)
+        return ICC_ERR_ARGUMENT;
+    if (source != NULL)
+        memcpy(source, match->origin[0], match->n * sizeof *source);
+    if (target != NULL)
+        memcpy(target, match->origin[1], match->n * sizeof *target);
+    return ICC_OK;
+}

@@ -1,0 +1,263 @@
+#include <icc/icc.h>
+
+#include "../../faulty.h"
+
+#include <check.h>
+#include <math.h>
+#include <string.h>
+
+/* A key with a bit at one end: no symmetry. */
+static const double key[] = {0, 0,  4, 0, 4, -1, 5, -1, 5,  0, 6,  0,  6, -2,
+                             7, -2, 7, 1, 1, 1,  1, 2,  -1, 2, -1, -1, 0, -1};
+enum { N_KEY = sizeof key / sizeof key[0] / 2, N_CUT = 3 * N_KEY };
+
+/* The key's edges cut at two places each, from another vertex on; turned and scaled; backwards. */
+static void cut_key(double *xy, size_t first, double turn, double scale, bool is_backward)
+{
+    for (size_t k = 0; k < N_CUT; ++k) {
+        const size_t at = (first + (is_backward ? N_CUT - k : k)) % N_CUT;
+        const double *const p = key + 2 * (at / 3), *const q = key + 2 * ((at / 3 + 1) % N_KEY);
+        const double f = (double)(at % 3) * .31;
+        const double x = p[0] + f * (q[0] - p[0]), y = p[1] + f * (q[1] - p[1]);
+        xy[2 * k] = scale * (cos(turn) * x - sin(turn) * y) + 3;
+        xy[2 * k + 1] = scale * (sin(turn) * x + cos(turn) * y) - 5;
+    }
+}
+
+static icc_domain *domain_of(size_t n, const double *xy)
+{
+    icc_domain *domain = NULL;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL), ICC_OK);
+    return domain;
+}
+
+static icc_status match_of(icc_match **match, size_t n, const double *a, size_t m, const double *b,
+                           size_t n_landmarks, const double *landmarks,
+                           const icc_match_options *options, icc_error *err)
+{
+    icc_domain *source = domain_of(n, a), *target = domain_of(m, b);
+    const icc_status status =
+        icc_match_create(match, source, target, n_landmarks, landmarks, options, NULL, err);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    return status;
+}
+
+/* Every vertex is in the result bit by bit and in order; edges stretch by 1e-3 .. 1e3. */
+static void check_exact(const icc_match *match, size_t n, const double *a, size_t m,
+                        const double *b)
+{
+    icc_match_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+    uint32_t *origin[2];
+    const icc_domain *domains[2] = {icc_match_source(match), icc_match_target(match)};
+    const double *given[2] = {a, b};
+    const size_t count[2] = {n, m};
+    for (int e = 0; e < 2; ++e) {
+        origin[e] = malloc(info.n_vertices * sizeof(uint32_t));
+        ck_assert_ptr_nonnull(origin[e]);
+    }
+    ck_assert_int_eq(icc_match_get_origins(match, origin[0], origin[1]), ICC_OK);
+    ck_assert_uint_eq(origin[0][0], 0);
+    for (int e = 0; e < 2; ++e) {
+        double *const xy = malloc(info.n_vertices * 2 * sizeof(double));
+        ck_assert_ptr_nonnull(xy);
+        ck_assert_int_eq(icc_domain_get_boundary(domains[e], xy, NULL), ICC_OK);
+        size_t n_found = 0, n_up = 0, n_down = 0;
+        uint32_t last = UINT32_MAX;
+        for (size_t k = 0; k < info.n_vertices; ++k) {
+            const uint32_t v = origin[e][k];
+            if (v == UINT32_MAX)
+                continue;
+            ck_assert_uint_lt(v, count[e]);
+            ck_assert_int_eq(memcmp(xy + 2 * k, given[e] + 2 * v, 2 * sizeof(double)), 0);
+            n_up += last != UINT32_MAX && v == (last + 1) % count[e];
+            n_down += last != UINT32_MAX && last == (v + 1) % count[e];
+            last = v;
+            ++n_found;
+        }
+        ck_assert_uint_eq(n_found, count[e]);
+        ck_assert(n_up == n_found - 1 || n_down == n_found - 1);
+        free(xy);
+        free(origin[e]);
+    }
+    ck_assert(info.least_slope >= 1e-3 && info.most_slope <= 1e3);
+    icc_map *map = NULL;
+    ck_assert_int_eq(icc_map_create(&map, domains[0], domains[1], NULL, NULL, NULL), ICC_OK);
+    icc_map_free(map);
+}
+
+/* Starts, senses, places and sizes make no difference: what is cut is paired with what it was. */
+START_TEST(finds_the_same_shape)
+{
+    for (int k = 0; k < 8; ++k) {
+        double a[2 * N_CUT];
+        cut_key(a, (size_t)(7 * k), .1 * k, 1 + 30.0 * k, k % 2 == 1);
+        for (int way = 0; way < 2; ++way) {
+            icc_match *match = NULL;
+            icc_error err = {.size = sizeof err};
+            const icc_status status =
+                way == 0 ? match_of(&match, N_KEY, key, N_CUT, a, 0, NULL, NULL, &err)
+                         : match_of(&match, N_CUT, a, N_KEY, key, 0, NULL, NULL, &err);
+            ck_assert_msg(status == ICC_OK, "%d %d: %s", k, way, err.message);
+            icc_match_info info = {.size = sizeof info};
+            ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+            ck_assert_uint_eq(info.n_vertices, N_CUT);
+            ck_assert_uint_eq(info.n_joined, N_KEY);
+            ck_assert_int_eq(info.mirrored, 0);
+            const double turn = (way == 0 ? 1 : -1) * .1 * k * 180 / 3.14159265358979;
+            ck_assert_double_lt(fabs(info.turn - turn), 1);
+            if (way == 0)
+                check_exact(match, N_KEY, key, N_CUT, a);
+            else
+                check_exact(match, N_CUT, a, N_KEY, key);
+            icc_match_free(match);
+        }
+    }
+}
+END_TEST
+
+/* A mirror image is said to be one. */
+START_TEST(tells_a_mirror_image)
+{
+    double a[2 * N_KEY];
+    for (size_t k = 0; k < N_KEY; ++k) {
+        a[2 * k] = -key[2 * k];
+        a[2 * k + 1] = key[2 * k + 1];
+    }
+    icc_match *match = NULL;
+    const icc_match_options options = {.size = sizeof options, .least_sure = 1};
+    icc_error err = {.size = sizeof err};
+    const icc_status status = match_of(&match, N_KEY, key, N_KEY, a, 0, NULL, &options, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    icc_match_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+    ck_assert_int_eq(info.mirrored, 1);
+    icc_match_free(match);
+}
+END_TEST
+
+static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
+
+/* A square goes to a square in four ways; upright it goes as people expect. */
+START_TEST(refuses_what_is_ambiguous)
+{
+    const double other[] = {2, 0, 2, 1, 2, 2, 0, 2, 0, 0};
+    icc_match *match = NULL;
+    icc_match_options options = {.size = sizeof options, .turning = ICC_MATCH_FREE};
+    ck_assert_int_eq(match_of(&match, 4, square, 5, other, 0, NULL, &options, NULL),
+                     ICC_ERR_AMBIGUOUS);
+    ck_assert_ptr_null(match);
+    icc_error err = {.size = sizeof err};
+    const icc_status status = match_of(&match, 4, square, 5, other, 0, NULL, NULL, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    icc_match_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+    ck_assert_double_lt(fabs(info.turn), 1);
+    ck_assert_uint_eq(info.n_joined, 4);
+    icc_match_free(match);
+}
+END_TEST
+
+/* Landmarks, on vertices or edges, are among the common vertices, elastic or by arc length. */
+START_TEST(passes_through_landmarks)
+{
+    const double other[] = {2, 0, 2, 1, 2, 2, 0, 2, 0, 0};
+    const double landmarks[] = {.5, 0, 2, .75, 1, 1, 0, 2};
+    for (int between = ICC_MATCH_ELASTIC; between <= ICC_MATCH_ARC; ++between) {
+        icc_match *match = NULL;
+        const icc_match_options options = {.size = sizeof options, .between = between};
+        icc_error err = {.size = sizeof err};
+        const icc_status status =
+            match_of(&match, 4, square, 5, other, 2, landmarks, &options, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        double xy[2][64];
+        ck_assert_uint_le(info.n_vertices, 32);
+        (void)icc_domain_get_boundary(icc_match_source(match), xy[0], NULL);
+        (void)icc_domain_get_boundary(icc_match_target(match), xy[1], NULL);
+        for (size_t k = 0; k < 2; ++k) {
+            size_t n_hits = 0;
+            for (size_t v = 0; v < info.n_vertices; ++v)
+                n_hits += hypot(xy[0][2 * v] - landmarks[4 * k],
+                                xy[0][2 * v + 1] - landmarks[4 * k + 1]) < 1e-12 &&
+                          hypot(xy[1][2 * v] - landmarks[4 * k + 2],
+                                xy[1][2 * v + 1] - landmarks[4 * k + 3]) < 1e-12;
+            ck_assert_uint_eq(n_hits, 1);
+        }
+        check_exact(match, 4, square, 5, other);
+        icc_match_free(match);
+    }
+}
+END_TEST
+
+/* Landmarks out of order, off an outline, or twice are refused by their numbers. */
+START_TEST(names_bad_landmarks)
+{
+    const struct {
+        double landmarks[12];
+        size_t n;
+        int64_t index;
+    } cases[] = {
+        {{0, 0, 0, 0, 1, 0, 0, 1, 1, 1, 1, 1}, 3, 2},
+        {{0, 0, 0, 0, .5, .5, 1, 1}, 2, 1},
+        {{0, 0, 0, 0, 0, 0, 1, 1}, 2, 1},
+        {{0, 0, 1, 1, 1, 1, 1, 1}, 2, -2},
+        {{0, NAN, 1, 1}, 1, 0},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+        icc_match *match = NULL;
+        icc_error err = {.size = sizeof err};
+        ck_assert_int_eq(
+            match_of(&match, 4, square, 4, square, cases[k].n, cases[k].landmarks, NULL, &err),
+            ICC_ERR_ARGUMENT);
+        ck_assert_ptr_null(match);
+        ck_assert_int_eq(err.item, ICC_ITEM_POINT);
+        if (cases[k].index >= 0)
+            ck_assert_int_eq(err.index, cases[k].index);
+    }
+}
+END_TEST
+
+static icc_status make_one(const icc_env *env, icc_error *err, void *argument)
+{
+    double a[2 * N_CUT];
+    cut_key(a, 5, 0, 1, false);
+    icc_domain *source = domain_of(N_KEY, key), *target = domain_of(N_CUT, a);
+    icc_match *match = NULL;
+    const size_t *const n = argument;
+    const double landmark[] = {0, 0, 3, -5};
+    const icc_status status =
+        icc_match_create(&match, source, target, *n, landmark, NULL, env, err);
+    ck_assert((status == ICC_OK) == (match != NULL));
+    icc_match_free(match);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    return status;
+}
+
+START_TEST(fails_cleanly)
+{
+    for (size_t n = 0; n < 2; ++n)
+        faulty_sweep(make_one, &n);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("match");
+    TCase *tests = tcase_create("match");
+    tcase_add_test(tests, finds_the_same_shape);
+    tcase_add_test(tests, tells_a_mirror_image);
+    tcase_add_test(tests, refuses_what_is_ambiguous);
+    tcase_add_test(tests, passes_through_landmarks);
+    tcase_add_test(tests, names_bad_landmarks);
+    tcase_add_test(tests, fails_cleanly);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_ENV);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed != 0;
+}
