@@ -83,10 +83,11 @@ static icc_status check_order(landmark *all, size_t n, icc_error *err)
                                (before->share[0] == all[k].share[0] ||
                                 iccp_outline_wrap(before->share[1] - all[k].share[1]) == 0);
         if (is_double)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)all[k].number,
-                                "landmarks %zu and %zu are at the same place of the %s",
-                                before->number, all[k].number,
-                                before->share[0] == all[k].share[0] ? "source" : "target");
+            return iccp_fail_at(
+                err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT,
+                (int64_t)(before->number > all[k].number ? before->number : all[k].number),
+                "landmarks %zu and %zu are at the same place of the %s", before->number,
+                all[k].number, before->share[0] == all[k].share[0] ? "source" : "target");
         if (k == 0)
             continue;
         all[k].share[1] = all[0].share[1] + iccp_outline_wrap(all[k].share[1] - all[0].share[1]);
