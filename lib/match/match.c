@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Below it a pairing is refused. Of the development pairs (tests/bench/bench_match.c) the right
- * answers have at least 1.24, the arbitrary ones of discs and squares at most 1.05. */
+ * answers have at least 1.13, the arbitrary ones of discs and squares at most 1.05. */
 static const double least_sure = 1.06;
 
 void iccp_match_release(icc_match *match)
