@@ -853,23 +853,23 @@ typedef struct icc_match icc_match;
 
 /** How icc_match_create() takes rotations. */
 enum {
-    ICC_MATCH_UPRIGHT = 1, /**< of pairings that are nearly as good, the one that turns the shape
+    ICC_TURNING_UPRIGHT = 1, /**< of pairings that are nearly as good, the one that turns the shape
                                 least: as people expect of letters, squares and maps */
-    ICC_MATCH_FREE = 2     /**< any rotation is as good as any other */
+    ICC_TURNING_FREE = 2     /**< any rotation is as good as any other */
 };
 
 /** How icc_match_create() pairs what lies between landmarks. */
 enum {
-    ICC_MATCH_ELASTIC = 1, /**< by shape: like parts go to like parts */
-    ICC_MATCH_ARC = 2      /**< by arc length; needs a landmark */
+    ICC_BETWEEN_ELASTIC = 1, /**< by shape: like parts go to like parts */
+    ICC_BETWEEN_ARC = 2      /**< by arc length; needs a landmark */
 };
 
 /** Options of icc_match_create(). */
 typedef struct icc_match_options {
-    size_t size;       /**< set by the caller: `sizeof(icc_match_options)` */
-    int32_t turning;   /**< without landmarks: `ICC_MATCH_UPRIGHT` or `ICC_MATCH_FREE`; 0: upright
+    size_t size;     /**< set by the caller: `sizeof(icc_match_options)` */
+    int32_t turning; /**< without landmarks: `ICC_TURNING_UPRIGHT` or `ICC_TURNING_FREE`; 0: upright
                         */
-    int32_t between;   /**< `ICC_MATCH_ELASTIC` or `ICC_MATCH_ARC`; 0: elastic */
+    int32_t between; /**< `ICC_BETWEEN_ELASTIC` or `ICC_BETWEEN_ARC`; 0: elastic */
     double least_sure; /**< without landmarks, a pairing with less icc_match_info::sure is refused;
                             0: 1.06; 1: none is */
     double drop;       /**< where vertices of the two outlines are paired with points that lie

@@ -599,6 +599,38 @@ icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t heigh
     return result;
 }
 
+/** Two domains that do not correspond, and which points of them go together. */
+class match : public handle<icc_match, icc_match_free> {
+public:
+    using handle::handle;
+
+    /** By landmarks, rows of a point of the source and one of the target, or none: icc_match_create(). */
+    match(const domain &source, const domain &target, view<const double> landmarks = {},
+          const icc_match_options &options = sized<icc_match_options>(), const env &e = {})
+        : handle(e, [&](auto out, auto... rest) {
+              return icc_match_create(out, source.get(), target.get(),
+                                      count(landmarks, 2 * source.info().dim), landmarks.data(), &options,
+                                      rest...);
+          }) {}
+
+    icc_match_info info() const { return tell(icc_match_get_info); } /**< cost, turn, common vertices, .. */
+    /** The domains with common vertices, for calls of the C interface; borrowed. */
+    const icc_domain *get_source() const noexcept { return icc_match_source(get()); }
+    /** Likewise. */
+    const icc_domain *get_target() const noexcept { return icc_match_target(get()); }
+    /** Vertices of the domains that were given, for each common one; UINT32_MAX: it was added. */
+    std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const
+    {
+        const std::size_t n = info().n_vertices;
+        std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> result{
+            std::vector<std::uint32_t>(n), std::vector<std::uint32_t>(n)};
+        call({}, [&](auto...) {
+            return icc_match_get_origins(get(), result.first.data(), result.second.data());
+        });
+        return result;
+    }
+};
+
 /** A map from one domain to another that agrees with the boundaries. */
 class map : public handle<icc_map, icc_map_free> {
 public:

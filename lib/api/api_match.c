@@ -14,13 +14,13 @@ static const double max_drop = .01;
 static icc_status check_options(const icc_match_options *options, size_t n_landmarks,
                                 icc_error *err)
 {
-    if (options->turning < 0 || options->turning > ICC_MATCH_FREE)
+    if (options->turning < 0 || options->turning > ICC_TURNING_FREE)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.turning is %ld",
                          (long)options->turning);
-    if (options->between < 0 || options->between > ICC_MATCH_ARC)
+    if (options->between < 0 || options->between > ICC_BETWEEN_ARC)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.between is %ld",
                          (long)options->between);
-    if (options->between == ICC_MATCH_ARC && n_landmarks == 0)
+    if (options->between == ICC_BETWEEN_ARC && n_landmarks == 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "matching by arc length needs a landmark, where to begin");
     if (!(options->least_sure >= 0 && isfinite(options->least_sure)))

@@ -55,7 +55,7 @@ static icc_status find_knots(iccp_pairing_knots *knots, iccp_elastic_report *rep
                              const iccp_outline *outline, size_t n, const double *landmarks,
                              const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
-    if (options->between == ICC_MATCH_ARC) {
+    if (options->between == ICC_BETWEEN_ARC) {
         memcpy(knots->knot, landmarks, 2 * n * sizeof *landmarks);
         knots->n = n;
         report->cost = report->second = report->sure = HUGE_VAL;
@@ -66,7 +66,7 @@ static icc_status find_knots(iccp_pairing_knots *knots, iccp_elastic_report *rep
         status = iccp_elastic_between(knots, report, &outline[0], &outline[1], n, landmarks, env);
     else
         status = iccp_elastic_search(knots, report, &outline[0], &outline[1],
-                                     options->turning == ICC_MATCH_FREE, env);
+                                     options->turning == ICC_TURNING_FREE, env);
     const double sure = options->least_sure > 0 ? options->least_sure : least_sure;
     if (status == ICC_OK && report->sure < sure)
         return refuse(report, sure, err);

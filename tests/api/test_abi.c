@@ -28,6 +28,11 @@ IS(ICC_ERR_UNSUPPORTED, 12);
 IS(ICC_ERR_FORMAT, 13);
 IS(ICC_ERR_AMBIGUOUS, 14);
 
+IS(ICC_TURNING_UPRIGHT, 1);
+IS(ICC_TURNING_FREE, 2);
+IS(ICC_BETWEEN_ELASTIC, 1);
+IS(ICC_BETWEEN_ARC, 2);
+
 IS(ICC_MAX_DIM, 6);
 
 IS(ICC_ITEM_NONE, 0);
@@ -150,6 +155,27 @@ AT(icc_domain_info, measure, 128);
 AT(icc_domain_info, n_features, 136);
 AT(icc_domain_info, n_mesh_vertices, 144);
 AT(icc_domain_info, n_mesh_simplices, 152);
+
+SIZE(icc_match_options, 32);
+AT(icc_match_options, size, 0);
+AT(icc_match_options, turning, 8);
+AT(icc_match_options, between, 12);
+AT(icc_match_options, least_sure, 16);
+AT(icc_match_options, drop, 24);
+
+SIZE(icc_match_info, 88);
+AT(icc_match_info, size, 0);
+AT(icc_match_info, dim, 8);
+AT(icc_match_info, mirrored, 12);
+AT(icc_match_info, n_vertices, 16);
+AT(icc_match_info, n_landmarks, 24);
+AT(icc_match_info, n_joined, 32);
+AT(icc_match_info, cost, 40);
+AT(icc_match_info, second, 48);
+AT(icc_match_info, sure, 56);
+AT(icc_match_info, turn, 64);
+AT(icc_match_info, least_slope, 72);
+AT(icc_match_info, most_slope, 80);
 
 SIZE(icc_fill_options, 24);
 AT(icc_fill_options, size, 0);

@@ -1145,9 +1145,9 @@ START_TEST(everything_has_a_name)
                                         "ICC_ERR_UNSUPPORTED",
                                         "ICC_ERR_FORMAT",
                                         "ICC_ERR_AMBIGUOUS"};
-    for (int32_t k = 0; k < 14; ++k)
+    for (int32_t k = 0; k < 15; ++k)
         ck_assert_str_eq(icc_status_name(k), NAMES[k]);
-    static const int32_t UNKNOWN[] = {-1, 14, INT32_MAX, INT32_MIN};
+    static const int32_t UNKNOWN[] = {-1, 15, INT32_MAX, INT32_MIN};
     for (int k = 0; k < 4; ++k)
         ck_assert_str_eq(icc_status_name(UNKNOWN[k]), "unknown status");
     char version[32];

@@ -5,6 +5,7 @@ import { domainOf, shapesOf } from './domain.js';
 import { IccError, codeOf } from './error.js';
 import { kernelOf } from './kernel.js';
 import { mapOf } from './map.js';
+import { matchOf } from './match.js';
 import { stagesOf } from './stages.js';
 
 /** The bytes of the module beside this file, in node and in browsers. */
@@ -27,7 +28,7 @@ export async function compiled(source) {
 /** The classes over a core; over none, to look at. */
 export function classesOf(core) {
   const Domain = domainOf(core), Chart = chartOf(core, Domain), Map = mapOf(core, Domain, Chart);
-  return { Domain, Chart, Map, ...kernelOf(core), ...stagesOf(core) };
+  return { Domain, Chart, Map, Match: matchOf(core, Domain), ...kernelOf(core), ...stagesOf(core) };
 }
 
 /**

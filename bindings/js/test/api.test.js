@@ -63,6 +63,16 @@ test('a map takes points there and back, follows its target, and is saved', () =
   assert.ok(a * d - b * c > 0);
 });
 
+test('outlines that do not correspond are matched', () => {
+  const match = new icc.Match(SQUARE, [[5, 5], [5, 9], [1, 9], [1, 5], [3, 5]]);
+  assert.equal(match.info.nVertices, 5);
+  const { source, target } = match.origins();
+  assert.deepEqual([...target].sort(), [0, 1, 2, 3, 4]);
+  assert.deepEqual([...source].sort(), [-1, 0, 1, 2, 3]);
+  near(new icc.Map(match.source, match.target).apply([[1, 1]]), [2, 6]);
+  assert.throws(() => new icc.Match(SQUARE, SQUARE, [], { turning: 'free' }), { code: 'AMBIGUOUS' });
+});
+
 test('features go to their places', () => {
   const inside = (x) => icc.Domain.polygon(SQUARE, {
     points: [[x, 1]], lines: [[[2, 2], [3, 3]]], holes: [[[1, 2.5], [1.5, 2.5], [1.2, 3]]],

@@ -52,6 +52,15 @@ export interface Chart extends Handle {
   trace(point: Points): Float64Array;
   save(): Uint8Array;
 }
+export interface Match extends Handle {
+  readonly info: Info;
+  readonly source: Domain;
+  readonly target: Domain;
+  origins(): { source: Int32Array; target: Int32Array };
+}
+export interface MatchClass {
+  new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: Options | null): Match;
+}
 export interface ChartClass { new (domain: ShapeLike, options?: Options | null): Chart; load(bytes: Uint8Array): Chart }
 
 export interface Tie { vertex: number[]; source: Float64Array; target: Float64Array; length: number[] }
@@ -148,6 +157,7 @@ export interface Instance {
   readonly Domain: DomainClass;
   readonly Chart: ChartClass;
   readonly Map: MapClass;
+  readonly Match: MatchClass;
   readonly Shape: new (regions: readonly Domain[], curves?: { vertices?: Points; segments?: Indices; dim?: number }) => Shape;
   readonly Sampling: {
     new (shape: Shape, options?: Options | null): Sampling;
@@ -195,7 +205,7 @@ export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
 type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
 export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
   ? { create(...args: Given<A>): Promise<Far<T>> } : {});
-type Class = 'Domain' | 'Chart' | 'Map' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction';
+type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction';
 type AwayFunctions = { [K in 'boundaryDefects' | 'triangulate' | 'statusName' | 'codeOf']:
   Instance[K] extends (...args: infer A) => infer R ? (...args: A) => Promise<R> : never };
 

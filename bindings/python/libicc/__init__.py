@@ -18,6 +18,7 @@ from ._chart import Chart
 from ._core import Progress
 from ._domain import BOUNDARY, INSIDE, OUTSIDE, Domain, as_domain, boundary_defects, repair_mask
 from ._errors import (
+    AmbiguousError,
     ArgumentError,
     BoundaryError,
     Cancelled,
@@ -35,11 +36,13 @@ from ._errors import (
 )
 from ._image import PixelTransform, picture_cage, warp_image
 from ._map import Map
+from ._match import Match
 
 __version__ = _lib.version().decode()
 """The version of the C library that is in use."""
 
 __all__ = [
+    "AmbiguousError",
     "ArgumentError",
     "BOUNDARY",
     "BoundaryError",
@@ -51,6 +54,7 @@ __all__ = [
     "FormatError",
     "INSIDE",
     "Map",
+    "Match",
     "OUTSIDE",
     "OutOfMemoryError",
     "OutsideError",

@@ -21,7 +21,7 @@ class Error(Exception):
     """
 
     ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
-    SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT = range(8, 14)
+    SOLVER, TRACE, CERTIFICATE, CANCELLED, UNSUPPORTED, FORMAT, AMBIGUOUS = range(8, 15)
 
     def __init__(self, message: str, status: int = 0, index: int = -1, side: int = 0,
                  item: Optional[str] = None):
@@ -47,6 +47,10 @@ class OutsideError(Error, ValueError):
 
 class FormatError(Error, ValueError):
     """Input data is malformed."""
+
+
+class AmbiguousError(Error, ValueError):
+    """Several answers are equally good."""
 
 
 class UnsupportedError(Error, NotImplementedError):
@@ -95,6 +99,7 @@ _ERRORS = {
     Error.CANCELLED: Cancelled,
     Error.UNSUPPORTED: UnsupportedError,
     Error.FORMAT: FormatError,
+    Error.AMBIGUOUS: AmbiguousError,
 }
 
 

@@ -145,7 +145,7 @@ START_TEST(refuses_what_is_ambiguous)
 {
     const double other[] = {2, 0, 2, 1, 2, 2, 0, 2, 0, 0};
     icc_match *match = NULL;
-    icc_match_options options = {.size = sizeof options, .turning = ICC_MATCH_FREE};
+    icc_match_options options = {.size = sizeof options, .turning = ICC_TURNING_FREE};
     ck_assert_int_eq(match_of(&match, 4, square, 5, other, 0, NULL, &options, NULL),
                      ICC_ERR_AMBIGUOUS);
     ck_assert_ptr_null(match);
@@ -165,7 +165,7 @@ START_TEST(passes_through_landmarks)
 {
     const double other[] = {2, 0, 2, 1, 2, 2, 0, 2, 0, 0};
     const double landmarks[] = {.5, 0, 2, .75, 1, 1, 0, 2};
-    for (int between = ICC_MATCH_ELASTIC; between <= ICC_MATCH_ARC; ++between) {
+    for (int between = ICC_BETWEEN_ELASTIC; between <= ICC_BETWEEN_ARC; ++between) {
         icc_match *match = NULL;
         const icc_match_options options = {.size = sizeof options, .between = between};
         icc_error err = {.size = sizeof err};

@@ -81,6 +81,8 @@ pub const ICC_ERR_CANCELLED: i32 = 11;
 pub const ICC_ERR_UNSUPPORTED: i32 = 12;
 /// input data is malformed
 pub const ICC_ERR_FORMAT: i32 = 13;
+/// several answers are equally good
+pub const ICC_ERR_AMBIGUOUS: i32 = 14;
 
 // Limits and markers.
 /// largest dimension of a domain or grid
@@ -698,6 +700,71 @@ pub struct icc_chart_report {
     pub not_inward: f64,
 }
 sized!(icc_chart_report);
+
+opaque!(
+    /// Two domains that do not correspond, and which points of them go together.
+    icc_match
+);
+
+// How `icc_match_create()` takes rotations.
+/// of pairings that are nearly as good, the one that turns the shape least
+pub const ICC_TURNING_UPRIGHT: i32 = 1;
+/// any rotation is as good as any other
+pub const ICC_TURNING_FREE: i32 = 2;
+
+// How `icc_match_create()` pairs what lies between landmarks.
+/// by shape
+pub const ICC_BETWEEN_ELASTIC: i32 = 1;
+/// by arc length; needs a landmark
+pub const ICC_BETWEEN_ARC: i32 = 2;
+
+/// Options of `icc_match_create()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_match_options {
+    /// set by the caller: `sizeof(icc_match_options)`
+    pub size: usize,
+    /// without landmarks: `ICC_TURNING_UPRIGHT` or `ICC_TURNING_FREE`; 0: upright
+    pub turning: i32,
+    /// `ICC_BETWEEN_ELASTIC` or `ICC_BETWEEN_ARC`; 0: elastic
+    pub between: i32,
+    /// without landmarks, a pairing with less `icc_match_info.sure` is refused; 0: 1.06; 1: none is
+    pub least_sure: f64,
+    /// share of the perimeter within which vertices become one pair; at most 0.01
+    pub drop: f64,
+}
+sized!(icc_match_options);
+
+/// What `icc_match_get_info()` reports.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_match_info {
+    /// set by the caller: `sizeof(icc_match_info)`
+    pub size: usize,
+    /// dimension
+    pub dim: i32,
+    /// 1: the target looks like a mirror image of the source
+    pub mirrored: i32,
+    /// common vertices of the two domains
+    pub n_vertices: usize,
+    /// landmarks; they are among these
+    pub n_landmarks: usize,
+    /// how many are vertices of both
+    pub n_joined: usize,
+    /// of the pairing: 0 for similar shapes, at most 4
+    pub cost: f64,
+    /// of the best one that differs from it
+    pub second: f64,
+    /// (second + 0.05) / (cost + 0.05)
+    pub sure: f64,
+    /// the source is turned by so many degrees, counter-clockwise
+    pub turn: f64,
+    /// stretch of the edge that shrinks most, in shares of the perimeters,
+    pub least_slope: f64,
+    /// and of the one that grows most
+    pub most_slope: f64,
+}
+sized!(icc_match_info);
 
 opaque!(
     /// A map from one domain to another that agrees with the boundaries.
@@ -1440,6 +1507,40 @@ extern "C" {
         data: *const c_void,
         env: *const icc_env,
         err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Pairs the boundaries of two domains that need not have the same number of vertices, the same first vertex
+    /// or the same sense, and makes two domains of the same shapes with common vertices, ready for
+    /// `icc_map_create()`. A heuristic without landmarks: `ICC_ERR_AMBIGUOUS` where another pairing is nearly as
+    /// good. `landmarks`: n_landmarks * 2 dim coordinates, a point of the source, then one of the target.
+    pub fn icc_match_create(
+        out: *mut *mut icc_match,
+        source: *const icc_domain,
+        target: *const icc_domain,
+        n_landmarks: usize,
+        landmarks: *const f64,
+        options: *const icc_match_options,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Frees a match.
+    pub fn icc_match_free(r#match: *mut icc_match);
+
+    /// The source with the common vertices; borrowed.
+    pub fn icc_match_source(r#match: *const icc_match) -> *const icc_domain;
+
+    /// The target with the common vertices; borrowed.
+    pub fn icc_match_target(r#match: *const icc_match) -> *const icc_domain;
+
+    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    pub fn icc_match_get_info(r#match: *const icc_match, info: *mut icc_match_info) -> icc_status;
+
+    /// Reports where the common vertices come from: n_vertices numbers each, `u32::MAX` for one that was added.
+    pub fn icc_match_get_origins(
+        r#match: *const icc_match,
+        source: *mut u32,
+        target: *mut u32,
     ) -> icc_status;
 
     /// Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the

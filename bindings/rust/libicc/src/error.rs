@@ -39,6 +39,8 @@ impl Status {
     pub const UNSUPPORTED: Status = Status(sys::ICC_ERR_UNSUPPORTED);
     /// input data is malformed
     pub const FORMAT: Status = Status(sys::ICC_ERR_FORMAT);
+    /// several answers are equally good
+    pub const AMBIGUOUS: Status = Status(sys::ICC_ERR_AMBIGUOUS);
 
     /// Whether it is [`Status::OK`].
     pub fn is_ok(self) -> bool {

@@ -1,0 +1,80 @@
+"""Outlines that do not correspond."""
+
+from __future__ import annotations
+
+import ctypes
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Optional, Tuple
+
+import numpy as np
+
+from ._abi import lib, new
+from ._core import Handle, Progress, address, choose, create, fields, floats
+from ._domain import Domain, as_domain
+from ._errors import check
+
+if TYPE_CHECKING:
+    from ._types import ArrayLike, Ints, ShapeLike
+
+TURNING = {"upright": 1, "free": 2}
+BETWEEN = {"elastic": 1, "arc": 2}
+
+
+class Match(Handle):
+    """Two domains of the same shapes as those given, with common vertices: ``Map(match.source, match.target)``.
+
+    The outlines may have other numbers of vertices, other first vertices and other senses. Without landmarks all
+    starting points are compared by shape: a heuristic; look at the result. Every vertex that was given is in the
+    result, bit by bit; others are added on edges.
+
+    Args:
+        source, target: Domains of the plane without features, or what `as_domain` takes
+        landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target
+        turning: without landmarks: "upright" prefers what turns little, "free" does not
+        between: "elastic" by shape, "arc" by arc length, which needs a landmark
+        least_sure: what ``info.sure`` has to be; None: 1.06; 1: anything
+        drop: share of the perimeter within which vertices become one
+        progress, threads: as for `Domain`
+
+    Raises:
+        AmbiguousError if another pairing is as good; ArgumentError for landmarks that are off the outlines or do
+        not follow one another round both alike
+    """
+
+    _free = "match_free"
+
+    def __init__(self, source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None, *,
+                 turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
+                 drop: float = 0, progress: Optional[Progress] = None, threads: Optional[int] = None):
+        source, target = as_domain(source), as_domain(target)
+        options = new("match_options", turning=choose(turning, TURNING, "turning"),
+                      between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop)
+        given = np.reshape(np.asarray([] if landmarks is None else landmarks, dtype=float), (-1, 4))
+        pairs = floats(given, given.shape, "landmarks")
+        self._take(create(lib.match_create, source, target, len(pairs), address(pairs),
+                          ctypes.addressof(options), progress=progress, threads=threads))
+
+    @property
+    def source(self) -> Domain:
+        """The source with the common vertices."""
+        return Domain._wrap(lib.match_source(self), self)
+
+    @property
+    def target(self) -> Domain:
+        """The target with the common vertices."""
+        return Domain._wrap(lib.match_target(self), self)
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """The members of ``icc_match_info``."""
+        info = new("match_info")
+        check(lib.match_get_info(self, ctypes.addressof(info)))
+        return fields(info)
+
+    def origins(self) -> Tuple[Ints, Ints]:
+        """For every common vertex its number in the source and in the target that were given; -1: it was added."""
+        n = self.info.n_vertices
+        given = np.empty((2, n), dtype=np.uint32)
+        check(lib.match_get_origins(self, address(given[0]), address(given[1])))
+        source, target = given.astype(np.int32)
+        return source, target

@@ -1,0 +1,29 @@
+import libicc
+import numpy as np
+import pytest
+
+HOOK = np.array([[0, 0], [6, 0], [6, 1], [1, 1], [1, 3], [3, 3], [3, 4], [0, 4]], float)
+
+
+def test_outlines_that_do_not_correspond():
+    turned = np.roll(np.insert(HOOK, 1, [3, 0], axis=0), 4, axis=0)[::-1] * 2 + 5
+    match = libicc.Match(HOOK, turned)
+    assert match.info.n_vertices == 9 and match.info.n_joined == 8 and abs(match.info.turn) < 1
+    source, target = match.origins()
+    assert sorted(source[source >= 0]) == list(range(8)) and sorted(target) == list(range(9))
+    mapping = libicc.Map(match.source, match.target)
+    assert mapping.certified and np.allclose(mapping(HOOK), HOOK * 2 + 5)
+
+
+def test_a_landmark_decides():
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    with pytest.raises(libicc.AmbiguousError):
+        libicc.Match(square, square, turning="free")
+    match = libicc.Match(square, square, [[[0, 0], [1, 0]]])
+    assert np.allclose(libicc.Map(match.source, match.target)([[0, 0], [1, 0]]), [[1, 0], [1, 1]])
+
+
+def test_landmarks_that_are_off():
+    with pytest.raises(libicc.ArgumentError) as error:
+        libicc.Match(HOOK, HOOK, [[0, 0, 0, 0], [9, 9, 1, 1]])
+    assert error.value.index == 1
