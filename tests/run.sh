@@ -98,7 +98,7 @@ status=0
     ctest --test-dir "$build" ${only:+--label-regex "$only"} --label-exclude "^($left_to_others)\$" \
         --output-on-failure --parallel "$jobs" --output-log "$build/ctest.log" </dev/null
 ) || status=$?
-counts=$(awk '/tests? passed, .* tests? failed out of/ { print $NF - $4, $4 }' "$build/ctest.log")
+counts=$(awk '/tests? passed, .* tests? failed out of/ { last = $NF - $4 " " $4 } END { print last }' "$build/ctest.log")
 counts=${counts:-0 1}
 passed=${counts% *}
 failed=${counts#* }

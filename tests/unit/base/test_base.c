@@ -42,7 +42,7 @@ START_TEST(every_status_has_its_name)
         for (icc_status b = ICC_OK; b < a; ++b)
             ck_assert_str_ne(icc_status_name(a), icc_status_name(b));
     }
-    ck_assert_str_eq(icc_status_name(ICC_ERR_FORMAT + 1), "unknown status");
+    ck_assert_str_eq(icc_status_name(ICC_ERR_AMBIGUOUS + 1), "unknown status");
     ck_assert_str_eq(icc_status_name(-1), "unknown status");
     ck_assert_str_eq(icc_status_name(INT32_MIN), "unknown status");
 }
