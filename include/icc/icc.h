@@ -271,11 +271,12 @@ typedef struct icc_fill_options {
  * icc_domain_create_mesh() is. The same bits on every machine. Vertices that belong to no facet are
  * not among those of the result.
  *
- * Not guaranteed: that every surface can be filled; ones that are stretched a thousandfold and
- * askew are refused now and then, after three attempts. Nor are angles: tetrahedra at facets may be
- * very flat.
+ * Not guaranteed: that every surface can be filled. There are six attempts: in three orders, and
+ * in these again with lengths measured as if the surface were not stretched as a whole. One of ten
+ * surfaces that were stretched a thousandfold and lie askew is refused all the same. Nor are
+ * angles guaranteed: tetrahedra at facets may be very flat.
  *
- * Cost: about 15 us per tetrahedron, three times as much if it fails, and at most 200 bytes.
+ * Cost: about 15 us per tetrahedron, six times as much if it fails, and at most 200 bytes.
  * @param[out] out the filled domain, for the caller to free; NULL on failure
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL

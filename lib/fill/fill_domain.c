@@ -30,6 +30,8 @@ static icc_status add_points(iccp_tets *m, const icc_domain *surface, icc_error 
         width = iccp_max(width, surface->upper[k] - surface->lower[k]);
     }
     m->points.n_given = surface->n_vertices;
+    if (m->attempt >= ICCP_ORDERS)
+        iccp_metric_make(&m->metric, m->points.n, m->points.x);
     for (int i = 0; i < 8; ++i) {
         static const double stretch[3] = {1.01, 1.03, 1.07};
         double x[3];
@@ -156,6 +158,7 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     if (status == ICC_OK)
         status = iccp_lift(m, s, &stage[LIFT], err);
     m->points.n_dyadic = 0; /* all are doubles now */
+    m->metric.on = false;
     if (status == ICC_OK)
         status = iccp_tets_settle(m, &stage[SETTLE], err);
     if (status == ICC_OK && options->ratio < HUGE_VAL)
@@ -165,11 +168,12 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     return status;
 }
 
-/* In another order, what is in the way may be elsewhere. */
+/* In another order, what is in the way may be elsewhere. What has been refused in all orders is
+ * taken in all of them again, in a metric where it is not stretched as a whole. */
 icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err)
 {
-    enum { MOST_ATTEMPTS = 3 };
+    enum { MOST_ATTEMPTS = 2 * ICCP_ORDERS };
     iccp_env stage[N_STAGES];
     icc_status status = ICC_ERR_RESOLUTION;
     *out = NULL;

@@ -18,6 +18,8 @@ static bool in_sphere(const iccp_tets *m, const iccp_tet *tet, uint32_t point)
         const double *const x = iccp_point(&m->points, tet->v[i]);
         for (int k = 0; k < 3; ++k)
             r[i][k] = x[k] - e[k];
+        if (m->metric.on)
+            iccp_metric_apply(m->metric.in, r[i]);
         lift[i] = r[i][0] * r[i][0] + r[i][1] * r[i][1] + r[i][2] * r[i][2];
         most = iccp_max(most, lift[i]);
     }

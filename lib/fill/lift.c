@@ -71,6 +71,8 @@ static double find_directions(const iccp_lifting *l, double direction[DIRECTIONS
             const int u = (k + 1) % 3, v = (k + 2) % 3;
             normal[k] = (b[u] - a[u]) * (c[v] - a[v]) - (b[v] - a[v]) * (c[u] - a[u]);
         }
+        if (m->metric.on)
+            iccp_metric_steepest(&m->metric, normal);
         normalise(normal);
         for (int k = 0; k < 3; ++k)
             direction[0][k] += normal[k];

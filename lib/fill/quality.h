@@ -23,10 +23,25 @@ static inline double iccp_tet_quality(const double *a, const double *b, const do
     return cube > 0.0 ? 432.0 * volume * fabs(volume) / cube : 0.0;
 }
 
+/* Of a tetrahedron in the metric of a mesh. */
+static inline double iccp_metric_quality(const iccp_tets *m, const uint32_t corner[4])
+{
+    double x[4][3];
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 3; ++k)
+            x[i][k] = iccp_point(&m->points, corner[i])[k] - iccp_point(&m->points, corner[0])[k];
+        iccp_metric_apply(m->metric.in, x[i]);
+    }
+    return iccp_tet_quality(x[0], x[1], x[2], x[3]);
+}
+
+/* In the mesh's metric. */
 static inline double iccp_tets_quality(const iccp_tets *m, uint32_t a, uint32_t b, uint32_t c,
                                        uint32_t d)
 {
     const iccp_points *const p = &m->points;
+    if (m->metric.on)
+        return iccp_metric_quality(m, (const uint32_t[4]){a, b, c, d});
     return iccp_tet_quality(iccp_point(p, a), iccp_point(p, b), iccp_point(p, c), iccp_point(p, d));
 }
 

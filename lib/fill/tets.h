@@ -6,6 +6,7 @@
 #define ICCP_TETS_H
 
 #include "base/env.h"
+#include "fill/metric.h"
 #include "fill/points.h"
 
 #include <stdbool.h>
@@ -41,8 +42,9 @@ typedef struct iccp_tets {
     uint32_t round; /* counts the rounds of improvement */
     uint64_t random;
     uint32_t attempt; /* which of several orders things are done in, from 0 */
-    uint32_t hint;    /* where to begin to look */
-    bool no_memory;   /* there was none at some time, whatever came of it */
+    iccp_metric metric;
+    uint32_t hint;  /* where to begin to look */
+    bool no_memory; /* there was none at some time, whatever came of it */
     iccp_list star, ring, link, cavity, sides, fresh, work;
 } iccp_tets;
 
@@ -52,11 +54,14 @@ void iccp_tets_free(iccp_tets *m);
 bool iccp_list_push(iccp_tets *m, iccp_list *list, uint32_t item);
 bool iccp_list_reserve(iccp_tets *m, iccp_list *list, size_t room);
 
+enum { ICCP_ORDERS = 3 };
+
 /* What comes k-th of n < 2^31: in order, backwards, or scattered by a prime. */
 static inline size_t iccp_tets_turn(const iccp_tets *m, size_t k, size_t n)
 {
     const uint64_t prime = 2654435761u;
-    return m->attempt == 0 ? k : m->attempt == 1 ? n - 1 - k : (size_t)(k * prime % n);
+    const uint32_t order = m->attempt % ICCP_ORDERS;
+    return order == 0 ? k : order == 1 ? n - 1 - k : (size_t)(k * prime % n);
 }
 
 /* A new point that no tetrahedron has, at x; ICCP_NO_TET if there is no memory. */

@@ -178,6 +178,19 @@ START_TEST(a_tetrahedron_is_one)
 }
 END_TEST
 
+/* Rods, a thousand times as long as they are thick, and askew. */
+START_TEST(stretched_bodies)
+{
+    for (uint64_t seed = 6; seed < 6 + (uint64_t)share_of(6); ++seed) {
+        random_source r = {seed};
+        surface_star(&shape, 4, 0.5, &r);
+        turn(&shape, 1);
+        turn(&shape, 1e3);
+        check_fills(&shape);
+    }
+}
+END_TEST
+
 static int any_cell(int x, int y, int z)
 {
     return (x + y + z) % 2 == 0 || x == 1 || y == 1 || z == 1;
@@ -368,6 +381,7 @@ int main(void)
     tcase_add_test(tests, shares_are_exact);
     tcase_add_test(tests, a_tetrahedron_is_one);
     tcase_add_test(tests, simple_shapes);
+    tcase_add_test(tests, stretched_bodies);
     tcase_add_test(tests, coplanar_grids);
     tcase_add_test(tests, twisted_prisms);
     tcase_add_test(tests, saddles);
