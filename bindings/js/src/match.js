@@ -1,5 +1,6 @@
 // Outlines that do not correspond. See icc_match_create().
 import { Handle, flat } from './core.js';
+import { withDomain } from './domain.js';
 
 const ADDED = 0xffffffff;
 
@@ -10,7 +11,7 @@ export function matchOf(core, Domain) {
      *  target; options as in icc_match_options. new Map(match.source, match.target) maps them. */
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
-      super(core, Domain.with(source, (s) => Domain.with(target, (t) =>
+      super(core, withDomain(Domain, source, (s) => withDomain(Domain, target, (t) =>
         core.call('icc_match_create', s, t, given.length / 4, given, options))), 'icc_match_free');
     }
 
