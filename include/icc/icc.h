@@ -687,8 +687,8 @@ typedef struct icc_chart_report {
  *   direction (15 without AVX2). At most 40 bytes a grid vertex and 24 a
  *   facet are kept (in 3-D; 12 a vertex more where values lie below 2^-900, 8 more once
  *   icc_function_logs() has been called), 5.4 GB at 512^3; up to 70, and 150 for each of
- *   icc_field_info::n_contacts, are needed while it is made, beside another chart's 40 where it is
- *   made twice.
+ *   icc_field_info::n_contacts, are needed while it is made, beside another chart's 40 where other
+ *   numbers of cells are tried, four at most.
  * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
  *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000. 500
  *   bytes a vertex.

@@ -5,8 +5,10 @@
 
 #include "match/outline.h"
 
-/* Complex numbers of a descriptor: the turns at each scale, then the tangent. */
-enum { ICCP_SCALES = 6, ICCP_DESCRIPTOR = 2 * (ICCP_SCALES + 1) };
+enum { ICCP_SCALES = 6 };
+
+/* Share of tangents in the cost of a pair where they count; the rest is that of turns. */
+static const double iccp_tangents = .6;
 
 /* Turns are scaled by the square roots of their weights, which sum to 1, so that the cost of a pair
  * of turns is 2 - 2 times their product; likewise of tangents. */

@@ -21,9 +21,9 @@ enum {
     HALF = N / 64  /* samples on each side of a place that is to be sure */
 };
 
-/* Share of tangents; preference for upright; what two different pairings are apart, in samples; and
+/* Preference for upright; what two different pairings are apart, in samples; and
  * what is added to costs before they are compared, since small ones differ by sampling alone. */
-static const double tangents = .6, upright = .05, far = .05 * N, noise = .05;
+static const double upright = .05, far = .05 * N, noise = .05;
 
 typedef struct candidate {
     double score, rotation[2];
@@ -126,7 +126,7 @@ static void all_costs(elastic *e, double weight, bool is_mirrored)
     }
 }
 
-/* Takes a path as a candidate unless one is near by; */
+/* Takes a path as a candidate unless one is near by. */
 static void take(elastic *e, const iccp_lattice_path *path)
 {
     candidate *const c = &e->candidates[e->n_candidates];
@@ -158,7 +158,7 @@ static icc_status find_candidates(elastic *e, bool is_free, double *least, const
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
     if (!is_free) {
-        all_costs(e, tangents, false);
+        all_costs(e, iccp_tangents, false);
         const icc_status status =
             iccp_lattice_cyclic(e->paths, &e->lattice, N, e->cost, STRIDE, &parts[0]);
         if (status != ICC_OK)
@@ -210,8 +210,8 @@ static int32_t surest(const elastic *e, const candidate *c)
     double here[N], best = -HUGE_VAL;
     for (int k = 0; k < N; ++k) {
         const int32_t j = (int32_t)floor((double)c->place[k] + .5);
-        here[k] =
-            (double)iccp_descriptor_cost(&e->a[k], &e->b[(j % N + N) % N], c->rotation, tangents);
+        here[k] = (double)iccp_descriptor_cost(&e->a[k], &e->b[(j % N + N) % N], c->rotation,
+                                               iccp_tangents);
     }
     int32_t found = 0;
     for (int k = 0; k < N; ++k) {
@@ -255,7 +255,7 @@ static void follow(elastic *e, candidate *c)
         const int32_t from = e->lattice.low[row] - MARGIN, to = e->lattice.high[row] + MARGIN;
         for (int32_t k = from > 0 ? from : 0; k <= to && k <= N; ++k)
             cost[k] = iccp_descriptor_cost(&e->a[(i + row) % N], &e->b[((j + k) % N + N) % N],
-                                           c->rotation, tangents);
+                                           c->rotation, iccp_tangents);
     }
     iccp_lattice_path path = e->paths[0];
     iccp_lattice_search(&path, &e->lattice, N, e->cost, N + 1, 0);

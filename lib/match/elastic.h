@@ -10,7 +10,7 @@ enum { ICCP_MATCH_SAMPLES = 512 };
 
 /* A pairing of two outlines: shares of arc length, both growing by at most one turn. */
 typedef struct iccp_pairing_knots {
-    size_t n, capacity;
+    size_t n;
     double *knot; /* pairs */
 } iccp_pairing_knots;
 

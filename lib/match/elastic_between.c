@@ -11,8 +11,6 @@
 
 enum { N = ICCP_MATCH_SAMPLES, LEAST = 4, N_PASSES = 3 };
 
-static const double tangents = .6;
-
 typedef struct piece {
     double from[2], width[2]; /* shares, in the source and in the target */
     int32_t n;                /* samples */
@@ -120,7 +118,7 @@ icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *
             const piece p = piece_of(landmarks, n, k);
             describe(w, w->a, source, &p, 0);
             describe(w, w->b, target, &p, 1);
-            match_piece(w, &p, rotation, pass > 0 ? tangents : 0, knots, sum);
+            match_piece(w, &p, rotation, pass > 0 ? iccp_tangents : 0, knots, sum);
             report->cost += w->path.cost * (p.width[0] + p.width[1]) / 2;
             status = iccp_progress(env, NULL, (pass + (double)(k + 1) / (double)n) / N_PASSES);
         }
