@@ -23,6 +23,7 @@ holds out 'l.npy: a mask of 3 x 2 cells, 4 of them inside, in one piece without 
 awk '{ x[NR] = $1; y[NR] = $2 } END { for (i = 1; i <= NR; i++) { j = i % NR + 1; a += x[i] * y[j] - x[j] * y[i] }
        exit a != 8 }' l.txt || complain "the area of the boundary is not 4"
 run 0 check -s l.npy --json
+holds out '"checked": "mask"'
 holds out '"valid": true'
 
 # The same mask in other forms.

@@ -156,7 +156,27 @@ for command in "warp a.png b.png" "map --geojson a b" "check --repair a"; do
     says 'plane'
 done
 
-# check and info.
+# check and info. A surface by itself is only checked to be valid, and that is said; a method or a mesh asks for more.
+run 0 check -s cube.obj
+holds out 'cube.obj: a closed surface that does not meet itself, 8 vertices, 12 faces, facing outward, volume 1'
+holds out 'only the surface was checked: --method foliation'
+grep -qE 'one-to-one|certified' out && complain "more than the surface: $(cat out)"
+run 0 check -s cube.obj --json
+holds out '"valid": true'
+holds out '"checked": "surface"'
+grep -q '"certified"' out && complain "certified, but what"
+for more in "-m foliation" "--mesher libicc" "--maximum 0.5,0.5,0.6"; do
+    # shellcheck disable=SC2086 # options
+    run 0 check -s cube.obj $more
+    holds out 'one-to-one: yes, certified'
+    holds out 'foliation chart certified'
+done
+run 0 check -s cube.obj -m foliation --json
+holds out '"certified": true'
+grep -q '"checked"' out && complain "only a part was checked"
+sed '8s/.*/v 0.4 0.4 -1/' cube.obj >bad
+run 1 check -s bad
+says 'the surface meets itself'
 run 1 check -s cube.obj -m gradient -n 8
 holds err 'the method gradient is not certifiable'
 holds out 'a closed surface that does not meet itself, 8 vertices, 12 faces, facing outward, volume 1'

@@ -1,4 +1,5 @@
-/* libicc check: are the cages boundaries, and can the map between them be certified?
+/* libicc check: are the cages boundaries, and can the map between them be certified? Of a mask or a
+ * surface by itself only the first is asked.
  *
  * Defects go to stdout, one per line; the verdict goes to stderr. --repair writes the cages without
  * the vertices that a defect names as superfluous. */
@@ -83,7 +84,7 @@ static void print_found(const check *c)
 
 static int verdict_on_method(check *c)
 {
-    int result = check_mask_only(c) ? job_make_domains(&c->job) : certify(c);
+    int result = check_domain_only(c) ? job_make_domains(&c->job) : certify(c);
     progress_end(&c->job.bar);
     if (result == DONE && c->job.args->boundary != NULL)
         result = check_write_boundary(c);
@@ -94,14 +95,9 @@ static int verdict_on_method(check *c)
     if (!c->job.args->json)
         print_found(c);
     char text[240];
-    return first_doubtful(c)->certified || check_mask_only(c)
+    return first_doubtful(c)->certified || check_domain_only(c)
                ? DONE
                : failed(c->job.args->source, 0, "%s", check_reason(text, first_doubtful(c)));
-}
-
-static bool is_surface_only(const check *c)
-{
-    return job_dim(&c->job) == 3 && c->job.cages[0].cells == NULL && c->job.args->target == NULL;
 }
 
 /* The formats in which --repair writes. */
@@ -120,7 +116,7 @@ static int check_options(const check *c)
     bool mask = c->job.cages[0].cells != NULL;
     if (a->boundary != NULL && !mask)
         return failed(a->source, 0, "this is no mask; --boundary needs one");
-    if (a->repair != NULL && !in_plane(c) && !check_mask_only(c) && !is_surface_only(c))
+    if (a->repair != NULL && !in_plane(c) && !check_is_alone(c))
         return failed(a->source, 0,
                       "--repair is for cages in the plane, and for surfaces and masks without a "
                       "target");
@@ -156,9 +152,9 @@ static int run(check *c)
     if (refused)
         return verdict_on_defects(c);
     if (c->job.args->repair != NULL)
-        result = in_plane(c)          ? check_repair(c)
-                 : is_surface_only(c) ? check_repair_surface(c)
-                                      : check_repair_mask(c);
+        result = in_plane(c)                     ? check_repair(c)
+                 : c->job.cages[0].cells == NULL ? check_repair_surface(c)
+                                                 : check_repair_mask(c);
     return result == DONE ? verdict_on_method(c) : result;
 }
 

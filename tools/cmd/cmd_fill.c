@@ -106,7 +106,6 @@ int run_fill(const args *a)
     args own = *a;
     job j;
     own.source = a->operands[0];
-    own.method = ICC_METHOD_FIELD; /* so that no other mesh is made */
     job_start(&j, &own);
     int result = job_make_domains(&j);
     if (result == DONE)

@@ -97,9 +97,10 @@ static const command commands[] = {
          "'one-to-one: not proved: ' and why. In the plane every crossing, contact, spike\n"
          "and repeated vertex is listed, one per line; elsewhere the first defect is named.\n"
          "Exit code 0 means that the charts and the map are certified to be one-to-one; the\n"
-         "method gradient cannot be, so it gives 1. A mask by itself is only checked to be\n"
-         "one solid piece without holes; --boundary writes the vertices of its boundary,\n"
-         "which, moved, are a target.\n"},
+         "method gradient cannot be, so it gives 1. A surface or a mask by itself is only\n"
+         "checked to be valid, the mask as one solid piece without holes; a surface is filled\n"
+         "and its chart certified with --method foliation, or field. --boundary writes the\n"
+         "vertices of a mask's boundary, which, moved, are a target.\n"},
     {.name = "info",
      .bit = FOR_INFO,
      .run = run_info,

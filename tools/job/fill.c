@@ -128,9 +128,10 @@ int fill_domains(job *j)
 {
     icc_domain *filled[2] = {NULL, NULL};
     size_t n = j->args->target != NULL ? 2 : 1;
-    if (!wanted(j))
-        return DONE;
-    int result = check(j);
+    int result = job_make_domains(j);
+    if (result != DONE || j->filled || !wanted(j))
+        return result;
+    result = check(j);
     for (size_t side = 0; result == DONE && side < n; side++)
         result = make_filled(&filled[side], j, side);
     for (size_t side = 0; side < 2; side++) {
@@ -138,5 +139,6 @@ int fill_domains(job *j)
         if (result == DONE)
             j->domains[side] = filled[side];
     }
+    j->filled = result == DONE;
     return result;
 }

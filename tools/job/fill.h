@@ -4,9 +4,9 @@
 
 #include "job/job.h"
 
-/* Replaces the domains, which have been made, by domains with a mesh, where the options ask for it:
- * one that is given, or tetgen's; and in space, where the method takes one, that of a cage without
- * a target. Returns DONE, or FAILED with a line on stderr. */
+/* Makes the domains, with a mesh where the options ask for it: one that is given, or tetgen's; and
+ * in space, where the method takes one, that of a cage without a target. Does nothing the second
+ * time. Returns DONE, or FAILED with a line on stderr. */
 int fill_domains(job *j);
 
 #endif

@@ -4,6 +4,7 @@
 
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
+#include "job/fill.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -123,7 +124,7 @@ static icc_chart_options chart_options(const job *j)
 
 int job_make_chart(job *j)
 {
-    int result = job_make_domains(j);
+    int result = fill_domains(j);
     if (result != DONE)
         return result;
     if (j->cages[0].n_features > 0)
@@ -142,7 +143,7 @@ int job_make_chart(job *j)
 
 int job_make_map(job *j)
 {
-    int result = job_make_domains(j);
+    int result = fill_domains(j);
     if (result != DONE)
         return result;
     double began = seconds_now();

@@ -21,6 +21,7 @@ typedef struct job {
     cage cages[2]; /* source, target */
     bool both;     /* are in one file */
     icc_domain *domains[2];
+    bool filled;      /* the domains: see job/fill.h */
     size_t function;  /* which of args->functions; the first unless there are several */
     icc_chart *chart; /* of the source */
     icc_map *map;

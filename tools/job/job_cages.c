@@ -6,7 +6,6 @@
 #include "cage/cage_read.h"
 #include "cage/weld.h"
 #include "job/correspond.h"
-#include "job/fill.h"
 #include "job/parts.h"
 
 #include <stdio.h>
@@ -182,8 +181,6 @@ int job_make_domains(job *j)
         result = make_source(j);
     if (result == DONE && j->args->target != NULL)
         result = make_domain(j, 1);
-    if (result == DONE)
-        result = fill_domains(j);
     for (size_t i = 0; i < j->n_parts && result == DONE; i++)
         result = job_make_domains(&j->parts[i]);
     if (result == DONE && j->n_parts > 0)

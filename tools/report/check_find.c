@@ -1,9 +1,16 @@
 /* The defects of the cages that `libicc check` is given. */
 #include "report/check_job.h"
 
-bool check_mask_only(const check *c)
+bool check_is_alone(const check *c)
 {
-    return c->job.cages[0].cells != NULL && c->job.args->target == NULL;
+    return c->job.args->target == NULL && (c->job.cages[0].cells != NULL || job_dim(&c->job) == 3);
+}
+
+bool check_domain_only(const check *c)
+{
+    const args *a = c->job.args;
+    bool asks_for_chart = a->method != 0 || a->mesh != NULL || a->mesher != 0 || a->n_maximum > 0;
+    return check_is_alone(c) && (c->job.cages[0].cells != NULL || !asks_for_chart);
 }
 
 static int find_defects(check *c)

@@ -22,13 +22,16 @@ typedef struct check {
 /* Lists the defects of cages in the plane, and those of the other polygons. */
 int check_find_defects(check *c);
 
-/* Whether the source is a mask that is checked by itself. */
-bool check_mask_only(const check *c);
+/* Whether there is only a mask or a surface, without a target. */
+bool check_is_alone(const check *c);
+
+/* Whether only that is checked, and no chart of it: an option may ask for that of a surface. */
+bool check_domain_only(const check *c);
 
 /* ---- telling ---- */
 
-/* The answer, in the first line: is it one-to-one, or why is that not proved. Nothing of a mask by
- * itself. */
+/* The answer, in the first line: is it one-to-one, or why is that not proved. Nothing where only a
+ * domain is checked. */
 void check_print_verdict(const check *c);
 void check_print_defects(const check *c);
 void check_print_domains(const check *c);

@@ -76,6 +76,9 @@ void check_print_domains(const check *c)
         printf("%s: %s", job_file(&c->job, (int)side + 1), c->job.name);
         print_domain(&c->job.cages[side], &info);
     }
+    if (check_domain_only(c) && c->job.cages[0].cells == NULL)
+        puts("only the surface was checked: --method foliation or field certifies a chart of its "
+             "inside, --target a map");
 }
 
 static void print_chart(const char *file, const char *name, const chart_facts *chart)
@@ -114,7 +117,7 @@ static void print_why(const check *c)
 
 void check_print_verdict(const check *c)
 {
-    if (check_mask_only(c))
+    if (check_domain_only(c))
         return;
     fputs("one-to-one: ", stdout);
     if (c->certified)
@@ -178,7 +181,8 @@ static bool is_certified(const check *c)
     return all;
 }
 
-/* What was checked and its certificate, with the reason if there is none; a mask alone has none. */
+/* What was checked and its certificate, with the reason if there is none; a domain by itself has
+ * none. */
 static void report_certificates(const check *c, json *j)
 {
     char text[REASON_LENGTH];
@@ -207,7 +211,7 @@ static void report_certificates(const check *c, json *j)
         json_text(j, "not_certified_because", reason_of_map(text, &c->map));
     else if (c->charts[0].common.method != 0 && !c->charts[0].common.certified)
         json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[0]));
-    if (!check_mask_only(c))
+    if (!check_domain_only(c))
         json_flag(j, "certified", is_certified(c));
 }
 
@@ -243,6 +247,8 @@ int check_report(const check *c)
     if (c->job.args->repair != NULL)
         report_repair(c, &r.json);
     json_flag(&r.json, "valid", c->job.domains[0] != NULL);
+    if (check_domain_only(c))
+        json_text(&r.json, "checked", c->job.cages[0].cells != NULL ? "mask" : "surface");
     report_certificates(c, &r.json);
     return report_close(&r) ? DONE : FAILED;
 }
