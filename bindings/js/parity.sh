@@ -1,6 +1,6 @@
 #!/bin/sh
 # Compares what the library gives for the shapes of ../shared/data, here and as WebAssembly under node: meshes, 200,000
-# points, pictures, dragged frames, weights, by their hashes; or times it, both in turns.
+# points, pictures, dragged frames, weights, by their hashes; or times it, both in turns, three times: medians.
 # usage: bindings/js/parity.sh hash|time PROGRAM [SHAPE ...]     (after bindings/js/test.sh)
 #   PROGRAM: tests/cages of a native build; SHAPE: d01 t05 ...; left out, all 20 in the plane and three in space
 set -eu
@@ -18,27 +18,62 @@ module=build/wasm/bindings/js/cages.wasm
 flags=--no-warnings
 # Times are those of code that has been compiled: all of it, before it runs.
 [ "$mode" = hash ] || flags="$flags --no-liftoff --no-wasm-lazy-compilation --no-wasm-tier-up"
+
+native() {
+    "$program" "$mode" "$source" "$target"
+}
+
+wasm() {
+    # The flags are a list of words.
+    # shellcheck disable=SC2086
+    node $flags bindings/js/tools/run.js $module "$mode" "$(realpath "$source")" "$(realpath "$target")"
+}
+
+# Reads lines of native and wasm in turns; prints medians of the times, and of the ratios of neighbours.
+# shellcheck disable=SC2016 # for awk
+medians='
+    function median(list, n,    i, j, v) {
+        for (i = 2; i <= n; ++i) {
+            v = list[i]
+            for (j = i - 1; j > 0 && list[j] > v; --j)
+                list[j + 1] = list[j]
+            list[j + 1] = v
+        }
+        return list[int((n + 1) / 2)]
+    }
+    { name = $1; parts = NF; for (k = 2; k < NF; k += 2) { word[k] = $k; time[k, NR] = $(k + 1) } }
+    END {
+        printf "%-26s", name
+        for (k = 2; k < parts - 1; k += 2) {
+            for (r = 1; r <= NR / 2; ++r) {
+                here[r] = time[k, 2 * r - 1]
+                there[r] = time[k, 2 * r]
+                if (here[r] > 0)
+                    ratio[r] = there[r] / here[r]
+            }
+            if (median(here, NR / 2) > 0.5)
+                printf " %s %.1f -> %.1f (%.2f)", word[k], median(here, NR / 2), median(there, NR / 2), median(ratio, NR / 2)
+        }
+        print ""
+    }'
+
 different=0
 compared=0
 for shape in "$@"; do
     for source in "$data"/[23]d/"$shape"*.src.*; do
         target=$(echo "$source" | sed 's/\.src\./.tgt./')
-        native=$("$program" "$mode" "$source" "$target")
-        # The flags are a list of words.
-        # shellcheck disable=SC2086
-        wasm=$(node $flags bindings/js/tools/run.js $module "$mode" "$(realpath "$source")" "$(realpath "$target")")
         compared=$((compared + 1))
         if [ "$mode" = time ]; then
-            echo "$native $wasm" | awk '{
-                printf "%-26s", $1
-                half = NF / 2
-                for (k = 2; k < half - 1; k += 2)
-                    if ($(k + 1) > 0.5)
-                        printf " %s %.1f -> %.1f (%.2f)", $k, $(k + 1), $(half + k + 1), $(half + k + 1) / $(k + 1)
-                print ""
-            }'
-        elif [ "$native" != "$wasm" ]; then
-            printf 'native: %s\nwasm:   %s\n' "$native" "$wasm"
+            for _ in 1 2 3; do
+                native
+                wasm
+            done | awk "$medians"
+            continue
+        fi
+        here=$(native)
+        there=$(wasm)
+        if [ "$here" != "$there" ]; then
+            printf 'native: %s\nwasm:   %s\n' "$here" "$there"
             different=$((different + 1))
         fi
     done

@@ -1,7 +1,7 @@
 // Charts: coordinates of the inside of a domain, a boundary point and a share of the way. See
 // icc_chart_create().
 import { Handle, flat } from './core.js';
-import { withDomain } from './domain.js';
+import { withDomains } from './domain.js';
 
 /** The infos that only charts of one method have; each is refused by charts of the others. */
 const INFOS = {
@@ -15,16 +15,16 @@ export function chartOf(core, Domain) {
   return class Chart extends Handle {
     /** domain: a Domain, or an outline; options as in icc_chart_options: { method: 'disc', ... }. */
     constructor(domain, options = null, lender = null) {
-      super(core, typeof domain === 'number' ? domain
-        : withDomain(Domain, domain, (d) => core.call('icc_chart_create', d, options)), 'icc_chart_free', lender);
+      super(core, domain, () => withDomains(Domain, { domain }, (d) => core.call('icc_chart_create', d, options)),
+        'icc_chart_free', lender);
     }
 
-    static load(bytes) { return new Chart(core.call('icc_chart_load', bytes.length, bytes)); }
+    static load(bytes) { return new Chart(core.made('icc_chart_load', bytes.length, bytes)); }
     save() { return core.save('icc_chart_save', this); }
 
     get info() { return core.info('icc_chart_get_info', this); }
     get certified() { return this.info.certified === 1; }
-    get domain() { return new Domain(core.call('icc_chart_domain', this), this); }
+    get domain() { return new Domain(core.made('icc_chart_domain', this), this); }
 
     /** What only charts of this method have. */
     get details() {

@@ -2,7 +2,7 @@
 import { Env } from './env.js';
 import { IccError } from './error.js';
 import { functions } from './layouts.js';
-import { Memory, pointee } from './memory.js';
+import { Address, Memory, pointee } from './memory.js';
 
 const isCreated = ([name, type]) => name === 'out' && type.endsWith('**');
 const isImplicit = (parameter) => isCreated(parameter) || parameter[0] === 'env' || parameter[0] === 'err';
@@ -78,6 +78,9 @@ export class Core {
     throw new TypeError(`${name}: ${key} is ${given}${value.kind === kind ? ' of another instance' : `, but has to be of ${kind}`}`);
   }
 
+  /** The same for creators, for the constructor of a Handle. */
+  made(name, ...args) { return new Address(this.call(name, ...args)); }
+
   /** The members that a function such as icc_map_get_info() fills in. */
   info(name, ...args) {
     const out = {};
@@ -108,7 +111,9 @@ const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 export class Handle {
   #core; #address; #free; #lender; #kind; #dim;
 
-  constructor(core, address, free, lender = null) {
+  /** first: an Address; or the first of what `create` makes one from. */
+  constructor(core, first, create, free, lender = null) {
+    const address = first instanceof Address ? first.value : create();
     this.#core = core;
     this.#address = address;
     this.#free = free;

@@ -15,42 +15,50 @@ function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
-/** Runs `work` with a shape: a Domain as it is, an outline as a polygon that is freed afterwards. */
-export function withDomain(Domain, shape, work) {
-  if (shape instanceof Handle) return work(shape);
-  const made = Domain.polygon(shape);
+/** Runs `work` with shapes, given by their names: Domains as they are, outlines as polygons that are freed afterwards. */
+export function withDomains(Domain, shapes, work) {
+  const made = [];
   try {
-    return work(made);
+    return work(...Object.entries(shapes).map(([name, shape]) => {
+      if (shape instanceof Handle) return shape;
+      if (typeof shape !== 'object' || shape === null)
+        throw new TypeError(`${name} is ${shape}, but has to be a Domain or an outline`);
+      made.push(Domain.polygon(shape));
+      return made.at(-1);
+    }));
   } finally {
-    made.free();
+    for (const domain of made) domain.free();
   }
 }
 
 /** The class Domain of an instance. */
 export function domainOf(core) {
   return class Domain extends Handle {
-    constructor(address, lender = null) { super(core, address, 'icc_domain_free', lender); }
+    constructor(address, lender = null) {
+      const none = () => { throw new TypeError('Domains are made by Domain.polygon(), surface(), mesh() and mask()'); };
+      super(core, address, none, 'icc_domain_free', lender);
+    }
 
     /** A simple polygon, and what is inside: { holes, lines, points, radii }. */
     static polygon(outline, features = {}) {
       const outer = flat(outline);
       const inside = featuresOf(features);
       return new Domain(inside.length === 0
-        ? core.call('icc_domain_create', 2, outer.length / 2, outer, 0, null)
-        : core.call('icc_domain_create_features', outer.length / 2, outer, inside.length, inside));
+        ? core.made('icc_domain_create', 2, outer.length / 2, outer, 0, null)
+        : core.made('icc_domain_create_features', outer.length / 2, outer, inside.length, inside));
     }
 
     /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
     static surface(vertices, facets, dim = 3) {
       const v = flat(vertices), f = Uint32Array.from(facets.flat?.() ?? facets);
-      return new Domain(core.call('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
+      return new Domain(core.made('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
     }
 
     /** A conforming mesh of the inside; `facets` may say in which order the boundary's are wanted. */
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
       const v = flat(vertices), s = Uint32Array.from(simplices.flat?.() ?? simplices);
       const f = facets === null ? null : Uint32Array.from(facets.flat?.() ?? facets);
-      return new Domain(core.call('icc_domain_create_mesh', dim, v.length / dim, v, s.length / (dim + 1), s,
+      return new Domain(core.made('icc_domain_create_mesh', dim, v.length / dim, v, s.length / (dim + 1), s,
         f === null ? 0 : f.length / dim, f));
     }
 
@@ -58,13 +66,13 @@ export function domainOf(core) {
     static mask(shape, cells) {
       const n = shape.reduce((product, side) => product * side, 1);
       if (cells.length !== n) throw new TypeError(`${cells.length} cells are not the ${n} of the shape`);
-      return new Domain(core.call('icc_domain_create_mask', shape.length, Uint32Array.from(shape), cells));
+      return new Domain(core.made('icc_domain_create_mask', shape.length, Uint32Array.from(shape), cells));
     }
 
     get info() { return core.info('icc_domain_get_info', this); }
 
     /** The domain of a surface in space, filled with tetrahedra: { ratio, maxPoints }. */
-    fill(options = null) { return new Domain(core.call('icc_domain_fill', this, options)); }
+    fill(options = null) { return new Domain(core.made('icc_domain_fill', this, options)); }
 
     /** The boundary as it was given, with the vertices of all features: { vertices, facets }. */
     boundary() {

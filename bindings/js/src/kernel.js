@@ -11,8 +11,8 @@ export function kernelOf(core) {
     /** Regions are Domains; curves are { vertices, segments }. */
     constructor(regions, { vertices = [], segments = [], dim = regions[0]?.dim ?? 2 } = {}) {
       const v = flat(vertices), s = Uint32Array.from(segments.flat?.() ?? segments);
-      super(core, core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s),
-        'icc_shape_free');
+      super(core, null,
+        () => core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s), 'icc_shape_free');
       this.#dim = dim;
     }
 
@@ -22,16 +22,16 @@ export function kernelOf(core) {
   class Sampling extends Handle {
     /** options as in icc_sampling_options: { kind: 'blue', spacing, fixed, ... }. */
     constructor(shape, options = null) {
-      super(core, typeof shape === 'number' ? shape
-        : core.call('icc_sampling_create', shape, withCount(options, 'fixed', 'nFixed', shape.dim)), 'icc_sampling_free');
+      super(core, shape, () => core.call('icc_sampling_create', shape, withCount(options, 'fixed', 'nFixed', shape.dim)),
+        'icc_sampling_free');
     }
 
     static fromPoints(shape, points) {
       const p = flat(points);
-      return new Sampling(core.call('icc_sampling_create_from_points', shape, p.length / shape.dim, p));
+      return new Sampling(core.made('icc_sampling_create_from_points', shape, p.length / shape.dim, p));
     }
 
-    static load(bytes) { return new Sampling(core.call('icc_sampling_load', bytes.length, bytes)); }
+    static load(bytes) { return new Sampling(core.made('icc_sampling_load', bytes.length, bytes)); }
     save() { return core.save('icc_sampling_save', this); }
     get info() { return core.info('icc_sampling_get_info', this); }
 
@@ -45,7 +45,7 @@ export function kernelOf(core) {
   class Weights extends Handle {
     /** options as in icc_weights_options: { method: 'qp', edges, lines: [{ from, to, parallel }], ... }. */
     constructor(sampling, handles, options = null) {
-      super(core, typeof sampling === 'number' ? sampling : made(sampling, flat(handles), options), 'icc_weights_free');
+      super(core, sampling, () => made(sampling, flat(handles), options), 'icc_weights_free');
     }
 
     get info() { return core.info('icc_weights_get_info', this); }
@@ -76,20 +76,20 @@ export function kernelOf(core) {
 
     /** New weights, with a brush applied to a handle's. */
     paint(handle, centre, radius, amount) {
-      return new Weights(core.call('icc_weights_paint', this, handle, flat(centre), radius, amount));
+      return new Weights(core.made('icc_weights_paint', this, handle, flat(centre), radius, amount));
     }
 
     /** New weights, with given initial ones at some nodes. */
     repaint(nodes, values) {
-      return new Weights(core.call('icc_weights_repaint', this, nodes.length, nodes, flat(values)));
+      return new Weights(core.made('icc_weights_repaint', this, nodes.length, nodes, flat(values)));
     }
 
-    withMethod(method) { return new Weights(core.call('icc_weights_with_method', this, methodNumber(method))); }
+    withMethod(method) { return new Weights(core.made('icc_weights_with_method', this, methodNumber(method))); }
 
     /** New weights, with a part that moves as if it were rigid, and what was minimised: { weights, energy }. */
     stiffen(nodes, rigidity = null) {
       const energy = new Float64Array(2);
-      const address = core.call('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);
+      const address = core.made('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);
       return { weights: new Weights(address), energy };
     }
 
@@ -99,10 +99,10 @@ export function kernelOf(core) {
 
   class Binding extends Handle {
     constructor(weights, points, { derivatives = false } = {}) {
-      super(core, typeof weights === 'number' ? weights : bound(weights, flat(points), derivatives), 'icc_binding_free');
+      super(core, weights, () => bound(weights, flat(points), derivatives), 'icc_binding_free');
     }
 
-    static load(bytes) { return new Binding(core.call('icc_binding_load', bytes.length, bytes)); }
+    static load(bytes) { return new Binding(core.made('icc_binding_load', bytes.length, bytes)); }
     save() { return core.save('icc_binding_save', this); }
 
     get info() {

@@ -1,6 +1,7 @@
 // Maps from one domain to another. See icc_map_create().
 import { Handle, flat, room } from './core.js';
-import { withDomain } from './domain.js';
+import { withDomains } from './domain.js';
+import { Address } from './memory.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
@@ -15,16 +16,15 @@ export function mapOf(core, Domain, Chart) {
   class Map extends Handle {
     /** source, target: Domains, or outlines; options as in icc_map_options: { kind: 'mesh', chart: {...} }. */
     constructor(source, target, options = null) {
-      super(core, typeof source === 'number' ? source
-        : withDomain(Domain, source, (s) => withDomain(Domain, target, (t) => core.call('icc_map_create', s, t, withTies(options)))),
-      'icc_map_free');
+      super(core, source, () => withDomains(Domain, { source, target },
+        (s, t) => core.call('icc_map_create', s, t, withTies(options))), 'icc_map_free');
     }
 
     static fromCharts(source, target, options = null) {
-      return new Map(core.call('icc_map_create_from_charts', source, target, withTies(options)));
+      return new Map(core.made('icc_map_create_from_charts', source, target, withTies(options)));
     }
 
-    static load(bytes) { return new Map(core.call('icc_map_load', bytes.length, bytes)); }
+    static load(bytes) { return new Map(core.made('icc_map_load', bytes.length, bytes)); }
     save() { return core.save('icc_map_save', this); }
 
     get info() { return core.info('icc_map_get_info', this); }
@@ -34,15 +34,15 @@ export function mapOf(core, Domain, Chart) {
 
     #chart(name) {
       const address = core.call(name, this);
-      return address === 0 ? null : new Chart(address, null, this);
+      return address === 0 ? null : new Chart(new Address(address), null, this);
     }
 
     /** A fairer map: { iterations, levels, tolerance }. */
-    improve(options = null) { return new Map(core.call('icc_map_improve', this, options, null)); }
+    improve(options = null) { return new Map(core.made('icc_map_improve', this, options, null)); }
 
     /** The map to a target that has moved, in at most so many steps of improvement. */
     retarget(target, iterations = 0) {
-      return withDomain(Domain, target, (t) => new Map(core.call('icc_map_retarget', this, t, iterations)));
+      return withDomains(Domain, { target }, (t) => new Map(core.made('icc_map_retarget', this, t, iterations)));
     }
 
     /** The mesh of a map of kind mesh: { vertices, images, simplices }. */
@@ -124,7 +124,7 @@ export function mapOf(core, Domain, Chart) {
       const pixels = bytesOf(target.data);
       core.memory.scope(() => {
         const address = core.memory.put('uint8_t*', pixels);
-        core.call('icc_map_warp', this, picture(source), { ...picture(target), pixels: address }, null);
+        core.call('icc_map_warp', this, picture(source), { ...picture(target), pixels: new Address(address) }, null);
         pixels.set(core.memory.array(Uint8Array, address, pixels.length));
       });
       return target;

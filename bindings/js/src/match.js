@@ -1,6 +1,6 @@
 // Outlines that do not correspond. See icc_match_create().
 import { Handle, flat } from './core.js';
-import { withDomain } from './domain.js';
+import { withDomains } from './domain.js';
 
 const ADDED = 0xffffffff;
 
@@ -11,15 +11,15 @@ export function matchOf(core, Domain) {
      *  target; options as in icc_match_options. new Map(match.source, match.target) maps them. */
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
-      super(core, withDomain(Domain, source, (s) => withDomain(Domain, target, (t) =>
-        core.call('icc_match_create', s, t, given.length / 4, given, options))), 'icc_match_free');
+      super(core, null, () => withDomains(Domain, { source, target }, (s, t) =>
+        core.call('icc_match_create', s, t, given.length / 4, given, options)), 'icc_match_free');
     }
 
     get info() { return core.info('icc_match_get_info', this); }
 
     /** The domains with common vertices. */
-    get source() { return new Domain(core.call('icc_match_source', this), this); }
-    get target() { return new Domain(core.call('icc_match_target', this), this); }
+    get source() { return new Domain(core.made('icc_match_source', this), this); }
+    get target() { return new Domain(core.made('icc_match_target', this), this); }
 
     /** For every common vertex its number in the domains that were given: { source, target }; -1: it was added. */
     origins() {

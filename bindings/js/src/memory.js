@@ -17,6 +17,11 @@ const ARRAYS = {
   size_t: Uint32Array, uint8_t: Uint8Array, void: Uint8Array,
 };
 
+/** An address that C gave. A plain number is never taken for one. */
+export class Address {
+  constructor(value) { this.value = value; }
+}
+
 /** "const double*" -> "double". */
 export const pointee = (type) => type.replace(/^const /, '').replace(/(const)?\*$/, '').trim();
 
@@ -67,6 +72,7 @@ export class Memory {
   /** Copies an argument that C gets a pointer to: numbers, objects (structs) or handles. */
   put(type, value) {
     if (value === null || value === undefined) return 0;
+    if (typeof value !== 'object') throw new TypeError(`${value} is no array, and no object`);
     const element = pointee(type);
     if (structs[element]) return this.#putStructs(element, Array.isArray(value) ? value : [value]);
     const Type = ARRAYS[element];
@@ -102,8 +108,7 @@ export class Memory {
       const Type = ARRAYS[array[1]];
       this.array(Type, at, Number(array[2])).set(value);
     } else if (type.endsWith('*')) {
-      const pointer = typeof value === 'number' ? value : this.put(type, value);
-      this.view.setUint32(at, pointer, true);
+      this.view.setUint32(at, value instanceof Address ? value.value : this.put(type, value), true);
     } else if (type === 'double') this.view.setFloat64(at, value, true);
     else if (type === 'uint64_t') this.view.setBigUint64(at, BigInt(value), true);
     else if (type === 'int64_t') this.view.setBigInt64(at, BigInt(value), true);

@@ -1,5 +1,6 @@
 // The stages of Integral Curve Coordinates by themselves: grid, tree, function. See icc/stages.h.
 import { Handle, flat } from './core.js';
+import { Address } from './memory.js';
 
 /** The classes Grid, Tree and GridFunction of an instance. */
 export function stagesOf(core) {
@@ -8,17 +9,17 @@ export function stagesOf(core) {
   class Grid extends Handle {
     /** domain: a Domain; cells along its longest side. */
     constructor(domain, cells = 0, lender = null) {
-      super(core, typeof domain === 'number' ? domain : core.call('icc_grid_create', domain, cells), 'icc_grid_free', lender);
+      super(core, domain, () => core.call('icc_grid_create', domain, cells), 'icc_grid_free', lender);
     }
 
     /** A mask of vertices, the first axis fastest. */
     static mask(shape, inside) {
-      return new Grid(core.call('icc_grid_create_mask', shape.length, Uint32Array.from(shape), inside));
+      return new Grid(core.made('icc_grid_create_mask', shape.length, Uint32Array.from(shape), inside));
     }
 
     get info() { return core.info('icc_grid_get_info', this); }
-    refine() { return new Grid(core.call('icc_grid_refine', this)); }
-    restrict(keep) { return new Grid(core.call('icc_grid_restrict', this, keep)); }
+    refine() { return new Grid(core.made('icc_grid_refine', this)); }
+    restrict(keep) { return new Grid(core.made('icc_grid_restrict', this, keep)); }
 
     /** One byte per vertex, 1 inside. */
     inside() { return copied(Uint8Array, core.call('icc_grid_inside', this), this.info.nVertices); }
@@ -40,10 +41,10 @@ export function stagesOf(core) {
   class Tree extends Handle {
     /** options as in icc_tree_options: { form: 'thesis', axisOrder }. */
     constructor(grid, root, options = null, lender = null) {
-      super(core, typeof grid === 'number' ? grid : core.call('icc_tree_create', grid, root, options), 'icc_tree_free', lender);
+      super(core, grid, () => core.call('icc_tree_create', grid, root, options), 'icc_tree_free', lender);
     }
 
-    get grid() { return new Grid(core.call('icc_tree_grid', this), 0, this); }
+    get grid() { return new Grid(core.made('icc_tree_grid', this), 0, this); }
     get root() { return core.call('icc_tree_root', this) >>> 0; }
     get #n() { return this.grid.info.nVertices; }
 
@@ -65,17 +66,17 @@ export function stagesOf(core) {
   class GridFunction extends Handle {
     /** options as in icc_function_options: { function: 'laplace', constraints: 'all', ... }. */
     constructor(tree, options = null, lender = null) {
-      super(core, typeof tree === 'number' ? tree : core.call('icc_function_create', tree, options), 'icc_function_free', lender);
+      super(core, tree, () => core.call('icc_function_create', tree, options), 'icc_function_free', lender);
     }
 
     /** The function of a chart of method gradient or field, or null. */
     static ofChart(chart) {
       const address = core.call('icc_chart_function', chart);
-      return address === 0 ? null : new GridFunction(address, null, chart);
+      return address === 0 ? null : new GridFunction(new Address(address), null, chart);
     }
 
     get info() { return core.info('icc_function_get_info', this); }
-    get tree() { return new Tree(core.call('icc_function_tree', this), 0, null, this); }
+    get tree() { return new Tree(core.made('icc_function_tree', this), 0, null, this); }
     get #n() { return this.tree.grid.info.nVertices; }
 
     values() { return copied(Float64Array, core.call('icc_function_values', this), this.#n); }

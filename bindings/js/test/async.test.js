@@ -61,6 +61,26 @@ test('objects of a wrong class or of another instance are refused by name', asyn
   assert.throws(() => new other.Shape([domain]), /regions is a Domain of another instance/);
 });
 
+test('a number is no handle, and no pointer', () => {
+  const handles = [[1, 1], [3, 1]];
+  assert.throws(() => new icc.Map(5, SQUARE), /source is 5, but has to be a Domain or an outline/);
+  assert.throws(() => new icc.Map(SQUARE, 5), /target is 5, but/);
+  assert.throws(() => new icc.Match(5, SQUARE), /source is 5, but/);
+  assert.throws(() => new icc.Chart(5), /domain is 5, but/);
+  assert.throws(() => new icc.Domain(5), /made by Domain.polygon/);
+  assert.throws(() => new icc.Shape([5]), /regions is 5, but has to be of icc_domain/);
+  assert.throws(() => new icc.Sampling(5), /shape is 5, but has to be of icc_shape/);
+  assert.throws(() => new icc.Weights(5, handles), /sampling is 5, but has to be of icc_sampling/);
+  assert.throws(() => new icc.Binding(5, handles), /weights is 5, but has to be of icc_weights/);
+  assert.throws(() => new icc.Grid(5), /domain is 5, but has to be of icc_domain/);
+  assert.throws(() => new icc.Tree(5, 0), /grid is 5, but has to be of icc_grid/);
+  assert.throws(() => new icc.GridFunction(5), /tree is 5, but has to be of icc_tree/);
+  assert.throws(() => new icc.Map(SQUARE, LEANING).retarget(5), /target is 5, but/);
+  assert.throws(() => icc.call('icc_map_apply', new icc.Map(SQUARE, LEANING), 1, 1024, null, null, null), /1024 is no array/);
+  const shape = new icc.Shape([icc.Domain.polygon(SQUARE)]);
+  assert.throws(() => icc.call('icc_sampling_create', shape, { spacing: 1, nFixed: 1, fixed: 1024 }), /1024 is no array/);
+});
+
 test('over a worker: the same classes, the same numbers, the same errors', async () => {
   const far = await AsyncIcc.start(), map = await far.Map.create(SQUARE, LEANING), here = new icc.Map(SQUARE, LEANING);
   const points = [[1, 1], [2, 3]];
