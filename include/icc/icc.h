@@ -862,7 +862,9 @@ enum {
 /** How icc_match_create() pairs what lies between landmarks. */
 enum {
     ICC_BETWEEN_ELASTIC = 1, /**< by shape: like parts go to like parts */
-    ICC_BETWEEN_ARC = 2      /**< by arc length; needs a landmark */
+    ICC_BETWEEN_ARC = 2      /**< by arc length, for outlines without features as discs, which are
+                                ambiguous by shape; without landmarks it starts where the outlines,
+                                laid on one another unturned, are nearest */
 };
 
 /** Options of icc_match_create(). */
@@ -924,7 +926,8 @@ typedef struct icc_match_info {
  * @param options     may be NULL
  * @param env         may be NULL
  * @param err         may be NULL; `index` is the landmark at fault
- * @return ::ICC_OK; ::ICC_ERR_AMBIGUOUS (another pairing is nearly as good: give a landmark);
+ * @return ::ICC_OK; ::ICC_ERR_AMBIGUOUS (another pairing is nearly as good: give a
+ *         landmark, or ask for arc length, which is never taken unasked);
  *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
  *         where another one does, or does not follow it round both outlines alike);
  *         ::ICC_ERR_UNSUPPORTED (another dimension, features or a mesh); ::ICC_ERR_BOUNDARY (the

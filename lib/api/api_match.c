@@ -11,8 +11,7 @@ ICCP_END(match)
 
 static const double max_drop = .01;
 
-static icc_status check_options(const icc_match_options *options, size_t n_landmarks,
-                                icc_error *err)
+static icc_status check_options(const icc_match_options *options, icc_error *err)
 {
     if (options->turning < 0 || options->turning > ICC_TURNING_FREE)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.turning is %ld",
@@ -20,9 +19,6 @@ static icc_status check_options(const icc_match_options *options, size_t n_landm
     if (options->between < 0 || options->between > ICC_BETWEEN_ARC)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.between is %ld",
                          (long)options->between);
-    if (options->between == ICC_BETWEEN_ARC && n_landmarks == 0)
-        return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "matching by arc length needs a landmark, where to begin");
     if (!(options->least_sure >= 0 && isfinite(options->least_sure)))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_match_options.least_sure is %g; it must be finite and not negative",
@@ -54,7 +50,7 @@ icc_status icc_match_create(icc_match **out, const icc_domain *source, const icc
         status = iccp_fail(err, ICC_ERR_ARGUMENT, "%zu landmarks are too many; at most %d",
                            n_landmarks, ICCP_MAX_LANDMARKS);
     if (status == ICC_OK)
-        status = check_options(&given, n_landmarks, err);
+        status = check_options(&given, err);
     if (status != ICC_OK)
         return status;
     return iccp_end_match(

@@ -1,6 +1,7 @@
 #include "match/match.h"
 
 #include "base/error.h"
+#include "match/arc.h"
 #include "match/common.h"
 #include "match/landmarks.h"
 #include "match/pins.h"
@@ -56,8 +57,9 @@ static icc_status find_knots(iccp_pairing_knots *knots, iccp_elastic_report *rep
                              const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
     if (options->between == ICC_BETWEEN_ARC) {
-        memcpy(knots->knot, landmarks, 2 * n * sizeof *landmarks);
-        knots->n = n;
+        const double start[2] = {0, n > 0 ? 0 : iccp_arc_start(&outline[0], &outline[1])};
+        knots->n = n > 0 ? n : 1;
+        memcpy(knots->knot, n > 0 ? landmarks : start, 2 * knots->n * sizeof *knots->knot);
         report->cost = report->second = report->sure = HUGE_VAL;
         return ICC_OK;
     }

@@ -22,7 +22,7 @@ offers() {
     [ "$(cat got)" = "$expected" ] || complain "for '$*' bash has '$(cat got)', not '$expected'"
 }
 if command -v bash >/dev/null; then
-    offers 'map mesh' libicc m
+    offers 'map mesh match' libicc m
     offers 'foliation field' libicc map --method f
     offers 'foliation disc gradient field' libicc map -m ''
     offers '--source --source-crs --solver' libicc map --so

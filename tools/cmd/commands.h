@@ -6,6 +6,7 @@
 
 int run_map(const args *a);
 int run_geojson(const args *a); /* map with --geojson */
+int run_match(const args *a);
 int run_encode(const args *a);
 int run_decode(const args *a);
 int run_warp(const args *a);

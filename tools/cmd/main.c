@@ -129,6 +129,24 @@ static const command commands[] = {
          "boundary and\n"
          "curves (cell data `part`: 0 to 3), with the displacement to the target if there is "
          "one.\n"},
+    {.name = "match",
+     .bit = FOR_MATCH,
+     .needs_target = true,
+     .run = run_match,
+     .usage = "--source FILE --target FILE [OPTION]...",
+     .summary = "Gives two outlines that do not correspond common vertices",
+     .details =
+         "In the plane. Other numbers of vertices, another first one, another sense do not matter: "
+         "like parts\n"
+         "go to like parts. Every vertex of both is kept; others are added on edges. Prints how "
+         "well they\n"
+         "match: 'sure' is how many times better than in any other way, and below 1.06 it is "
+         "refused. It is\n"
+         "a heuristic: look at the result ('libicc plot --match auto' numbers places that go "
+         "together). Landmarks\n"
+         "help. Outlines without features, as discs, are paired by arc length where --match arc "
+         "says so.\n"
+         "map, warp, check and the others take --match as well, and need no files between.\n"},
     {.name = "weights",
      .bit = FOR_WEIGHTS,
      .run = run_weights,
@@ -237,7 +255,7 @@ int main(int argc, char **argv)
     if (argc < 2)
         return misused(NULL,
                        "which command? one of map, encode, decode, warp, mesh, check, info, plot, "
-                       "weights, pose");
+                       "match, weights, pose");
     const char *name = argv[1];
     const command *c = find_command(name);
     if (c != NULL)

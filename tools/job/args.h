@@ -14,6 +14,7 @@ typedef struct args {
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
     const char *triangulation, *source_crs, *target_crs, *ties;
+    const char *match, *landmarks, *target_output;
     const char *json_file, *handles, *pose, *binding, *picture;
     const char *operands[2];
     size_t n_operands;
@@ -25,6 +26,7 @@ typedef struct args {
     double min_fall;
     double tolerance; /* 0: the command's choice */
     int32_t outside;  /* one of the policies below; 0: the command's choice */
+    int32_t turning;  /* of outlines that are matched; 0: the library's choice */
     double snap;      /* below 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum;       /* their coordinates; 0: not given */
@@ -70,7 +72,10 @@ enum {
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
-    FOR_ALL = FOR_CHARTS | FOR_KERNEL
+    FOR_MATCH = 1024,
+    HAS_CAGES = FOR_CHARTS | FOR_MATCH,
+    TAKES_TARGET = MAY_PAIR | FOR_MATCH,
+    FOR_ALL = HAS_CAGES | FOR_KERNEL
 };
 
 typedef struct command {

@@ -143,6 +143,7 @@ static int check_fill(const args *a, const command *c)
                           : a->method != 0    ? "method"
                           : a->map != 0       ? "map"
                           : a->outside != 0   ? "outside"
+                          : a->match != NULL  ? "match"
                           : a->json           ? "json"
                                               : NULL;
     if (of_maps != NULL)
@@ -167,12 +168,26 @@ static int check_views(const args *a, const command *c)
     return DONE;
 }
 
+/* What goes with --match only, and what does not. */
+static int check_match(const args *a, const command *c)
+{
+    if (a->match == NULL && (a->landmarks != NULL || a->turning != 0))
+        return misused(c->name, "--%s goes with --match", a->landmarks ? "landmarks" : "turning");
+    if (a->match != NULL && (a->mesh != NULL || a->target_mesh != NULL))
+        return misused(c->name, "--match is for outlines, not for --mesh");
+    if (a->match != NULL && a->repair != NULL)
+        return misused(c->name, "--repair does not go with --match; mend each cage by itself");
+    return DONE;
+}
+
 static int check_charts(const args *a, const command *c)
 {
     if (a->fill)
         return check_fill(a, c);
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
+    if (check_match(a, c) != DONE)
+        return MISUSED;
     int result = check_method(a, c);
     if (result == DONE)
         result = check_views(a, c);
@@ -188,6 +203,7 @@ static int check_inputs(const args *a, const command *c)
                             a->handles,
                             a->pose,
                             has_bound(a, c) ? a->binding : NULL,
+                            a->landmarks,
                             has_input ? a->operands[0] : NULL};
     size_t n_standard = 0;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
@@ -208,6 +224,20 @@ static int check_together(const args *a, const command *c)
     return result == DONE ? output_names_check(a, c) : result;
 }
 
+/* Matching is by shape unless it is said otherwise; `--match FILE` is that with landmarks. */
+static int settle_match(args *a, const command *c)
+{
+    if (a->match == NULL && c->bit & FOR_MATCH)
+        a->match = "auto";
+    if (a->match == NULL || strcmp(a->match, "auto") == 0 || strcmp(a->match, "arc") == 0)
+        return DONE;
+    if (a->landmarks != NULL)
+        return misused(c->name, "landmarks come from --match FILE or from --landmarks, not both");
+    a->landmarks = a->match;
+    a->match = "auto";
+    return DONE;
+}
+
 /* Reads come by default from stdin, and results go by default to stdout. */
 static int settle_streams(args *a, const command *c)
 {
@@ -218,7 +248,8 @@ static int settle_streams(args *a, const command *c)
         a->coords = "-";
     if (c->bit & FOR_WEIGHTS && a->output == NULL && a->picture == NULL && a->binding == NULL)
         a->output = "-";
-    const char *result = a->output != NULL || c->bit & FOR_WEIGHTS ? a->output : "-";
+    bool may_lack = (c->bit & (FOR_WEIGHTS | FOR_MATCH)) != 0;
+    const char *result = a->output != NULL || may_lack ? a->output : "-";
     if (c->n_operands > 0 || a->geojson)
         result = a->n_operands > 0 ? a->operands[a->n_operands - 1] : NULL;
     if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
@@ -234,10 +265,12 @@ static int settle_streams(args *a, const command *c)
 
 int args_check(args *a, const command *c)
 {
-    a->needs_target = c->needs_target && !a->fill;
+    a->needs_target = (c->needs_target || a->match != NULL) && !a->fill;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     settle_functions(a);
-    int result = settle_streams(a, c);
+    int result = settle_match(a, c);
+    if (result == DONE)
+        result = settle_streams(a, c);
     return result != DONE ? result : check_together(a, c);
 }

@@ -5,6 +5,7 @@
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
 #include "job/fill.h"
+#include "job/match_cages.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -234,6 +235,8 @@ bool report_open(report *r, const job *j)
         json_count(&r->json, "points", cage_count(&j->cages[0], ICC_FEATURE_POINT));
         json_close(&r->json, '}');
     }
+    if (j->matched.size > 0)
+        match_report(&r->json, &j->matched);
     if (j->cages[0].n_facets > 0)
         json_count(&r->json, "facets", j->cages[0].n_facets);
     return true;

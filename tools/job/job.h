@@ -21,9 +21,10 @@ typedef struct job {
     cage cages[2]; /* source, target */
     bool both;     /* are in one file */
     icc_domain *domains[2];
-    bool filled;      /* the domains: see job/fill.h */
-    size_t function;  /* which of args->functions; the first unless there are several */
-    icc_chart *chart; /* of the source */
+    bool filled;            /* the domains: see job/fill.h */
+    icc_match_info matched; /* size 0: the cages correspond as they are */
+    size_t function;        /* which of args->functions; the first unless there are several */
+    icc_chart *chart;       /* of the source */
     icc_map *map;
     char name[48];     /* of one polygon of several, as in "polygon 2: "; else "" */
     cage_hole place;   /* the hole of another that it lies in */
@@ -38,8 +39,8 @@ typedef struct job {
 void job_start(job *j, const args *a);
 void job_end(job *j);
 
-/* Reads the source, and the target if there is one; they then correspond, unless the source is a
- * mask. Where no target was named, and one is needed, or the source has features, which only maps
+/* Reads the source, and the target if there is one, and matches them if that is asked for; they
+ * then correspond, unless the source is a mask. Where no target was named, and one is needed, or the source has features, which only maps
  * take, the source's file may hold both. */
 int job_read_cages(job *j);
 

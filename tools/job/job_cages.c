@@ -6,6 +6,7 @@
 #include "cage/cage_read.h"
 #include "cage/weld.h"
 #include "job/correspond.h"
+#include "job/match_cages.h"
 #include "job/parts.h"
 
 #include <stdio.h>
@@ -57,35 +58,6 @@ static int check_points(const job *j)
             return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
                            points[i].n, job_dim(j));
     return DONE;
-}
-
-int job_read_cages(job *j)
-{
-    if (job_dim(j) > 0)
-        return DONE;
-    size_t n;
-    char *text = file_read(job_file(j, 1), &n);
-    if (text == NULL)
-        return FAILED;
-    int result = read_cage(j, 0, text, n);
-    if (result == DONE)
-        result = check_points(j);
-    if (result == DONE)
-        result = read_target(j, text, n);
-    free(text);
-    if (result == DONE)
-        result = parts_make(j);
-    j->seconds_read = seconds_now() - j->started;
-    return result;
-}
-
-int job_read_plane(job *j, const char *what)
-{
-    int result = job_read_cages(j);
-    if (result == DONE && job_dim(j) != 2)
-        result = failed(j->args->source, 0, "%zu dimension%s; %s needs cages in the plane",
-                        job_dim(j), job_dim(j) == 1 ? "" : "s", what);
-    return result;
 }
 
 /* A boundary that is no boundary: names the first defect by its line, and counts the others. */
@@ -153,6 +125,45 @@ static int make_domain(job *j, size_t side)
                                                  : job_failed(j, &err);
 }
 
+static int match(job *j)
+{
+    int result = match_check(j);
+    for (size_t side = 0; side < 2 && result == DONE; side++)
+        result = make_domain(j, side);
+    return result == DONE ? match_cages(j) : result;
+}
+
+int job_read_cages(job *j)
+{
+    if (job_dim(j) > 0)
+        return DONE;
+    size_t n;
+    char *text = file_read(job_file(j, 1), &n);
+    if (text == NULL)
+        return FAILED;
+    int result = read_cage(j, 0, text, n);
+    if (result == DONE)
+        result = check_points(j);
+    if (result == DONE)
+        result = read_target(j, text, n);
+    free(text);
+    if (result == DONE && j->args->match != NULL)
+        result = match(j);
+    if (result == DONE)
+        result = parts_make(j);
+    j->seconds_read = seconds_now() - j->started;
+    return result;
+}
+
+int job_read_plane(job *j, const char *what)
+{
+    int result = job_read_cages(j);
+    if (result == DONE && job_dim(j) != 2)
+        result = failed(j->args->source, 0, "%zu dimension%s; %s needs cages in the plane",
+                        job_dim(j), job_dim(j) == 1 ? "" : "s", what);
+    return result;
+}
+
 /* The domain of a mask knows what its boundary is. */
 static int make_source(job *j)
 {
@@ -163,9 +174,12 @@ static int make_source(job *j)
     return correspond(j);
 }
 
-/* Reports what has been left out only after success, so that an error is one line. */
-static void note_heights(const job *j)
+/* Says what may surprise only after success, so that an error is one line. */
+static void note_all(const job *j)
 {
+    if (j->matched.mirrored)
+        note("%s: looks like a mirror image of the source, but a map cannot mirror",
+             job_file(j, 2));
     for (size_t side = 0; side < 2; side++)
         if (j->cages[side].n_heights > 0)
             note("%s: heights are left out; a cage in the plane has x and y",
@@ -186,6 +200,6 @@ int job_make_domains(job *j)
     if (result == DONE && j->n_parts > 0)
         result = parts_check(j);
     if (result == DONE)
-        note_heights(j);
+        note_all(j);
     return result;
 }

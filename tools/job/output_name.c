@@ -114,6 +114,12 @@ const char *output_format(const char *name)
     return NULL;
 }
 
+bool output_is_json(const char *name)
+{
+    const char *found = output_format(name);
+    return found != NULL && (strcmp(found, "GeoJSON") == 0 || strcmp(found, "JSON") == 0);
+}
+
 int output_fits(const char *of, const char *name, const char *list)
 {
     const char *found = name != NULL ? output_format(name) : NULL;
@@ -145,7 +151,8 @@ int output_names_check(const args *a, const command *c)
 {
     const struct {
         const char *name, *formats;
-    } outputs[] = {{a->output, "text"},
+    } outputs[] = {{a->output, c->bit & FOR_MATCH ? "text, GeoJSON, JSON" : "text"},
+                   {a->target_output, "text, GeoJSON, JSON"},
                    {a->triangulation, "JSON"},
                    {a->ties, "GeoJSON, JSON"},
                    {a->repair, "text, GeoJSON, JSON, OBJ, NumPy"},

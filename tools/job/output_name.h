@@ -7,6 +7,9 @@
 /* The format that the extension of a file's name stands for; NULL: none, or none that is known. */
 const char *output_format(const char *name);
 
+/* Whether the name is one for GeoJSON: .geojson or .json. */
+bool output_is_json(const char *name);
+
 /* Whether a result of the command `of` may go to a file of that name: its extension is unknown or
  * that of one of `formats`, which are names of output_format() with commas between. DONE, or
  * MISUSED with a line on stderr; `name` may be NULL. */

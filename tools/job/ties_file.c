@@ -2,6 +2,7 @@
 
 #include "base/allocate.h"
 #include "cage/cage_features.h"
+#include "job/cage_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -54,37 +55,6 @@ int ties_check(job *j)
 
 /* ------------------------------------------------------------------ writing */
 
-static void write_position(FILE *stream, const double *at)
-{
-    fprintf(stream, "[%.17g, %.17g]", at[0], at[1]);
-}
-
-/* With the first one again at the end of rings. */
-static void write_positions(FILE *stream, size_t n, const double *points, bool closed)
-{
-    fputc('[', stream);
-    for (size_t i = 0; i < n + closed; i++) {
-        fputs(i > 0 ? ", " : "", stream);
-        write_position(stream, points + 2 * (i % n));
-    }
-    fputc(']', stream);
-}
-
-static void write_polygon(FILE *stream, const cage *c, cage_role role)
-{
-    fprintf(stream,
-            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"}, \"geometry\": "
-            "{\"type\": \"Polygon\", \"coordinates\": [",
-            cage_role_name(role));
-    write_positions(stream, c->n, c->points, true);
-    for (size_t i = 0; i < c->n_features; i++)
-        if (c->features[i].kind == ICC_FEATURE_HOLE) {
-            fputs(", ", stream);
-            write_positions(stream, c->features[i].n, c->features[i].points, true);
-        }
-    fputs("]}}", stream);
-}
-
 /* A line, a point or a tie. */
 static void write_feature(FILE *stream, const cage_feature *f, cage_role role)
 {
@@ -95,9 +65,9 @@ static void write_feature(FILE *stream, const cage_feature *f, cage_role role)
             cage_role_name(role), f->kind == CAGE_TIE ? "-tie" : "", (long long)f->number,
             is_point ? "Point" : "LineString");
     if (is_point)
-        write_position(stream, f->points);
+        fprintf(stream, "[%.17g, %.17g]", f->points[0], f->points[1]);
     else
-        write_positions(stream, f->n, f->points, false);
+        positions_write(stream, f->n, f->points, false);
     fputs("}}", stream);
 }
 
@@ -106,7 +76,7 @@ static void write_side(FILE *stream, const job *j, cage_role role)
     const cage *c = &j->cages[role - 1];
     cage_feature *ties;
     size_t n = ties_of_map(j->map, j->domains[role - 1], (int)role, &ties);
-    write_polygon(stream, c, role);
+    cage_write_polygon(stream, c, role);
     for (size_t i = 0; i < c->n_features; i++)
         if (c->features[i].kind != ICC_FEATURE_HOLE)
             write_feature(stream, &c->features[i], role);

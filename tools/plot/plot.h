@@ -28,6 +28,9 @@ void plot_clip(const panel *p, const cage *c);
 /* The outline with what is inside, and the map's ties, or else those that were given; drawn last. */
 void plot_cage(const panel *p, const job *j);
 
+/* Numbers at places of the outlines that go together, where these were matched. */
+void plot_pairs(const panel *p, const job *j);
+
 /* Whether the shape is drawn with the triangles of the map: where that is asked for, and where
  * there is no chart with curves. */
 bool panel_shows_triangles(const panel *p, const job *j);

@@ -360,6 +360,8 @@ int plot_shape(const panel *p, job *j)
         draw_edges(p, ICC_EDGE_EXPANSION, "#a21caf");
     fputs("</g>\n", p->svg);
     plot_cage(p, j);
+    if (j->matched.size > 0)
+        plot_pairs(p, j);
     if (!triangles)
         draw_maximum(p);
     return result;

@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "cage/weld.h"
+#include "job/cage_file.h"
 #include "job/output_name.h"
 
 #include <stdio.h>
@@ -62,49 +63,6 @@ static int drop_superfluous(check *c)
     }
 }
 
-static void write_feature(FILE *stream, const cage *c, cage_role role)
-{
-    fprintf(stream,
-            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"},\n \"geometry\": "
-            "{\"type\": \"Polygon\", "
-            "\"coordinates\": [[",
-            cage_role_name(role));
-    for (size_t i = 0; i <= c->n; i++) {
-        const double *p = c->points + 2 * (i % c->n);
-        fprintf(stream, "%s\n  [%.17g, %.17g]", i > 0 ? "," : "", p[0], p[1]);
-    }
-    fputs("]]}}", stream);
-}
-
-static bool is_named(const char *name, const char *format)
-{
-    const char *found = output_format(name);
-    return found != NULL && strcmp(found, format) == 0;
-}
-
-/* One cage as text; two, or a name that ends in .geojson or .json, as a FeatureCollection. */
-static int write_cages(const check *c)
-{
-    const cage *cages = c->job.cages;
-    const char *name = c->job.args->repair;
-    bool geojson = cages[1].n > 0 || is_named(name, "GeoJSON") || is_named(name, "JSON");
-    outfile file;
-    if (!outfile_open(&file, name))
-        return FAILED;
-    for (size_t i = 0; !geojson && i < cages[0].n; i++)
-        fprintf(file.stream, "%.17g %.17g\n", cages[0].points[2 * i], cages[0].points[2 * i + 1]);
-    if (geojson) {
-        fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", file.stream);
-        write_feature(file.stream, &cages[0], CAGE_SOURCE);
-        if (cages[1].n > 0) {
-            fputs(",\n", file.stream);
-            write_feature(file.stream, &cages[1], CAGE_TARGET);
-        }
-        fputs("\n]}\n", file.stream);
-    }
-    return outfile_close(&file) ? DONE : FAILED;
-}
-
 int check_repair(check *c)
 {
     size_t n_found = c->n_defects;
@@ -116,7 +74,8 @@ int check_repair(check *c)
                       "%zu of %zu defects remain when %zu vertices are dropped, so nothing was "
                       "written; mend the crossings by hand",
                       c->n_defects, n_found, c->n_dropped);
-    return write_cages(c);
+    const cage *target = &c->job.cages[1];
+    return cages_write(c->job.args->repair, &c->job.cages[0], target->n > 0 ? target : NULL);
 }
 
 /* Version 1 of the format: the header is padded so that the data begin at a multiple of 64
@@ -188,7 +147,9 @@ int check_write_boundary(check *c)
 {
     const cage *mask = &c->job.cages[0];
     const char *name = c->job.args->boundary;
-    return write_boundary(mask, name, mask->dim == 3 && is_named(name, "OBJ"));
+    const char *found = output_format(name);
+    bool obj = mask->dim == 3 && found != NULL && strcmp(found, "OBJ") == 0;
+    return write_boundary(mask, name, obj);
 }
 
 int check_repair_surface(check *c)

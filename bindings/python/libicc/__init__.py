@@ -36,7 +36,7 @@ from ._errors import (
 )
 from ._image import PixelTransform, picture_cage, warp_image
 from ._map import Map
-from ._match import Match
+from ._match import Match, match
 
 __version__ = _lib.version().decode()
 """The version of the C library that is in use."""
@@ -69,6 +69,7 @@ __all__ = [
     "as_domain",
     "boundary_defects",
     "kernel",
+    "match",
     "picture_cage",
     "repair_mask",
     "stages",

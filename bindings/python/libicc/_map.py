@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import json
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, overload
+from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 
@@ -28,6 +28,7 @@ from ._core import (
 )
 from ._domain import as_domain
 from ._errors import check
+from ._match import match_for
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
@@ -51,6 +52,8 @@ class Map(Saved):
         ties: with features, as many as there are of them, or none: (vertices, source, target), two vertices of
             the domain, and the bends of a path from one to the other, (n, 2), in each of the domains. Together
             they join the features and the outer ring, and say which way round one another these go
+        match: True for outlines that do not correspond: they get common vertices first, by shape. "arc": by arc
+            length. Landmarks (n, 2, 2) or (n, 4): by shape between these. See `Match`
         progress, threads: as for `Domain`
 
     Raises:
@@ -68,8 +71,12 @@ class Map(Saved):
                  constraints: Optional[str] = None, solver: Optional[str] = None,
                  tree: Optional[str] = None, min_fall: Optional[float] = None,
                  leaf_min: Optional[float] = None, ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
+                 match: Union[bool, str, ArrayLike, None] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
+        if match is not None and match is not False:
+            matched = match_for(source, target, match)
+            source, target = matched.source, matched.target
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
                               min_fall, leaf_min)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),

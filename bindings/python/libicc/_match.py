@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Optional, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Tuple, Union
 
 import numpy as np
 
 from ._abi import lib, new
 from ._core import Handle, Progress, address, choose, create, fields, floats
 from ._domain import Domain, as_domain
-from ._errors import check
+from ._errors import ArgumentError, check
 
 if TYPE_CHECKING:
-    from ._types import ArrayLike, Ints, ShapeLike
+    from ._types import ArrayLike, Floats, Ints, ShapeLike
 
 TURNING = {"upright": 1, "free": 2}
 BETWEEN = {"elastic": 1, "arc": 2}
@@ -31,7 +31,8 @@ class Match(Handle):
         source, target: Domains of the plane without features, or what `as_domain` takes
         landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target
         turning: without landmarks: "upright" prefers what turns little, "free" does not
-        between: "elastic" by shape, "arc" by arc length, which needs a landmark
+        between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the
+            outlines, laid on one another unturned, are nearest
         least_sure: what ``info.sure`` has to be; None: 1.06; 1: anything
         drop: share of the perimeter within which vertices become one
         progress, threads: as for `Domain`
@@ -78,3 +79,19 @@ class Match(Handle):
         check(lib.match_get_origins(self, address(given[0]), address(given[1])))
         source, target = given.astype(np.int32)
         return source, target
+
+
+def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None,
+          **options: Any) -> Tuple[Floats, Floats, SimpleNamespace]:
+    """The vertices of two outlines that do not correspond, made common, and `Match.info`; options as of `Match`."""
+    found = Match(source, target, landmarks, **options)
+    return found.source.vertices, found.target.vertices, found.info
+
+
+def match_for(source: Domain, target: Domain, how: Union[bool, str, ArrayLike]) -> Match:
+    """What `Map` does with its argument ``match``: True or "auto", "arc", or landmarks."""
+    if isinstance(how, str) and how not in ("auto", "arc"):
+        raise ArgumentError(f"match is {how!r}; it may be True, 'auto', 'arc' or landmarks")
+    if isinstance(how, (bool, str)):
+        return Match(source, target, between="arc" if how == "arc" else None)
+    return Match(source, target, how)

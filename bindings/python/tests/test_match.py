@@ -15,6 +15,28 @@ def test_outlines_that_do_not_correspond():
     assert mapping.certified and np.allclose(mapping(HOOK), HOOK * 2 + 5)
 
 
+def test_maps_match_for_themselves():
+    turned = np.roll(np.insert(HOOK, 1, [3, 0], axis=0), 4, axis=0)[::-1] * 2 + 5
+    assert np.allclose(libicc.Map(HOOK, turned, match=True)(HOOK), HOOK * 2 + 5)
+    pairs = np.stack([HOOK[:2], HOOK[:2] * 2 + 5], axis=1)
+    assert np.allclose(libicc.Map(HOOK, turned, match=pairs)(HOOK), HOOK * 2 + 5)
+    source, target, info = libicc.match(HOOK, turned)
+    assert info.n_joined == 8 and len(source) == len(target) == 9 and np.allclose(source * 2 + 5, target)
+    with pytest.raises(libicc.BoundaryError):
+        libicc.Map(HOOK, turned)
+    with pytest.raises(libicc.ArgumentError):
+        libicc.Map(HOOK, turned, match="best")
+
+
+def test_discs_go_by_arc_length():
+    turns = [np.linspace(0, 2 * np.pi, n, endpoint=False) for n in (40, 37)]
+    disc, larger = np.column_stack([np.cos(turns[0]), np.sin(turns[0])]), 2 * np.column_stack(
+        [np.cos(turns[1] + 2), np.sin(turns[1] + 2)])
+    with pytest.raises(libicc.AmbiguousError):
+        libicc.Match(disc, larger, turning="free")
+    assert np.allclose(libicc.Map(disc, larger, match="arc")([[0.5, 0]]), [[1, 0]], atol=0.02)
+
+
 def test_a_landmark_decides():
     square = [[0, 0], [1, 0], [1, 1], [0, 1]]
     with pytest.raises(libicc.AmbiguousError):

@@ -160,6 +160,44 @@ START_TEST(refuses_what_is_ambiguous)
 }
 END_TEST
 
+/* A regular polygon, from another vertex on. */
+static void disc(double *xy, size_t n, size_t first)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const double turn = 6.283185307179586 * (double)((k + first) % n) / (double)n;
+        xy[2 * k] = 3 * cos(turn);
+        xy[2 * k + 1] = 3 * sin(turn);
+    }
+}
+
+/* Discs have no features: by shape they are refused unless upright
+ * is preferred, by arc length each direction is kept. */
+START_TEST(pairs_discs_by_arc_length)
+{
+    enum { N = 60, M = 97 };
+    double a[2 * N], b[2 * M], xy[2][2 * (N + M)];
+    disc(a, N, 0);
+    for (size_t first = 0; first < M; first += 12) {
+        disc(b, M, first);
+        icc_match *match = NULL;
+        icc_match_options options = {.size = sizeof options, .turning = ICC_TURNING_FREE};
+        if (first == 0)
+            ck_assert_int_eq(match_of(&match, N, a, M, b, 0, NULL, &options, NULL),
+                             ICC_ERR_AMBIGUOUS);
+        options.between = ICC_BETWEEN_ARC;
+        ck_assert_int_eq(match_of(&match, N, a, M, b, 0, NULL, &options, NULL), ICC_OK);
+        check_exact(match, N, a, M, b);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        (void)icc_domain_get_boundary(icc_match_source(match), xy[0], NULL);
+        (void)icc_domain_get_boundary(icc_match_target(match), xy[1], NULL);
+        for (size_t k = 0; k < 2 * info.n_vertices; ++k)
+            ck_assert_double_lt(fabs(xy[0][k] - xy[1][k]), .06); /* joins: .3 of an edge */
+        icc_match_free(match);
+    }
+}
+END_TEST
+
 /* Landmarks, on vertices or edges, are among the common vertices, elastic or by arc length. */
 START_TEST(passes_through_landmarks)
 {
@@ -251,6 +289,7 @@ int main(void)
     tcase_add_test(tests, finds_the_same_shape);
     tcase_add_test(tests, tells_a_mirror_image);
     tcase_add_test(tests, refuses_what_is_ambiguous);
+    tcase_add_test(tests, pairs_discs_by_arc_length);
     tcase_add_test(tests, passes_through_landmarks);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, fails_cleanly);

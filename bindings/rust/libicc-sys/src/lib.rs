@@ -715,7 +715,8 @@ pub const ICC_TURNING_FREE: i32 = 2;
 // How `icc_match_create()` pairs what lies between landmarks.
 /// by shape
 pub const ICC_BETWEEN_ELASTIC: i32 = 1;
-/// by arc length; needs a landmark
+/// by arc length, for outlines without features as discs, which are ambiguous by shape; without
+/// landmarks it starts where the outlines, laid on one another unturned, are nearest
 pub const ICC_BETWEEN_ARC: i32 = 2;
 
 /// Options of `icc_match_create()`.

@@ -1,0 +1,107 @@
+#!/bin/sh
+# Outlines that do not correspond: common vertices, maps between them in one command, and how refusals are told.
+# shellcheck source-path=SCRIPTDIR source=lib.sh
+. "$(dirname "$0")/lib.sh"
+
+# A key, and the same turned by 20 degrees, begun elsewhere, the other way round, with a point on every edge.
+printf '%s\n' '0 0' '4 0' '4 -1' '5 -1' '5 0' '6 0' '6 -2' '7 -2' '7 1' '1 1' '1 2' '-1 2' '-1 -1' '0 -1' >key.txt
+awk '{ x[NR] = $1; y[NR] = $2 } END {
+    for (k = 0; k < 2 * NR; k++) {
+        i = (5 + 2 * NR - k) % (2 * NR); a = int(i / 2) + 1; b = a % NR + 1; f = (i % 2) * 0.4
+        u = x[a] + f * (x[b] - x[a]); v = y[a] + f * (y[b] - y[a])
+        printf "%.17g %.17g\n", 0.9396926207859084 * u - 0.3420201433256687 * v, 0.3420201433256687 * u + 0.9396926207859084 * v } }' \
+    key.txt >turned.txt
+
+# Both get the vertices of both, in the source's order; the given ones as they were.
+run 0 match -s key.txt -t turned.txt -o a.txt --target-output b.txt
+holds out 'common      28 vertices; 14 of them are of both outlines'
+grep -qE '^turned +(19\.[5-9]|20\.[0-4])' out || complain "the turn is not 20 degrees: $(cat out)"
+[ "$(wc -l <a.txt)" -eq 28 ] && [ "$(wc -l <b.txt)" -eq 28 ] || complain 'not 28 vertices each'
+sort turned.txt >expected
+sort b.txt | cmp -s - expected || complain 'the target has other vertices than it was given'
+awk 'NR == FNR { seen[$0 + 0 " " $2 + 0] = 1; next } !(($1 + 0 " " $2 + 0) in seen) { bad = 1 } END { exit bad }' a.txt key.txt ||
+    complain 'a vertex of the source is gone'
+
+# A file with both is a source for maps; what is mapped is turned.
+run 0 match -s key.txt -t turned.txt -o both.geojson --json=report.json
+holds report.json '"joined": 14'
+printf '0.5 0.5\n6.5 0\n-0.5 1.5\n4.5 -0.5\n' >points.txt
+awk '{ printf "%.17g %.17g\n", 0.9396926207859084 * $1 - 0.3420201433256687 * $2, 0.3420201433256687 * $1 + 0.9396926207859084 * $2 }' \
+    points.txt >expected
+run 0 map -s both.geojson -p points.txt
+close_to out expected 0.01
+cp out by_file
+run 0 map -s key.txt -t turned.txt --match auto -p points.txt
+same out by_file
+run 0 map -s key.txt -t turned.txt --match auto --inverse -p expected
+close_to out points.txt 0.01
+run 0 check -s key.txt -t turned.txt --match auto
+holds out 'one-to-one: yes, certified'
+run 0 info -s key.txt -t turned.txt --match auto --json
+holds out '"sure": '
+run 0 plot -s key.txt -t turned.txt --match auto out.svg
+[ "$(grep -c 'hsl(' out.svg)" -ge 40 ] || complain 'plot does not number pairs'
+run 1 map -s key.txt -t turned.txt -p points.txt
+says '28 vertices, but the source'
+
+# A mask goes with an outline, too.
+{
+    # shellcheck disable=SC2086 # bytes
+    bytes 147 78 85 77 80 89 1 0 118 0
+    printf '%-117s\n' "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 2), }"
+    bytes 1 1 1 0 1 0
+} >mask.npy
+printf '0 0\n3 0\n3 1\n1 1\n1 2\n0 2\n' >el.txt
+run 0 map -s mask.npy -t el.txt --match auto -p /dev/null
+
+# Landmarks: on the outlines, and hit exactly; refused by their lines.
+printf '# ends\n0 0 1 1\n1 1 0 0\n' >ends.txt
+printf '0 0\n1 0\n1 1\n0 1\n' >square.txt
+printf '0 0\n0.5 0\n1 0\n1 1\n0 1\n' >other.txt
+run 0 match -s square.txt -t other.txt --landmarks ends.txt -o a.txt --target-output b.txt
+paste -d ' ' a.txt b.txt >pairs
+holds pairs '0 0 1 1'
+holds pairs '1 1 0 0'
+cp pairs by_option
+run 0 match -s square.txt -t other.txt --match ends.txt -o a.txt --target-output b.txt
+paste -d ' ' a.txt b.txt >pairs
+same pairs by_option
+printf '0 0 1 1\n0.5 0.5 0 0\n' >off.txt
+run 1 map -s square.txt -t other.txt --match off.txt -p points.txt
+says "off.txt:2: landmark 1 lies off the source's outline"
+printf '0 0 1\n' >short.txt
+run 1 match -s square.txt -t other.txt --landmarks short.txt
+says 'short.txt:1'
+
+# Discs are ambiguous by shape; by arc length only where that is said.
+awk 'BEGIN { for (k = 0; k < 40; k++) printf "%.17g %.17g\n", cos(k * 0.15707963267948966), sin(k * 0.15707963267948966) }' >disc.txt
+awk 'BEGIN { for (k = 9; k < 46; k++) printf "%.17g %.17g\n", 2 * cos(k * 0.16981581722698587), 2 * sin(k * 0.16981581722698587) }' >larger.txt
+run 1 match -s disc.txt -t larger.txt --turning free
+says '--match arc'
+printf '0.5 0\n0 -0.25\n' >inside.txt
+printf '1 0\n0 -0.5\n' >expected
+run 0 map -s disc.txt -t larger.txt --match arc -p inside.txt
+close_to out expected 0.02
+run 0 match -s disc.txt -t larger.txt --match arc
+holds out 'paired by arc length'
+
+# A mirror image is said to be one.
+awk '{ print -$1, $2 }' key.txt >mirrored.txt
+run 0 match -s key.txt -t mirrored.txt --landmarks /dev/null
+holds out 'looks like a mirror image'
+
+# Wrong usage.
+run 2 match -s key.txt -t turned.txt -o a.txt
+says '--target-output FILE is missing'
+run 2 match -s key.txt
+says '--target FILE is missing'
+run 2 match -s key.txt -t turned.txt -o a.png --target-output b.txt
+says 'is a name for PNG'
+run 2 map -s key.txt -t turned.txt --landmarks ends.txt
+says '--landmarks goes with --match'
+run 2 check -s key.txt -t turned.txt --match auto --repair x.geojson
+says '--repair does not go with --match'
+make_cubes
+run 1 map -s cube.obj -t moved.obj --match auto -p points.txt
+says '3 dimensions; --match is for the plane'
+finish

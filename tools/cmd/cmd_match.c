@@ -1,0 +1,89 @@
+/* libicc match: two outlines that do not correspond, with common vertices. */
+#include "cmd/commands.h"
+
+#include "job/cage_file.h"
+#include "job/job.h"
+#include "job/match_cages.h"
+#include "job/output_name.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The source's file may take both. */
+static int check_outputs(const args *a)
+{
+    if (a->output == NULL && a->target_output != NULL)
+        return misused(a->command, "--output FILE is missing, for the source");
+    if (a->output == NULL || a->target_output != NULL)
+        return DONE;
+    return output_is_json(a->output)
+               ? DONE
+               : misused(a->command,
+                         "--target-output FILE is missing; only GeoJSON (-o OUT.geojson) has both "
+                         "in one file");
+}
+
+static int write_cages(const job *j)
+{
+    const args *a = j->args;
+    const cage *source = &j->cages[0], *target = &j->cages[1];
+    if (a->output == NULL)
+        return DONE;
+    if (a->target_output == NULL)
+        return cages_write(a->output, source, target);
+    int result = cages_write(a->output, source, NULL);
+    return result == DONE ? cages_write(a->target_output, NULL, target) : result;
+}
+
+static bool is_standard(const char *name)
+{
+    return name != NULL && strcmp(name, "-") == 0;
+}
+
+static void print(const icc_match_info *info)
+{
+    printf("common      %zu vertices; %zu of them are of both outlines\n", info->n_vertices,
+           info->n_joined);
+    if (isfinite(info->cost))
+        printf("cost        %.6g\n", info->cost);
+    else
+        puts("cost        none: paired by arc length");
+    if (isfinite(info->second))
+        printf("second      %.6g, of the best pairing elsewhere\n", info->second);
+    if (isfinite(info->sure))
+        printf("sure        %.6g (1: as good elsewhere)\n", info->sure);
+    if (isfinite(info->cost))
+        printf("turned      %.6g degrees\n", info->turn);
+    if (info->mirrored)
+        puts("mirrored    the target looks like a mirror image; a map cannot mirror");
+    printf("slopes      %.6g to %.6g, an edge's share of the target's length over the source's\n",
+           info->least_slope, info->most_slope);
+}
+
+static int tell(const job *j)
+{
+    const args *a = j->args;
+    report r;
+    if (a->json && (!report_open(&r, j) || !report_close(&r)))
+        return FAILED;
+    if (!a->json && !is_standard(a->output) && !is_standard(a->target_output))
+        print(&j->matched);
+    return DONE;
+}
+
+int run_match(const args *a)
+{
+    job j;
+    int result = check_outputs(a);
+    if (result != DONE)
+        return result;
+    job_start(&j, a);
+    result = job_read_cages(&j);
+    progress_end(&j.bar);
+    if (result == DONE)
+        result = write_cages(&j);
+    if (result == DONE)
+        result = tell(&j);
+    job_end(&j);
+    return result;
+}

@@ -1,0 +1,56 @@
+#include "job/cage_file.h"
+
+#include "base/file.h"
+#include "job/output_name.h"
+
+#include <string.h>
+
+void positions_write(FILE *stream, size_t n, const double *points, bool closed)
+{
+    fputc('[', stream);
+    for (size_t i = 0; i < n + closed; i++) {
+        const double *p = points + 2 * (i % n);
+        fprintf(stream, "%s[%.17g, %.17g]", i > 0 ? ",\n  " : "", p[0], p[1]);
+    }
+    fputc(']', stream);
+}
+
+void cage_write_polygon(FILE *stream, const cage *c, cage_role role)
+{
+    fprintf(stream,
+            "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"}, \"geometry\": "
+            "{\"type\": \"Polygon\", \"coordinates\": [",
+            cage_role_name(role));
+    positions_write(stream, c->n, c->points, true);
+    for (size_t i = 0; i < c->n_features; i++)
+        if (c->features[i].kind == ICC_FEATURE_HOLE) {
+            fputs(",\n ", stream);
+            positions_write(stream, c->features[i].n, c->features[i].points, true);
+        }
+    fputs("]}}", stream);
+}
+
+static void write_collection(FILE *stream, const cage *source, const cage *target)
+{
+    fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", stream);
+    if (source != NULL)
+        cage_write_polygon(stream, source, CAGE_SOURCE);
+    fputs(source != NULL && target != NULL ? ",\n" : "", stream);
+    if (target != NULL)
+        cage_write_polygon(stream, target, CAGE_TARGET);
+    fputs("\n]}\n", stream);
+}
+
+int cages_write(const char *name, const cage *source, const cage *target)
+{
+    outfile file;
+    if (!outfile_open(&file, name))
+        return FAILED;
+    const cage *one = source != NULL ? source : target;
+    if ((source != NULL && target != NULL) || output_is_json(name))
+        write_collection(file.stream, source, target);
+    else
+        for (size_t i = 0; i < one->n; i++)
+            fprintf(file.stream, "%.17g %.17g\n", one->points[2 * i], one->points[2 * i + 1]);
+    return outfile_close(&file) ? DONE : FAILED;
+}
