@@ -9,6 +9,9 @@
 
 enum { STRANDS = 8 }; /* numbers of points of the plane that are dealt with at once */
 
+/* Shapes whose sizes differ more, or that are more sizes apart, are not alike. */
+static const double ALIKE = 16;
+
 const iccp_frame iccp_frame_identity = {{0}, {1, 1}, {1, 1}};
 
 /* The plane, in strands that do not wait for one another. */
@@ -121,6 +124,35 @@ bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, 
         if (lost[j] > 0)
             return false;
     return true;
+}
+
+/* By the box that shapes of `from` lie in. */
+static bool are_alike(const iccp_frame *from, const iccp_frame *to, int32_t dim)
+{
+    const double scale = from->out[0] * to->in[0] * (from->out[1] * to->in[1]);
+    double corner[2][ICC_MAX_DIM], own[ICC_MAX_DIM], farthest = 0;
+    for (int sign = 0; sign < 2; ++sign) {
+        for (int32_t k = 0; k < dim; ++k)
+            corner[sign][k] = 2 * sign - 1;
+        iccp_frame_out(from, dim, corner[sign], own);
+        iccp_frame_in(to, dim, own, corner[sign]);
+        for (int32_t k = 0; k < dim; ++k)
+            farthest = iccp_max(farthest, fabs(corner[sign][k]));
+    }
+    return scale >= 1 / ALIKE && farthest <= ALIKE;
+}
+
+void iccp_frame_change(const iccp_frame *from, const iccp_frame *to, int32_t dim, size_t n,
+                       double *points)
+{
+    double own[ICC_MAX_DIM];
+    if (!are_alike(from, to, dim))
+        return;
+    for (size_t i = 0; i < n; ++i) {
+        double *const point = points + (size_t)dim * i;
+        iccp_frame_out(from, dim, point, own);
+        iccp_frame_in(to, dim, own, point);
+    }
 }
 
 /* A number is not finite if its exponent has all bits set: one more carries into the sign. */

@@ -65,6 +65,12 @@ static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const do
         x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];
 }
 
+/* n points in the local coordinates of `from` become those in `to`. Where shapes of the two are not
+ * alike in size and place (16 times as large or small, or 16 sizes away), what they have in common
+ * is taken for a motion of its own: the points keep their local coordinates. */
+void iccp_frame_change(const iccp_frame *from, const iccp_frame *to, int32_t dim, size_t n,
+                       double *points);
+
 /* The same bit for bit, for a vertex: what the way out loses is the sign of a zero. */
 static inline void iccp_frame_restore(const iccp_frame *frame, int32_t dim, const double *local,
                                       double *x)

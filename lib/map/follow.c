@@ -25,17 +25,6 @@ enum { CARRIED_TRIANGLES = 1000, CARRIED_CELLS = 15, MANY = 1400, MANY_EACH = 8 
  * that cannot be done, or is not, because nothing but the boundary moves. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
-/* Images in the local coordinates of one target become those in another's; where the inside goes
- * from there is up to the repair. */
-static void change_frame(iccp_plmap *pl, const iccp_frame *from, const iccp_frame *to)
-{
-    for (size_t v = 0; v < pl->n_vertices; ++v) {
-        double own[2];
-        iccp_frame_out(from, 2, pl->images + 2 * v, own);
-        iccp_frame_in(to, 2, own, pl->images + 2 * v);
-    }
-}
-
 /* Moves the boundary's images to where another target wants them. */
 static void move_boundary(iccp_plmap *pl, const icc_domain *target)
 {
@@ -44,7 +33,8 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
             iccp_carry_place(pl, target, v, pl->images + 2 * v);
 }
 
-/* The images where they were, in the frame of the new target. */
+/* The images where they were, in the frame of the new target; where the inside goes from there is
+ * up to the repair. */
 static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
                         const icc_domain *old_target, const icc_domain *target,
                         const iccp_newton_plan *plan, const iccp_memory *memory)
@@ -52,7 +42,7 @@ static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain 
     const icc_status status = iccp_plmap_copy(pl, old, memory);
     if (status != ICC_OK)
         return status;
-    change_frame(pl, &old_target->frame, &target->frame);
+    iccp_frame_change(&old_target->frame, &target->frame, 2, pl->n_vertices, pl->images);
     pl->plan = plan;
     pl->stretch = sqrt(target->measure / source->measure);
     return ICC_OK;

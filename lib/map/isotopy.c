@@ -228,11 +228,8 @@ static icc_status begin_move(iccp_moving_net *moving, const iccp_scene *old,
     if (status == ICC_OK)
         status = iccp_moving_net_create(moving, &net, old->n, old_target->vertices, memory);
     iccp_net_free(&net, memory);
-    for (size_t v = 0; status == ICC_OK && v < old->n; ++v) {
-        double own[2];
-        iccp_frame_out(&old_target->frame, 2, old_target->vertices + 2 * v, own);
-        iccp_frame_in(&target->frame, 2, own, moving->points + 2 * v);
-    }
+    if (status == ICC_OK)
+        iccp_frame_change(&old_target->frame, &target->frame, 2, old->n, moving->points);
     return status;
 }
 

@@ -210,17 +210,6 @@ static icc_status go_there(journey *j, size_t *n_left, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* Images in the local coordinates of one target become those in another's. */
-static void change_frame(iccp_solid_map *map, const iccp_frame *from, const iccp_frame *to)
-{
-    for (size_t v = 0; v < map->mesh->n_points; ++v) {
-        double own[3];
-        iccp_frame_out(from, 3, map->images + 3 * v, own);
-        iccp_frame_in(to, 3, own, map->images + 3 * v);
-    }
-    iccp_mesh_round(map->mesh, map->images);
-}
-
 /* The vertex that is farthest from where it should be. */
 static size_t farthest(const iccp_solid_map *map, const icc_domain *target)
 {
@@ -253,7 +242,8 @@ icc_status iccp_solid_map_follow(iccp_solid_map **out, const iccp_solid_map *map
     icc_status status = iccp_solid_map_copy(&j.map, map, source, target, &env->memory);
     if (status != ICC_OK)
         return status;
-    change_frame(j.map, &old_target->frame, &target->frame);
+    iccp_frame_change(&old_target->frame, &target->frame, 3, j.map->mesh->n_points, j.map->images);
+    iccp_mesh_round(j.map->mesh, j.map->images);
     const iccp_env way = iccp_part(&part[0], "repair", 0, 1);
     status = go_there(&j, &info->n_unrepaired, &way);
     info->seconds_repair = iccp_seconds() - began;

@@ -612,6 +612,34 @@ START_TEST(every_operation_on_every_map)
 }
 END_TEST
 
+/* A map follows its target to any size, whatever it comes from. */
+START_TEST(retargeted_to_every_size)
+{
+    static const double SIZES[] = {1, 1e-200, 1e200, 1e200, 1, 3e14, 3e16, 3e-16, 1e280, 1e-280};
+    subject s = {.shape = _i};
+    icc_domain *source = make_domain(_i, 1);
+    icc_map *before = NULL;
+    s.dim = dimension(source);
+    for (size_t k = 0; k < sizeof SIZES / sizeof *SIZES; ++k) {
+        icc_domain *target = make_domain(_i, SIZES[k]);
+        icc_map_info info = {.size = sizeof info};
+        icc_error err = fresh();
+        const icc_status status = k == 0 ? icc_map_create(&s.map, source, target, NULL, NULL, &err)
+                                         : icc_map_retarget(&s.map, before, target, 2, NULL, &err);
+        (void)snprintf(s.name, sizeof s.name, "%s retargeted to size %g", SHAPES[_i], SIZES[k]);
+        ck_assert_msg(status == ICC_OK, "%s: %s", s.name, err.message);
+        ck_assert_int_eq(icc_map_get_info(s.map, &info), ICC_OK);
+        ck_assert_msg(info.certified == 1, "%s: not certified", s.name);
+        map_points(&s, source, target);
+        icc_map_free(before);
+        icc_domain_free(target);
+        before = s.map;
+    }
+    icc_map_free(before);
+    icc_domain_free(source);
+}
+END_TEST
+
 START_TEST(every_operation_on_every_chart)
 {
     for (int32_t method = 0; method <= ICC_METHOD_DISC; ++method)
@@ -627,6 +655,8 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 300);
     tcase_add_loop_test(tests, every_operation_on_every_map, 0, N_SHAPES);
+    tcase_add_loop_test(tests, retargeted_to_every_size, POLYGON, RING + 1);
+    tcase_add_loop_test(tests, retargeted_to_every_size, SURFACE, TETRAHEDRA + 1);
     tcase_add_loop_test(tests, every_operation_on_every_chart, 0, N_SHAPES);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);

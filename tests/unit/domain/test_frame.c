@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { N = 16 };
 
@@ -190,6 +191,39 @@ START_TEST(test_other_dimensions)
 }
 END_TEST
 
+/* From frame to frame as by way of the caller's coordinates; between unlike ones as it is. */
+START_TEST(test_change)
+{
+    static const struct {
+        double from[4], to[4];
+        bool keeps;
+    } cases[] = {{{0, 0, 1, 1}, {0, 0, 8, 4}, false},
+                 {{3, 3, 4, 5}, {-7, 9, -7.5, 10}, false},
+                 {{0, 0, 8e200, 1e199}, {0, 0, 1e200, 1e201}, false},
+                 {{1e17, 5, 1e17 + 64, 9}, {1e17 + 64, 5, 1e17 + 128, 9}, false},
+                 {{0, 0, 1e300, 1}, {0, 0, 1, 1}, true},
+                 {{0, 0, 1, 1}, {0, 0, 33, 1}, true},
+                 {{0, 0, 1, 1}, {40, 0, 41, 1}, true},
+                 {{0, 0, 1, 1}, {1e17, 1e17, 1e17 + 64, 1e17}, true},
+                 {{1.7e308, 0, 1.6e308, 1}, {-1.7e308, 0, -1.6e308, 1}, true},
+                 {{0, 0, 1e-320, 0}, {0, 0, 1, 1}, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
+        iccp_frame from, to;
+        double local[4], own[2], want[2];
+        iccp_frame_fit(&from, 2, 2, cases[i].from);
+        iccp_frame_fit(&to, 2, 2, cases[i].to);
+        for (size_t k = 0; k < 2; ++k)
+            iccp_frame_in(&from, 2, cases[i].from + 2 * k, local + 2 * k);
+        iccp_frame_out(&from, 2, local + 2, own);
+        iccp_frame_in(&to, 2, own, want);
+        if (cases[i].keeps)
+            memcpy(want, local + 2, sizeof want);
+        iccp_frame_change(&from, &to, 2, 2, local);
+        ck_assert_msg(local[2] == want[0] && local[3] == want[1], "case %zu", i);
+    }
+}
+END_TEST
+
 START_TEST(test_identity)
 {
     const double x[ICC_MAX_DIM] = {1, -2, 3e300, 0, 5e-324, 6};
@@ -209,6 +243,7 @@ int main(void)
     tcase_add_test(frame, test_extremes);
     tcase_add_test(frame, test_range);
     tcase_add_test(frame, test_other_dimensions);
+    tcase_add_test(frame, test_change);
     tcase_add_test(frame, test_identity);
     Suite *suite = suite_create("frame");
     suite_add_tcase(suite, frame);

@@ -163,12 +163,30 @@ START_TEST(followed)
 }
 END_TEST
 
+/* Features go along to any size: of a shape that is next to nothing in the other's coordinates, the
+ * place is not asked. */
+START_TEST(followed_to_other_sizes)
+{
+    static const double SIZES[] = {1e-200, 1e200, 1e-10};
+    const plan p = pins();
+    icc_map *map = identity_of(&p);
+    for (size_t k = 0; k < sizeof SIZES / sizeof *SIZES; ++k) {
+        plan scaled = p;
+        for (size_t i = 0; i < 2 * p.n_vertices; ++i)
+            scaled.xy[i] *= SIZES[k];
+        ck_assert(follow_to(map, &scaled));
+    }
+    icc_map_free(map);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("carried");
     TCase *c = tcase_create("carried");
     tcase_add_test(c, carried);
     tcase_add_test(c, followed);
+    tcase_add_test(c, followed_to_other_sizes);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
