@@ -16,11 +16,6 @@ typedef struct one {
     const char *figures; /* of the prototype: seconds; iterations; residual */
 } one;
 
-static double processor_seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static void print_result(const one *c, const iccp_unknowns *unknowns, const iccp_scaled *f,
                          const icc_function_info *info, const double seconds[2])
 {
@@ -51,13 +46,13 @@ static void measure(const one *c, const iccp_unknowns *unknowns, const iccp_env 
     const iccp_tied_solver solve = c->iterative ? iccp_tied_iterative : iccp_tied_direct;
     icc_function_info info = {.size = sizeof info};
     const icc_error error = {.message = "no result"};
-    double seconds[2], start = processor_seconds();
+    double seconds[2], start = bench_processor_seconds();
     bench_check(solve(unknowns, &ties, &f, &info, env), &error);
-    seconds[0] = processor_seconds() - start;
+    seconds[0] = bench_processor_seconds() - start;
     info = (icc_function_info){.size = sizeof info};
-    start = processor_seconds();
+    start = bench_processor_seconds();
     const icc_status status = iccp_active_set_laplace(unknowns, 1e-6, solve, order, &f, &info, env);
-    seconds[1] = processor_seconds() - start;
+    seconds[1] = bench_processor_seconds() - start;
     print_result(c, unknowns, &f, &info, seconds);
     if (status != ICC_OK)
         printf("%43s %s\n", "", icc_status_name(status));

@@ -1,5 +1,6 @@
 /* Bi-Laplace functions on the shapes of tests/hard_masks.h. Arguments: shape, dimension, cells, by
- * threes; without any, small ones. One thread. */
+ * threes; without any, small ones. One thread; all in seconds
+ * of the processor, its parts by the clock. */
 #include "bench.h"
 
 #include "function/critical_points.h"
@@ -62,14 +63,14 @@ static void measure(const bench_case *c, int32_t function, bool constrained)
     bench_check(iccp_unknowns_create(&unknowns, tree, &env), &error);
     const iccp_scaled f = {bench_alloc(unknowns.n, sizeof *f.fraction),
                            bench_alloc(unknowns.n, sizeof *f.exponent)};
-    const double start = bench_seconds();
+    const double start = bench_processor_seconds();
     const icc_status status =
         constrained ? iccp_bilaplace_constrained(&unknowns, function, ETA, LEAF, &f, &info, &env)
                     : iccp_bilaplace(&unknowns, function, ICC_SOLVER_DIRECT, &f, &info, &env);
     printf("%-10s %d %5zu %8zu %-7s", c->shape, (int)c->dim, c->cells, unknowns.n,
            function == ICC_FUNCTION_CLAMPED ? "clamped" : "Navier");
-    printf(" %8.3f %7.3f %8.3f %8.3f %5zu %5.1f", bench_seconds() - start, info.seconds_order,
-           info.seconds_factor, info.seconds_solve, info.n_iterations,
+    printf(" %8.3f %7.3f %8.3f %8.3f %5zu %5.1f", bench_processor_seconds() - start,
+           info.seconds_order, info.seconds_factor, info.seconds_solve, info.n_iterations,
            100 * (double)info.n_active / (double)unknowns.n);
     if (status == ICC_OK) {
         printf(" %8.1e %8.1e", info.residual_before, info.residual);

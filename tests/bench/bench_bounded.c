@@ -12,11 +12,6 @@
 enum { RUNS = 3 };
 static const double FACTOR = 15, EXTRA = 0.5;
 
-static double cpu_seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 /* ---- shapes ---- */
 
 static double *circle(size_t n)
@@ -98,9 +93,9 @@ static icc_map *create(const icc_domain *source, const icc_domain *target, int32
     const icc_env env = {.size = sizeof env, .threads = 1};
     icc_error error = {.size = sizeof error};
     icc_map *map;
-    const double begin = cpu_seconds();
+    const double begin = bench_processor_seconds();
     bench_check(icc_map_create(&map, source, target, &options, &env, &error), &error);
-    *seconds = cpu_seconds() - begin;
+    *seconds = bench_processor_seconds() - begin;
     return map;
 }
 
@@ -121,9 +116,9 @@ static void improve_on(icc_map *map, double seconds, int n)
         icc_map *better;
         icc_improve_report report = {.size = sizeof report};
         icc_error error = {.size = sizeof error};
-        const double begin = cpu_seconds();
+        const double begin = bench_processor_seconds();
         bench_check(icc_map_improve(&better, map, NULL, &report, NULL, &error), &error);
-        seconds += cpu_seconds() - begin;
+        seconds += bench_processor_seconds() - begin;
         printf("    %8.3f s in all %8zu %5zu %10.3g %10.6g\n", seconds, report.n_simplices,
                report.n_iterations, better->mesh->work, report.energy);
         icc_map_free(map);

@@ -83,11 +83,6 @@ static size_t read_cage(const char *path, size_t pieces, double **xy)
 
 /* ---- measuring ---- */
 
-static double processor_seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static icc_map_info make_map(const icc_domain *source, const icc_domain *target, const icc_env *env)
 {
     icc_map *map;
@@ -111,9 +106,10 @@ static void measure(const char *name, size_t n, const double *before, const doub
     for (int run = 0; run < RUNS && bench_seconds() - begin < MOST_SECONDS; ++run)
         for (int32_t threads = 1; threads <= 2; ++threads) {
             const icc_env env = {.size = sizeof env, .threads = threads};
-            const double start = bench_seconds(), spent = processor_seconds();
+            const double start = bench_seconds(), spent = bench_processor_seconds();
             (void)make_map(source, target, &env);
-            processor[threads - 1] = fmin(processor[threads - 1], processor_seconds() - spent);
+            processor[threads - 1] =
+                fmin(processor[threads - 1], bench_processor_seconds() - spent);
             wall[threads - 1] = fmin(wall[threads - 1], bench_seconds() - start);
         }
     printf("%-20s %8zu %10zu %7.3f %10.2f %10.2f %10.2f %10.2f %6.2f %9.0f\n", name, n,

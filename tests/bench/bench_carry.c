@@ -8,12 +8,6 @@
 #include "../meshes.h"
 #include "bench.h"
 
-/* Of the processor, with one thread: what a quiet machine takes. */
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static double determinant(const double *points, const uint32_t *v)
 {
     double e[3][3];
@@ -42,15 +36,15 @@ static void carry(const icc_map *map, const test_mesh *m, size_t n_rim, const ch
     icc_error err = {.size = sizeof err};
     icc_certificate before = {.size = sizeof before}, after = {.size = sizeof after};
     double *images = bench_alloc(3 * m->n_vertices, sizeof *images);
-    const double start = seconds();
+    const double start = bench_processor_seconds();
     bench_check(icc_map_certify(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
                                 images, &before, NULL, &err),
                 &err);
-    const double middle = seconds();
+    const double middle = bench_processor_seconds();
     bench_check(icc_map_repair(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
                                images, &after, NULL, &err),
                 &err);
-    const double end = seconds();
+    const double end = bench_processor_seconds();
     printf(
         "  %-9s certified in %5.2f s: %zu inverted, %zu vertices without an image, %zu hopeless; "
         "repaired in %5.2f s more: %zu inverted, %zu flat%s\n",

@@ -2,30 +2,16 @@
  * outlines of 10 to 23,000 vertices, ordinary and unpleasant ones, and for surfaces, where points
  * near the boundary are timed too.
  * usage: bench_domain [FILE...]   (each FILE: one "x y" per line, or NAME.obj, a surface) */
-#define _POSIX_C_SOURCE 200809L
 
-#include "icc/icc.h"
+#include "bench.h"
 #include "obj.h"
 #include "surfaces.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
 
 enum { MAX_VERTICES = 1 << 18, N_QUERIES = 1 << 20 };
 
 static double vertices[2 * MAX_VERTICES], queries[2 * N_QUERIES], bary[2 * N_QUERIES];
 static int32_t where[N_QUERIES];
 static uint32_t facet[N_QUERIES];
-
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t); /* one thread; others may be busy */
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double uniform(void)
 {
@@ -100,12 +86,12 @@ static double time_create(size_t n, icc_domain **domain)
     for (int i = 0; i < 5; ++i) {
         if (i > 0)
             icc_domain_free(*domain);
-        const double start = now();
+        const double start = bench_processor_seconds();
         if (icc_domain_create(domain, 2, n, vertices, 0, NULL, NULL, &err) != ICC_OK) {
             (void)printf("%s\n", err.message);
             return HUGE_VAL;
         }
-        best = fmin(best, now() - start);
+        best = fmin(best, bench_processor_seconds() - start);
     }
     return best;
 }
@@ -118,17 +104,17 @@ static void measure(const char *name, size_t n)
     const double create = time_create(n, &domain);
     if (domain == NULL)
         return;
-    const double start = now();
+    const double start = bench_processor_seconds();
     (void)icc_boundary_defects(n, vertices, 0, NULL, NULL, &n_defects, NULL, NULL);
-    const double listed = now();
+    const double listed = bench_processor_seconds();
     (void)icc_domain_get_info(domain, &info);
     for (size_t i = 0; i < 2 * (size_t)N_QUERIES; ++i)
         queries[i] = info.lower[i % 2] + uniform() * (info.upper[i % 2] - info.lower[i % 2]);
-    const double begin = now();
+    const double begin = bench_processor_seconds();
     (void)icc_domain_locate(domain, N_QUERIES, queries, where, NULL, NULL, NULL);
-    const double located = now();
+    const double located = bench_processor_seconds();
     (void)icc_domain_locate(domain, N_QUERIES / 16, queries, where, facet, bary, NULL);
-    const double found = now();
+    const double found = bench_processor_seconds();
     (void)printf("%-34.34s %6zu %10.3f %10.3f %9.1f %9.1f\n", name, n, 1e3 * create,
                  1e3 * (listed - start), 1e9 * (located - begin) / N_QUERIES,
                  16e9 * (found - located) / N_QUERIES);
@@ -143,10 +129,10 @@ static double place[3 * N_SPACE], share[3 * N_SPACE];
 
 static double time_locate(const icc_domain *domain, int nearest)
 {
-    const double start = now();
+    const double start = bench_processor_seconds();
     (void)icc_domain_locate(domain, N_SPACE, place, where, nearest ? facet : NULL,
                             nearest ? share : NULL, NULL);
-    return 1e9 * (now() - start) / N_SPACE;
+    return 1e9 * (bench_processor_seconds() - start) / N_SPACE;
 }
 
 /* Points of the bounding box, then points within 1 % of its size of vertices. */
@@ -159,12 +145,12 @@ static void measure_surface(const char *name, size_t n, const double *points, si
     double create = HUGE_VAL, size = 0;
     for (int i = 0; i < 5; ++i) {
         icc_domain_free(domain);
-        const double start = now();
+        const double start = bench_processor_seconds();
         if (icc_domain_create(&domain, 3, n, points, n_faces, faces, NULL, &err) != ICC_OK) {
             (void)printf("%-34.34s %s\n", name, err.message);
             return;
         }
-        create = fmin(create, now() - start);
+        create = fmin(create, bench_processor_seconds() - start);
     }
     (void)icc_domain_get_info(domain, &info);
     for (size_t i = 0; i < 3 * (size_t)N_SPACE; ++i)

@@ -2,19 +2,11 @@
  * of the side, 240 frames to come round; with .2 of it they pass between one another. Milliseconds
  * of the processor a frame, one thread; frames that were refused; whether images of paths still
  * pass the handles as they should. Argument: how many sets of handles; without one, 3. */
-#define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 
 #include "../dragging.h"
 
 enum { FRAMES = 240, HANDLES = 20 };
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static int by_size(const void *a, const void *b)
 {
@@ -43,10 +35,10 @@ static void follow(const drag *d, tally *t)
         const double angle = 6.28318530717958647692 * (frame + 1) / FRAMES;
         icc_domain *target;
         icc_map *next;
-        const double begin = processor_seconds();
+        const double begin = bench_processor_seconds();
         bench_check(drag_domain(&target, d, angle, &err), &err);
         const icc_status status = icc_map_retarget(&next, map, target, 0, NULL, &err);
-        t->ms[frame] = 1e3 * (processor_seconds() - begin);
+        t->ms[frame] = 1e3 * (bench_processor_seconds() - begin);
         icc_domain_free(target);
         if (status != ICC_OK) {
             if (t->n_refused++ == 0)

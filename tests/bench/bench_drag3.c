@@ -11,11 +11,6 @@
 enum { FRAMES = 20 };
 static const double FARTHEST = 0.2;
 
-static double processor_seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static const icc_env ONE_THREAD = {.size = sizeof(icc_env), .threads = 1};
 
 /* ---- motions ---- */
@@ -158,9 +153,9 @@ static void follow(const char *name, const char *how, motion *moves, double step
             ++n_not_embedded;
             continue;
         }
-        const double begin = processor_seconds();
+        const double begin = bench_processor_seconds();
         const icc_status status = icc_map_retarget(&next, map, target, 0, &env, &err);
-        ms[n++] = 1e3 * (processor_seconds() - begin);
+        ms[n++] = 1e3 * (bench_processor_seconds() - begin);
         if (status != ICC_OK) {
             ++n_refused;
             printf("    frame %d: %s\n", frame, err.message);
@@ -216,9 +211,9 @@ int main(int argc, char **argv)
         const char *slash = strrchr(argv[k], '/');
         (void)snprintf(path, sizeof path, "%.*s.tgt.obj", (int)stem, argv[k]);
         icc_domain *bare = read_domain(&before, argv[k]), *target = read_domain(&after, path);
-        const double begin = processor_seconds();
+        const double begin = bench_processor_seconds();
         bench_check(icc_map_create(&map, bare, target, NULL, &ONE_THREAD, &err), &err);
-        const double making = 1e3 * (processor_seconds() - begin);
+        const double making = 1e3 * (bench_processor_seconds() - begin);
         const body b = body_of(&after);
         char name[4] = {0};
         (void)snprintf(name, sizeof name, "%.3s", slash != NULL ? slash + 1 : argv[k]);

@@ -10,11 +10,6 @@
 #include "bench.h"
 #include "quality.h"
 
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 /* ---- memory ---- */
 
 typedef union block {
@@ -110,9 +105,9 @@ static void improve(const char *how, const icc_map *map, int32_t levels, double 
     icc_map *better;
     const size_t before = n_bytes;
     most_bytes = n_bytes;
-    const double start = seconds();
+    const double start = bench_processor_seconds();
     bench_check(icc_map_improve(&better, map, &options, &report, env, &err), &err);
-    const double spent = seconds() - start;
+    const double spent = bench_processor_seconds() - start;
     printf("  %-10s energy %9.5f -> %8.5f, most %9.4g; %2zu steps, %6.3f s = %.2f of making it, "
            "%zu tetrahedra, %.0f bytes each\n",
            how, report.energy_start, report.energy, most_energy(better, scale), report.n_iterations,
@@ -138,9 +133,9 @@ static void run_pair(const char *source_path)
     icc_map_options options = {.size = sizeof options, .iterations = -1};
     icc_map_info made = {.size = sizeof made};
     icc_map *map;
-    double start = seconds();
+    double start = bench_processor_seconds();
     bench_check(icc_map_create(&map, source, target, &options, &env, &err), &err);
-    const double making = seconds() - start;
+    const double making = bench_processor_seconds() - start;
     bench_check(icc_map_get_info(map, &made), NULL);
     printf("%s: %zu tetrahedra, %s, made in %.3f s; most %.4g\n",
            slash != NULL ? slash + 1 : source_path, made.n_simplices,
@@ -150,12 +145,12 @@ static void run_pair(const char *source_path)
     improve("one level", map, 1, 0, making, scale, &env);
     icc_map_free(map);
     options.iterations = 0;
-    start = seconds();
+    start = bench_processor_seconds();
     bench_check(icc_map_create(&map, source, target, &options, &env, &err), &err);
     bench_check(icc_map_get_info(map, &made), NULL);
     printf("  by itself  energy %9.5f -> %8.5f, most %9.4g; %2zu steps, %6.3f s with making it\n",
            made.energy_start, made.energy, most_energy(map, scale), made.n_iterations,
-           seconds() - start);
+           bench_processor_seconds() - start);
     (void)fflush(stdout);
     icc_map_free(map);
     icc_domain_free(source);

@@ -2,7 +2,6 @@
  * again by another hand. Milliseconds of the processor, the least of some runs: the start alone;
  * the whole map; the map of the same outlines without features; and the second as a multiple of
  * the third. */
-#define _POSIX_C_SOURCE 200809L
 
 #include "bench.h"
 #include "random.h"
@@ -18,13 +17,6 @@ typedef struct scene {
     double *vertices[2]; /* the coast's, then the features' */
     icc_domain *domain[2], *bare[2];
 } scene;
-
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void draw_coast(double *xy, size_t n, random_source *r)
 {
@@ -104,9 +96,9 @@ static double cost(icc_domain *const domain[2], int32_t iterations, icc_map_info
     for (int k = 0; k < RUNS; ++k) {
         icc_error error = {.size = sizeof error};
         icc_map *map;
-        const double begin = now();
+        const double begin = bench_processor_seconds();
         bench_check(icc_map_create(&map, domain[0], domain[1], &options, NULL, &error), &error);
-        least = fmin(least, 1e3 * (now() - begin));
+        least = fmin(least, 1e3 * (bench_processor_seconds() - begin));
         *info = (icc_map_info){.size = sizeof *info};
         (void)icc_map_get_info(map, info);
         icc_map_free(map);

@@ -3,7 +3,6 @@
  * end are those of one run; those of several, over parts of the seeds, add up, but for quantiles.
  * usage: bench_features [NUMBER [FIRST_SEED [ITERATIONS [DIGITS]]]], iterations as icc_map_options
  * has them; with digits, features crowd, as near to each other as so many decimals say */
-#define _POSIX_C_SOURCE 200809L
 
 #include "bench.h"
 #include "feature_mixes.h"
@@ -13,13 +12,6 @@ typedef struct tally {
     size_t n, n_errors, n_uncertified, n_infinite, n_off, n_lost, n_flat;
     double *energy, *seconds, *triangles;
 } tally;
-
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t); /* others may be busy */
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 /* Triangles that are not positive, in the coordinates that the caller gets; those of domains far
  * from zero are rounded. */
@@ -55,10 +47,10 @@ static void try_map(tally *t, const feature_mix *m, uint64_t seed, bool swapped,
     icc_map_info info = {.size = sizeof info};
     icc_error error = {.size = sizeof error};
     icc_map *map;
-    const double begin = now();
+    const double begin = bench_processor_seconds();
     const icc_status status =
         icc_map_create(&map, m->domain[swapped], m->domain[!swapped], &options, NULL, &error);
-    t->seconds[t->n] = now() - begin;
+    t->seconds[t->n] = bench_processor_seconds() - begin;
     t->energy[t->n] = HUGE_VAL;
     if (status == ICC_OK) {
         (void)icc_map_get_info(map, &info);

@@ -44,20 +44,15 @@ typedef struct timing {
     size_t n_iterations, bytes;
 } timing;
 
-static double processor_seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static timing run(const icc_grid *grid, size_t n, const uint32_t *vertex, const iccp_env *env)
 {
     const iccp_mg_goal goal = {.relative = 1e-10, .componentwise = HUGE_VAL, .floor = 1};
     iccp_multigrid mg;
     timing result = {0};
-    const double start = processor_seconds();
+    const double start = bench_processor_seconds();
     uint32_t *position = bench_alloc(n, sizeof *position);
     bench_check(iccp_multigrid_create(&mg, grid, n, vertex, position, env), NULL);
-    const double middle = processor_seconds();
+    const double middle = bench_processor_seconds();
     const iccp_mg_level *level = &mg.level[0];
     double *x = bench_alloc(level->n_entries, sizeof *x),
            *r = bench_alloc(level->n_entries, sizeof *r);
@@ -65,7 +60,7 @@ static timing run(const icc_grid *grid, size_t n, const uint32_t *vertex, const 
     free(position);
     bench_check(iccp_mg_cg(&mg, x, r, 1, &goal, &result.n_iterations, env), NULL);
     result.setup = middle - start;
-    result.solve = processor_seconds() - middle;
+    result.solve = bench_processor_seconds() - middle;
     /* x and r in double, the direction in float. */
     result.bytes =
         iccp_multigrid_bytes(&mg) + level->n_entries * (2 * sizeof(double) + sizeof(float));

@@ -24,11 +24,6 @@ enum { N_ORDERS = 1 };
 
 enum { RUNS = 5, CELLS = 20 };
 
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static iccp_env plain_env(void)
 {
     iccp_env env;
@@ -148,24 +143,24 @@ static void run(measured *m, int which, const iccp_symmetric *groups, const iccp
     const icc_error error = {.message = "factor"};
     const size_t block = groups->n > 0 ? full->n / groups->n : 1;
     iccp_ldlt factor;
-    const double t0 = seconds();
+    const double t0 = bench_processor_seconds();
 #ifdef BENCH_WITH_AMD
     if (which == 1)
         order_by_amd(groups, m->order);
 #endif
     if (which == 0)
         bench_check(iccp_ordering(groups, m->order, &env), &error);
-    const double t1 = seconds();
+    const double t1 = bench_processor_seconds();
     for (size_t k = groups->n; k-- > 0;)
         for (size_t d = block; d-- > 0;)
             m->order[block * k + d] = (uint32_t)(block * m->order[k] + d);
-    const double t2 = seconds();
+    const double t2 = bench_processor_seconds();
     bench_check(iccp_ldlt_analyse_ordered(&factor, full, m->order, &env), &error);
-    const double t3 = seconds();
+    const double t3 = bench_processor_seconds();
     bench_check(iccp_ldlt_factorise(&factor, full, &env), &error);
-    const double t4 = seconds();
+    const double t4 = bench_processor_seconds();
     bench_check(iccp_ldlt_factorise(&factor, full, &env), &error); /* its memory is there now */
-    const double t5 = seconds();
+    const double t5 = bench_processor_seconds();
     m->n_entries = (double)factor.n_entries;
     m->work = factor.work;
     m->order_s = least(m->order_s, t1, t0);

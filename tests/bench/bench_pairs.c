@@ -7,11 +7,6 @@
 #include "../obj.h"
 #include "bench.h"
 
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 static void tell(void *user, const char *message)
 {
     (void)user;
@@ -49,9 +44,9 @@ static bool run(const icc_domain *source, const icc_domain *target, const char *
     icc_error err = {.size = sizeof err};
     icc_map_info info = {.size = sizeof info};
     icc_map *map;
-    const double start = seconds();
+    const double start = bench_processor_seconds();
     const icc_status status = icc_map_create(&map, source, target, NULL, &env, &err);
-    const double spent = seconds() - start;
+    const double spent = bench_processor_seconds() - start;
     printf("%s -> %s: ", name_of(from), name_of(to));
     if (status != ICC_OK) {
         printf("%s: %s, %.1f s\n", icc_status_name(status), err.message, spent);

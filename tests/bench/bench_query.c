@@ -2,7 +2,6 @@
  * those of a picture are. Then what it costs to save a map and to load it again, and to follow a
  * target that moves. Arguments: cage files, source and target by turns. One thread, processor time,
  * the least of several runs; what is asked of it stands in the last columns. */
-#define _POSIX_C_SOURCE 200809L
 #include "cages.h"
 
 #include <stdbool.h>
@@ -13,13 +12,6 @@ enum { RUNS = 7, POINTS = 300000, SIDE = 1024 };
  * sorted. Megabytes a second. */
 static const double RANDOM[2] = {60, 110}, SORTED = 45, SAVE = 2000, LOAD = 200;
 enum { LARGE = 50000 };
-
-static double processor_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 /* ---- points ---- */
 
@@ -59,10 +51,10 @@ static double time_points(const icc_map *map, bool inverse, size_t n, const doub
 {
     double least = HUGE_VAL;
     for (int k = 0; k < RUNS; ++k) {
-        const double start = processor_seconds();
+        const double start = bench_processor_seconds();
         (void)(inverse ? icc_map_apply_inverse : icc_map_apply)(map, n, points, images, NULL, NULL,
                                                                 NULL);
-        least = fmin(least, processor_seconds() - start);
+        least = fmin(least, bench_processor_seconds() - start);
     }
     return 1e9 * least / (double)n;
 }
@@ -97,16 +89,16 @@ static void measure_bytes(const icc_map *map)
     double save = HUGE_VAL, load = HUGE_VAL, plain = HUGE_VAL;
     for (int k = 0; k < RUNS; ++k) {
         icc_map *loaded;
-        double start = processor_seconds();
+        double start = bench_processor_seconds();
         (void)icc_map_save(map, n, data, &n);
-        save = fmin(save, processor_seconds() - start);
-        start = processor_seconds();
+        save = fmin(save, bench_processor_seconds() - start);
+        start = bench_processor_seconds();
         bench_check(icc_map_load(&loaded, n, data, NULL, &error), &error);
-        load = fmin(load, processor_seconds() - start);
+        load = fmin(load, bench_processor_seconds() - start);
         icc_map_free(loaded);
-        start = processor_seconds();
+        start = bench_processor_seconds();
         memcpy(copy, data, n);
-        plain = fmin(plain, processor_seconds() - start);
+        plain = fmin(plain, bench_processor_seconds() - start);
     }
     const double size = 1e-6 * (double)n;
     printf("  %6.2f %6.0f %6.0f %6.0f (%4.0f %3.0f)", size, size / plain, size / save, size / load,
@@ -130,11 +122,11 @@ static void measure_frames(icc_map *map, const icc_domain *target)
     for (int k = 0; k < FRAMES; ++k) {
         for (size_t i = 0; i < 2 * info.n_vertices; ++i)
             moved[i] = given[i] + by * (k % 2) * (given[i] - info.lower[i % 2]);
-        const double start = processor_seconds();
+        const double start = bench_processor_seconds();
         icc_domain *next = bench_domain(info.n_vertices, moved);
         icc_map *frame;
         bench_check(icc_map_retarget(&frame, map, next, 0, NULL, &error), &error);
-        times[k] = 1e3 * (processor_seconds() - start);
+        times[k] = 1e3 * (bench_processor_seconds() - start);
         icc_domain_free(next);
         icc_map_free(map);
         map = frame;

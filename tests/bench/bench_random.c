@@ -5,7 +5,6 @@
  * usage: bench_random [NUMBER [FIRST_SEED [CELLS [ITERATIONS]]]] [-v], cells of charts, 0: 50, 20 of
  * default maps, and steps of default maps a level, by default 1; -v prints the polygon of each
  * failure. A small budget is 12 -1. */
-#define _POSIX_C_SOURCE 200809L
 
 #include "random_polygons.h"
 
@@ -28,13 +27,6 @@ static const double FAR_OFF = 1e-9;
 
 static int verbose;
 static int32_t cells, iterations = 1;
-
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static void print_polygon(const polygon *p)
 {
@@ -64,7 +56,7 @@ static void note_info(tally *t, const icc_chart *chart)
 
 static void note_time(tally *t, double start)
 {
-    const double seconds = now() - start;
+    const double seconds = bench_processor_seconds() - start;
     t->seconds += seconds;
     t->slowest = fmax(t->slowest, seconds);
     ++t->n;
@@ -77,7 +69,7 @@ static void try_chart(tally *t, int method, int kind, uint64_t seed, const polyg
         .size = sizeof options, .method = METHODS[method], .cells = cells};
     icc_chart *chart;
     icc_error error = {.size = sizeof error};
-    const double start = now();
+    const double start = bench_processor_seconds();
     const icc_status status = icc_chart_create(&chart, domain, &options, NULL, &error);
     note_time(t, start);
     if (status != ICC_OK) {
@@ -123,7 +115,7 @@ static void try_pair(tally *t, int method, const int kinds[2], uint64_t seed, co
         .size = sizeof options, .kind = ICC_MAP_CURVES, .chart = &chart};
     icc_map *map;
     icc_error error = {.size = sizeof error};
-    const double start = now();
+    const double start = bench_processor_seconds();
     const icc_status status = icc_map_create(&map, domains[0], domains[1], &options, NULL, &error);
     note_time(t, start);
     if (status != ICC_OK) {
@@ -146,7 +138,7 @@ static void try_default(tally *t, const int kinds[2], uint64_t seed, const polyg
     icc_map_info info = {.size = sizeof info};
     icc_map *map;
     icc_error error = {.size = sizeof error};
-    const double start = now();
+    const double start = bench_processor_seconds();
     const icc_status status = icc_map_create(&map, domains[0], domains[1], &options, NULL, &error);
     note_time(t, start);
     if (status == ICC_OK)

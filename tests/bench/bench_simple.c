@@ -3,7 +3,6 @@
  * some runs by turns. GEOS answers in doubles, ours is exact. The last rings are not simple. Then
  * the same of a square with many holes, and of one in which two of them cross.
  * usage: bench_simple [LARGEST] */
-#define _POSIX_C_SOURCE 200809L
 
 #include "bench.h"
 
@@ -18,13 +17,6 @@ enum {
     OUTER = 4,         /* vertices of a square with holes, which come first */
     HOLE = 16          /* and of each hole */
 };
-
-static double now(void)
-{
-    struct timespec t;
-    (void)clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t); /* one thread; others may be busy */
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 static double uniform(void)
 {
@@ -154,16 +146,16 @@ static int has_holes(maker make)
 static double time_ours(size_t n, const double *xy, int *valid)
 {
     icc_domain *domain;
-    const double start = now();
+    const double start = bench_processor_seconds();
     *valid = icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL) == ICC_OK;
     icc_domain_free(domain);
-    return now() - start;
+    return bench_processor_seconds() - start;
 }
 
 static double time_ours_holes(size_t n, const double *xy, int *valid)
 {
     icc_domain *domain;
-    const double start = now();
+    const double start = bench_processor_seconds();
     const size_t n_holes = (n - OUTER) / HOLE;
     icc_feature *holes = bench_alloc(n_holes, sizeof *holes);
     for (size_t h = 0; h < n_holes; ++h)
@@ -172,7 +164,7 @@ static double time_ours_holes(size_t n, const double *xy, int *valid)
     *valid = icc_domain_create_features(&domain, OUTER, xy, n_holes, holes, NULL, NULL) == ICC_OK;
     icc_domain_free(domain);
     free(holes);
-    return now() - start;
+    return bench_processor_seconds() - start;
 }
 
 #ifdef BENCH_WITH_GEOS
@@ -187,7 +179,7 @@ static GEOSGeometry *geos_ring(GEOSContextHandle_t geos, size_t n, const double 
 static double time_geos(GEOSContextHandle_t geos, maker make, size_t n, const double *xy,
                         int *valid)
 {
-    const double start = now();
+    const double start = bench_processor_seconds();
     const size_t n_outer = has_holes(make) ? OUTER : n, n_holes = (n - n_outer) / HOLE;
     GEOSGeometry **holes = bench_alloc(n_holes + 1, sizeof(GEOSGeometry *));
     for (size_t h = 0; h < n_holes; ++h)
@@ -197,7 +189,7 @@ static double time_geos(GEOSContextHandle_t geos, maker make, size_t n, const do
     *valid = GEOSisValid_r(geos, polygon) == 1;
     GEOSGeom_destroy_r(geos, polygon);
     free(holes);
-    return now() - start;
+    return bench_processor_seconds() - start;
 }
 #endif
 

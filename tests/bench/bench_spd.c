@@ -17,11 +17,6 @@
 
 #define OUTSIDE UINT32_MAX
 
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 /* Unknowns of a grid of size^dim cells: those inside a shape. */
 typedef struct grid {
     size_t size, layers, n;
@@ -168,9 +163,9 @@ static double dissect(const grid *g, uint32_t *order, const iccp_env *env)
     bench_check(iccp_grassfire(lattice, &root, NULL, env, &error), &error);
     bench_check(iccp_tree_create(&tree, lattice, root, ICC_TREE_PAPER, NULL, env, &error), &error);
     bench_check(iccp_unknowns_create(&unknowns, tree, env), &error);
-    const double start = seconds();
+    const double start = bench_processor_seconds();
     bench_check(iccp_dissection(&unknowns, order, env), &error);
-    const double end = seconds();
+    const double end = bench_processor_seconds();
     for (size_t k = 0; k < g->n; ++k)
         order[k] = g->unknown[unknowns.vertex[order[k]]];
     iccp_unknowns_free(&unknowns);
@@ -203,16 +198,16 @@ static void time_cholmod(const iccp_symmetric *m)
             }
     }
     start[m->n] = k;
-    const double t0 = seconds();
+    const double t0 = bench_processor_seconds();
     cholmod_factor *factor = cholmod_analyze(a, &common);
-    const double t1 = seconds();
+    const double t1 = bench_processor_seconds();
     cholmod_factorize(a, factor, &common);
-    const double t2 = seconds();
+    const double t2 = bench_processor_seconds();
     cholmod_dense *b = cholmod_ones(m->n, 1, CHOLMOD_REAL, &common);
-    const double t3 = seconds();
+    const double t3 = bench_processor_seconds();
     cholmod_dense *x = cholmod_solve(CHOLMOD_A, factor, b, &common);
     printf("  cholmod    analyse %.3f  factor %.3f  solve %.4f  lnz %.3g  %.0f MB\n", t1 - t0,
-           t2 - t1, seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
+           t2 - t1, bench_processor_seconds() - t3, common.lnz, (double)common.memory_usage * 1e-6);
     cholmod_free_dense(&x, &common);
     cholmod_free_dense(&b, &common);
     cholmod_free_factor(&factor, &common);
@@ -253,11 +248,11 @@ static void time_solves(const iccp_ldlt *factor, const iccp_symmetric *m, const 
     for (size_t i = 0; i < n; ++i)
         iccp_scaled_set(&y, i, i == source, 0);
     x[source] = 1;
-    const double t0 = seconds();
+    const double t0 = bench_processor_seconds();
     iccp_ldlt_solve(factor, 1, x, x + n);
-    const double t1 = seconds();
+    const double t1 = bench_processor_seconds();
     bench_check(iccp_ldlt_solve_scaled(factor, &y, &work, env), &(icc_error){.message = "solve"});
-    const double t2 = seconds();
+    const double t2 = bench_processor_seconds();
     int32_t lowest = 0;
     for (size_t i = 0; i < n; ++i)
         lowest = y.exponent[i] < lowest ? y.exponent[i] : lowest;
@@ -276,16 +271,17 @@ static void time_ours(const grid *g, const iccp_symmetric *m, bool dissected)
     uint32_t *order = bench_alloc(m->n, sizeof *order);
     iccp_ldlt factor;
     const icc_error error = {.size = sizeof error};
-    const double taken = dissected ? dissect(g, order, &env) : 0, t0 = seconds() - taken;
+    const double taken = dissected ? dissect(g, order, &env) : 0,
+                 t0 = bench_processor_seconds() - taken;
     if (!dissected)
         bench_check(iccp_ordering(m, order, &env), &error);
-    const double t1 = seconds();
+    const double t1 = bench_processor_seconds();
     bench_check(iccp_ldlt_analyse_ordered(&factor, m, order, &env), &error);
-    const double t2 = seconds();
+    const double t2 = bench_processor_seconds();
     bench_check(iccp_ldlt_factorise(&factor, m, &env), &error);
-    const double t3 = seconds();
+    const double t3 = bench_processor_seconds();
     bench_check(iccp_ldlt_factorise(&factor, m, &env), &error);
-    const double t4 = seconds();
+    const double t4 = bench_processor_seconds();
     printf("  %s  order %.3f  analyse %.3f  factor %.3f  again %.3f  entries %.3g  work %.3g  %.1f "
            "GF/s"
            "  supernodes %zu  %.0f MB\n",

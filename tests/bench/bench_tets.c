@@ -10,12 +10,6 @@
 
 enum { N_POINTS = 20000, N_BUILDS = 3 };
 
-/* Of the processor, with one thread: what a quiet machine takes. */
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 /* Quantiles of 1, 50 and 99 % of the determinants, of energies the median, the mean and that of 99
  * %. */
 typedef struct figures {
@@ -96,9 +90,9 @@ static double round_trip(const icc_map *map, const icc_domain_info *info, double
     double largest = 0, diagonal = 0;
     *micros = HUGE_VAL;
     for (int k = 0; k < 3; ++k) {
-        const double start = seconds();
+        const double start = bench_processor_seconds();
         bench_check(icc_map_apply(map, N_POINTS, points, images, NULL, &n_failed, &env), NULL);
-        *micros = fmin(*micros, 1e6 * (seconds() - start) / N_POINTS);
+        *micros = fmin(*micros, 1e6 * (bench_processor_seconds() - start) / N_POINTS);
     }
     bench_check(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, &n_back, &env), NULL);
     for (size_t i = 0; i < 3 * N_POINTS; ++i)
@@ -144,9 +138,9 @@ static icc_domain *make_domain(const char *path, const char *tag)
     icc_domain *domain;
     icc_error err = {.size = sizeof err};
     mesh_surface(&m, path, tag);
-    const double start = seconds();
+    const double start = bench_processor_seconds();
     bench_check(mesh_domain(&domain, &m, NULL, &err), &err);
-    printf("  domain: %.0f ms\n", 1e3 * (seconds() - start));
+    printf("  domain: %.0f ms\n", 1e3 * (bench_processor_seconds() - start));
     mesh_free(&m);
     return domain;
 }
@@ -171,9 +165,9 @@ static void run_pair(const char *source_path)
     f.build = HUGE_VAL;
     for (int k = 0; k < N_BUILDS; ++k) {
         icc_map_free(map);
-        const double start = seconds();
+        const double start = bench_processor_seconds();
         bench_check(icc_map_create(&map, source, target, &options, NULL, &err), &err);
-        f.build = fmin(f.build, seconds() - start);
+        f.build = fmin(f.build, bench_processor_seconds() - start);
     }
     print_chart("source", icc_map_source_chart(map));
     print_chart("target", icc_map_target_chart(map));

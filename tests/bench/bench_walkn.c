@@ -10,12 +10,6 @@
 
 enum { N_WALKS = 4000 };
 
-/* Of the processor: other programs may be running. */
-static double seconds(void)
-{
-    return (double)clock() / CLOCKS_PER_SEC;
-}
-
 typedef struct tally {
     size_t n_steps, n_crossings, n_lines, n_ends;
     double seconds;
@@ -46,7 +40,7 @@ static tally climb(const icc_function *field)
     tally t = {0};
     random_source r = {1};
     double p[ICC_MAX_DIM];
-    const double begin = seconds();
+    const double begin = bench_processor_seconds();
     for (; t.n_lines < N_WALKS; ++t.n_lines) {
         iccp_walkn walk;
         pick(field->tree->grid, &r, p);
@@ -56,7 +50,7 @@ static tally climb(const icc_function *field)
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }
-    t.seconds = seconds() - begin;
+    t.seconds = bench_processor_seconds() - begin;
     /* Again, to see what the steps are. */
     r = (random_source){1};
     for (size_t i = 0; i < t.n_lines; ++i) {
@@ -75,7 +69,7 @@ static tally climb_plane(const icc_function *field)
     tally t = {0};
     random_source r = {1};
     double p[ICC_MAX_DIM];
-    const double begin = seconds();
+    const double begin = bench_processor_seconds();
     for (; t.n_lines < N_WALKS; ++t.n_lines) {
         iccp_walk2 walk;
         pick(field->tree->grid, &r, p);
@@ -85,7 +79,7 @@ static tally climb_plane(const icc_function *field)
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }
-    t.seconds = seconds() - begin;
+    t.seconds = bench_processor_seconds() - begin;
     return t;
 }
 
@@ -147,19 +141,19 @@ static void run_chart(int32_t cells)
                                            .function = FUNCTION[i].function,
                                            .constraints = ICC_CONSTRAINTS_NONE,
                                            .cells = cells};
-        const double begin = seconds();
+        const double begin = bench_processor_seconds();
         bench_check(icc_chart_create(&chart, domain, &options, NULL, &err), &err);
-        const double made = seconds();
+        const double made = bench_processor_seconds();
         for (int k = 0; k < 3 * N_WALKS; ++k)
             points[k] = random_between(&r, -0.57, 0.57);
         size_t down, up;
-        const double ready = seconds();
+        const double ready = bench_processor_seconds();
         bench_check(icc_chart_encode(chart, N_WALKS, points, facet, bary, t, NULL, &down, NULL),
                     &err);
-        const double there = seconds();
+        const double there = bench_processor_seconds();
         bench_check(icc_chart_decode(chart, N_WALKS, facet, bary, t, points, NULL, &up, NULL),
                     &err);
-        const double back = seconds();
+        const double back = bench_processor_seconds();
         (void)icc_chart_get_gradient_info(chart, &info);
         printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there "
                "%7.1f us "
