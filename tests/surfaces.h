@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { SURFACE_VERTICES = 6000, SURFACE_FACES = 12000 };
+enum { SURFACE_VERTICES = 10100, SURFACE_FACES = 20200 };
 
 typedef struct surface {
     size_t n_vertices, n_faces;

@@ -1,7 +1,9 @@
 /* An edge that the mesh lacks crosses faces of it. Flips that lower their number come first. When
  * there is none, a point is put on the edge, where it crosses a face or an edge: as near to there
  * as it takes to see, exactly, all of the two tetrahedra or the ring there. No edge is lost by
- * that, and the two pieces cross fewer faces than the edge did; so the points are finitely many. */
+ * that, and the two pieces cross fewer faces than the edge did; so the points are finitely many.
+ * The last resort may lose edges, for the next pass to make, and is ended by a limit on the
+ * points. */
 #include "fill/segments.h"
 
 #include "base/error.h"
@@ -124,7 +126,8 @@ icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *
                 status = iccp_explain(err, iccp_progress(env, "mesh", share));
             iccp_segment *const segment = &s->segment[iccp_tets_turn(m, e, s->n_segments)];
             const iccp_recovery made = recover_segment(&w, segment, pass >= FLIP_PASSES);
-            missing += made == ICCP_MISSING;
+            missing += made == ICCP_MISSING || w.lost;
+            w.lost = false;
             if (made == ICCP_NO_MEMORY)
                 status = iccp_fail_memory(err);
             else if (made == ICCP_STUCK)

@@ -55,37 +55,6 @@ static double crossing(iccp_way *w, const iccp_segment *segment, uint32_t side, 
     return to;
 }
 
-/* Puts a point as near to a share as it takes to see all of m->cavity, with as few bits as it can
- * be; it stands between a and b on the segment then. */
-static iccp_recovery put_near(iccp_way *w, iccp_segment *segment, double at)
-{
-    iccp_tets *const m = w->m;
-    const double from = iccp_segment_share(m, segment, w->a);
-    const double to = iccp_segment_share(m, segment, w->b);
-    for (int bits = 3; bits <= ICCP_FIXED_SHARE_BITS; bits += 3) {
-        const double share = ldexp(floor(ldexp(at, bits) + 0.5), -bits);
-        if (!(share > from && share < to))
-            continue;
-        const iccp_dyadic made = {
-            {segment->a, segment->b, segment->b}, w->b, {1.0 - share, share, 0.0}};
-        const uint32_t p = iccp_tets_add_dyadic(m, &made);
-        if (p == ICCP_NO_TET)
-            return ICCP_NO_MEMORY;
-        const iccp_inserted done = iccp_tets_insert(m, p, m->cavity.n, false);
-        if (done == ICCP_INSERT_MEMORY)
-            return ICCP_NO_MEMORY;
-        if (done == ICCP_INSERTED) {
-            if (w->a == segment->a)
-                segment->first = p;
-            else
-                m->points.dyadic[w->a - m->points.n_fixed].next = p;
-            return ICCP_PRESENT;
-        }
-        iccp_tets_drop_dyadic(m);
-    }
-    return ICCP_STUCK;
-}
-
 /* m->cavity: the ring of an edge of tetrahedron t, or nothing if that is an edge of the surface. */
 static bool take_ring(iccp_way *w, uint32_t t, const uint32_t edge[2])
 {
@@ -120,8 +89,96 @@ static bool take_cavity(iccp_way *w, uint32_t side, int turn)
            iccp_list_push(m, &m->cavity, tet->across[side % 4] / 4);
 }
 
+/* Whether a side of the cavity, whose tetrahedra have the stamp, has both points. */
+static bool is_at_rim(const iccp_tets *m, uint32_t a, uint32_t b, uint32_t stamp)
+{
+    for (size_t k = 0; k < m->cavity.n; ++k) {
+        const iccp_tet *const tet = &m->tet[m->cavity.item[k]];
+        const int i = iccp_tet_index(tet, a), j = iccp_tet_index(tet, b);
+        for (int side = 0; side < 4 && i >= 0 && j >= 0; ++side)
+            if (side != i && side != j &&
+                (iccp_is_wall_side(tet->across[side]) || m->mark[tet->across[side] / 4] != stamp))
+                return true;
+    }
+    return false;
+}
+
+/* Whether every edge of the surface in m->cavity is at its rim, too. */
+static bool keeps_edges(iccp_way *w)
+{
+    iccp_tets *const m = w->m;
+    const uint32_t stamp = iccp_tets_stamp(m);
+    for (size_t k = 0; k < m->cavity.n; ++k)
+        m->mark[m->cavity.item[k]] = stamp;
+    for (size_t k = 0; k < m->cavity.n; ++k)
+        for (int i = 0; i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) {
+                const uint32_t *const v = m->tet[m->cavity.item[k]].v;
+                if (iccp_pairs_have(&w->s->edges, v[i], v[j]) && !is_at_rim(m, v[i], v[j], stamp))
+                    return false;
+            }
+    return true;
+}
+
+/* m->cavity: what is at a side, and beyond, until a point sees all of the rim. False if that is too
+ * much, or takes an edge of the surface away that must stay. */
+static bool widen(iccp_way *w, uint32_t side, uint32_t p)
+{
+    enum { MOST = 100 };
+    iccp_tets *const m = w->m;
+    return take_cavity(w, side, 0) && m->cavity.n > 0 && iccp_tets_extend(m, p, MOST) &&
+           m->cavity.n <= MOST && (w->may_lose || keeps_edges(w));
+}
+
+/* Puts a point at a share of the segment into the space of m->cavity, all of whose rim it must see;
+ * it stands between a and b then. */
+static iccp_recovery put_at(iccp_way *w, iccp_segment *segment, double share, uint32_t side,
+                            bool wide)
+{
+    iccp_tets *const m = w->m;
+    const iccp_dyadic made = {
+        {segment->a, segment->b, segment->b}, w->b, {1.0 - share, share, 0.0}};
+    const uint32_t p = iccp_tets_add_dyadic(m, &made);
+    if (p == ICCP_NO_TET)
+        return ICCP_NO_MEMORY;
+    const iccp_inserted done =
+        wide && !widen(w, side, p) ? ICCP_NOT_INSERTED : iccp_tets_insert(m, p, m->cavity.n, false);
+    if (done == ICCP_INSERT_MEMORY || m->no_memory)
+        return ICCP_NO_MEMORY;
+    if (done != ICCP_INSERTED) {
+        iccp_tets_drop_dyadic(m);
+        return ICCP_STUCK;
+    }
+    if (w->a == segment->a)
+        segment->first = p;
+    else
+        m->points.dyadic[w->a - m->points.n_fixed].next = p;
+    return ICCP_PRESENT;
+}
+
+/* As near to a share as it takes, with as few bits as it can be. In a metric it is never a simple
+ * fraction: in grids that were stretched and rounded points at these are on lines through others,
+ * but for the last bit, and then no share is left between them and these lines. */
+static iccp_recovery put_near(iccp_way *w, iccp_segment *segment, double at, int most_bits)
+{
+    enum { FEW_BITS = 3, ODD_BITS = 9 };
+    const bool odd = w->m->metric.on;
+    const double from = iccp_segment_share(w->m, segment, w->a);
+    const double to = iccp_segment_share(w->m, segment, w->b);
+    for (int bits = odd ? ODD_BITS : FEW_BITS; bits <= most_bits; bits += 3) {
+        const double share = odd ? ldexp(2.0 * floor(ldexp(at, bits - 1)) + 1.0, -bits)
+                                 : ldexp(floor(ldexp(at, bits) + 0.5), -bits);
+        if (!(share > from && share < to))
+            continue;
+        const iccp_recovery made = put_at(w, segment, share, 0, false);
+        if (made != ICCP_STUCK)
+            return made;
+    }
+    return ICCP_STUCK;
+}
+
 /* Puts a point where a side is met: as doubles tell, then as exact signs do. */
-static iccp_recovery put_point(iccp_way *w, iccp_segment *segment, uint32_t side)
+static iccp_recovery put_point(iccp_way *w, iccp_segment *segment, uint32_t side, int most_bits)
 {
     const double from = iccp_segment_share(w->m, segment, w->a);
     const double to = iccp_segment_share(w->m, segment, w->b);
@@ -138,33 +195,80 @@ static iccp_recovery put_point(iccp_way *w, iccp_segment *segment, uint32_t side
                 return ICCP_NO_MEMORY;
             if (w->m->cavity.n == 0)
                 break;
-            const iccp_recovery made = put_near(w, segment, how == 1 ? exact : rough);
+            const iccp_recovery made = put_near(w, segment, how == 1 ? exact : rough, most_bits);
             if (made != ICCP_STUCK)
                 return made;
         }
     return ICCP_STUCK;
 }
 
-iccp_recovery iccp_way_split(iccp_way *w, iccp_segment *segment)
+/* Puts a point well between a and b, with all that is between it and a side in its cavity. */
+static iccp_recovery put_between(iccp_way *w, iccp_segment *segment, uint32_t side)
 {
-    while (w->crossed.n > 0) {
-        size_t best = w->crossed.n;
+    static const double places[] = {0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.0625, 0.9375};
+    const double from = iccp_segment_share(w->m, segment, w->a);
+    const double to = iccp_segment_share(w->m, segment, w->b);
+    int bits = 0;
+    while (bits < ICCP_FIXED_SHARE_BITS && ldexp(to - from, bits) < 32.0)
+        ++bits;
+    for (size_t i = 0; i < sizeof places / sizeof *places; ++i) {
+        const double share = ldexp(floor(ldexp(from + places[i] * (to - from), bits)), -bits);
+        if (!(share > from && share < to))
+            continue;
+        const iccp_recovery made = put_at(w, segment, share, side, true);
+        if (made != ICCP_STUCK)
+            return made;
+    }
+    return ICCP_STUCK;
+}
+
+/* At one of the sides that are met, those near the middle first; with 0 bits well between. */
+static iccp_recovery put_somewhere(iccp_way *w, iccp_segment *segment, int most_bits)
+{
+    uint32_t *const side = w->crossed.item;
+    for (size_t n = w->crossed.n; n > 0; --n) {
+        size_t best = n;
         double best_at = 2.0;
-        for (size_t k = 0; k < w->crossed.n; ++k) {
-            const int how = iccp_way_meets_side(w, w->crossed.item[k]);
-            const double at = how == ICCP_WITHIN ? 2.0 : fabs(met_at(w, w->crossed.item[k]) - 0.5);
+        for (size_t k = 0; k < n; ++k) {
+            const int how = iccp_way_meets_side(w, side[k]);
+            const double at = how == ICCP_WITHIN ? 2.0 : fabs(met_at(w, side[k]) - 0.5);
             if (at < best_at) {
                 best_at = at;
                 best = k;
             }
         }
-        if (best == w->crossed.n)
+        if (best == n)
             break;
-        const uint32_t side = w->crossed.item[best];
-        const iccp_recovery made = put_point(w, segment, side);
+        const uint32_t chosen = side[best];
+        const iccp_recovery made = most_bits == 0 ? put_between(w, segment, chosen)
+                                                  : put_point(w, segment, chosen, most_bits);
         if (made != ICCP_STUCK)
             return made;
-        w->crossed.item[best] = w->crossed.item[--w->crossed.n];
+        side[best] = side[n - 1];
+        side[n - 1] = chosen;
     }
     return ICCP_STUCK;
+}
+
+/* In a metric, where surfaces get that were refused without, a point comes to lie near others only
+ * if none well between a and b can be put there; and in the end other edges of the surface may be
+ * lost, which are then made once more, with as many points as are allowed in all. */
+iccp_recovery iccp_way_split(iccp_way *w, iccp_segment *segment)
+{
+    enum { COARSE_BITS = 24 };
+    iccp_recovery made = ICCP_STUCK;
+    if (w->m->metric.on) {
+        made = put_somewhere(w, segment, COARSE_BITS);
+        if (made == ICCP_STUCK)
+            made = put_somewhere(w, segment, 0);
+    }
+    if (made == ICCP_STUCK)
+        made = put_somewhere(w, segment, ICCP_FIXED_SHARE_BITS);
+    if (w->m->metric.on && made == ICCP_STUCK) {
+        w->may_lose = true;
+        made = put_somewhere(w, segment, 0);
+        w->may_lose = false;
+        w->lost |= made == ICCP_PRESENT;
+    }
+    return made;
 }

@@ -14,6 +14,7 @@ typedef struct iccp_way {
     iccp_list tets, crossed; /* crossed: sides */
     uint32_t p, q;           /* the edge that is being removed */
     size_t most_points;
+    bool may_lose, lost; /* other edges of the surface */
 } iccp_way;
 
 typedef enum iccp_recovery { ICCP_PRESENT, ICCP_MISSING, ICCP_STUCK, ICCP_NO_MEMORY } iccp_recovery;
