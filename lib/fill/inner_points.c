@@ -182,14 +182,25 @@ static int compare(const void *a, const void *b)
     return x->key != y->key ? (x->key > y->key ? -1 : 1) : x->tet < y->tet ? -1 : x->tet > y->tet;
 }
 
+/* Whether a tetrahedron is new, or much has changed round it: none of the others becomes better by
+ * another try, or hardly ever. */
+static bool is_worth_a_try(const iccp_tets *m, uint32_t t)
+{
+    for (int i = 0; i < 4; ++i)
+        if (!iccp_point_touched(m, m->tet[t].v[i]))
+            return false;
+    return true;
+}
+
 /* Lists tetrahedra to be refined, the worst first. */
-static bool fill_queue(refinement *r)
+static bool fill_queue(refinement *r, bool first)
 {
     const iccp_tets *const m = r->m;
     r->n_queue = 0;
     for (uint32_t t = 0; t < m->n_tets; ++t) {
         double centre[3], badness, scale;
-        if (!iccp_tet_alive(m, t) || !is_bad(r, t, centre, &badness, &scale))
+        if (!iccp_tet_alive(m, t) || !(first || is_worth_a_try(m, t)) ||
+            !is_bad(r, t, centre, &badness, &scale))
             continue;
         if (r->n_queue == r->room) {
             const size_t room = 2 * r->room + 256;
@@ -243,11 +254,13 @@ icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, u
     enum { MOST_ROUNDS = 12, FEW = 5 };
     refinement r = {.m = m, .ratio = ratio};
     icc_status status = make_sizes(&r, s) ? ICC_OK : iccp_fail_memory(err);
+    const uint32_t before = m->round;
     uint64_t n_all = 0;
     size_t n = FEW;
     for (int round = 0; round < MOST_ROUNDS && n >= FEW && status == ICC_OK; ++round) {
         n = 0;
-        if (!fill_queue(&r))
+        ++m->round;
+        if (!fill_queue(&r, round == 0))
             status = iccp_fail_memory(err);
         for (size_t k = 0; k < r.n_queue && n_all < most && status == ICC_OK; ++k) {
             if (k % 1024 == 0)
@@ -261,6 +274,9 @@ icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, u
                 status = iccp_fail_memory(err);
         }
     }
+    m->round = before; /* to what comes after, all this is one round */
+    for (size_t p = 0; p < m->points.n; ++p)
+        m->touched[p] = m->touched[p] < before ? m->touched[p] : before;
     iccp_free(&m->memory, r.size);
     iccp_free(&m->memory, r.queue);
     return status;
