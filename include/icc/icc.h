@@ -934,7 +934,10 @@ typedef struct icc_match_info {
  *         common vertices cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
  *         ::ICC_ERR_CANCELLED
  *
- * Cost: some 0.3 s and 6 MB whatever the number of vertices n, and O(n log n). Deterministic.
+ * Cost: some 0.3 s and 6 MB whatever the number of vertices n, and O(n log n). Deterministic. The
+ * map between the two domains then takes longer, on coasts two to four times, than between outlines
+ * of as many vertices that correspond: where a corner is paired with a straight place, triangles
+ * fold at first and have to be repaired.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,
