@@ -935,7 +935,7 @@ typedef struct icc_match_info {
  *         ::ICC_ERR_CANCELLED
  *
  * Cost: some 0.3 s and 6 MB whatever the number of vertices n, and O(n log n). Deterministic. The
- * map between the two domains then takes longer, on coasts two to four times, than between outlines
+ * map between the two domains then takes longer, on coasts two to five times, than between outlines
  * of as many vertices that correspond: where a corner is paired with a straight place, triangles
  * fold at first and have to be repaired.
  */
