@@ -1,4 +1,4 @@
-// Times of the package, in microseconds of CPU: what a call costs by itself, and small ones.
+// Times of the package, of CPU: what a call costs by itself, and small ones; frames of a cage whose corner is dragged.
 // usage: node bindings/js/bench.js [PACKAGE]      (bindings/js/parity.sh time: beside the native library)
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -25,4 +25,38 @@ for (const [name, work] of Object.entries(cases)) {
     least = Math.min(least, (user + system) / CALLS);
   }
   console.log(`${name.padEnd(40)} ${least.toFixed(2)} us`);
+}
+
+/** A ring of n corners, with a wavy rim. */
+const ring = (n) => Array.from({ length: n }, (_, k) => {
+  const a = (2 * Math.PI * k) / n, r = 200 + 40 * Math.cos(5 * a);
+  return [256 + r * Math.cos(a), 256 + r * Math.sin(a)];
+});
+
+/** A drag of FRAMES frames there and back, by 5 pixels each, as a page does it on its main thread: a target, a map that
+ *  follows, its mesh. The sorted times of the frames, and how many were not certified. */
+function drag(n) {
+  const FRAMES = 200, STEPS = 2, source = ring(n), times = [];
+  let now = new icc.Map(source, source), uncertified = 0;
+  for (let frame = 0; frame < FRAMES; ++frame) {
+    const share = 1 - Math.abs(1 - (2 * (frame % 40)) / 40), corner = Math.floor(frame / 40) * Math.floor(n / 5);
+    const target = source.map((p, k) => (k === corner ? p.map((v) => v + (256 - v) * 0.5 * share) : p));
+    const start = process.cpuUsage();
+    const next = now.retarget(target, STEPS);
+    next.mesh();
+    const { user, system } = process.cpuUsage(start);
+    times.push((user + system) / 1e3);
+    uncertified += next.certified ? 0 : 1;
+    now.free();
+    now = next;
+  }
+  return { times: times.sort((a, b) => a - b), uncertified };
+}
+
+console.log();
+for (const n of [12, 50, 100, 200]) {
+  drag(n); // compiled
+  const { times, uncertified } = drag(n), at = (share) => times[Math.floor(share * (times.length - 1))].toFixed(1);
+  console.log(`frame of a cage of ${String(n).padStart(3)} corners: median ${at(0.5)} ms, 95 % below ${at(0.95)} ms, `
+    + `most ${at(1)} ms; ${uncertified} of ${times.length} not certified`);
 }

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Drives the studio in Debian's chromium, without a network but for npm's puppeteer-core; screenshots in
+# Drives the studio, and the package over a worker, in Debian's chromium, without a network but for npm's puppeteer-core; screenshots in
 # build/wasm/studio/shots.
 # usage: examples/studio/test.sh [--long]    (after bindings/js/test.sh, which builds the page)
 set -eu
@@ -20,5 +20,5 @@ if [ ! -d "$folder/node_modules/puppeteer-core" ]; then
 fi
 [ "${1:-}" != --long ] || export STUDIO_LONG=1
 STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package CHROMIUM=$(command -v chromium) \
-    SHOTS=$folder/shots \
-    node --test --test-reporter=spec "$folder/studio.test.js"
+    SHOTS=$folder/shots LIVE=$PWD/docs/live.js \
+    node --test --test-reporter=spec "$folder"/*.test.js

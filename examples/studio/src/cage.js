@@ -8,6 +8,7 @@ import { cageSide } from './cage_side.js';
 import { History } from './history.js';
 import { foldedOf } from './mesh.js';
 import { Overlay } from './overlay.js';
+import { pictureOf } from './link.js';
 import { Panel } from './panel.js';
 import { SAMPLES } from './samples.js';
 import { moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
@@ -310,9 +311,10 @@ export class CageMode {
   /** What a link has: the cages, and the picture if it is one of ours. */
   get state() { return { mode: 'cage', sample: this.#name, source: this.#now.source, target: this.#now.target, view: this.view }; }
 
-  restore({ sample, source, target, view }) {
+  async restore({ sample, picture, source, target, view }) {
     Object.assign(this.view, view);
-    this.#name = sample in SAMPLES ? sample : 'butterfly';
-    this.open(SAMPLES[this.#name][1](), source, target);
+    const own = picture ? await pictureOf(picture) : null;
+    this.#name = own ? '' : sample in SAMPLES ? sample : 'butterfly';
+    this.open(own ?? SAMPLES[this.#name][1](), source, target);
   }
 }

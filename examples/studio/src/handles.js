@@ -50,7 +50,7 @@ export class HandleMode {
       make('div', { class: 'panels two' }, this.pose.element, this.rest.element), this.side.element);
   }
 
-  enter() { if (!this.#history) this.rig('star'); }
+  enter(rig = 'star') { if (!this.#history) this.rig(rig); }
   render() { this.#show(); }
 
   get #now() { return this.#history.now; }

@@ -13,6 +13,14 @@ export async function writeLink(state) {
   return `#s=${base64(await through(bytes, new CompressionStream('deflate-raw')))}`;
 }
 
+/** The picture that a link has, as data: nothing is asked for elsewhere. Null where it is none. */
+export async function pictureOf(url) {
+  const found = /^data:(image\/(?:png|jpeg|webp));base64,(.*)$/.exec(url);
+  if (!found) return null;
+  const bytes = Uint8Array.from(atob(found[2]), (c) => c.charCodeAt(0));
+  return createImageBitmap(new Blob([bytes], { type: found[1] })).catch(() => null);
+}
+
 /** The state of a link, or null where there is none that can be read. The name of a mode is one, too. */
 export async function readLink(hash) {
   if (/^#[a-z]+$/.test(hash)) return { mode: hash.slice(1) };

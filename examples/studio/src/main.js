@@ -55,14 +55,14 @@ class Page {
     return new MODES[key][1](this.remote, tools);
   }
 
-  show(key) {
+  show(key, rig) {
     try { this.modes[key] ??= this.#make(key); } catch (error) { this.say(error.message); return null; }
     const mode = this.modes[key];
     for (const b of $('modes').children) b.toggleAttribute('aria-current', false);
     $('modes').querySelector(`[data-mode=${key}]`).setAttribute('aria-current', 'page');
     $('main').replaceChildren(mode.element);
     this.#mode = mode;
-    mode.enter?.();
+    mode.enter?.(rig);
     this.#changed();
     return mode;
   }
@@ -105,8 +105,8 @@ async function start() {
     const page = new Page(remote);
     const state = await readLink(location.hash);
     const cage = page.show('cage');
-    if (state?.source) cage.restore(state); else cage.sample('butterfly');
-    if (Object.hasOwn(MODES, state?.mode ?? '')) page.show(state.mode);
+    if (state?.source) await cage.restore(state); else cage.sample('butterfly');
+    if (Object.hasOwn(MODES, state?.mode ?? '')) page.show(state.mode, state.rig === 'cage' ? 'cage' : undefined);
     globalThis.studio = { page, remote, cage, modes: page.modes };
   } catch (error) {
     $('main').replaceChildren(make('p', { class: 'loading' }, `${error.message}`));

@@ -10,9 +10,11 @@ export const LOOKS = {
 };
 export const TOUCH = { ...LOOKS.phone, hasTouch: true, isMobile: true };
 
+export const launch = (chromium) => puppeteer.launch({ executablePath: chromium, headless: true, args: ARGUMENTS });
+
 /** Opens the page from disk; what goes wrong in it, and what it asks the network for, is collected. */
 export async function open(file, chromium) {
-  const browser = await puppeteer.launch({ executablePath: chromium, headless: true, args: ARGUMENTS });
+  const browser = await launch(chromium);
   const page = await browser.newPage();
   const wrong = [];
   page.on('pageerror', (error) => wrong.push(`error: ${error.message}`));
