@@ -108,7 +108,8 @@ export class Memory {
       const Type = ARRAYS[array[1]];
       this.array(Type, at, Number(array[2])).set(value);
     } else if (type.endsWith('*')) {
-      this.view.setUint32(at, value instanceof Address ? value.value : this.put(type, value), true);
+      const pointer = value instanceof Address ? value.value : this.put(type, value); // memory may grow here
+      this.view.setUint32(at, pointer, true);
     } else if (type === 'double') this.view.setFloat64(at, value, true);
     else if (type === 'uint64_t') this.view.setBigUint64(at, BigInt(value), true);
     else if (type === 'int64_t') this.view.setBigInt64(at, BigInt(value), true);

@@ -91,6 +91,14 @@ test('a picture is warped; the identity copies it', () => {
   assert.deepEqual(target.data, source.data);
 });
 
+test('an array in a struct may be larger than the memory', async () => {
+  const own = await load(), picture = { width: 2000, height: 1500, data: new Uint8ClampedArray(4 * 2000 * 1500).fill(7) };
+  const before = own.memoryBytes, target = { ...picture, data: new Uint8ClampedArray(picture.data.length) };
+  const frame = [[0, 0], [2000, 0], [2000, 1500], [0, 1500]];
+  new own.Map(frame, frame).warp(picture, target);
+  assert.ok(own.memoryBytes > before && target.data.every((v) => v === 7));
+});
+
 test('a surface is filled, and mapped', () => {
   const cube = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
   const faces = [[0, 2, 1], [1, 2, 3], [4, 5, 6], [5, 7, 6], [0, 1, 4], [1, 5, 4], [2, 6, 3], [3, 6, 7],
