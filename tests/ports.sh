@@ -4,7 +4,8 @@
 # - the program of golden hashes prints the lines of tests/golden,
 # - what it saves is loaded here, and what is saved here is loaded there, with the same hashes.
 # What is linked to comes from Debian's packages for that machine, unpacked into a folder: nothing foreign is installed.
-# usage: sh tests/ports.sh [--long] [arm64|armhf|i386|riscv64|s390x ...]
+# Windows is one of them: built by mingw-w64, run by Wine, with tests/plain in place of Check.
+# usage: sh tests/ports.sh [--long] [arm64|armhf|i386|riscv64|s390x|windows ...]
 # Without --long: the unit tests labelled `ports`, with 1 % of the cases of long sweeps instead of 4 %. Without
 # machines: all. Logs are in build/ports/MACHINE.
 set -eu
@@ -16,7 +17,7 @@ if [ "${1:-}" = --long ]; then
     tests=all ICC_TEST_SHARE=4
     shift
 fi
-[ $# -gt 0 ] || set -- arm64 armhf i386 riscv64 s390x
+[ $# -gt 0 ] || set -- arm64 armhf i386 riscv64 s390x windows
 golden=tests/golden
 here=build/release/tests/golden
 saved=$PWD/build/ports/saved
@@ -76,9 +77,23 @@ unit_tests() {
     ctest --test-dir "$work/build" $wanted --no-tests=error --output-on-failure --parallel "$jobs"
 }
 
+build_windows() {
+    cmake --preset mingw -B "$work/build" -DICC_WERROR=ON
+    cmake --build "$work/build" --parallel "$jobs"
+    # Windows alone: no library of the compiler's has to lie beside it.
+    x86_64-w64-mingw32-objdump -p "$work/build/lib/libicc.dll" >"$work/libicc.txt"
+    [ "$(sed -n 's/.*DLL Name: //p' "$work/libicc.txt" | grep -civ -e '^kernel32\.dll$' -e '^msvcrt\.dll$')" = 0 ]
+    ! grep -q iccp_ "$work/libicc.txt"
+}
+
+unit_tests_windows() {
+    wanted=.
+    [ $tests = all ] || wanted="^unit/(base|math|map/test_(sampler|warp|map_file)|field|match)"
+    ctest --test-dir "$work/build" --tests-regex "$wanted" --no-tests=error --output-on-failure --parallel "$jobs"
+}
+
 # Hashes of both kinds there; then objects of either side on the other one.
 there() {
-    emulated="qemu-$cpu -L $root $work/build/tests/golden"
     mkdir -p "$saved/$1"
     # A command and its arguments.
     # shellcheck disable=SC2086
@@ -101,13 +116,24 @@ work=$PWD/build/ports
 mkdir -p "$work"
 step "this machine" golden native
 for machine in "$@"; do
-    describe "$machine"
     work=$PWD/build/ports/$machine
+    if [ "$machine" = windows ]; then
+        need gcc-mingw-w64-x86-64-posix wine wine64
+        mkdir -p "$work"
+        export WINEPREFIX="$work/wine" WINEDEBUG=-all
+        step "$machine" build build_windows
+        step "$machine" tests unit_tests_windows
+        emulated="wine $work/build/tests/plain/golden.exe"
+        step "$machine" golden there "$machine"
+        continue
+    fi
+    describe "$machine"
     root=$work/root
     mkdir -p "$work"
     need "gcc-$triplet"
     step "$machine" packages make_root "$machine"
     step "$machine" build build
     step "$machine" tests unit_tests
+    emulated="qemu-$cpu -L $root $work/build/tests/golden"
     step "$machine" golden there "$machine"
 done

@@ -142,7 +142,7 @@ elif [ "$sanitized" = no ]; then
     else
         also "JavaScript" sh bindings/js/test.sh
         also "the studio" sh examples/studio/test.sh
-        also "other machines" sh tests/ports.sh arm64 s390x
+        also "other machines" sh tests/ports.sh arm64 s390x windows
     fi
 fi
 if [ "$tier-$sanitized" = long-no ]; then

@@ -56,7 +56,7 @@ rm -rf "$again"
 if [ "$long" = --long ]; then
     unit=build/wasm-unit
     mkdir -p $unit
-    quietly $unit/configure.log cmake --preset wasm -B $unit -DICC_WASM_UNIT_TESTS=ON
+    quietly $unit/configure.log cmake --preset wasm -B $unit -DICC_BUILD_PLAIN_TESTS=ON
     quietly $unit/build.log cmake --build $unit --parallel "$(nproc)"
-    ctest --test-dir $unit/bindings/js --parallel "$(nproc)" --output-on-failure
+    ctest --test-dir $unit --parallel "$(nproc)" --output-on-failure
 fi

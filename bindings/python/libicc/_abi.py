@@ -8,6 +8,7 @@ from __future__ import annotations
 import ctypes
 import os
 import pathlib
+import sys
 from typing import Any, Callable, Dict
 
 MAX_DIM = 6
@@ -220,12 +221,13 @@ class _Lazy:
 
 def _open() -> ctypes.CDLL:
     """The library named by LIBICC_LIBRARY, or beside this file, or the system's."""
-    beside = pathlib.Path(__file__).with_name("libicc.so.0")
-    named = os.environ.get("LIBICC_LIBRARY") or (str(beside) if beside.exists() else "libicc.so.0")
+    file = {"win32": "libicc.dll", "darwin": "libicc.0.dylib"}.get(sys.platform, "libicc.so.0")
+    beside = pathlib.Path(__file__).with_name(file)
+    named = os.environ.get("LIBICC_LIBRARY") or (str(beside) if beside.exists() else file)
     try:
         return ctypes.CDLL(named)
     except OSError as error:
-        raise ImportError(f"the C library of libicc cannot be loaded: {error}; install libicc.so.0, or let "
+        raise ImportError(f"the C library of libicc cannot be loaded: {error}; install {file}, or let "
                           "the environment variable LIBICC_LIBRARY name it") from None
 
 

@@ -77,7 +77,8 @@ START_TEST(values_fall_with_the_generation)
         const int32_t *generation = icc_tree_generations(tree);
         for (size_t v = 0; v < tree->grid->n_vertices; ++v) {
             const double a = icc_function_values(decay)[v], b = icc_function_values(distance)[v];
-            ck_assert(isnan(a) == (generation[v] < 0) && isnan(b) == (generation[v] < 0));
+            ck_assert((isnan(a) != 0) == (generation[v] < 0) &&
+                      (isnan(b) != 0) == (generation[v] < 0));
             if (generation[v] < 0)
                 continue;
             ck_assert(b == -generation[v]);

@@ -1,7 +1,7 @@
 /* What tests/unit uses of Check, for a machine without processes: the tests of a program run one after
  * another, and the first assertion that fails ends it. */
-#ifndef BINDINGS_JS_CHECK_H
-#define BINDINGS_JS_CHECK_H
+#ifndef TESTS_PLAIN_CHECK_H
+#define TESTS_PLAIN_CHECK_H
 
 #include <inttypes.h>
 #include <math.h>
