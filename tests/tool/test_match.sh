@@ -16,7 +16,7 @@ awk '{ x[NR] = $1; y[NR] = $2 } END {
 run 0 match -s key.txt -t turned.txt -o a.txt --target-output b.txt
 holds out 'common      28 vertices; 14 of them are of both outlines'
 grep -qE '^turned +(19\.[5-9]|20\.[0-4])' out || complain "the turn is not 20 degrees: $(cat out)"
-[ "$(wc -l <a.txt)" -eq 28 ] && [ "$(wc -l <b.txt)" -eq 28 ] || complain 'not 28 vertices each'
+[ "$(wc -l <a.txt) $(wc -l <b.txt)" = '28 28' ] || complain 'not 28 vertices each'
 sort turned.txt >expected
 sort b.txt | cmp -s - expected || complain 'the target has other vertices than it was given'
 awk 'NR == FNR { seen[$0 + 0 " " $2 + 0] = 1; next } !(($1 + 0 " " $2 + 0) in seen) { bad = 1 } END { exit bad }' a.txt key.txt ||
