@@ -42,6 +42,7 @@ mod function;
 mod grid;
 pub mod kernel;
 mod map;
+mod matching;
 mod object;
 mod picture;
 mod proj;
@@ -64,6 +65,7 @@ pub use error::{Error, Item, Result, Side, Status};
 pub use map::{
     Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, OwnedTie, Tie,
 };
+pub use matching::{Between, Match, MatchInfo, MatchOptions, Turning};
 pub use object::Borrowed;
 pub use picture::{Layout, Picture, PictureMut};
 pub use slices::{flat, flat_mut, rows};

@@ -1,0 +1,147 @@
+//! Outlines that do not correspond.
+use crate::domain::Domain;
+use crate::env::Env;
+use crate::error::Result;
+use crate::object::{object, Borrowed};
+use crate::slices::count;
+use crate::sys;
+
+pub use crate::sys::icc_match_info as MatchInfo;
+
+object!(
+    /// The boundaries of two domains, paired: the same shapes with common vertices, ready for [`Map::new`].
+    ///
+    /// ```
+    /// use libicc::{Domain, Env, Map, MapOptions, Match, MatchOptions};
+    /// let env = &mut Env::new();
+    /// let corner = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 2.0], env)?;
+    /// // The same with another first vertex, the other way round, and a vertex more.
+    /// let other = Domain::polygon(
+    ///     &[1.0, 1.0, 2.0, 1.0, 4.0, 1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 2.0],
+    ///     env,
+    /// )?;
+    /// let pair = Match::new(&corner, &other, &[], &MatchOptions::default(), env)?;
+    /// let (_, origins) = pair.origins();
+    /// assert_eq!(origins[0], Some(4));
+    /// let map = Map::new(&pair.source(), &pair.target(), &MapOptions::default(), env)?;
+    /// assert_eq!(map.info().certified, 1);
+    /// # Ok::<(), libicc::Error>(())
+    /// ```
+    ///
+    /// [`Map::new`]: crate::Map::new
+    Match,
+    icc_match,
+    icc_match_free
+);
+
+/// Which rotations [`Match::new`] prefers without landmarks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Turning {
+    /// of pairings that are nearly as good, the one that turns the shape least
+    Upright = sys::ICC_TURNING_UPRIGHT,
+    /// any rotation is as good as any other
+    Free = sys::ICC_TURNING_FREE,
+}
+
+/// How [`Match::new`] pairs what lies between landmarks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Between {
+    /// like parts go to like parts
+    Elastic = sys::ICC_BETWEEN_ELASTIC,
+    /// by arc length, for outlines without features
+    Arc = sys::ICC_BETWEEN_ARC,
+}
+
+/// Options of [`Match::new`]. `None` and 0 are the library's choice.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct MatchOptions {
+    /// without landmarks
+    pub turning: Option<Turning>,
+    /// what lies between landmarks
+    pub between: Option<Between>,
+    /// without landmarks, a pairing that is less sure is refused; 0: 1.06; 1: none is
+    pub least_sure: f64,
+    /// vertices that are so close in shares of the perimeter become one pair; at most 0.01; 0: only where they lie
+    /// within 0.3 of the shorter edge at them
+    pub drop: f64,
+}
+
+impl Match {
+    /// Pairs the boundaries of two domains of the plane. `landmarks` has rows of a point of the source and one of the
+    /// target, 2 coordinates each, or none.
+    ///
+    /// # Errors
+    /// [`Status::AMBIGUOUS`](crate::Status::AMBIGUOUS) where another pairing is nearly as good;
+    /// [`Status::ARGUMENT`](crate::Status::ARGUMENT) with the landmark at fault as `index`.
+    pub fn new(
+        source: &Domain,
+        target: &Domain,
+        landmarks: &[f64],
+        options: &MatchOptions,
+        env: &mut Env<'_>,
+    ) -> Result<Match> {
+        let n = count(landmarks, 4, "landmarks")?;
+        let raw = sys::icc_match_options {
+            turning: options.turning.map_or(0, |turning| turning as i32),
+            between: options.between.map_or(0, |between| between as i32),
+            least_sure: options.least_sure,
+            drop: options.drop,
+            ..Default::default()
+        };
+        Match::make(env, |out, env, err| {
+            // SAFETY: n rows of 4 coordinates.
+            unsafe {
+                sys::icc_match_create(
+                    out,
+                    source.as_ptr(),
+                    target.as_ptr(),
+                    n,
+                    landmarks.as_ptr(),
+                    &raw,
+                    env,
+                    err,
+                )
+            }
+        })
+    }
+
+    /// How good the pairing is, and how sure.
+    pub fn info(&self) -> MatchInfo {
+        let mut info = MatchInfo::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_match_get_info(self.as_ptr(), &mut info) };
+        info
+    }
+
+    /// The source with the common vertices.
+    pub fn source(&self) -> Borrowed<'_, Domain> {
+        // SAFETY: the match keeps its domains.
+        unsafe { Self::side(sys::icc_match_source(self.as_ptr())) }
+    }
+
+    /// The target with the common vertices.
+    pub fn target(&self) -> Borrowed<'_, Domain> {
+        // SAFETY: the match keeps its domains.
+        unsafe { Self::side(sys::icc_match_target(self.as_ptr())) }
+    }
+
+    /// # Safety
+    /// `raw` must live as long as the borrow.
+    unsafe fn side<'a>(raw: *const sys::icc_domain) -> Borrowed<'a, Domain> {
+        let domain = Domain::found(raw).expect("libicc: a match has both domains");
+        // SAFETY: see above.
+        unsafe { Borrowed::new(domain) }
+    }
+
+    /// For each common vertex, which one of the source and of the target that were given it is; `None`: it was added.
+    pub fn origins(&self) -> (Vec<Option<u32>>, Vec<Option<u32>>) {
+        let n = self.info().n_vertices;
+        let (mut source, mut target) = (vec![0; n], vec![0; n]);
+        // SAFETY: n numbers each. It cannot fail.
+        unsafe { sys::icc_match_get_origins(self.as_ptr(), source.as_mut_ptr(), target.as_mut_ptr()) };
+        let given = |v: Vec<u32>| v.into_iter().map(|v| (v != u32::MAX).then_some(v)).collect();
+        (given(source), given(target))
+    }
+}
