@@ -61,10 +61,12 @@ int correspond(job *j)
     if (source->n == 0)
         return DONE;
     if (source->n != target->n)
-        return failed(
-            j->args->target, 0, "%s%zu vertices, but the %s %s has %zu; they correspond one by one",
-            job_side(where, j, 2), target->n,
-            source->cells != NULL ? "boundary of the mask" : "source", j->args->source, source->n);
+        return failed(j->args->target, 0,
+                      "%s%zu vertices, but the %s %s has %zu; they correspond one by one%s",
+                      job_side(where, j, 2), target->n,
+                      source->cells != NULL ? "boundary of the mask" : "source", j->args->source,
+                      source->n,
+                      source->dim == 2 ? " (outlines that do not are paired by --match auto)" : "");
     problem wrong;
     if (!features_correspond(source, target, &wrong))
         return failed(j->args->target, wrong.line, "%s%s", job_side(where, j, 2), wrong.text);
