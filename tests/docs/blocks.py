@@ -6,6 +6,7 @@
     <!-- needs: A, module B --> the block wants the command A and the Python module B
     <!-- not run: REASON -->   the block cannot be run here
     <!-- check: NAME -->       by itself: what has been made so far passes the Python program tests/docs/NAME
+    <!-- live: NAME -->        by itself: here the site has the studio with these shapes (docs/live.sed)
 """
 
 import re
@@ -15,7 +16,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 RUN = ("c", "cpp", "js", "python", "rust", "sh", "cmake")
 SHOWN = ("text", "json")
-COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run|check): (\S.*?)) -->\s*$")
+COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run|check|live): (\S.*?)) -->\s*$")
 # Commands in a block that is only indented would go untested.
 INDENTED = re.compile(r" {4}(sudo|apt|libicc|sh|cc|cmake|python3|cargo|PYTHONPATH)\b")
 
@@ -48,6 +49,8 @@ def blocks_of(path):
             _check(path, block)
         elif line.startswith("<!--"):
             word, value = _comment(path, number, line)
+            if word == "live":
+                continue
             says[word] = value
             if word == "check":
                 blocks.append(Block("python", (HERE / value).read_text(encoding="utf-8"), number, says))
@@ -64,7 +67,7 @@ def blocks_of(path):
 def _comment(path, number, line):
     found = COMMENT.match(line)
     if not found:
-        raise Mistake(f"{path}:{number}: the comment must be output, file, in, needs, not run or check, with what that takes")
+        raise Mistake(f"{path}:{number}: the comment must be output, file, in, needs, not run, check or live, with what that takes")
     return found[1] or found[2], found[3] or ""
 
 
