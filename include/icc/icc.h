@@ -1223,7 +1223,8 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * Features go straight to their new places, and the map stays what becomes of the old one: it
  * passes them on the same sides (icc_map_info::class_kept). The mesh changes as it must. Where
  * features would meet on the way, the call fails with ::ICC_ERR_CERTIFICATE: go another way, in
- * several calls.
+ * several calls. To a target that is 16 times as large or small, or 16 sizes away, all go along
+ * with the shape first, and straight from there.
  *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
  *                   NULL.
