@@ -164,10 +164,10 @@ int main(int argc, char **argv)
             icc_match *match = NULL;
             icc_match_options options = {.size = sizeof options, .least_sure = 1};
             icc_error error = {.size = sizeof error};
-            const clock_t begin = clock();
+            const double begin = bench_processor_seconds();
             const icc_status status =
                 icc_match_create(&match, domain[0], domain[1], 0, NULL, &options, NULL, &error);
-            const double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC;
+            const double seconds = bench_processor_seconds() - begin;
             printf("%-28s", slash != NULL ? slash + 1 : paths[0]);
             if (status != ICC_OK) {
                 printf(" %s: %s\n", icc_status_name(status), error.message);

@@ -325,9 +325,9 @@ static icc_function *run(const row *r, const ground *g, figures *out)
     icc_error error = {.size = sizeof error};
     icc_function *field;
     const double start = bench_seconds();
-    const clock_t ticks = clock();
+    const double ticks = bench_processor_seconds();
     const icc_status status = icc_function_create(&field, g->tree, &options, &env, &error);
-    const double cpu = (double)(clock() - ticks) / CLOCKS_PER_SEC;
+    const double cpu = bench_processor_seconds() - ticks;
     const double wall = bench_seconds() - start;
     if (status != ICC_OK) {
         printf("%-26s %s: %s\n", r->name, icc_status_name(status), error.message);
