@@ -178,7 +178,7 @@ static iccp_recovery put_near(iccp_way *w, iccp_segment *segment, double at, int
 }
 
 /* Puts a point where a side is met: as doubles tell, then as exact signs do. */
-static iccp_recovery put_point(iccp_way *w, iccp_segment *segment, uint32_t side, int most_bits)
+static iccp_recovery put_at_side(iccp_way *w, iccp_segment *segment, uint32_t side, int most_bits)
 {
     const double from = iccp_segment_share(w->m, segment, w->a);
     const double to = iccp_segment_share(w->m, segment, w->b);
@@ -222,8 +222,22 @@ static iccp_recovery put_between(iccp_way *w, iccp_segment *segment, uint32_t si
     return ICCP_STUCK;
 }
 
-/* At one of the sides that are met, those near the middle first; with 0 bits well between. */
-static iccp_recovery put_somewhere(iccp_way *w, iccp_segment *segment, int most_bits)
+/* A way to put a point that has to do with a side. */
+typedef iccp_recovery put_point(iccp_way *w, iccp_segment *segment, uint32_t side);
+
+static iccp_recovery put_coarsely(iccp_way *w, iccp_segment *segment, uint32_t side)
+{
+    enum { COARSE_BITS = 24 };
+    return put_at_side(w, segment, side, COARSE_BITS);
+}
+
+static iccp_recovery put_finely(iccp_way *w, iccp_segment *segment, uint32_t side)
+{
+    return put_at_side(w, segment, side, ICCP_FIXED_SHARE_BITS);
+}
+
+/* With one of the sides that are met, those near the middle first. */
+static iccp_recovery put_somewhere(iccp_way *w, iccp_segment *segment, put_point *put)
 {
     uint32_t *const side = w->crossed.item;
     for (size_t n = w->crossed.n; n > 0; --n) {
@@ -240,8 +254,7 @@ static iccp_recovery put_somewhere(iccp_way *w, iccp_segment *segment, int most_
         if (best == n)
             break;
         const uint32_t chosen = side[best];
-        const iccp_recovery made = most_bits == 0 ? put_between(w, segment, chosen)
-                                                  : put_point(w, segment, chosen, most_bits);
+        const iccp_recovery made = put(w, segment, chosen);
         if (made != ICCP_STUCK)
             return made;
         side[best] = side[n - 1];
@@ -255,18 +268,17 @@ static iccp_recovery put_somewhere(iccp_way *w, iccp_segment *segment, int most_
  * lost, which are then made once more, with as many points as are allowed in all. */
 iccp_recovery iccp_way_split(iccp_way *w, iccp_segment *segment)
 {
-    enum { COARSE_BITS = 24 };
     iccp_recovery made = ICCP_STUCK;
     if (w->m->metric.on) {
-        made = put_somewhere(w, segment, COARSE_BITS);
+        made = put_somewhere(w, segment, put_coarsely);
         if (made == ICCP_STUCK)
-            made = put_somewhere(w, segment, 0);
+            made = put_somewhere(w, segment, put_between);
     }
     if (made == ICCP_STUCK)
-        made = put_somewhere(w, segment, ICCP_FIXED_SHARE_BITS);
+        made = put_somewhere(w, segment, put_finely);
     if (w->m->metric.on && made == ICCP_STUCK) {
         w->may_lose = true;
-        made = put_somewhere(w, segment, 0);
+        made = put_somewhere(w, segment, put_between);
         w->may_lose = false;
         w->lost |= made == ICCP_PRESENT;
     }
