@@ -77,6 +77,11 @@ unit_tests() {
     ctest --test-dir "$work/build" $wanted --no-tests=error --output-on-failure --parallel "$jobs"
 }
 
+# Nothing to unpack: mingw-w64 has the headers, and Wine the libraries.
+make_root_windows() {
+    need gcc-mingw-w64-x86-64-posix wine wine64
+}
+
 build_windows() {
     cmake --preset mingw -B "$work/build" -DICC_WERROR=ON
     cmake --build "$work/build" --parallel "$jobs"
@@ -117,23 +122,20 @@ mkdir -p "$work"
 step "this machine" golden native
 for machine in "$@"; do
     work=$PWD/build/ports/$machine
-    if [ "$machine" = windows ]; then
-        need gcc-mingw-w64-x86-64-posix wine wine64
-        mkdir -p "$work"
-        export WINEPREFIX="$work/wine" WINEDEBUG=-all
-        step "$machine" build build_windows
-        step "$machine" tests unit_tests_windows
-        emulated="wine $work/build/tests/plain/golden.exe"
-        step "$machine" golden there "$machine"
-        continue
-    fi
-    describe "$machine"
     root=$work/root
     mkdir -p "$work"
-    need "gcc-$triplet"
-    step "$machine" packages make_root "$machine"
-    step "$machine" build build
-    step "$machine" tests unit_tests
-    emulated="qemu-$cpu -L $root $work/build/tests/golden"
+    if [ "$machine" = windows ]; then
+        kind=_windows
+        emulated="wine $work/build/tests/plain/golden.exe"
+        export WINEPREFIX="$root" WINEDEBUG=-all
+    else
+        kind=
+        describe "$machine"
+        emulated="qemu-$cpu -L $root $work/build/tests/golden"
+        need "gcc-$triplet"
+    fi
+    step "$machine" packages "make_root$kind" "$machine"
+    step "$machine" build "build$kind"
+    step "$machine" tests "unit_tests$kind"
     step "$machine" golden there "$machine"
 done
