@@ -1,9 +1,10 @@
 /* Any bytes as two outlines that do not correspond: where both are domains, they are matched, with
  * every vertex of each in its order and with landmarks kept, or that is refused for a reason.
  *
- * Byte 0 chooses how the outlines are read (bits 0-3, see outlines.h) and how many landmarks there
- * are (bits 4, 5); byte 1 how they are paired (bits 0-2) and placed (bits 4-7); byte 2, what part of
- * the rest is the source's. */
+ * Byte 0 chooses how the outlines are read (bits 0-3, see outlines.h), how many landmarks there are
+ * (bits 4, 5) and which rotations are preferred (bits 6, 7); byte 1 how they are paired (bits 0-2),
+ * whether near vertices are dropped (bit 3), and how both are placed (bits 4-7); byte 2, what part
+ * of the rest is the source's. */
 #include "outlines.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -82,9 +83,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         const icc_match_options options = {.size = sizeof options,
                                            .between = (data[1] & 7) == 7 ? ICC_BETWEEN_ELASTIC
                                                                          : ICC_BETWEEN_ARC,
-                                           .turning = data[1] >> 3 & 1,
+                                           .turning = (data[0] >> 6) % 3,
                                            .least_sure = 1,
-                                           .drop = data[1] & 1 ? 0.01 : 0};
+                                           .drop = data[1] & 8 ? 0.01 : 0};
         const icc_status status = icc_match_create(&match, domain[0], domain[1], n_landmarks,
                                                    landmarks, &options, NULL, &err);
         require((match != NULL) == (status == ICC_OK));
