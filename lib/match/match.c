@@ -141,7 +141,7 @@ static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
     info->cost = report->cost;
     info->second = report->second;
     info->sure = report->sure;
-    info->turn = 360 * report->turn;
+    info->turn = 360 * report->turn + 0.0; /* which is not -0 */
     info->mirrored = report->is_mirrored;
     info->n_vertices = common->n;
     info->n_landmarks = n_landmarks;

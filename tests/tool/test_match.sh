@@ -93,6 +93,8 @@ holds out 'looks like a mirror image'
 # Wrong usage.
 run 2 match -s key.txt -t turned.txt -o a.txt
 says '--target-output FILE is missing'
+run 2 match -s key.txt -t turned.txt -o - --target-output -
+says 'cannot both go to standard output'
 run 2 match -s key.txt
 says '--target FILE is missing'
 run 2 match -s key.txt -t turned.txt -o a.png --target-output b.txt

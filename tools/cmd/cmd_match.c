@@ -9,9 +9,16 @@
 #include <math.h>
 #include <string.h>
 
+static bool is_standard(const char *name)
+{
+    return name != NULL && strcmp(name, "-") == 0;
+}
+
 /* The source's file may take both. */
 static int check_outputs(const args *a)
 {
+    if (is_standard(a->output) && is_standard(a->target_output))
+        return misused(a->command, "source and target cannot both go to standard output");
     if (a->output == NULL && a->target_output != NULL)
         return misused(a->command, "--output FILE is missing, for the source");
     if (a->output == NULL || a->target_output != NULL)
@@ -33,11 +40,6 @@ static int write_cages(const job *j)
         return cages_write(a->output, source, target);
     int result = cages_write(a->output, source, NULL);
     return result == DONE ? cages_write(a->target_output, NULL, target) : result;
-}
-
-static bool is_standard(const char *name)
-{
-    return name != NULL && strcmp(name, "-") == 0;
 }
 
 static void print(const icc_match_info *info)

@@ -40,8 +40,8 @@ void job_start(job *j, const args *a);
 void job_end(job *j);
 
 /* Reads the source, and the target if there is one, and matches them if that is asked for; they
- * then correspond, unless the source is a mask. Where no target was named, and one is needed, or the source has features, which only maps
- * take, the source's file may hold both. */
+ * then correspond, unless the source is a mask. Where no target was named, and one is needed, or
+ * the source has features, which only maps take, the source's file may hold both. */
 int job_read_cages(job *j);
 
 /* Coordinates of a point, once the cages have been read. */
