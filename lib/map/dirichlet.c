@@ -140,3 +140,20 @@ void iccp_dirichlet_local(size_t dim, const double *element, const double *const
     else
         set_local(3, element, image, majorise, local);
 }
+
+void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
+                           iccp_local *local)
+{
+#ifdef ICCP_HAS_SIMD
+    if (level >= ICCP_SIMD_AVX2) {
+        iccp_dirichlet_locals_avx2(batch, majorise, local);
+        return;
+    }
+#else
+    (void)level;
+#endif
+    for (size_t l = 0; l < ICCP_DIRICHLET_LANES; ++l) {
+        const double *const image[3] = {batch->image[0][l], batch->image[1][l], batch->image[2][l]};
+        set_local(2, batch->element[l], image, majorise, &local[l]);
+    }
+}

@@ -2,6 +2,7 @@
 #ifndef ICCP_DIRICHLET_H
 #define ICCP_DIRICHLET_H
 
+#include "base/simd.h"
 #include "map/jacobian.h"
 
 #include <math.h>
@@ -23,5 +24,19 @@ static ICCP_INLINE double iccp_dirichlet_energy2(const double *element, const do
  * otherwise the energy's own. The image must be positive. */
 void iccp_dirichlet_local(size_t dim, const double *element, const double *const *image,
                           bool majorise, iccp_local *local);
+
+/* Triangles that are looked at side by side, some of which may be one: their elements, and the
+ * images of corner k of each. */
+enum { ICCP_DIRICHLET_LANES = 4 };
+typedef struct iccp_dirichlet_batch {
+    const double *element[ICCP_DIRICHLET_LANES], *image[3][ICCP_DIRICHLET_LANES];
+} iccp_dirichlet_batch;
+
+/* What iccp_dirichlet_local() gives for each triangle of a batch, and the same bits, with the
+ * instructions of that level; and with those of AVX2. */
+void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
+                           iccp_local *local);
+void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, bool majorise,
+                                iccp_local *local);
 
 #endif

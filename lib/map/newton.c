@@ -269,11 +269,37 @@ static void find_local(const loop *l, size_t e, iccp_local *local)
         iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
 }
 
-static void add_element(const loop *l, size_t part, size_t e)
+/* In the plane, and not while it is untangled, several side by side. */
+static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *local)
 {
-    iccp_local local;
-    find_local(l, e, &local);
-    iccp_assembly_add(&l->s->assembly, part, e, &local);
+    iccp_dirichlet_batch batch;
+    if (l->s->map.dim == 3 || l->energy == ICCP_UNTANGLE) {
+        for (size_t i = 0; i < n; ++i)
+            find_local(l, e[i], &local[i]);
+        return;
+    }
+    for (size_t i = 0; i < ICCP_DIRICHLET_LANES; ++i) {
+        const double *image[3];
+        batch.element[i] = corner_images(2, l->s, e[i < n ? i : 0], image);
+        for (size_t k = 0; k < 3; ++k)
+            batch.image[k][i] = image[k];
+    }
+    iccp_dirichlet_locals(iccp_simd(), &batch, l->energy == ICCP_DIRICHLET_MAJORISED, local);
+}
+
+/* Elements list[begin] .. list[end - 1], or begin .. end - 1. */
+static void add_elements(const loop *l, size_t part, const uint32_t *list, size_t begin, size_t end)
+{
+    iccp_local local[ICCP_DIRICHLET_LANES];
+    size_t e[ICCP_DIRICHLET_LANES], n;
+    for (size_t k = begin; k < end; k += n) {
+        n = end - k < ICCP_DIRICHLET_LANES ? end - k : ICCP_DIRICHLET_LANES;
+        for (size_t i = 0; i < n; ++i)
+            e[i] = list != NULL ? list[k + i] : k + i;
+        find_some(l, n, e, local);
+        for (size_t i = 0; i < n; ++i)
+            iccp_assembly_add(&l->s->assembly, part, e[i], &local[i]);
+    }
 }
 
 static icc_status assemble_parts(void *argument, size_t begin, size_t end)
@@ -281,8 +307,7 @@ static icc_status assemble_parts(void *argument, size_t begin, size_t end)
     const loop *l = argument;
     const iccp_assembly *a = &l->s->assembly;
     for (size_t part = begin; part < end; ++part)
-        for (size_t k = a->first_element[part]; k < a->first_element[part + 1]; ++k)
-            add_element(l, part, a->element[k]);
+        add_elements(l, part, a->element, a->first_element[part], a->first_element[part + 1]);
     return ICC_OK;
 }
 
@@ -314,8 +339,7 @@ static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
     else if (s->assembly.n_parts > 1 && iccp_has_threads(&s->threads))
         run(s, s->assembly.n_parts, 1, assemble_parts, &l);
     else
-        for (size_t e = 0; e < s->assembly.n_elements; ++e)
-            add_element(&l, ICCP_ALL_PARTS, e);
+        add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
     iccp_assembly_end(&s->assembly);
 }
 

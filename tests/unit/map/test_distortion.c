@@ -208,6 +208,46 @@ START_TEST(gradients_and_hessians_of_the_dirichlet_energy)
 }
 END_TEST
 
+/* Images that leave a triangle as it is, stretch it along an axis, turn it by a right angle, and any
+ * others. */
+static sample batch_sample(random_source *r, size_t kind)
+{
+    sample s = random_sample(r, 2, 1);
+    const double *p = s.point, factor = random_between(r, 0.1, 10);
+    for (size_t k = 0; k < 3 && kind < 4; ++k) {
+        s.image[2 * k] = kind == 3 ? -p[2 * k + 1] : p[2 * k] * (kind == 1 ? factor : 1);
+        s.image[2 * k + 1] = kind == 3 ? p[2 * k] : p[2 * k + 1] * (kind == 2 ? factor : 1);
+    }
+    return s;
+}
+
+START_TEST(triangles_side_by_side_have_the_bits_that_they_have_alone)
+{
+    enum { KINDS = 6 };
+    random_source random = {23};
+    for (int repeat = 0; repeat < 3000; ++repeat) {
+        sample s[ICCP_DIRICHLET_LANES];
+        iccp_dirichlet_batch batch;
+        for (size_t l = 0; l < ICCP_DIRICHLET_LANES; ++l) {
+            s[l] = batch_sample(&random, (size_t)random_between(&random, 0, KINDS));
+            batch.element[l] = s[l].element;
+            for (size_t k = 0; k < 3; ++k)
+                batch.image[k][l] = s[l].image + 2 * k;
+        }
+        for (iccp_simd_level level = ICCP_SIMD_NONE; level <= iccp_simd(); ++level)
+            for (int majorise = 0; majorise < 2; ++majorise) {
+                iccp_local local[ICCP_DIRICHLET_LANES];
+                iccp_dirichlet_locals(level, &batch, majorise, local);
+                for (size_t l = 0; l < ICCP_DIRICHLET_LANES; ++l) {
+                    const iccp_local alone = dirichlet_at(&s[l], majorise);
+                    ck_assert_mem_eq(local[l].gradient, alone.gradient, 6 * sizeof(double));
+                    ck_assert_mem_eq(local[l].hessian, alone.hessian, 36 * sizeof(double));
+                }
+            }
+    }
+}
+END_TEST
+
 START_TEST(gradients_and_hessians_of_the_untangling_energy)
 {
     random_source r = {4};
@@ -477,6 +517,7 @@ int main(void)
     Suite *suite = suite_create("distortion");
     TCase *tests = tcase_create("all");
     tcase_add_test(tests, gradients_and_hessians_of_the_dirichlet_energy);
+    tcase_add_test(tests, triangles_side_by_side_have_the_bits_that_they_have_alone);
     tcase_add_test(tests, gradients_and_hessians_of_the_untangling_energy);
     tcase_add_test(tests, isometries);
     tcase_add_test(tests, eigenvalues);
