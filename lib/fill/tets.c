@@ -188,8 +188,9 @@ static uint32_t search_towards(iccp_tets *m, uint32_t a, uint32_t b)
     return ICCP_NO_TET;
 }
 
-/* Walks through the star of a, always across a face at a that b lies beyond. */
-uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b)
+/* Walks through the star of a, always across a face at a that b lies beyond; ICCP_NO_TET where that
+ * leads to a wall or takes long. */
+static uint32_t walk_towards(iccp_tets *m, uint32_t a, uint32_t b)
 {
     enum { MOST_STEPS = 200 };
     uint32_t t = m->tet_of[a];
@@ -204,14 +205,27 @@ uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b)
             if (tet->v[i] == a || iccp_tet_sees(m, tet, i, b) >= 0)
                 continue;
             if (iccp_is_wall_side(tet->across[i]))
-                return search_towards(m, a, b);
+                return ICCP_NO_TET;
             t = tet->across[i] / 4;
             break;
         }
         if (k == 4)
             return t;
     }
-    return search_towards(m, a, b);
+    return ICCP_NO_TET;
+}
+
+/* An edge may be found from either end, and where one has very many tetrahedra, the other mostly
+ * has few. */
+uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b)
+{
+    uint32_t t = walk_towards(m, a, b);
+    if (t == ICCP_NO_TET) {
+        t = walk_towards(m, b, a);
+        if (t == ICCP_NO_TET || iccp_tet_index(&m->tet[t], a) < 0)
+            t = search_towards(m, a, b);
+    }
+    return t;
 }
 
 static void corners_of(const iccp_tets *m, uint32_t side, uint32_t key[3])
