@@ -3,6 +3,7 @@
  * warping: the triangulation takes care of the boundary. */
 #include "mesh/grading.h"
 
+#include "base/minmax.h"
 #include "domain/locate.h"
 
 #include <math.h>
@@ -10,6 +11,9 @@
 
 /* Of a leaf's width: points closer to the boundary would make flat triangles. */
 static const double CLEARANCE = 0.45;
+
+/* Of a cell, in widths; and from cells farther away than that no sample is kept. */
+static const double HALF_DIAGONAL = 0.71, FARTHEST = 1.72;
 
 /* Levels below the top: edges shorter than the step by more than this factor of two count as
  * longer. */
@@ -84,15 +88,20 @@ static bool must_split(const builder *b, const level *l, const cell *c)
     return false;
 }
 
-/* A child keeps the samples that can split it or one of its own children. */
+/* Whether a cell keeps a sample: where it can split the cell or one of its children. */
+static bool is_kept(const iccp_samples *samples, uint32_t i, double x, double y, double width)
+{
+    return forbids(samples, i, x, y, width, HALF_DIAGONAL * width);
+}
+
+/* A child keeps some of the samples of its parent. */
 static icc_status add_child(const builder *b, const level *from, const cell *parent, level *to,
                             double x, double y)
 {
     cell child = {x, y, to->n_entries, 0};
     for (size_t e = parent->first; e < parent->first + parent->n; ++e) {
         const uint32_t i = from->entries[e];
-        if (forbids(b->samples, i, x, y, to->width, 0.71 * to->width) &&
-            push_entry(to, i, b->memory) != ICC_OK)
+        if (is_kept(b->samples, i, x, y, to->width) && push_entry(to, i, b->memory) != ICC_OK)
             return ICC_ERR_MEMORY;
     }
     child.n = to->n_entries - child.first;
@@ -120,27 +129,82 @@ static icc_status emit_leaf(builder *b, const level *l, const cell *c)
     return ICC_OK;
 }
 
-/* The top level: cells of the step's width, centred over the bounding box, all with all samples
- * that can split them. */
+/* The top level: cells of the step's width, centred over the bounding box, row by row. */
+typedef struct top_cells {
+    const builder *b;
+    level *level;
+    size_t size[2];
+    double first[2]; /* the centre of the first cell */
+} top_cells;
+
+static icc_status place_top(top_cells *t)
+{
+    const icc_domain *domain = t->b->domain;
+    level *top = t->level;
+    for (int k = 0; k < 2; ++k) {
+        const double extent = domain->upper[k] - domain->lower[k];
+        t->size[k] = (size_t)ceil(extent / top->width);
+        t->first[k] = domain->lower[k] + 0.5 * (extent - (double)t->size[k] * top->width);
+    }
+    top->cell_room = t->size[0] * t->size[1];
+    top->cells = iccp_alloc(t->b->memory, top->cell_room, sizeof *top->cells);
+    if (top->cells == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t j = 0; j < t->size[1]; ++j)
+        for (size_t i = 0; i < t->size[0]; ++i)
+            top->cells[top->n_cells++] = (cell){t->first[0] + ((double)i + 0.5) * top->width,
+                                                t->first[1] + ((double)j + 0.5) * top->width, 0, 0};
+    return ICC_OK;
+}
+
+/* The cells along an axis whose centres are within FARTHEST widths of a place, to the end. */
+static void near_cells(const top_cells *t, int axis, double place, size_t *begin, size_t *end)
+{
+    const double at = (place - t->first[axis]) / t->level->width - 0.5;
+    *begin = (size_t)iccp_max(at - FARTHEST, 0);
+    *end = (size_t)iccp_min(at + FARTHEST + 1, (double)t->size[axis]);
+}
+
+/* Counts a sample in the cells that keep it, or enters it into them. */
+static void visit_top(const top_cells *t, uint32_t sample, bool enters)
+{
+    const double *p = t->b->samples->points + 2 * (size_t)sample;
+    level *top = t->level;
+    size_t begin[2], end[2];
+    for (int k = 0; k < 2; ++k)
+        near_cells(t, k, p[k], &begin[k], &end[k]);
+    for (size_t j = begin[1]; j < end[1]; ++j)
+        for (size_t i = begin[0]; i < end[0]; ++i) {
+            cell *c = &top->cells[t->size[0] * j + i];
+            if (!is_kept(t->b->samples, sample, c->x, c->y, top->width))
+                continue;
+            if (enters)
+                top->entries[c->first + c->n] = sample;
+            ++c->n;
+        }
+}
+
+/* Two passes over the samples: the first counts those of each cell, the second fills them in. */
 static icc_status build_top(const builder *b, level *top)
 {
-    const icc_domain *domain = b->domain;
-    const double width = domain->upper[0] - domain->lower[0];
-    const double height = domain->upper[1] - domain->lower[1];
-    const size_t nx = (size_t)ceil(width / top->width), ny = (size_t)ceil(height / top->width);
-    const double x0 = domain->lower[0] + 0.5 * (width - (double)nx * top->width);
-    const double y0 = domain->lower[1] + 0.5 * (height - (double)ny * top->width);
-    level all = {.width = 2 * top->width};
-    icc_status status = ICC_OK;
-    for (uint32_t i = 0; status == ICC_OK && i < b->samples->n; ++i)
-        status = push_entry(&all, i, b->memory);
-    const cell whole = {0, 0, 0, all.n_entries};
-    for (size_t j = 0; status == ICC_OK && j < ny; ++j)
-        for (size_t i = 0; status == ICC_OK && i < nx; ++i)
-            status = add_child(b, &all, &whole, top, x0 + ((double)i + 0.5) * top->width,
-                               y0 + ((double)j + 0.5) * top->width);
-    iccp_free(b->memory, all.entries);
-    return status;
+    top_cells t = {.b = b, .level = top};
+    const icc_status status = place_top(&t);
+    if (status != ICC_OK)
+        return status;
+    for (uint32_t i = 0; i < b->samples->n; ++i)
+        visit_top(&t, i, false);
+    for (size_t k = 0; k < top->n_cells; ++k) {
+        top->cells[k].first = top->n_entries;
+        top->n_entries += top->cells[k].n;
+        top->cells[k].n = 0;
+    }
+    top->entry_room = top->n_entries;
+    top->entries = iccp_alloc(b->memory, top->n_entries, sizeof *top->entries);
+    if (top->entries == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t i = 0; i < b->samples->n; ++i)
+        visit_top(&t, i, true);
+    return ICC_OK;
 }
 
 /* Splits or emits every cell of a level. */
