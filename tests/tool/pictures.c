@@ -3,6 +3,7 @@
  *     pictures make FILE WIDTH HEIGHT CHANNELS DEPTH PATTERN   PATTERN: ramp, flat, stripes
  *     pictures palette FILE WIDTH HEIGHT       4 colours, 2 bits a pixel, one of them transparent
  *     pictures same FILE FILE                  fails unless size, kind and every sample agree
+ *     pictures near FILE FILE DISTANCE         the same, but that samples may differ by so much
  *     pictures at FILE X Y                     prints the samples of a pixel
  *     pictures kind FILE                       prints WIDTH HEIGHT CHANNELS DEPTH
  */
@@ -133,6 +134,18 @@ static int same(char **argv)
     return differ;
 }
 
+static int near(char **argv)
+{
+    image a = load(argv[2]), b = load(argv[3]);
+    int differ = a.width != b.width || a.height != b.height || a.channels != b.channels ||
+                 a.depth != 8 || b.depth != 8;
+    for (size_t i = 0; !differ && i < a.height * a.row_bytes; i++)
+        differ = abs(a.rows[i] - b.rows[i]) > atoi(argv[4]);
+    free(a.rows);
+    free(b.rows);
+    return differ;
+}
+
 static void at(char **argv)
 {
     image i = load(argv[2]);
@@ -159,6 +172,8 @@ int main(int argc, char **argv)
         palette(argv);
     else if (argc == 4 && strcmp(argv[1], "same") == 0)
         return same(argv);
+    else if (argc == 5 && strcmp(argv[1], "near") == 0)
+        return near(argv);
     else if (argc == 5 && strcmp(argv[1], "at") == 0)
         at(argv);
     else if (argc == 3 && strcmp(argv[1], "kind") == 0)

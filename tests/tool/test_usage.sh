@@ -66,10 +66,10 @@ misnamed() { # NAME ARGUMENT...
     says "'$name' is a name for"
     [ "$(cat "$name")" = kept ] || complain "$name was written"
 }
-for name in o.jpg o.TIF o.webp o.svg o.txt o.png.gz; do
+for name in o.tif o.TIF o.webp o.svg o.txt o.png.gz; do
     misnamed "$name" warp -s nowhere -t nowhere nowhere.png "$name"
 done
-for name in o.jpg o.pdf o.obj o.json; do misnamed "$name" plot -s nowhere "$name"; done
+for name in o.tif o.pdf o.obj o.json; do misnamed "$name" plot -s nowhere "$name"; done
 for name in o.png o.pdf o.obj o.json; do
     misnamed "$name" weights -s nowhere -a nowhere --picture "$name"
 done

@@ -49,7 +49,7 @@ static const magic magics[] = {
     {0, 4, "\x89HDF", "an HDF5 file", MAKE_MASK},
     {0, 4, "CDF\1", "a NetCDF file", MAKE_MASK},
     {0, 10, "MATLAB 5.0", "a MATLAB file", MAKE_MASK},
-    {0, 3, "\xff\xd8\xff", "a JPEG picture", MAKE_PNG},
+    {0, 3, "\xff\xd8\xff", "a JPEG picture, which only warp and pose take", NO_REMEDY},
     {0, 4, "II*\0", "a TIFF picture", MAKE_PNG},
     {0, 4, "MM\0*", "a TIFF picture", MAKE_PNG},
     {0, 4, "II+\0", "a TIFF picture", MAKE_PNG},
@@ -270,7 +270,9 @@ bool foreign_told(const char *text, size_t n, problem *wrong)
     if (is_binary_stl(text, n))
         return told(wrong, "a binary STL file", MAKE_SURFACE);
     if (is_bitmap(text, n) || is_portable_map(text))
-        return told(wrong, is_portable_map(text) ? "a PNM picture" : "a BMP picture", MAKE_PNG);
+        return is_portable_map(text)
+                   ? told(wrong, "a PNM picture, which only warp and pose take", NO_REMEDY)
+                   : told(wrong, "a BMP picture", MAKE_PNG);
     if (has(text, n, 0, "\xef\xbb\xbf", 3))
         text += 3;
     return is_by_text(text + strspn(text, " \t\r\n"), wrong);

@@ -8,6 +8,7 @@
 #include "kernel/pose_job.h"
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
+#include "plot/picture_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -161,7 +162,7 @@ static bool is_points(const char *text)
 
 static bool is_picture(const char *bytes, size_t n)
 {
-    return n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0;
+    return picture_told(bytes, n) != PICTURE_NONE;
 }
 
 static int pose_input(pose *p, const char *text, size_t n)
@@ -188,7 +189,7 @@ static int pose_shape(pose *p)
         text = file_read(p->kernel.job.args->operands[0], &n);
         result = text == NULL ? FAILED
                               : output_fits("pose", pose_output(p),
-                                            is_picture(text, n) ? "PNG"
+                                            is_picture(text, n) ? PICTURES
                                             : is_points(text)   ? "text"
                                                                 : mesh_format(text));
     }

@@ -3,6 +3,7 @@
 
 #include "job/job.h"
 #include "plot/coverage.h"
+#include "plot/picture_file.h"
 #include "plot/picture_warp.h"
 
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 typedef struct warp {
     job job;
     picture from, to;
+    picture_style style; /* of `to` */
     size_t n_failed;
 } warp;
 
@@ -23,9 +25,10 @@ static int read_picture(warp *w)
     bool clears = a->has_background || a->outside == OUTSIDE_NULL;
     int result = picture_take(&w->from, a->operands[0], bytes, n);
     free(bytes);
-    if (result == DONE)
-        w->to = picture_canvas(&w->from, clears ? a->background : NULL);
-    return result;
+    if (result != DONE)
+        return result;
+    w->to = picture_canvas(&w->from, clears ? a->background : NULL);
+    return picture_choose(&w->style, &w->to, &w->from, a->quality, "warp", a->operands[1]);
 }
 
 /* Each polygon of the target has its own pixels. */
@@ -55,8 +58,8 @@ static int warp_picture(warp *w)
         return failed(a->operands[0], 0,
                       "%zu of %zu pixels have no image in the source, so nothing is written",
                       w->n_failed, w->to.width * w->to.height);
-    int result = ran == ICC_OK ? picture_save(&w->to, w->from.keep, a->operands[1])
-                               : job_failed(&w->job, &err);
+    int result =
+        ran == ICC_OK ? picture_save(&w->to, &w->style, a->operands[1]) : job_failed(&w->job, &err);
     if (result == DONE)
         result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);
     if (result != DONE || w->n_failed == 0)

@@ -60,15 +60,18 @@ static const command commands[] = {
      .n_operands = 2,
      .needs_target = true,
      .run = run_warp,
-     .usage = "--source FILE --target FILE [OPTION]... IN.png OUT.png",
+     .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Warps a picture inside a cage",
-     .details = "Cages are in pixels: x to the right, y down, pixel (i, j) covers [i, i+1] x [j, "
-                "j+1]. A pixel\n"
-                "whose centre lies in the target cage gets the colour that the map brings there; "
-                "all others\n"
-                "stay as they are. PNG of any kind goes in; grey or RGB, with or without alpha, 8 "
-                "or 16 bits\n"
-                "comes out.\n"},
+     .details =
+         "Cages are in pixels: x to the right, y down, pixel (i, j) covers [i, i+1] x [j, "
+         "j+1]. A pixel\n"
+         "whose centre lies in the target cage gets the colour that the map brings there; "
+         "all others\n"
+         "stay as they are. PNG, JPEG and PNM (PBM, PGM, PPM, PAM) go in; OUT has the format "
+         "that its\n"
+         "name says, or else that of IN: grey or RGB, with or without alpha (PNG, PAM), 8 "
+         "or 16 bits\n"
+         "(JPEG: 8).\n"},
     {.name = "mesh",
      .bit = FOR_MESH,
      .n_operands = 2,
@@ -175,7 +178,8 @@ static const command commands[] = {
      .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
-         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a PNG picture, recognised "
+         "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a picture (as warp), "
+         "recognised "
          "by its content;\n"
          "see 'libicc weights --help' for the handles' file. With --binding FILE there is only "
          "OUT: "

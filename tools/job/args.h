@@ -26,6 +26,7 @@ typedef struct args {
     double min_fall;
     double tolerance; /* 0: the command's choice */
     int32_t outside;  /* one of the policies below; 0: the command's choice */
+    int32_t quality;  /* of JPEG; 0: not given */
     int32_t turning;  /* of outlines that are matched; 0: the library's choice */
     double snap;      /* below 0: the command's choice */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];

@@ -34,7 +34,12 @@ static const struct {
     {"GIF", "gif"},
     {"BMP", "bmp dib"},
     {"WebP", "webp"},
-    {"PNM", "pnm ppm pgm pbm pam pfm"},
+    {"PNM", "pnm"},
+    {"PGM", "pgm"},
+    {"PPM", "ppm"},
+    {"PAM", "pam"},
+    {"PBM", "pbm"},
+    {"PFM", "pfm"},
     {"OpenEXR", "exr"},
     {"Radiance", "hdr"},
     {"JPEG 2000", "jp2 j2k"},
@@ -138,12 +143,12 @@ int output_fits(const char *of, const char *name, const char *list)
 static const char *formats_of_operand(const args *a, const command *c)
 {
     return a->geojson                        ? "GeoJSON, JSON"
-           : c->bit & FOR_WARP               ? "PNG"
+           : c->bit & FOR_WARP               ? PICTURES
            : a->fill                         ? "Medit, VTK"
            : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
            : c->bit & FOR_PLOT               ? "SVG, PNG, VTK"
            : c->bit & FOR_POSE && a->binding ? "text"
-           : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, PNG"
+           : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, " PICTURES
                                              : NULL;
 }
 

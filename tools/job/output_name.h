@@ -4,6 +4,9 @@
 
 #include "job/args.h"
 
+/* The formats of pictures, for output_fits(). */
+#define PICTURES "PNG, JPEG, PNM, PGM, PPM, PAM"
+
 /* The format that the extension of a file's name stands for; NULL: none, or none that is known. */
 const char *output_format(const char *name);
 

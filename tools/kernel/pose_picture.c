@@ -5,7 +5,7 @@
 
 #include "base/allocate.h"
 #include "base/orientation.h"
-#include "plot/picture.h"
+#include "plot/picture_file.h"
 
 #include <icc/stages.h>
 #include <math.h>
@@ -25,6 +25,7 @@ typedef struct patch {
 typedef struct drawing {
     pose *pose;
     picture from, to;
+    picture_style style; /* of `to` */
     size_t n_patches;
     patch *patches;
     double area, turned; /* of all triangles at rest, and of those that turn over */
@@ -292,7 +293,7 @@ static int draw(drawing *d)
     if (result != DONE)
         return result;
     double seconds = seconds_now() - began;
-    result = picture_save(&d->to, d->from.keep, pose_output(d->pose));
+    result = picture_save(&d->to, &d->style, pose_output(d->pose));
     return result == DONE ? report_picture(d, seconds) : result;
 }
 
@@ -317,8 +318,10 @@ int pose_picture(pose *p, const char *bytes, size_t n)
     int result = picture_take(&d.from, a->operands[0], bytes, n);
     if (result == DONE) {
         d.to = picture_canvas(&d.from, a->has_background ? a->background : NULL);
-        result = draw(&d);
+        result = picture_choose(&d.style, &d.to, &d.from, a->quality, "pose", pose_output(p));
     }
+    if (result == DONE)
+        result = draw(&d);
     picture_free(&d.from);
     picture_free(&d.to);
     free_patches(&d);

@@ -15,7 +15,7 @@ picture picture_make(size_t width, size_t height, unsigned channels, unsigned de
 void picture_free(picture *p)
 {
     free(p->samples);
-    png_keep_free(p->keep);
+    free(p->notes.profile);
     *p = (picture){0};
 }
 
@@ -46,6 +46,45 @@ void picture_widen(picture *p, bool colour, bool alpha)
     free(p->samples);
     p->samples = wide.samples;
     p->channels = channels;
+}
+
+void picture_turn(picture *p, unsigned orientation)
+{
+    bool swaps = orientation >= 5;
+    bool mirrors[2] = {orientation == 2 || orientation == 3 || orientation == 6 || orientation == 7,
+                       orientation == 3 || orientation == 4 || orientation >= 7};
+    if (orientation <= 1)
+        return;
+    size_t size[2] = {p->width, p->height};
+    picture turned = picture_make(size[swaps], size[!swaps], p->channels, p->depth);
+    for (size_t i = 0; i < p->width * p->height; i++) {
+        size_t at[2] = {i % p->width, i / p->width};
+        size_t x = at[swaps], y = at[!swaps];
+        x = mirrors[0] ? turned.width - 1 - x : x;
+        y = mirrors[1] ? turned.height - 1 - y : y;
+        memcpy(turned.samples + (y * turned.width + x) * p->channels, p->samples + i * p->channels,
+               p->channels * sizeof *p->samples);
+    }
+    free(p->samples);
+    p->samples = turned.samples;
+    p->width = turned.width;
+    p->height = turned.height;
+    if (swaps) {
+        uint32_t along_x = p->notes.density[0];
+        p->notes.density[0] = p->notes.density[1];
+        p->notes.density[1] = along_x;
+    }
+}
+
+picture picture_canvas(picture *from, const unsigned char *background)
+{
+    if (background != NULL)
+        picture_widen(from, background[0] != background[1] || background[0] != background[2],
+                      background[3] < 255);
+    picture canvas = picture_copy(from);
+    for (size_t i = 0; background != NULL && i < canvas.width * canvas.height; i++)
+        picture_set(&canvas, i, background);
+    return canvas;
 }
 
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4])

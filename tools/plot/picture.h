@@ -8,44 +8,64 @@
 #include <stdint.h>
 #include <stdio.h>
 
+typedef enum picture_format {
+    PICTURE_NONE,
+    PICTURE_PNG,
+    PICTURE_JPEG,
+    PICTURE_PGM,
+    PICTURE_PPM,
+    PICTURE_PNM, /* PGM or PPM, whichever fits */
+    PICTURE_PAM
+} picture_format;
+
+/* What the file of a picture says about its colours and the size of its pixels. It is neither
+ * interpreted nor changed. */
+typedef struct picture_notes {
+    bool has_gamma, has_primaries, has_intent;
+    int32_t gamma, primaries[8]; /* in 1/100000, as PNG's gAMA and cHRM: white, red, green, blue */
+    int32_t intent;              /* of PNG's sRGB */
+    char profile_name[80];
+    unsigned char *profile; /* an ICC profile of n_profile bytes, or NULL */
+    size_t n_profile;
+    uint32_t density[2]; /* pixels along x and y; 0, 0: not said */
+    bool per_metre;      /* else only the ratio of the two means something */
+} picture_notes;
+
 typedef struct picture {
     size_t width, height;
-    unsigned channels;     /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA */
-    unsigned depth;        /* 8 or 16 */
-    uint16_t *samples;     /* height * width * channels, each below 2^depth */
-    struct png_keep *keep; /* what the file says about colour and size of pixels; may be NULL */
+    unsigned channels; /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA */
+    unsigned depth;    /* 8 or 16 */
+    uint16_t *samples; /* height * width * channels, each below 2^depth */
+    picture_format format;
+    picture_notes notes;
 } picture;
+
+/* How a picture is written. `notes` may be those of another picture, or NULL. */
+typedef struct picture_style {
+    picture_format format;
+    const picture_notes *notes;
+    int32_t quality; /* of JPEG: 1 to 100; 0: 92 */
+} picture_style;
 
 /* A picture of zeros. */
 picture picture_make(size_t width, size_t height, unsigned channels, unsigned depth);
 void picture_free(picture *p);
 
-/* A copy without `keep`. */
+/* A copy without notes. */
 picture picture_copy(const picture *p);
 
 /* Adds colour or an opaque alpha where the picture has none. */
 void picture_widen(picture *p, bool colour, bool alpha);
 
+/* Turns and mirrors a picture as it is to be looked at, which Exif says by a number: 1 (as it is)
+ * to 8. */
+void picture_turn(picture *p, unsigned orientation);
+
 /* Sets a pixel to 8-bit RGBA. The picture must have room for what the colour needs. */
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
-
-/* Decodes a PNG, bytes[0..n) with bytes[n] == '\0'. Palettes and small depths are widened. False:
- * see `wrong`. */
-bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
-
-/* Encodes a PNG with what `keep` holds, which may come from another picture. NULL: see `wrong`. */
-unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
-                              problem *wrong);
-
-/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED
- * with a line on stderr. */
-int picture_take(picture *out, const char *name, const char *bytes, size_t n);
-int picture_save(const picture *p, const struct png_keep *keep, const char *name);
 
 /* What is drawn on: a copy, or all background if that is not NULL. `from` is widened as that needs
  * it. */
 picture picture_canvas(picture *from, const unsigned char *background);
-
-void png_keep_free(struct png_keep *keep);
 
 #endif

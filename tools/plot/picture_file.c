@@ -1,8 +1,67 @@
-/* Pictures and their files. */
+#include "plot/picture_file.h"
+
 #include "base/file.h"
-#include "plot/picture.h"
+#include "base/foreign.h"
+#include "job/output_name.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+typedef unsigned char *encoder(const picture *p, const picture_style *style, size_t *n,
+                               problem *wrong);
+
+static const struct {
+    const char *name;
+    encoder *encode;
+    bool has_colours, has_alpha;
+} formats[] = {
+    [PICTURE_PNG] = {"PNG", png_encode, true, true},
+    [PICTURE_JPEG] = {"JPEG", jpeg_encode, true, false},
+    [PICTURE_PGM] = {"PGM", pnm_encode, false, false},
+    [PICTURE_PPM] = {"PPM", pnm_encode, true, false},
+    [PICTURE_PNM] = {"PNM", pnm_encode, true, false},
+    [PICTURE_PAM] = {"PAM", pnm_encode, true, true},
+};
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+picture_format picture_told(const char *bytes, size_t n)
+{
+    static const picture_format portable[] = {PICTURE_PGM, PICTURE_PGM, PICTURE_PPM, PICTURE_PGM,
+                                              PICTURE_PGM, PICTURE_PPM, PICTURE_PAM};
+    if (n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0)
+        return PICTURE_PNG;
+    if (n >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0)
+        return PICTURE_JPEG;
+    if (n >= 3 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '7' &&
+        (is_blank(bytes[2]) || bytes[2] == '#'))
+        return portable[bytes[1] - '1'];
+    return PICTURE_NONE;
+}
+
+bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
+{
+    *out = (picture){0};
+    picture_format format = picture_told(bytes, n);
+    if (format == PICTURE_NONE)
+        return !foreign_told(bytes, n, wrong) &&
+               spoilt(wrong, 0, "this is no PNG, JPEG or PNM picture; convert it to PNG first");
+    if (!(format == PICTURE_PNG    ? png_decode(out, bytes, n, wrong)
+          : format == PICTURE_JPEG ? jpeg_decode(out, bytes, n, wrong)
+                                   : pnm_decode(out, bytes, n, wrong)))
+        return false;
+    out->format = format;
+    return true;
+}
+
+unsigned char *picture_encode(const picture *p, const picture_style *style, size_t *n,
+                              problem *wrong)
+{
+    return formats[style->format].encode(p, style, n, wrong);
+}
 
 int picture_take(picture *out, const char *name, const char *bytes, size_t n)
 {
@@ -10,22 +69,48 @@ int picture_take(picture *out, const char *name, const char *bytes, size_t n)
     return picture_decode(out, bytes, n, &wrong) ? DONE : failed(name, 0, "%s", wrong.text);
 }
 
-picture picture_canvas(picture *from, const unsigned char *background)
+/* The format that a name says. */
+static picture_format named(const char *name)
 {
-    if (background != NULL)
-        picture_widen(from, background[0] != background[1] || background[0] != background[2],
-                      background[3] < 255);
-    picture canvas = picture_copy(from);
-    for (size_t i = 0; background != NULL && i < canvas.width * canvas.height; i++)
-        picture_set(&canvas, i, background);
-    return canvas;
+    const char *found = output_format(name);
+    for (size_t i = PICTURE_PNG; found != NULL && i < sizeof formats / sizeof *formats; i++)
+        if (strcmp(found, formats[i].name) == 0)
+            return (picture_format)i;
+    return PICTURE_NONE;
 }
 
-int picture_save(const picture *p, const struct png_keep *keep, const char *name)
+/* Where no name says more, Netpbm's format is the simplest that holds the picture. */
+static picture_format like(const picture *p, picture_format format)
+{
+    if (format < PICTURE_PGM)
+        return format;
+    return p->channels % 2 == 0 ? PICTURE_PAM : format == PICTURE_PAM ? format : PICTURE_PNM;
+}
+
+int picture_choose(picture_style *style, const picture *p, const picture *from, int32_t quality,
+                   const char *of, const char *name)
+{
+    picture_format format = named(name);
+    if (format == PICTURE_NONE)
+        format = like(p, from->format);
+    *style = (picture_style){.format = format, .notes = &from->notes, .quality = quality};
+    if (quality > 0 && format != PICTURE_JPEG)
+        return misused(of, "--quality is for JPEG, and '%.200s' will be %s", name,
+                       formats[format].name);
+    if (p->channels % 2 == 0 && !formats[format].has_alpha)
+        return failed(name, 0, "the picture has an alpha, which %s cannot hold; PNG and PAM can",
+                      formats[format].name);
+    if (p->channels >= 3 && !formats[format].has_colours)
+        return failed(name, 0, "the picture has colours, which %s cannot hold; PPM can",
+                      formats[format].name);
+    return DONE;
+}
+
+int picture_save(const picture *p, const picture_style *style, const char *name)
 {
     problem wrong;
     size_t n;
-    unsigned char *bytes = picture_encode(p, keep, &n, &wrong);
+    unsigned char *bytes = picture_encode(p, style, &n, &wrong);
     if (bytes == NULL)
         return failed(name, 0, "%s", wrong.text);
     outfile file;

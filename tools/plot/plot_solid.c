@@ -5,6 +5,7 @@
 
 #include "base/allocate.h"
 #include "job/output_name.h"
+#include "plot/picture_file.h"
 #include "plot/solid_cut.h"
 #include "plot/z_buffer.h"
 
@@ -189,7 +190,7 @@ static int write_solid(const picture pictures[2], const char *name)
     const char *format = output_format(name);
     if (format != NULL && strcmp(format, "PNG") == 0) {
         picture whole = join(pictures);
-        int result = picture_save(&whole, NULL, name);
+        int result = picture_save(&whole, &(picture_style){.format = PICTURE_PNG}, name);
         picture_free(&whole);
         return result;
     }

@@ -1,23 +1,21 @@
-/* PNG through libpng. Colours are neither interpreted nor changed: what the file says about them
- * (gAMA, cHRM, sRGB, iCCP) and about the size of pixels (pHYs) is carried over as it is. */
-#include "plot/picture.h"
+/* PNG through libpng. What the file says about colours (gAMA, cHRM, sRGB, iCCP) and about the size
+ * of pixels (pHYs) becomes the picture's notes. */
+#include "plot/picture_file.h"
 
 #include "base/allocate.h"
-#include "base/foreign.h"
 
 #include <png.h>
 #include <setjmp.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The reader stays open, so that its notes can be asked for when a picture is written. */
-typedef struct png_keep {
+typedef struct reader {
     png_structp png;
     png_infop info;
     const png_byte *bytes; /* what is left to read */
     size_t n;
     char message[160];
-} png_keep;
+} reader;
 
 /* Bytes of a colour profile; a few bytes of a file can announce 2^32 of them. */
 enum { MOST_NOTES = 1 << 24 };
@@ -45,12 +43,12 @@ static void ignore(png_structp png, png_const_charp message)
 
 static void take_bytes(png_structp png, png_bytep to, size_t n)
 {
-    png_keep *k = png_get_io_ptr(png);
-    if (n > k->n)
+    reader *r = png_get_io_ptr(png);
+    if (n > r->n)
         png_error(png, "the file ends early");
-    memcpy(to, k->bytes, n);
-    k->bytes += n;
-    k->n -= n;
+    memcpy(to, r->bytes, n);
+    r->bytes += n;
+    r->n -= n;
 }
 
 static void give_bytes(png_structp png, png_bytep from, size_t n)
@@ -64,13 +62,6 @@ static void give_bytes(png_structp png, png_bytep from, size_t n)
 static void no_flush(png_structp png)
 {
     (void)png;
-}
-
-void png_keep_free(struct png_keep *keep)
-{
-    if (keep != NULL)
-        png_destroy_read_struct(&keep->png, &keep->info, NULL);
-    free(keep);
 }
 
 /* Rows as libpng gives them, most significant byte first, to samples. */
@@ -93,32 +84,57 @@ static void pack(const picture *p, png_byte *row, size_t y)
     }
 }
 
-/* Everything that libpng may jump out of. `rows` is freed by the caller. */
-static bool decode(png_keep *k, picture *out, png_byte **rows)
+static void read_notes(const reader *r, picture_notes *notes)
 {
-    if (setjmp(png_jmpbuf(k->png)))
+    int32_t *v = notes->primaries;
+    png_uint_32 x, y, length;
+    png_charp name;
+    png_bytep profile;
+    int unit;
+    notes->has_gamma = png_get_gAMA_fixed(r->png, r->info, &notes->gamma) != 0;
+    notes->has_primaries = png_get_cHRM_fixed(r->png, r->info, v, v + 1, v + 2, v + 3, v + 4, v + 5,
+                                              v + 6, v + 7) != 0;
+    notes->has_intent = png_get_sRGB(r->png, r->info, &notes->intent) != 0;
+    if (png_get_iCCP(r->png, r->info, &name, &unit, &profile, &length)) {
+        snprintf(notes->profile_name, sizeof notes->profile_name, "%s", name);
+        notes->profile = need(length, 1);
+        notes->n_profile = length;
+        memcpy(notes->profile, profile, length);
+    }
+    if (png_get_pHYs(r->png, r->info, &x, &y, &unit)) {
+        notes->density[0] = x;
+        notes->density[1] = y;
+        notes->per_metre = unit == PNG_RESOLUTION_METER;
+    }
+}
+
+/* Everything that libpng may jump out of. `rows` is freed by the caller. */
+static bool decode(reader *r, picture *out, png_byte **rows)
+{
+    if (setjmp(png_jmpbuf(r->png)))
         return false;
-    png_set_read_fn(k->png, k, take_bytes);
-    png_set_chunk_malloc_max(k->png, MOST_NOTES);
-    png_read_info(k->png, k->info);
+    png_set_read_fn(r->png, r, take_bytes);
+    png_set_chunk_malloc_max(r->png, MOST_NOTES);
+    png_read_info(r->png, r->info);
     /* A byte of deflated data gives at most 1032: what is announced beyond that is not there. */
-    uint64_t row_size = png_get_rowbytes(k->png, k->info);
-    if (row_size * png_get_image_height(k->png, k->info) / 1032 > k->n)
-        png_error(k->png, "the file ends early");
-    png_set_expand(k->png);
-    png_set_interlace_handling(k->png);
-    png_read_update_info(k->png, k->info);
-    size_t row_bytes = png_get_rowbytes(k->png, k->info);
-    *out = picture_make(png_get_image_width(k->png, k->info), png_get_image_height(k->png, k->info),
-                        png_get_channels(k->png, k->info), png_get_bit_depth(k->png, k->info));
+    uint64_t row_size = png_get_rowbytes(r->png, r->info);
+    if (row_size * png_get_image_height(r->png, r->info) / 1032 > r->n)
+        png_error(r->png, "the file ends early");
+    png_set_expand(r->png);
+    png_set_interlace_handling(r->png);
+    png_read_update_info(r->png, r->info);
+    size_t row_bytes = png_get_rowbytes(r->png, r->info);
+    *out = picture_make(png_get_image_width(r->png, r->info), png_get_image_height(r->png, r->info),
+                        png_get_channels(r->png, r->info), png_get_bit_depth(r->png, r->info));
     *rows = need(out->height, row_bytes + sizeof(png_bytep));
     png_bytep *starts = (png_bytep *)(void *)*rows;
     for (size_t y = 0; y < out->height; y++)
         starts[y] = *rows + out->height * sizeof(png_bytep) + y * row_bytes;
-    png_read_image(k->png, starts);
-    png_read_end(k->png, k->info);
+    png_read_image(r->png, starts);
+    png_read_end(r->png, r->info);
     for (size_t y = 0; y < out->height; y++)
         unpack(out, starts[y], y);
+    read_notes(r, &out->notes);
     return true;
 }
 
@@ -139,56 +155,45 @@ static bool is_whole(const unsigned char *bytes, size_t n)
     return false;
 }
 
-bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
+bool png_decode(picture *out, const char *bytes, size_t n, problem *wrong)
 {
-    *out = (picture){0};
     if (n < 8 || png_sig_cmp((png_const_bytep)bytes, 0, 8) != 0)
-        return n >= 4 && memcmp(bytes, "\x89PNG", 4) == 0
-                   ? spoilt(wrong, 0, "the PNG picture is damaged: its first bytes are wrong")
-                   : !foreign_told(bytes, n, wrong) &&
-                         spoilt(wrong, 0, "this is not a PNG picture; convert it to PNG first");
+        return spoilt(wrong, 0, "the PNG picture is damaged: its first bytes are wrong");
     if (!is_whole((const unsigned char *)bytes, n))
         return spoilt(wrong, 0, "the PNG picture is damaged: the file ends early");
-    png_keep *k = need(1, sizeof *k);
-    k->bytes = (const png_byte *)bytes;
-    k->n = n;
-    k->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, k->message, stop, ignore);
-    k->info = k->png != NULL ? png_create_info_struct(k->png) : NULL;
+    reader r = {.bytes = (const png_byte *)bytes, .n = n};
+    r.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, r.message, stop, ignore);
+    r.info = r.png != NULL ? png_create_info_struct(r.png) : NULL;
     png_byte *rows = NULL;
-    bool good = k->info != NULL && decode(k, out, &rows);
+    bool good = r.info != NULL && decode(&r, out, &rows);
     free(rows);
-    if (!good) {
-        spoilt(wrong, 0, "the PNG picture is damaged: %.120s", k->message);
-        picture_free(out);
-        png_keep_free(k);
-        return false;
-    }
-    out->keep = k;
-    return true;
+    png_destroy_read_struct(&r.png, &r.info, NULL);
+    if (good)
+        return true;
+    picture_free(out);
+    return spoilt(wrong, 0, "the PNG picture is damaged: %.120s", r.message);
 }
 
-static void carry_over(writer *w, const png_keep *k)
+static void write_notes(writer *w, const picture_notes *notes)
 {
-    png_fixed_point v[8];
-    png_uint_32 x, y, length;
-    png_charp name;
-    png_bytep profile;
-    int unit;
-    if (png_get_gAMA_fixed(k->png, k->info, v))
-        png_set_gAMA_fixed(w->png, w->info, v[0]);
-    if (png_get_cHRM_fixed(k->png, k->info, v, v + 1, v + 2, v + 3, v + 4, v + 5, v + 6, v + 7))
+    const int32_t *v = notes->primaries;
+    if (notes->has_gamma)
+        png_set_gAMA_fixed(w->png, w->info, notes->gamma);
+    if (notes->has_primaries)
         png_set_cHRM_fixed(w->png, w->info, v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]);
-    if (png_get_sRGB(k->png, k->info, &unit))
-        png_set_sRGB(w->png, w->info, unit);
-    if (png_get_iCCP(k->png, k->info, &name, &unit, &profile, &length))
-        png_set_iCCP(w->png, w->info, name, unit, profile, length);
-    if (png_get_pHYs(k->png, k->info, &x, &y, &unit))
-        png_set_pHYs(w->png, w->info, x, y, unit);
+    if (notes->has_intent)
+        png_set_sRGB(w->png, w->info, notes->intent);
+    if (notes->profile != NULL)
+        png_set_iCCP(w->png, w->info, notes->profile_name, PNG_COMPRESSION_TYPE_BASE,
+                     notes->profile, (png_uint_32)notes->n_profile);
+    if (notes->density[0] > 0 && notes->density[1] > 0)
+        png_set_pHYs(w->png, w->info, notes->density[0], notes->density[1],
+                     notes->per_metre ? PNG_RESOLUTION_METER : PNG_RESOLUTION_UNKNOWN);
 }
 
 /* All calls of libpng that may fail: it leaves them by longjmp, which is why nothing is allocated
  * here and `row` comes from outside. */
-static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *row)
+static bool encode(writer *w, const picture *p, const picture_notes *notes, png_byte *row)
 {
     static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
                                        PNG_COLOR_TYPE_RGB, PNG_COLOR_TYPE_RGB_ALPHA};
@@ -199,8 +204,8 @@ static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *
     png_set_IHDR(w->png, w->info, (png_uint_32)p->width, (png_uint_32)p->height, (int)p->depth,
                  colour_types[p->channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);
-    if (keep != NULL)
-        carry_over(w, keep);
+    if (notes != NULL)
+        write_notes(w, notes);
     png_write_info(w->png, w->info);
     for (size_t y = 0; y < p->height; y++) {
         pack(p, row, y);
@@ -210,14 +215,13 @@ static bool encode(writer *w, const picture *p, const png_keep *keep, png_byte *
     return true;
 }
 
-unsigned char *picture_encode(const picture *p, const struct png_keep *keep, size_t *n,
-                              problem *wrong)
+unsigned char *png_encode(const picture *p, const picture_style *style, size_t *n, problem *wrong)
 {
     writer w = {0};
     w.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, w.message, stop, ignore);
     w.info = w.png != NULL ? png_create_info_struct(w.png) : NULL;
     png_byte *row = need(p->width, 2 * (size_t)p->channels);
-    bool good = w.info != NULL && encode(&w, p, keep, row);
+    bool good = w.info != NULL && encode(&w, p, style->notes, row);
     free(row);
     png_destroy_write_struct(&w.png, &w.info);
     *n = w.n;

@@ -1,6 +1,7 @@
 #include "plot/svg.h"
 
 #include "base/allocate.h"
+#include "plot/picture_file.h"
 
 #include <stdlib.h>
 
@@ -48,7 +49,7 @@ int svg_picture(FILE *svg, double x, double y, double width, double height, cons
 {
     problem wrong;
     size_t n;
-    unsigned char *bytes = picture_encode(p, NULL, &n, &wrong);
+    unsigned char *bytes = png_encode(p, &(picture_style){0}, &n, &wrong);
     if (bytes == NULL)
         return failed(NULL, 0, "%s", wrong.text);
     fprintf(svg,

@@ -1,0 +1,37 @@
+/* Files of pictures: PNG, JPEG, and Netpbm's PBM, PGM, PPM and PAM, all called PNM. */
+#ifndef PICTURE_FILE_H
+#define PICTURE_FILE_H
+
+#include "plot/picture.h"
+
+/* What a file is by its first bytes; PICTURE_NONE: none of these. */
+picture_format picture_told(const char *bytes, size_t n);
+
+/* Decodes bytes[0..n) with bytes[n] == '\0'. Palettes and small depths are widened; a photograph
+ * that lies on its side is put upright. False: see `wrong`. */
+bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong);
+
+/* Encodes a picture; free() the bytes. NULL: see `wrong`. */
+unsigned char *picture_encode(const picture *p, const picture_style *style, size_t *n,
+                              problem *wrong);
+
+/* Chooses how `p` is written to a file: in the format that its name says, else in that of `from`,
+ * with the notes of `from`. quality 0: not asked for. FAILED or MISUSED with a line on stderr when
+ * the format cannot hold the picture, or has no quality; `of` is the command. */
+int picture_choose(picture_style *style, const picture *p, const picture *from, int32_t quality,
+                   const char *of, const char *name);
+
+/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED
+ * with a line on stderr. */
+int picture_take(picture *out, const char *name, const char *bytes, size_t n);
+int picture_save(const picture *p, const picture_style *style, const char *name);
+
+/* The formats. Decoders are given what begins like a file of theirs. */
+bool png_decode(picture *out, const char *bytes, size_t n, problem *wrong);
+bool jpeg_decode(picture *out, const char *bytes, size_t n, problem *wrong);
+bool pnm_decode(picture *out, const char *bytes, size_t n, problem *wrong);
+unsigned char *png_encode(const picture *p, const picture_style *style, size_t *n, problem *wrong);
+unsigned char *jpeg_encode(const picture *p, const picture_style *style, size_t *n, problem *wrong);
+unsigned char *pnm_encode(const picture *p, const picture_style *style, size_t *n, problem *wrong);
+
+#endif
