@@ -934,10 +934,14 @@ typedef struct icc_match_info {
  *         common vertices cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
  *         ::ICC_ERR_CANCELLED
  *
- * Cost: some 0.3 s and 6 MB whatever the number of vertices n, and O(n log n). Deterministic. The
- * map between the two domains then takes longer, on coasts two to five times, than between outlines
- * of as many vertices that correspond: where a corner is paired with a straight place, triangles
- * fold at first and have to be repaired.
+ * Where both outlines have many vertices, they are paired with one another as far as their edges
+ * run alike; few are left to be paired with places on edges.
+ *
+ * Cost: some 0.3 s and 6 MB whatever the number of vertices n, then O(n log n), some 0.2 s and
+ * 6 MB for 15,000 on both sides. Deterministic. The map between the two domains then takes longer
+ * than between outlines of which the same vertices correspond: on coasts to which a third was added
+ * at random on both sides two to four times, on one that is turned into a swirl eight times. Where
+ * a corner is paired with a straight place, triangles fold at first and have to be repaired.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,

@@ -5,6 +5,7 @@
 #include "match/common.h"
 #include "match/landmarks.h"
 #include "match/pins.h"
+#include "match/vertices.h"
 
 #include <math.h>
 #include <string.h>
@@ -64,16 +65,21 @@ static icc_status find_knots(iccp_pairing_knots *knots, iccp_elastic_report *rep
         return ICC_OK;
     }
     icc_status status;
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){4, 1}, env);
     if (n > 0)
-        status = iccp_elastic_between(knots, report, &outline[0], &outline[1], n, landmarks, env);
+        status =
+            iccp_elastic_between(knots, report, &outline[0], &outline[1], n, landmarks, &parts[0]);
     else
         status = iccp_elastic_search(knots, report, &outline[0], &outline[1],
-                                     options->turning == ICC_TURNING_FREE, env);
+                                     options->turning == ICC_TURNING_FREE, &parts[0]);
     const double sure = options->least_sure > 0 ? options->least_sure : least_sure;
     if (status == ICC_OK && report->sure < sure)
         return refuse(report, sure, err);
     if (status == ICC_OK)
         status = iccp_pin(knots, &outline[0], &outline[1], n, landmarks, env);
+    if (status == ICC_OK)
+        status = iccp_pair_vertices(knots, &outline[0], &outline[1], n, landmarks, &parts[1]);
     return iccp_explain(err, status);
 }
 

@@ -1,7 +1,9 @@
-/* Outlines that do not correspond: usage: bench_match SEED ... < FILES, pairs of lines SOURCE and
- * TARGET. The vertices of each pair correspond; 30 % more are put at random places on edges and the
- * starts turned, for each side apart, and icc_match_create() has to find the pairs again. Error:
- * distance to the true partner, in % of the target's perimeter, mean along the source's. */
+/* Outlines that do not correspond: usage: bench_match [map] SEED ... < FILES, pairs of lines SOURCE
+ * and TARGET. The vertices of each pair correspond; 30 % more are put at random places on edges and
+ * the starts turned, for each side apart, and icc_match_create() has to find the pairs again. Error:
+ * distance to the true partner, in % of the target's perimeter, mean along the source's.
+ * `map`: also what it costs to map what was found, by what it costs to map the files as they are,
+ * with the triangles that were to be repaired and the energies of both. */
 #include "bench.h"
 
 enum { MOST = 100000, PLACES = 2000 };
@@ -148,14 +150,41 @@ static double error_of(const icc_match *match, const ring *files, const ring *gi
     return sum / weight;
 }
 
+/* Maps two domains: the processor's seconds. */
+static double map_of(icc_map_info *info, const icc_domain *source, const icc_domain *target)
+{
+    icc_map *map = NULL;
+    icc_error error = {.size = sizeof error};
+    const double begin = bench_processor_seconds();
+    bench_check(icc_map_create(&map, source, target, NULL, NULL, &error), &error);
+    const double seconds = bench_processor_seconds() - begin;
+    (void)icc_map_get_info(map, info);
+    icc_map_free(map);
+    return seconds;
+}
+
+static void compare_maps(const icc_match *match, const ring *files)
+{
+    icc_map_info found = {.size = sizeof found}, truth = {.size = sizeof truth};
+    icc_domain *const source = bench_domain(files[0].n, files[0].xy);
+    icc_domain *const target = bench_domain(files[1].n, files[1].xy);
+    const double cost = map_of(&found, icc_match_source(match), icc_match_target(match));
+    const double least = map_of(&truth, source, target);
+    printf("%34s map %.2f s by %.3f s = %.2f, repaired %zu by %zu, energy %.2f by %.2f\n", "", cost,
+           least, cost / least, found.n_inverted, truth.n_inverted, found.energy, truth.energy);
+    icc_domain_free(source);
+    icc_domain_free(target);
+}
+
 int main(int argc, char **argv)
 {
     const char *slash;
+    const int first = argc > 1 && strcmp(argv[1], "map") == 0 ? 2 : 1;
     char paths[2][1024];
     while (scanf("%1023s %1023s", paths[0], paths[1]) == 2) {
         ring files[2] = {ring_read(paths[0]), ring_read(paths[1])};
         slash = strrchr(paths[0], '/');
-        for (int k = 1; k < argc; ++k) {
+        for (int k = first; k < argc; ++k) {
             state = strtoull(argv[k], NULL, 10) * 2654435761u + 1;
             ring given[2] = {disguise(&files[0]), disguise(&files[1])};
             icc_domain *domain[2];
@@ -180,6 +209,8 @@ int main(int argc, char **argv)
                        100 * error_of(match, files, given), info.cost, info.sure, info.turn,
                        info.least_slope, info.most_slope, info.mirrored ? " mirrored" : "",
                        seconds);
+                if (first == 2)
+                    compare_maps(match, files);
             }
             icc_match_free(match);
             for (int e = 0; e < 2; ++e) {

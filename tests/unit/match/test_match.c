@@ -258,6 +258,47 @@ START_TEST(names_bad_landmarks)
 }
 END_TEST
 
+/* A coast with a straight stretch; bent, and without every `without`-th vertex; 0: as it is. */
+static size_t coast(double *xy, size_t n, double bend, size_t without)
+{
+    size_t kept = 0;
+    uint32_t state = 1;
+    for (size_t k = 0; k < n; ++k) {
+        state = state * 1664525u + 1013904223u;
+        if (without > 0 && k % without == without - 1)
+            continue;
+        const double turn = 6.283185307179586 * (double)k / (double)n;
+        const double rough = turn < 1 ? 0 : .05 * ((double)(state >> 8) / 16777216.0 - .5);
+        const double radius = (turn < 1 ? .8 / cos(turn - .5) : 1 + .4 * cos(3 * turn)) + rough;
+        const double x = radius * cos(turn), y = radius * sin(turn);
+        xy[2 * kept] = x + bend * y * y;
+        xy[2 * kept + 1] = y - bend * x * y;
+        ++kept;
+    }
+    return kept;
+}
+
+/* Of outlines whose edges are finer than samples, most vertices that both have are found: without
+ * their pairing it would be two in five, and not all can be, where half of so rough a coast lacks. */
+START_TEST(pairs_vertices_with_vertices)
+{
+    enum { N = 1500 };
+    static double a[2 * N], b[2 * N];
+    for (size_t without = 2; without < 6; ++without) {
+        const size_t n = coast(a, N, 0, 0), m = coast(b, N, .2, without);
+        icc_match *match = NULL;
+        icc_error err = {.size = sizeof err};
+        const icc_status status = match_of(&match, n, a, m, b, 0, NULL, NULL, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        check_exact(match, n, a, m, b);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        ck_assert_msg(info.n_joined >= m * 5 / 6, "%zu of %zu", info.n_joined, m);
+        icc_match_free(match);
+    }
+}
+END_TEST
+
 static icc_status make_one(const icc_env *env, icc_error *err, void *argument)
 {
     double a[2 * N_CUT];
@@ -292,6 +333,7 @@ int main(void)
     tcase_add_test(tests, pairs_discs_by_arc_length);
     tcase_add_test(tests, passes_through_landmarks);
     tcase_add_test(tests, names_bad_landmarks);
+    tcase_add_test(tests, pairs_vertices_with_vertices);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
