@@ -571,6 +571,39 @@ static void try_defects(digest *d, size_t which)
     digest_u32(d, n < MOST ? 2 * n : 2 * MOST, items);
 }
 
+/* A rough outline and the same one bent, without every third vertex and from another one on: by
+ * shape, and by two landmarks. */
+static void try_match(digest *d, size_t which)
+{
+    enum { N = 300, M = N / 3 * 2 };
+    double a[2 * N], b[2 * M];
+    ring_outline(N, .6, 17, a);
+    for (size_t k = 0; k < N; ++k)
+        a[2 * k] *= a[2 * k] > 0 ? 2.5 : 1;
+    for (size_t k = 0; k < M; ++k) {
+        const double *const p = a + 2 * ((k / 2 * 3 + k % 2 + 60) % N);
+        b[2 * k] = p[0] + .1 * p[1] * p[1];
+        b[2 * k + 1] = p[1] - .1 * p[0] * p[1];
+    }
+    const double pairs[] = {a[120], a[121], b[0], b[1], a[360], a[361], b[160], b[161]};
+    icc_domain *source = domain_of(2, N, a, 0, NULL), *target = domain_of(2, M, b, 0, NULL);
+    icc_match *match;
+    icc_error err = {.size = sizeof err};
+    must(icc_match_create(&match, source, target, 2 * which, pairs, NULL, NULL, &err),
+         "icc_match_create", &err);
+    icc_match_info info = {.size = sizeof info};
+    (void)icc_match_get_info(match, &info);
+    const double numbers[] = {info.cost, info.second,      info.sure,
+                              info.turn, info.least_slope, info.most_slope};
+    digest_f64(d, sizeof numbers / sizeof *numbers, numbers);
+    digest_size(d, info.n_joined);
+    digest_domain(d, icc_match_source(match));
+    digest_domain(d, icc_match_target(match));
+    icc_match_free(match);
+    icc_domain_free(source);
+    icc_domain_free(target);
+}
+
 /* A square with random points, a third of them on a lattice, where four and more lie on a
  * circle. */
 static void try_triangulation(digest *d, size_t which)
@@ -640,7 +673,8 @@ static const struct {
                {"picture-bytes", try_picture, 0},   {"picture-words", try_picture, 1},
                {"defects", try_defects, 0},         {"triangulation", try_triangulation, 0},
                {"mask-repair", try_mask_repair, 0}, {"mesh-repair2", try_mesh, 0},
-               {"mesh-repair3", try_mesh, 1}};
+               {"mesh-repair3", try_mesh, 1},       {"match", try_match, 0},
+               {"match-landmarks", try_match, 1}};
 enum { N_RESULTS = sizeof RESULTS / sizeof *RESULTS };
 
 static void show_result(const char *name, void (*run)(digest *d, size_t which), size_t which)
