@@ -77,9 +77,11 @@ unit_tests() {
     ctest --test-dir "$work/build" $wanted --no-tests=error --output-on-failure --parallel "$jobs"
 }
 
-# Nothing to unpack: mingw-w64 has the headers, and Wine the libraries.
+# Nothing to unpack: mingw-w64 has the headers, and Wine the libraries. Wine makes its folder here, since two programs
+# that both find none stand in each other's way.
 make_root_windows() {
     need gcc-mingw-w64-x86-64-posix wine wine64
+    wine wineboot --init
 }
 
 build_windows() {
