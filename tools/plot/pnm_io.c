@@ -47,8 +47,8 @@ static bool starts(const reader *r, const char *word)
     return (size_t)(r->end - r->at) > n && memcmp(r->at, word, n) == 0 && is_blank(r->at[n]);
 }
 
-/* Greater pictures than the other formats can hold. */
-static const size_t most_pixels = INT32_MAX;
+/* Along an axis: as many as a row of eight bytes each can have on every machine. */
+static const size_t most_pixels = INT32_MAX / 8;
 
 /* PAM's header has a word before each number. What kind of tuples they are follows from how many
  * numbers each has. */
