@@ -269,10 +269,10 @@ bool foreign_told(const char *text, size_t n, problem *wrong)
             return told(wrong, magics[i].what, magics[i].remedy);
     if (is_binary_stl(text, n))
         return told(wrong, "a binary STL file", MAKE_SURFACE);
-    if (is_bitmap(text, n) || is_portable_map(text))
-        return is_portable_map(text)
-                   ? told(wrong, "a PNM picture, which only warp and pose take", NO_REMEDY)
-                   : told(wrong, "a BMP picture", MAKE_PNG);
+    if (is_portable_map(text))
+        return told(wrong, "a PNM picture, which only warp and pose take", NO_REMEDY);
+    if (is_bitmap(text, n))
+        return told(wrong, "a BMP picture", MAKE_PNG);
     if (has(text, n, 0, "\xef\xbb\xbf", 3))
         text += 3;
     return is_by_text(text + strspn(text, " \t\r\n"), wrong);
