@@ -27,7 +27,7 @@ if command -v bash >/dev/null; then
     offers 'foliation disc gradient field' libicc map -m ''
     offers '--source --source-crs --solver' libicc map --so
     offers '' libicc map --source island
-    offers 'decode' libicc help d
+    offers 'decode' libicc help dec
     offers 'zsh' libicc completion z
 
     # Every option that help lists, and no other.

@@ -7,7 +7,7 @@ make_cages
 run 0 --version
 grep -q '^libicc [0-9]*\.[0-9]*\.[0-9]*$' out || complain "no version: $(cat out)"
 run 0 --help
-for command in map encode decode warp mesh check info plot weights pose; do
+for command in map encode decode warp animate mesh check info plot weights pose; do
     run 0 --help
     holds out "  $command "
     run 0 "$command" --help

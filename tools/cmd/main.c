@@ -72,6 +72,22 @@ static const command commands[] = {
          "name says, or else that of IN: grey or RGB, with or without alpha (PNG, PAM), 8 "
          "or 16 bits\n"
          "(JPEG: 8).\n"},
+    {.name = "animate",
+     .bit = FOR_ANIMATE,
+     .n_operands = 3,
+     .n_operands_more = 1000000,
+     .needs_target = true,
+     .run = run_animate,
+     .usage = "--source FILE [OPTION]... IN OUT CAGE...",
+     .summary = "Warps a picture along a path of cages, a picture a frame",
+     .details =
+         "The source is the cage in the picture IN; the cages are where it goes, one after the "
+         "other. Between\n"
+         "them corners go straight, in as many frames as --steps says. OUT gets the number of the "
+         "frame:\n"
+         "fish.png makes fish-0000.png, fish-0001.png and so on. Each map follows the one before, "
+         "and is\n"
+         "certified like those of warp.\n"},
     {.name = "mesh",
      .bit = FOR_MESH,
      .n_operands = 2,
@@ -195,6 +211,14 @@ static const command commands[] = {
          "--certified they\n"
          "cannot: handles and outline go where they should, the rest is a certified map near the "
          "pose.\n"},
+    {.name = "demo",
+     .bit = FOR_DEMO,
+     .n_operands_more = 1,
+     .run = run_demo,
+     .usage = "[FOLDER]",
+     .summary = "Writes two cages and a picture to try the others on",
+     .details =
+         "FOLDER (default: libicc-demo) must not be there yet. What to try next is printed.\n"},
 };
 enum { N_COMMANDS = sizeof commands / sizeof *commands };
 
@@ -257,9 +281,9 @@ static int help_with(const char *name)
 int main(int argc, char **argv)
 {
     if (argc < 2)
-        return misused(NULL,
-                       "which command? one of map, encode, decode, warp, mesh, check, info, plot, "
-                       "match, weights, pose");
+        return misused(
+            NULL, "which command? one of map, encode, decode, warp, animate, mesh, check, info, "
+                  "plot, match, weights, pose, demo");
     const char *name = argv[1];
     const command *c = find_command(name);
     if (c != NULL)

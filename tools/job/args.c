@@ -201,10 +201,11 @@ static int take_short(reading *r, const char *text)
     return DONE;
 }
 
-static int take_operand(reading *r, const char *text)
+static int take_operand(reading *r, char *text)
 {
     const command *c = r->command;
-    size_t most = c->n_operands_geojson > c->n_operands ? c->n_operands_geojson : c->n_operands;
+    size_t n = c->n_operands + c->n_operands_more;
+    size_t most = c->n_operands_geojson > n ? c->n_operands_geojson : n;
     if (r->out->n_operands == most)
         return misused(c->name, "'%.60s' is one argument too many", text);
     r->out->operands[r->out->n_operands++] = text;
@@ -213,13 +214,13 @@ static int take_operand(reading *r, const char *text)
 
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
 {
-    *out = (args){.command = c->name, .improve = -1, .snap = -1};
+    *out = (args){.command = c->name, .operands = argv + 2, .improve = -1, .snap = -1};
     *help = false;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
     bool only_operands = false;
     int result = DONE;
     while (r.at < argc && result == DONE && !*help) {
-        const char *text = argv[r.at++];
+        char *text = argv[r.at++];
         if (only_operands || text[0] != '-' || text[1] == '\0')
             result = take_operand(&r, text);
         else if (strcmp(text, "--") == 0)

@@ -16,7 +16,7 @@ typedef struct args {
     const char *triangulation, *source_crs, *target_crs, *ties;
     const char *match, *landmarks, *target_output;
     const char *json_file, *handles, *pose, *binding, *picture;
-    const char *operands[2];
+    char **operands; /* gathered at the front of argv */
     size_t n_operands;
     /* how charts and maps are made: 0 means the library's choice */
     int32_t method, map, mesher, tree, solver, cells, threads;
@@ -74,9 +74,11 @@ enum {
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
     FOR_MATCH = 1024,
+    FOR_ANIMATE = 2048,
+    FOR_DEMO = 4096,
     HAS_CAGES = FOR_CHARTS | FOR_MATCH,
     TAKES_TARGET = MAY_PAIR | FOR_MATCH,
-    FOR_ALL = HAS_CAGES | FOR_KERNEL
+    FOR_ALL = HAS_CAGES | FOR_KERNEL | FOR_ANIMATE
 };
 
 typedef struct command {
@@ -84,6 +86,7 @@ typedef struct command {
     unsigned bit;
     size_t n_operands;
     size_t n_operands_geojson; /* with --geojson */
+    size_t n_operands_more;    /* so many more are taken, too */
     bool needs_target;
     int (*run)(const args *a);
     const char *usage;   /* what follows the name */
@@ -97,6 +100,9 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
 
 /* The last step of that: what no single option shows. */
 int args_check(args *a, const command *c);
+
+/* The operand that names the result; NULL where none does. */
+const char *args_result(const args *a, const command *c);
 
 /* Prints the help of a command on stdout. */
 void args_help(const command *c);

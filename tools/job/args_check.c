@@ -83,7 +83,7 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
     if (a->n_operands > n_operands && has_bound(a, c))
         return misused(c->name, "--binding has its points; it takes one file, OUT");
-    if (a->n_operands > n_operands)
+    if (a->n_operands > n_operands + c->n_operands_more)
         return misused(c->name, "'%.60s' is one argument too many without --geojson",
                        a->operands[0]);
     if (a->geojson && (a->points != NULL || a->output != NULL))
@@ -194,6 +194,17 @@ static int check_charts(const args *a, const command *c)
     return result == DONE ? check_functions(a, c) : result;
 }
 
+/* The cages of a path are read one by one, each with the source. */
+static int check_animate(const args *a, const command *c)
+{
+    bool standard = strcmp(a->source, "-") == 0;
+    for (size_t i = 1; i < a->n_operands; i++)
+        standard = standard || strcmp(a->operands[i], "-") == 0;
+    return standard
+               ? misused(c->name, "cages and pictures are files; only IN may be standard input")
+               : DONE;
+}
+
 static int check_inputs(const args *a, const command *c)
 {
     bool has_input = (c->n_operands == 2 || a->geojson) && !has_bound(a, c);
@@ -216,9 +227,13 @@ static int check_inputs(const args *a, const command *c)
 /* What no single option shows. */
 static int check_together(const args *a, const command *c)
 {
-    int result = c->bit & FOR_KERNEL ? check_kernel(a, c) : check_charts(a, c);
+    int result = c->bit & FOR_DEMO     ? DONE
+                 : c->bit & FOR_KERNEL ? check_kernel(a, c)
+                                       : check_charts(a, c);
     if (result == DONE)
         result = check_operands(a, c);
+    if (result == DONE && c->bit & FOR_ANIMATE)
+        result = check_animate(a, c);
     if (result == DONE)
         result = check_inputs(a, c);
     return result == DONE ? output_names_check(a, c) : result;
@@ -238,6 +253,12 @@ static int settle_match(args *a, const command *c)
     return DONE;
 }
 
+const char *args_result(const args *a, const command *c)
+{
+    size_t at = c->bit & FOR_ANIMATE ? 1 : a->n_operands - 1;
+    return a->n_operands > 0 && at < a->n_operands ? a->operands[at] : NULL;
+}
+
 /* Reads come by default from stdin, and results go by default to stdout. */
 static int settle_streams(args *a, const command *c)
 {
@@ -251,7 +272,7 @@ static int settle_streams(args *a, const command *c)
     bool may_lack = (c->bit & (FOR_WEIGHTS | FOR_MATCH)) != 0;
     const char *result = a->output != NULL || may_lack ? a->output : "-";
     if (c->n_operands > 0 || a->geojson)
-        result = a->n_operands > 0 ? a->operands[a->n_operands - 1] : NULL;
+        result = args_result(a, c);
     if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
         result != NULL && strcmp(result, "-") == 0)
         return misused(c->name,

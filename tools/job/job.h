@@ -51,6 +51,9 @@ size_t job_dim(const job *j);
  * boundary. */
 int job_make_domains(job *j);
 
+/* The domain of a polygon with what lies inside. */
+icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err);
+
 /* Reads the cages, which must be in the plane for `what`. */
 int job_read_plane(job *j, const char *what);
 

@@ -91,7 +91,7 @@ static int failed_surface(job *j, size_t side, const icc_error *err)
     return job_failed_with(j, err, hint);
 }
 
-static icc_status make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err)
+icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err)
 {
     icc_feature *features = need(c->n_features, sizeof *features);
     for (size_t i = 0; i < c->n_features; i++)
@@ -113,7 +113,7 @@ static int make_domain(job *j, size_t side)
     icc_status status =
         c->cells != NULL && c->n == 0 ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim,
                                                                c->shape, c->cells, &j->env, &err)
-        : c->n_features > 0           ? make_polygon(&j->domains[side], c, &j->env, &err)
+        : c->n_features > 0           ? job_make_polygon(&j->domains[side], c, &j->env, &err)
                             : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points,
                                                 c->n_facets, c->facets, &j->env, &err);
     if (status == ICC_OK)

@@ -142,14 +142,14 @@ int output_fits(const char *of, const char *name, const char *list)
 /* What the last operand may be, before its input has been looked at. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
-    return a->geojson                        ? "GeoJSON, JSON"
-           : c->bit & FOR_WARP               ? PICTURES
-           : a->fill                         ? "Medit, VTK"
-           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, Medit, VTK"
-           : c->bit & FOR_PLOT               ? "SVG, PNG, VTK"
-           : c->bit & FOR_POSE && a->binding ? "text"
-           : c->bit & FOR_POSE               ? "text, OBJ, OFF, PLY, Medit, VTK, " PICTURES
-                                             : NULL;
+    return a->geojson                          ? "GeoJSON, JSON"
+           : c->bit & (FOR_WARP | FOR_ANIMATE) ? PICTURES
+           : a->fill                           ? "Medit, VTK"
+           : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, Medit, VTK"
+           : c->bit & FOR_PLOT                 ? "SVG, PNG, VTK"
+           : c->bit & FOR_POSE && a->binding   ? "text"
+           : c->bit & FOR_POSE                 ? "text, OBJ, OFF, PLY, Medit, VTK, " PICTURES
+                                               : NULL;
 }
 
 int output_names_check(const args *a, const command *c)
@@ -169,7 +169,7 @@ int output_names_check(const args *a, const command *c)
     for (size_t i = 0; i < sizeof outputs / sizeof *outputs && result == DONE; i++)
         result = output_fits(c->name, outputs[i].name, outputs[i].formats);
     const char *of_operand = formats_of_operand(a, c);
-    if (result == DONE && of_operand != NULL && a->n_operands > 0)
-        result = output_fits(c->name, a->operands[a->n_operands - 1], of_operand);
+    if (result == DONE && of_operand != NULL)
+        result = output_fits(c->name, args_result(a, c), of_operand);
     return result;
 }

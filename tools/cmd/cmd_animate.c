@@ -1,0 +1,193 @@
+/* libicc animate: a picture follows its cage along a path of cages, a picture a frame.
+ *
+ * The first map is made; each further one follows the one before to the next cage, so that what lies inside does not jump
+ * from frame to frame. Between two cages of the path vertices go straight. */
+#include "cmd/commands.h"
+
+#include "base/allocate.h"
+#include "cage/cage_between.h"
+#include "job/job.h"
+#include "plot/coverage.h"
+#include "plot/picture_file.h"
+#include "plot/picture_warp.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Making the first map, beside a frame. */
+static const double FIRST = 0.3;
+
+typedef struct animation {
+    const args *args;
+    size_t n_keys;
+    job *
+        keys; /* from the source to each cage of the path; maps and progress are those of the first */
+    picture from;
+    picture_style style;
+    icc_map *map; /* to the cage of the present frame; not the first */
+    size_t frame, n_frames;
+    size_t n_failed; /* pixels without an image, in all frames */
+    double began;
+} animation;
+
+static size_t n_steps(const args *a)
+{
+    return a->steps > 0 ? (size_t)a->steps : 1;
+}
+
+static int read_keys(animation *x)
+{
+    int result = DONE;
+    for (size_t k = 0; k < x->n_keys && result == DONE; k++) {
+        args own = *x->args;
+        own.target = x->args->operands[2 + k];
+        job_start(&x->keys[k], &own);
+        result = job_read_plane(&x->keys[k], "animate");
+        if (result == DONE)
+            result = job_make_domains(&x->keys[k]);
+    }
+    return result;
+}
+
+static picture canvas(animation *x)
+{
+    return picture_canvas(&x->from, x->args->has_background ? x->args->background : NULL);
+}
+
+static int read_picture(animation *x)
+{
+    const args *a = x->args;
+    size_t n;
+    char *bytes = file_read(a->operands[0], &n);
+    if (bytes == NULL)
+        return FAILED;
+    int result = picture_take(&x->from, a->operands[0], bytes, n);
+    free(bytes);
+    if (result != DONE)
+        return result;
+    picture to = canvas(x);
+    result = picture_choose(&x->style, &to, &x->from, a->quality, a->command, a->operands[1]);
+    picture_free(&to);
+    return result;
+}
+
+/* OUT with the number of the frame before its extension; free() it. */
+static char *frame_name(const animation *x)
+{
+    const char *name = x->args->operands[1];
+    const char *slash = strrchr(name, '/'), *dot = strrchr(slash != NULL ? slash : name, '.');
+    size_t n_stem = dot != NULL ? (size_t)(dot - name) : strlen(name), n = strlen(name) + 32;
+    char *result = need(n, 1);
+    snprintf(result, n, "%.*s-%04zu%s", (int)n_stem, name, x->frame, name + n_stem);
+    return result;
+}
+
+/* The progress of one more call for a frame. */
+static void expect_frame(animation *x)
+{
+    progress_expect(&x->keys[0].bar, 1.0 / (double)(2 * (x->n_frames - x->frame)));
+}
+
+static int write_frame(animation *x, const icc_map *map)
+{
+    job *j = &x->keys[0];
+    icc_error err = {.size = sizeof err, .index = -1};
+    picture to = canvas(x);
+    size_t n_failed = 0;
+    expect_frame(x);
+    icc_status status = picture_warp(map, &x->from, &to, &n_failed, &j->env, &err);
+    int result = DONE;
+    if (status == ICC_OK) {
+        char *name = frame_name(x);
+        result = picture_save(&to, &x->style, name);
+        free(name);
+    } else {
+        result = job_failed(j, &err);
+    }
+    picture_free(&to);
+    x->n_failed += n_failed;
+    x->frame++;
+    return result;
+}
+
+/* Says why a frame between two cages, or at the second, cannot be had. */
+static int failed_frame(animation *x, size_t key, double share, const icc_error *err)
+{
+    progress_end(&x->keys[0].bar);
+    return failed(job_file(&x->keys[key], 2), 0,
+                  "frame %zu, %g of the way from %s: %s; cages between the two may help", x->frame,
+                  share, job_file(&x->keys[key - 1], 2), err->message);
+}
+
+/* The map of the frame before goes on to a share of the way from one cage of the path to the next. */
+static int follow(animation *x, size_t key, double share)
+{
+    job *first = &x->keys[0];
+    const icc_map *old = x->map != NULL ? x->map : first->map;
+    icc_error err = {.size = sizeof err, .index = -1};
+    icc_domain *own = NULL;
+    icc_map *map = NULL;
+    icc_status status = ICC_OK;
+    if (share < 1) {
+        cage c = cage_between(&x->keys[key - 1].cages[1], &x->keys[key].cages[1], share);
+        status = job_make_polygon(&own, &c, &first->env, &err);
+        cage_free(&c);
+    }
+    expect_frame(x);
+    if (status == ICC_OK)
+        status = icc_map_retarget(&map, old, own != NULL ? own : x->keys[key].domains[1], 0,
+                                  &first->env, &err);
+    icc_domain_free(own);
+    if (status != ICC_OK)
+        return failed_frame(x, key, share, &err);
+    icc_map_free(x->map);
+    x->map = map;
+    return write_frame(x, map);
+}
+
+static int write_frames(animation *x)
+{
+    size_t steps = n_steps(x->args);
+    int result = write_frame(x, x->keys[0].map);
+    for (size_t key = 1; key < x->n_keys; key++)
+        for (size_t i = 1; i <= steps && result == DONE; i++)
+            result = follow(x, key, i < steps ? (double)i / (double)steps : 1);
+    return result;
+}
+
+static int finish(animation *x)
+{
+    progress_end(&x->keys[0].bar);
+    size_t n = x->n_frames * x->from.width * x->from.height;
+    int result = report_points(&x->keys[0], n, x->n_failed, seconds_now() - x->began);
+    if (result != DONE || x->n_failed == 0)
+        return result;
+    note("%zu of %zu pixels have no image in the source", x->n_failed, n);
+    return PARTIAL;
+}
+
+int run_animate(const args *a)
+{
+    animation x = {.args = a, .n_keys = a->n_operands - 2};
+    x.n_frames = (x.n_keys - 1) * n_steps(a) + 1;
+    x.keys = need(x.n_keys, sizeof *x.keys);
+    int result = read_keys(&x);
+    if (result == DONE)
+        result = read_picture(&x);
+    progress_expect(&x.keys[0].bar, FIRST);
+    if (result == DONE)
+        result = job_make_map(&x.keys[0]);
+    if (result == DONE)
+        coverage_tell(&x.keys[0], x.from.width, x.from.height);
+    x.began = seconds_now();
+    if (result == DONE)
+        result = write_frames(&x);
+    if (result == DONE)
+        result = finish(&x);
+    icc_map_free(x.map);
+    picture_free(&x.from);
+    for (size_t k = 0; k < x.n_keys; k++)
+        job_end(&x.keys[k]);
+    free(x.keys);
+    return result;
+}

@@ -1,0 +1,116 @@
+/* libicc demo: a pair of cages and a picture to try the other commands on, and these commands. */
+#define _POSIX_C_SOURCE 200809L
+
+#include "cmd/commands.h"
+
+#include "base/allocate.h"
+#include "base/file.h"
+#include "base/say.h"
+#include "cmd/demo_picture.h"
+#include "plot/picture_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { N_VERTICES = 12 };
+
+/* Round the fish, which swims to the right; and the same when it has bent. */
+static const int before[N_VERTICES][2] = {{30, 55},   {115, 105}, {190, 62},  {262, 40},
+                                          {345, 72},  {425, 160}, {345, 248}, {262, 275},
+                                          {190, 258}, {115, 215}, {30, 265},  {58, 160}};
+static const int after[N_VERTICES][2] = {{92, 58},   {136, 134}, {200, 106}, {252, 86},
+                                         {314, 102}, {414, 146}, {373, 262}, {274, 312},
+                                         {180, 296}, {100, 238}, {8, 234},   {65, 162}};
+
+/* `NAME` in the folder; free() it. */
+static char *inside(const char *folder, const char *name)
+{
+    size_t n = strlen(folder) + strlen(name) + 2;
+    char *path = need(n, 1);
+    snprintf(path, n, "%s/%s", folder, name);
+    return path;
+}
+
+static int write_cage(const char *folder, const char *name, const int vertices[][2])
+{
+    char *path = inside(folder, name);
+    int result = FAILED;
+    outfile file;
+    if (outfile_open(&file, path)) {
+        for (size_t i = 0; i < N_VERTICES; i++)
+            fprintf(file.stream, "%d %d\n", vertices[i][0], vertices[i][1]);
+        result = outfile_close(&file) ? DONE : FAILED;
+    }
+    free(path);
+    return result;
+}
+
+static int write_picture(const char *folder)
+{
+    char *path = inside(folder, "fish.png");
+    picture p = demo_picture();
+    int result = picture_save(&p, &(picture_style){.format = PICTURE_PNG, .notes = &p.notes}, path);
+    picture_free(&p);
+    free(path);
+    return result;
+}
+
+/* A word for a shell. */
+static void print_word(const char *text)
+{
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,+=@%";
+    if (text[0] != '\0' && text[strspn(text, plain)] == '\0') {
+        fputs(text, stdout);
+        return;
+    }
+    putchar('\'');
+    for (const char *c = text; *c != '\0'; c++)
+        fputs(*c == '\'' ? "'\\''" : (char[]){*c, '\0'}, stdout);
+    putchar('\'');
+}
+
+/* What to try next: within the folder, so that the commands are short. */
+static void print_next(const char *folder)
+{
+    fputs("In ", stdout);
+    print_word(folder);
+    fputs(
+        " are a picture, fish.png, and two cages: a polygon round the fish, before.txt, and where\n"
+        "its corners go, after.txt. To try next:\n\n"
+        "  cd ",
+        stdout);
+    print_word(folder);
+    puts("\n\nIs the map from one cage to the other one-to-one?\n"
+         "  libicc check -s before.txt -t after.txt\n\n"
+         "Bend the fish; look at bent.png:\n"
+         "  libicc warp -s before.txt -t after.txt --background 78b9d7 fish.png bent.png\n\n"
+         "See what becomes of a checkerboard; look at map.svg:\n"
+         "  libicc plot -s before.txt -t after.txt --y-down map.svg\n\n"
+         "Where does the eye go, and back?\n"
+         "  echo 358 140 | libicc map -s before.txt -t after.txt >eye.txt; cat eye.txt\n"
+         "  libicc map -s before.txt -t after.txt --inverse <eye.txt\n\n"
+         "Make a film of it, from before to after in 24 steps; look at film-0000.png and so on:\n"
+         "  libicc animate -s before.txt --steps 24 --background 78b9d7 fish.png film.png "
+         "before.txt after.txt\n\n"
+         "Move corners in after.txt, a text file, and warp again. 'libicc help' lists what else "
+         "there is.");
+}
+
+int run_demo(const args *a)
+{
+    const char *folder = a->n_operands > 0 ? a->operands[0] : "libicc-demo";
+    if (mkdir(folder, 0777) != 0)
+        return failed(folder, 0, "cannot be made: %s%s", strerror(errno),
+                      errno == EEXIST ? "; 'libicc demo FOLDER' makes another" : "");
+    int result = write_cage(folder, "before.txt", before);
+    if (result == DONE)
+        result = write_cage(folder, "after.txt", after);
+    if (result == DONE)
+        result = write_picture(folder);
+    if (result == DONE)
+        print_next(folder);
+    return result;
+}
