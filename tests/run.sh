@@ -26,7 +26,7 @@ fi
 if [ "$tier" != plain ]; then
     need libsuitesparse-dev cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
         python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen \
-        mandoc man-db clang-format proj-bin gdal-bin zsh fish
+        mandoc man-db clang-format proj-bin gdal-bin assimp-utils zsh fish
 fi
 
 preset=${1:-release}

@@ -73,7 +73,7 @@ for name in o.tif o.pdf o.obj o.json; do misnamed "$name" plot -s nowhere "$name
 for name in o.png o.pdf o.obj o.json; do
     misnamed "$name" weights -s nowhere -a nowhere --picture "$name"
 done
-for name in o.stl o.gltf o.txt o.png o.msh; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done
+for name in o.dae o.gltf o.txt o.png o.msh; do misnamed "$name" mesh -s nowhere -t nowhere nowhere.obj "$name"; done
 for name in o.geojson o.csv o.xlsx o.npy; do
     misnamed "$name" map -s nowhere -t nowhere -o "$name"
     misnamed "$name" encode -s nowhere -o "$name"
@@ -83,7 +83,7 @@ done
 for name in o.kml o.gpkg o.shp o.txt o.geojsonl; do
     misnamed "$name" map -s nowhere -t nowhere --geojson nowhere "$name"
 done
-for name in o.shp o.svg o.ply; do
+for name in o.shp o.svg o.vtk; do
     misnamed "$name" check -s nowhere --repair "$name"
     misnamed "$name" check -s nowhere --boundary "$name"
 done

@@ -1,6 +1,8 @@
 /* Foreign formats, recognised by their first bytes; XML by the root element. */
 #include "base/foreign.h"
 
+#include "base/bytes.h"
+
 #include <stdint.h>
 #include <string.h>
 
@@ -17,7 +19,7 @@ typedef enum remedy {
 
 static const char *const remedies[] = {
     "'ogr2ogr -f GeoJSON OUT.geojson FILE' makes GeoJSON of it",
-    "save it as OBJ, OFF or PLY ('meshio convert FILE OUT.obj', Blender and MeshLab do)",
+    "save it as OBJ, OFF, PLY or STL ('meshio convert FILE OUT.obj', Blender and MeshLab do)",
     "'convert FILE OUT.png' makes a PNG picture of it",
     "'iconv -f UTF-16 -t UTF-8' makes UTF-8 of it",
     "save one array of it as .npy",
@@ -39,7 +41,6 @@ static const magic magics[] = {
     {0, 6, "ARROW1", "an Arrow file", MAKE_GEOJSON},
     {0, 18, "AutoCAD Binary DXF", "a binary DXF drawing", MAKE_GEOJSON},
     {0, 4, "AC10", "a DWG drawing; save it as DXF", NO_REMEDY},
-    {0, 4, "glTF", "a binary glTF file (GLB)", MAKE_SURFACE},
     {0, 18, "Kaydara FBX Binary", "an FBX file", MAKE_SURFACE},
     {0, 7, "BLENDER", "a Blender file", MAKE_SURFACE},
     {0, 8, "PXR-USDC", "a USD file", MAKE_SURFACE},
@@ -133,14 +134,6 @@ static bool is_database(const char *text, size_t n, problem *wrong)
     return told(wrong, package ? "a GeoPackage" : "an SQLite database", MAKE_GEOJSON);
 }
 
-static uint32_t little_endian(const char *bytes, size_t n)
-{
-    uint32_t value = 0;
-    for (size_t i = n; i-- > 0;)
-        value = value << 8 | (unsigned char)bytes[i];
-    return value;
-}
-
 /* The name of its first file says what an archive is for. */
 static bool is_zip(const char *text, size_t n, problem *wrong)
 {
@@ -163,28 +156,9 @@ static bool is_zip(const char *text, size_t n, problem *wrong)
     return told(wrong, "a zip archive ('unzip')", UNPACK);
 }
 
-/* 80 bytes of anything, the number of facets, and 50 bytes for each. */
-static bool is_binary_stl(const char *text, size_t n)
-{
-    if (n < 84)
-        return false;
-    uint64_t n_facets = little_endian(text + 80, 4);
-    return n_facets > 0 && n == 84 + 50 * n_facets;
-}
-
 static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
-/* `solid NAME`, then facets, unless there are none. */
-static bool is_text_stl(const char *text)
-{
-    if (strncmp(text, "solid", 5) != 0 || (!is_blank(text[5]) && text[5] != '\0'))
-        return false;
-    const char *p = text + strcspn(text, "\n");
-    p += strspn(p, " \t\r\n");
-    return strncmp(p, "facet", 5) == 0 || strncmp(p, "endsolid", 8) == 0;
 }
 
 /* Comments (999), then 0 and SECTION, each on a line of its own. */
@@ -251,8 +225,6 @@ static bool is_by_text(const char *text, problem *wrong)
 {
     if (*text == '\x1e')
         return foreign_vector(wrong, 0, "a GeoJSON text sequence (GeoJSONSeq)"), true;
-    if (is_text_stl(text))
-        return told(wrong, "an STL file", MAKE_SURFACE);
     if (is_dxf(text))
         return told(wrong, "a DXF drawing", MAKE_GEOJSON);
     if (is_hexadecimal(text))
@@ -267,8 +239,6 @@ bool foreign_told(const char *text, size_t n, problem *wrong)
     for (size_t i = 0; i < sizeof magics / sizeof *magics; i++)
         if (has(text, n, magics[i].at, magics[i].bytes, magics[i].n))
             return told(wrong, magics[i].what, magics[i].remedy);
-    if (is_binary_stl(text, n))
-        return told(wrong, "a binary STL file", MAKE_SURFACE);
     if (is_portable_map(text))
         return told(wrong, "a PNM picture, which only warp and pose take", NO_REMEDY);
     if (is_bitmap(text, n))

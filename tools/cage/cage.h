@@ -1,7 +1,7 @@
 /* Cages: boundaries of shapes, read from files.
  *
  * In the plane a ring of vertices (text, GeoJSON, WKT, SVG), in space a closed surface (OBJ, OFF,
- * PLY); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
+ * PLY, STL, glTF); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
  * source and target correspond by index. In a ring a last vertex that repeats the first closes it
  * and is dropped. Holes, lines and points inside a ring are kept apart from it. */
 #ifndef CAGE_H

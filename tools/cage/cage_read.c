@@ -4,6 +4,7 @@
 #include "base/foreign.h"
 #include "cage/cage_features.h"
 #include "cage/cage_readers.h"
+#include "mesh/mesh_file.h"
 
 #include <string.h>
 
@@ -85,7 +86,8 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
         return foreign_surface(wrong, 0, *p == '#' ? "a VTK mesh" : "a Medit mesh");
     out->dim = 3;
     const char *first = skip_comments(p);
-    if (is_word(p, "ply") || is_word(first, "OFF") || is_obj(first))
+    if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
+        is_word(first, "OFF") || is_obj(first))
         return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
     if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
         return cage_read_npy(out, text, n, wrong);

@@ -15,7 +15,7 @@ bool cage_svg_has(cage_role role, const char *text);
 
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
-/* OBJ, OFF and PLY. Faces with more than three corners become fans of triangles. */
+/* OBJ, OFF, PLY, STL and glTF. Faces with more than three corners become fans of triangles. */
 bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
 
 /* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */

@@ -2,45 +2,107 @@
 
 #include "base/allocate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct place {
-    double at[3];
-    uint32_t vertex;
-} place;
+enum { NONE = -1 };
 
-static int by_place(const void *a, const void *b)
+/* Kept vertices by the cubes that they lie in, which are as wide as the tolerance; without one, by
+ * their places. Those of a cube are chained; cubes may share a chain. */
+typedef struct cubes {
+    const double *points;
+    double width;
+    size_t mask;
+    int64_t *first, *next;
+} cubes;
+
+static cubes cubes_make(const cage *c, double tolerance)
 {
-    const place *p = a, *q = b;
-    for (int k = 0; k < 3; k++)
-        if (p->at[k] != q->at[k])
-            return p->at[k] < q->at[k] ? -1 : 1;
-    return p->vertex < q->vertex ? -1 : 1;
+    cubes x = {.points = c->points, .width = tolerance, .mask = 1};
+    while (x.mask < c->n)
+        x.mask = 2 * x.mask + 1;
+    x.first = need(x.mask + 1, sizeof *x.first);
+    x.next = need(c->n, sizeof *x.next);
+    for (size_t i = 0; i <= x.mask; i++)
+        x.first[i] = NONE;
+    return x;
 }
 
-static bool is_same_place(const place *p, const place *q)
+/* Adding 0 makes one of both zeros. */
+static double cube_of(const cubes *x, double at)
 {
-    return p->at[0] == q->at[0] && p->at[1] == q->at[1] && p->at[2] == q->at[2];
+    return x->width > 0 ? floor(at / x->width) : at + 0;
 }
 
-/* The first vertex at the place of each. */
-static uint32_t *find_first(const cage *c, size_t *n_later)
+/* The chain of a cube; the bits are mixed by multiples of the golden ratio. */
+static int64_t *chain(const cubes *x, const double cube[3])
 {
-    place *places = need(c->n, sizeof *places);
-    uint32_t *first = need(c->n, sizeof *first);
-    for (size_t i = 0; i < c->n; i++) {
-        memcpy(places[i].at, c->points + 3 * i, sizeof places[i].at);
-        places[i].vertex = (uint32_t)i;
+    uint64_t mixed = 0;
+    for (int k = 0; k < 3; k++) {
+        uint64_t bits;
+        memcpy(&bits, &cube[k], sizeof bits);
+        mixed = (mixed ^ bits) * UINT64_C(0x9e3779b97f4a7c15);
+        mixed ^= mixed >> 32;
     }
-    qsort(places, c->n, sizeof *places, by_place);
+    return &x->first[mixed & x->mask];
+}
+
+static bool is_near(const cubes *x, size_t i, size_t j)
+{
+    const double *p = x->points + 3 * i, *q = x->points + 3 * j;
+    double d[3] = {p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+    if (!(x->width > 0))
+        return p[0] == q[0] && p[1] == q[1] && p[2] == q[2];
+    for (int k = 0; k < 3; k++)
+        d[k] /= x->width;
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= 1;
+}
+
+/* The first vertex kept that is near vertex i, or NONE: in its cube or one beside. */
+static int64_t find_near(const cubes *x, size_t i)
+{
+    int64_t found = NONE;
+    int reach = x->width > 0 ? 1 : 0, n = 2 * reach + 1;
+    for (int s = 0; s < n * n * n; s++) {
+        const int step[3] = {s % n, s / n % n, s / n / n};
+        double cube[3];
+        for (int k = 0; k < 3; k++)
+            cube[k] = cube_of(x, x->points[3 * i + (size_t)k]) + (step[k] - reach) + 0.0;
+        for (int64_t j = *chain(x, cube); j != NONE; j = x->next[j])
+            if (is_near(x, i, (size_t)j) && (found == NONE || j < found))
+                found = j;
+    }
+    return found;
+}
+
+static void keep(cubes *x, size_t i)
+{
+    double cube[3];
+    for (int k = 0; k < 3; k++)
+        cube[k] = cube_of(x, x->points[3 * i + (size_t)k]) + 0.0;
+    int64_t *first = chain(x, cube);
+    x->next[i] = *first;
+    *first = (int64_t)i;
+}
+
+/* The vertex that each becomes: the first kept one near it, else it is kept itself. So kept ones are
+ * farther apart than the tolerance, and few are in a cube. */
+static uint32_t *find_first(const cage *c, double tolerance, size_t *n_later)
+{
+    uint32_t *first = need(c->n, sizeof *first);
+    cubes x = cubes_make(c, tolerance);
     *n_later = 0;
     for (size_t i = 0; i < c->n; i++) {
-        bool later = i > 0 && is_same_place(&places[i - 1], &places[i]);
-        first[places[i].vertex] = later ? first[places[i - 1].vertex] : places[i].vertex;
-        *n_later += later;
+        int64_t near = find_near(&x, i);
+        first[i] = near == NONE ? (uint32_t)i : (uint32_t)near;
+        if (near == NONE)
+            keep(&x, i);
+        else
+            ++*n_later;
     }
-    free(places);
+    free(x.first);
+    free(x.next);
     return first;
 }
 
@@ -48,7 +110,7 @@ size_t weld_count(const cage *c)
 {
     size_t n = 0;
     if (c->dim == 3)
-        free(find_first(c, &n));
+        free(find_first(c, 0, &n));
     return n;
 }
 
@@ -66,10 +128,10 @@ static void renumber(cage *c, const uint32_t *first, const uint32_t *numbers)
     c->n_facets = kept;
 }
 
-size_t weld(cage *c)
+size_t weld(cage *c, double tolerance)
 {
     size_t n_later, kept = 0;
-    uint32_t *first = find_first(c, &n_later), *numbers = need(c->n, sizeof *numbers);
+    uint32_t *first = find_first(c, tolerance, &n_later), *numbers = need(c->n, sizeof *numbers);
     for (size_t i = 0; i < c->n; i++) {
         if (first[i] != i)
             continue;

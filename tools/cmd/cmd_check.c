@@ -104,7 +104,7 @@ static int verdict_on_method(check *c)
 static const char *repaired_formats(const check *c)
 {
     return c->job.cages[0].cells != NULL ? "NumPy"
-           : !in_plane(c)                ? "OBJ"
+           : !in_plane(c)                ? SURFACES
            : c->job.args->target != NULL ? "GeoJSON, JSON"
                                          : "text, GeoJSON, JSON";
 }
@@ -124,8 +124,8 @@ static int check_options(const check *c)
         return failed(a->source, 0, "--repair is for cages without holes, lines or points inside");
     if (a->repair != NULL && c->job.n_parts > 0)
         return failed(a->source, 0, "--repair is for cages of a single polygon");
-    return output_fits(a->command, a->boundary, job_dim(&c->job) == 3 ? "text, OBJ" : "text") ==
-                   DONE
+    return output_fits(a->command, a->boundary,
+                       job_dim(&c->job) == 3 ? "text, " SURFACES : "text") == DONE
                ? output_fits(a->command, a->repair, repaired_formats(c))
                : MISUSED;
 }

@@ -27,6 +27,20 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
     return ran == ICC_OK ? DONE : job_failed(j, &err);
 }
 
+/* Images as the format holds them are what is reported; where it rounds, the library's certificate
+ * is of something else. */
+static int round_images(const job *j, const mesh_file *m, double *images,
+                        icc_certificate *certificate)
+{
+    size_t vertex;
+    if (m->floats)
+        certificate->size = 0;
+    return mesh_round(m, images, &vertex)
+               ? DONE
+               : failed(j->args->operands[0], 0, "the image of vertex %zu is too large for %s",
+                        vertex, m->format);
+}
+
 static void print_tally(const job *j, const char *text, const icc_certificate *certificate)
 {
     const char *verdict = certificate->size == 0   ? ""
@@ -111,6 +125,8 @@ static int map_mesh(job *j, const mesh_file *m)
         j->map, n, m->points, images, status, &n_failed, &j->env);
     icc_certificate certificate = {0};
     int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
+    if (result == DONE)
+        result = round_images(j, m, images, &certificate);
     bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
     progress_end(&j->bar);
     if (result == DONE && writes)

@@ -81,16 +81,22 @@ static int pose_rows(pose *p, const char *text, size_t n)
 
 /* ------------------------------------------------------------------- meshes */
 
-/* Of a mesh every vertex was finite, but its image may not be. */
-static int check_images(pose *p, const mesh_file *m, const double *images)
+/* Of a mesh every vertex was finite, but its image may not be, or not in the numbers of its file, to
+ * which it is rounded. */
+static int check_images(pose *p, const mesh_file *m, double *images)
 {
+    size_t vertex;
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         if (!isfinite(images[i]))
             return failed(p->kernel.job.args->operands[0], 0,
                           "vertex %zu %s, so nothing was written", i / m->dim,
                           p->map != NULL ? "is outside the shape"
                                          : "goes beyond the range of numbers");
-    return DONE;
+    return mesh_round(m, images, &vertex)
+               ? DONE
+               : failed(p->kernel.job.args->operands[0], 0,
+                        "the image of vertex %zu is too large for %s, so nothing was written",
+                        vertex, m->format);
 }
 
 static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
@@ -191,7 +197,7 @@ static int pose_shape(pose *p)
                               : output_fits("pose", pose_output(p),
                                             is_picture(text, n) ? PICTURES
                                             : is_points(text)   ? "text"
-                                                                : mesh_format(text));
+                                                                : mesh_format(text, n));
     }
     if (result == DONE)
         result = kernel_job_make(&p->kernel);

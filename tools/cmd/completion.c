@@ -32,11 +32,6 @@ static bool has(const command *c, const option *o)
     return (o->commands & c->bit) != 0;
 }
 
-static bool takes_value(const option *o)
-{
-    return o->value != NULL && o->kind != OPTION_REPORT;
-}
-
 static void print_commands(size_t n, const command *commands)
 {
     for (size_t i = 0; i < n; i++)
@@ -95,7 +90,7 @@ static void print_zsh_option(const option *o)
     fputs("'[", stdout);
     print_quoted(o->help, "[]:");
     fputs("]", stdout);
-    if (takes_value(o)) {
+    if (option_takes_word(o)) {
         fputs(":", stdout);
         print_quoted(o->value, "[]:");
         fputs(o->choices != NULL ? ":(" : o->kind == OPTION_TEXT ? ":_files" : ": ", stdout);
@@ -152,11 +147,11 @@ static void print_fish_option(const command *c, const option *o)
     printf("complete -c libicc -n '__fish_seen_subcommand_from %s' -l %s", c->name, o->name);
     if (o->letter != '\0')
         printf(" -s %c", o->letter);
-    if (takes_value(o) && o->choices != NULL) {
+    if (option_takes_word(o) && o->choices != NULL) {
         fputs(" -x -a '", stdout);
         print_names(o->choices);
         fputs("'", stdout);
-    } else if (takes_value(o)) {
+    } else if (option_takes_word(o)) {
         fputs(o->kind == OPTION_TEXT ? " -r" : " -x", stdout);
     }
     fputs(" -d '", stdout);

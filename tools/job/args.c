@@ -141,6 +141,12 @@ static int take_option(reading *r, const option *o, const char *attached)
         *(const char **)((char *)r->out + o->present) = attached != NULL ? attached : "-";
         return DONE;
     }
+    if (o->kind == OPTION_WITH_LENGTH) {
+        option length = *o;
+        length.offset = o->present;
+        *flag_at(r->out, o->offset) = true;
+        return attached != NULL ? set_length(r, &length, attached) : DONE;
+    }
     if (o->kind == OPTION_FLAG || o->kind == OPTION_HELP) {
         if (attached != NULL)
             return misused(r->command->name, "--%s takes no value", o->name);
@@ -238,8 +244,8 @@ static void print_option(const option *o)
     char left[64], letter[8] = "    ";
     if (o->letter != '\0' && !o->quiet_letter)
         snprintf(letter, sizeof letter, "-%c, ", o->letter);
-    snprintf(left, sizeof left, "%s--%s%s%s", letter, o->name,
-             o->value != NULL && o->kind != OPTION_REPORT ? " " : "", o->value ? o->value : "");
+    snprintf(left, sizeof left, "%s--%s%s%s", letter, o->name, option_takes_word(o) ? " " : "",
+             o->value ? o->value : "");
     printf("  %-30s %s\n", left, o->help);
 }
 

@@ -29,6 +29,7 @@ typedef struct args {
     int32_t quality;  /* of JPEG; 0: not given */
     int32_t turning;  /* of outlines that are matched; 0: the library's choice */
     double snap;      /* below 0: the command's choice */
+    double weld;      /* how far apart vertices may be that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum;       /* their coordinates; 0: not given */
     bool needs_target, may_pair, takes_parts; /* what the command does with two cages */
@@ -46,7 +47,7 @@ typedef struct args {
     size_t n_slice, n_view;
     /* what to do */
     bool fill, fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
-        compression, has_background;
+        compression, has_background, welds;
     unsigned char background[4];
     int32_t lines;
 } args;

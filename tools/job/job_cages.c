@@ -12,12 +12,25 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* Both cages are welded in one way, so that they go on to correspond if they did. The target may be
+ * the vertices alone of what the source has become. */
+static int join_vertices(job *j, size_t side)
+{
+    cage *c = &j->cages[side];
+    if (j->args->welds && side == 0 && c->n_facets == 0)
+        return failed(job_file(j, (int)side + 1), 0,
+                      "not a surface in space; --weld joins vertices of such");
+    if (j->args->welds && c->n_facets > 0)
+        weld(c, j->args->weld);
+    return DONE;
+}
+
 static int read_cage(job *j, size_t side, const char *text, size_t n)
 {
     problem wrong;
     size_t dim = side == 0 ? 2 : job_dim(j);
     if (cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, dim, text, n, &wrong))
-        return DONE;
+        return join_vertices(j, side);
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
     return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
@@ -85,9 +98,7 @@ static int failed_surface(job *j, size_t side, const icc_error *err)
     char hint[120] = "";
     size_t n = weld_count(&j->cages[side]);
     if (n > 0)
-        snprintf(hint, sizeof hint,
-                 "; %zu vertices coincide with others: 'libicc check --repair OUT.obj' joins them",
-                 n);
+        snprintf(hint, sizeof hint, "; %zu vertices coincide with others: --weld joins them", n);
     return job_failed_with(j, err, hint);
 }
 

@@ -41,6 +41,11 @@ const char *choice_name(const choice *choices, int32_t value)
     return "unknown";
 }
 
+bool option_takes_word(const option *o)
+{
+    return o->value != NULL && o->kind != OPTION_REPORT && o->kind != OPTION_WITH_LENGTH;
+}
+
 #define AT(member) offsetof(args, member)
 const option options[] = {
     {.name = "source",
@@ -49,7 +54,7 @@ const option options[] = {
      .commands = HAS_CAGES | FOR_ANIMATE,
      .offset = AT(source),
      .value = "FILE",
-     .help = "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY; a .npy mask"},
+     .help = "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; a .npy mask"},
     {.name = "target",
      .letter = 't',
      .kind = OPTION_TEXT,
@@ -79,6 +84,13 @@ const option options[] = {
      .choices = turnings,
      .value = "NAME",
      .help = "match: upright (default; rather turned little) or free (any rotation is as good)"},
+    {.name = "weld",
+     .kind = OPTION_WITH_LENGTH,
+     .commands = FOR_ALL,
+     .offset = AT(welds),
+     .present = AT(weld),
+     .value = "[=LENGTH]",
+     .help = "in space: join vertices at one place, or no farther apart, as STL needs it"},
     {.name = "fill-holes",
      .kind = OPTION_FLAG,
      .commands = TAKES_PARTS,
@@ -109,7 +121,8 @@ const option options[] = {
      .commands = FOR_KERNEL,
      .offset = AT(source),
      .value = "FILE",
-     .help = "the shape: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY; may be in the handles' file"},
+     .help = "the shape: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; may be in the handles' "
+             "file"},
     {.name = "handles",
      .letter = 'a',
      .kind = OPTION_TEXT,
@@ -281,7 +294,8 @@ const option options[] = {
      .commands = FOR_CHECK,
      .offset = AT(boundary),
      .value = "FILE",
-     .help = "write the vertices of a mask's boundary (.obj: with faces), to be moved"},
+     .help = "write the vertices of a mask's boundary (.obj, .off, .ply, .stl: with faces), to be "
+             "moved"},
     {.name = "untangle",
      .former = "repair", /* elsewhere that takes a file */
      .kind = OPTION_FLAG,

@@ -11,9 +11,10 @@ typedef enum option_kind {
     OPTION_LENGTH, /* double above 0 (or 0 with `zero`), and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
     OPTION_FUNCTIONS,
-    OPTION_POINT,  /* double[ICC_MAX_DIM], and a size_t: how many there are */
-    OPTION_COLOUR, /* unsigned char[4], and a bool that it is there */
-    OPTION_REPORT, /* bool, and a const char * when =FILE follows */
+    OPTION_POINT,       /* double[ICC_MAX_DIM], and a size_t: how many there are */
+    OPTION_COLOUR,      /* unsigned char[4], and a bool that it is there */
+    OPTION_REPORT,      /* bool, and a const char * when =FILE follows */
+    OPTION_WITH_LENGTH, /* bool, and a double when =LENGTH follows */
     OPTION_HELP
 } option_kind;
 
@@ -43,6 +44,9 @@ extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);
+
+/* Whether a value follows as a word of its own. */
+bool option_takes_word(const option *o);
 
 extern const option options[];
 extern const size_t n_options;

@@ -68,7 +68,8 @@ static const struct {
     {"VTK", "vtk"},
     {"VTK in XML", "vtu vtp vti vtr vts vtm"},
     {"STL", "stl"},
-    {"glTF", "gltf glb"},
+    {"glTF", "glb"},
+    {"glTF in JSON", "gltf"},
     {"FBX", "fbx"},
     {"COLLADA", "dae"},
     {"3DS", "3ds"},
@@ -145,11 +146,11 @@ static const char *formats_of_operand(const args *a, const command *c)
     return a->geojson                          ? "GeoJSON, JSON"
            : c->bit & (FOR_WARP | FOR_ANIMATE) ? PICTURES
            : a->fill                           ? "Medit, VTK"
-           : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, Medit, VTK"
+           : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
            : c->bit & FOR_PLOT                 ? "SVG, PNG, VTK"
            : c->bit & FOR_POSE && a->binding   ? "text"
-           : c->bit & FOR_POSE                 ? "text, OBJ, OFF, PLY, Medit, VTK, " PICTURES
-                                               : NULL;
+           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, " PICTURES
+                               : NULL;
 }
 
 int output_names_check(const args *a, const command *c)
@@ -160,8 +161,8 @@ int output_names_check(const args *a, const command *c)
                    {a->target_output, "text, GeoJSON, JSON"},
                    {a->triangulation, "JSON"},
                    {a->ties, "GeoJSON, JSON"},
-                   {a->repair, "text, GeoJSON, JSON, OBJ, NumPy"},
-                   {a->boundary, "text, OBJ"},
+                   {a->repair, "text, GeoJSON, JSON, " SURFACES ", NumPy"},
+                   {a->boundary, "text, " SURFACES},
                    {a->picture, "SVG"},
                    {c->bit & FOR_WEIGHTS ? a->binding : NULL, "libicc's own"},
                    {a->json ? a->json_file : NULL, "JSON"}};

@@ -6,6 +6,7 @@
 
 /* The formats of pictures, for output_fits(). */
 #define PICTURES "PNG, JPEG, PNM, PGM, PPM, PAM"
+#define SURFACES "OBJ, OFF, PLY, STL"
 
 /* The format that the extension of a file's name stands for; NULL: none, or none that is known. */
 const char *output_format(const char *name);

@@ -3,25 +3,36 @@
 #include "base/foreign.h"
 #include "mesh/mesh_lines.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct format {
     const char *name, *begin; /* what its files begin with */
     bool word;                /* which is a word */
+    bool binary;              /* or may be */
     bool (*read)(lines *r);
 } format;
 
 /* OBJ has no mark of its own. */
-static const format formats[] = {{"VTK", "# vtk DataFile", false, mesh_read_vtk},
-                                 {"PLY", "ply", true, mesh_read_ply},
-                                 {"Medit", "MeshVersion", false, mesh_read_medit},
-                                 {"OFF", "OFF", true, mesh_read_off},
-                                 {"OBJ", "", false, mesh_read_obj}};
+static const format formats[] = {{"VTK", "# vtk DataFile", false, false, mesh_read_vtk},
+                                 {"PLY", "ply", true, true, mesh_read_ply},
+                                 {"Medit", "MeshVersion", false, false, mesh_read_medit},
+                                 {"OFF", "OFF", true, false, mesh_read_off},
+                                 {"OBJ", "", false, false, mesh_read_obj}};
+static const format stl = {"STL", NULL, false, true, mesh_read_stl};
+static const format gltf = {"glTF", NULL, false, true, mesh_read_glb};
 
-/* The format of the file, and in `r` where it begins, behind comments. */
-static const format *find_format(lines *r)
+/* The format of the file of n bytes, and in `r` where it begins, behind comments. */
+static const format *find_format(lines *r, size_t n)
 {
+    bool binary = mesh_is_glb(r->at, n);
+    if (binary || mesh_is_stl(r->at, n)) {
+        r->at += strncmp(r->at, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+        r->end = r->at + strcspn(r->at, "\n");
+        return binary ? &gltf : &stl;
+    }
     if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
         r->at += 3;
     r->end = r->at + strcspn(r->at, "\n");
@@ -30,25 +41,25 @@ static const format *find_format(lines *r)
     while (lines_skip_blanks(r), r->at == r->end && lines_next(r))
         ;
     for (const format *f = formats + 1;; f++) {
-        size_t n = strlen(f->begin);
-        if (strncmp(r->at, f->begin, n) == 0 && (!f->word || strchr(" \t\r\n#", r->at[n]) != NULL))
+        size_t n_begin = strlen(f->begin);
+        if (strncmp(r->at, f->begin, n_begin) == 0 &&
+            (!f->word || strchr(" \t\r\n#", r->at[n_begin]) != NULL))
             return f;
     }
 }
 
-const char *mesh_format(const char *text)
+const char *mesh_format(const char *text, size_t n)
 {
     lines r = {.at = text};
-    return find_format(&r)->name;
+    return find_format(&r, n)->name;
 }
 
-/* PLY may be binary; the others are text from end to end. */
 static bool read_bytes(lines *r)
 {
     mesh_file *m = r->mesh;
-    const format *f = find_format(r);
+    const format *f = find_format(r, m->n_text);
     m->format = f->name;
-    if (f->read != mesh_read_ply && strlen(m->text) != m->n_text)
+    if (!f->binary && strlen(m->text) != m->n_text)
         return spoilt(r->wrong, 0,
                       "this is not a text file; OBJ, OFF, Medit and VTK are read as text");
     return f->read(r);
@@ -63,9 +74,9 @@ bool mesh_read(mesh_file *out, size_t dim, const char *text, size_t n, problem *
     if (foreign_told(text, n, wrong) || !read_bytes(&r))
         return false;
     if (out->n_vertices == 0)
-        return spoilt(
-            wrong, 0,
-            "there are no vertices; the file must be OBJ, OFF, PLY, Medit (.mesh) or VTK");
+        return spoilt(wrong, 0,
+                      "there are no vertices; the file must be OBJ, OFF, PLY, STL, glTF (.glb), "
+                      "Medit (.mesh) or VTK");
     return true;
 }
 
@@ -73,46 +84,106 @@ void mesh_free(mesh_file *m)
 {
     free(m->points);
     free(m->spans);
+    free(m->normals);
     free(m->triangles);
     free(m->triangle_lines);
     free(m->tetrahedra);
     *m = (mesh_file){0};
 }
 
-/* As text, or eight bytes. */
+bool mesh_round(const mesh_file *m, double *points, size_t *beyond)
+{
+    for (size_t i = 0; m->floats && i < m->n_vertices * m->dim; i++) {
+        *beyond = i / m->dim;
+        if (isfinite(points[i]) && fabs(points[i]) > (double)FLT_MAX)
+            return false;
+        points[i] = (double)(float)points[i];
+    }
+    return true;
+}
+
+/* As text, or as the bytes of a float or of a double. */
 static void write_number(const mesh_file *m, double number, FILE *stream)
 {
     unsigned char bytes[8];
-    uint64_t bits;
+    uint64_t bits = 0;
+    size_t n = m->floats ? 4 : 8;
     if (m->form == MESH_TEXT) {
         fprintf(stream, "%.17g", number);
         return;
     }
-    memcpy(&bits, &number, 8);
-    for (size_t i = 0; i < 8; i++)
-        bytes[m->form == MESH_LITTLE ? i : 7 - i] = (unsigned char)(bits >> 8 * i);
-    fwrite(bytes, 1, 8, stream);
+    if (m->floats) {
+        float rounded = (float)number;
+        uint32_t half;
+        memcpy(&half, &rounded, 4);
+        bits = half;
+    } else {
+        memcpy(&bits, &number, 8);
+    }
+    for (size_t i = 0; i < n; i++)
+        bytes[m->form == MESH_LITTLE ? i : n - 1 - i] = (unsigned char)(bits >> 8 * i);
+    fwrite(bytes, 1, n, stream);
 }
 
-/* The text goes out as it came in, but for the types and the spans. */
+static void write_numbers(const mesh_file *m, size_t n, const double *numbers, FILE *stream)
+{
+    for (size_t k = 0; k < n; k++) {
+        fputs(k > 0 && m->form == MESH_TEXT ? " " : "", stream);
+        write_number(m, numbers[k], stream);
+    }
+}
+
+/* The unit normal of a triangle, or 0 of a flat one. Edges are scaled first, so that their products
+ * stay within range. */
+static void write_normal(const mesh_file *m, const double *points, size_t triangle, FILE *stream)
+{
+    const uint32_t *corners = m->triangles + 3 * triangle;
+    double edges[2][3], size = 0;
+    for (size_t k = 0; k < 6; k++) {
+        double *d = &edges[k / 3][k % 3];
+        *d = points[3 * corners[k / 3 + 1] + k % 3] - points[3 * corners[0] + k % 3];
+        size = fmax(size, fabs(*d));
+    }
+    for (size_t k = 0; k < 6 && size > 0; k++)
+        edges[k / 3][k % 3] /= size;
+    const double *u = edges[0], *v = edges[1];
+    double normal[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                        u[0] * v[1] - u[1] * v[0]};
+    double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+    for (size_t k = 0; k < 3; k++)
+        normal[k] = length > 0 ? normal[k] / length : 0;
+    write_numbers(m, 3, normal, stream);
+}
+
+/* Writes the file from `done` to the end. */
+static void write_rest(const mesh_file *m, const double *points, size_t done, FILE *stream)
+{
+    for (size_t i = 0; i < m->n_vertices * m->n_spans; i++) {
+        const double *point = points + m->dim * (i / m->n_spans);
+        if (m->normals != NULL && m->dim == 3 && i % 3 == 0) {
+            const size_t *span = m->normals + 2 * (i / 3);
+            fwrite(m->text + done, 1, span[0] - done, stream);
+            write_normal(m, points, i / 3, stream);
+            done = span[1];
+        }
+        fwrite(m->text + done, 1, m->spans[2 * i] - done, stream);
+        if (m->n_spans == 1)
+            write_numbers(m, m->dim, point, stream);
+        else
+            write_number(m, point[m->order[i % m->n_spans]], stream);
+        done = m->spans[2 * i + 1];
+    }
+    fwrite(m->text + done, 1, m->n_text - done, stream);
+}
+
+/* The file goes out as it came in, but for the types, the spans, and what glTF says of them. */
 void mesh_write(const mesh_file *m, const double *points, FILE *stream)
 {
-    size_t done = 0;
+    size_t done = mesh_is_glb(m->text, m->n_text) ? glb_write_head(m, points, stream) : 0;
     for (size_t i = 0; i < m->n_types; i++) {
         fwrite(m->text + done, 1, m->types[i][0] - done, stream);
         fputs("double", stream);
         done = m->types[i][1];
     }
-    for (size_t i = 0; i < m->n_vertices * m->n_spans; i++) {
-        const double *point = points + m->dim * (i / m->n_spans);
-        fwrite(m->text + done, 1, m->spans[2 * i] - done, stream);
-        for (size_t k = 0; m->n_spans == 1 && k < m->dim; k++) {
-            fputs(k > 0 ? " " : "", stream);
-            write_number(m, point[k], stream);
-        }
-        if (m->n_spans > 1)
-            write_number(m, point[m->order[i % m->n_spans]], stream);
-        done = m->spans[2 * i + 1];
-    }
-    fwrite(m->text + done, 1, m->n_text - done, stream);
+    write_rest(m, points, done, stream);
 }

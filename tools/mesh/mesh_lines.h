@@ -1,4 +1,4 @@
-/* Reading a mesh as text: what the formats share. Each takes one line or one word at a time; blanks
+/* Reading a mesh: what the formats share, most of it for text. Each takes one line or one word at a time; blanks
  * and comments (from # on) are left out. Whatever returns false has said why. */
 #ifndef MESH_LINES_H
 #define MESH_LINES_H
@@ -53,5 +53,11 @@ bool mesh_read_off(lines *r);
 bool mesh_read_medit(lines *r);
 bool mesh_read_vtk(lines *r);
 bool mesh_read_ply(lines *r);
+bool mesh_read_stl(lines *r);
+bool mesh_read_glb(lines *r);
+
+/* For glTF: writes the file up to its binary part with the bounds of these points, and returns where
+ * that part begins. */
+size_t glb_write_head(const mesh_file *m, const double *points, FILE *stream);
 
 #endif

@@ -2,6 +2,7 @@
 #include "report/check_job.h"
 
 #include "base/allocate.h"
+#include "cage/surface_write.h"
 #include "cage/weld.h"
 #include "job/cage_file.h"
 #include "job/output_name.h"
@@ -125,37 +126,31 @@ static void write_row(FILE *stream, size_t dim, const double *at)
     fputc('\n', stream);
 }
 
-static int write_boundary(const cage *c, const char *name, bool obj)
+/* A surface as the name says, or as `format`; with neither, and beside space, one vertex per line. */
+static int write_boundary(const cage *c, const char *name, const char *format)
 {
+    const char *found = c->dim == 3 ? output_format(name) : NULL;
     outfile file;
     if (!outfile_open(&file, name))
         return FAILED;
-    for (size_t i = 0; i < c->n; i++) {
-        fputs(obj ? "v " : "", file.stream);
+    if (found != NULL && strcmp(found, "text") != 0)
+        format = found;
+    if (format != NULL)
+        surface_write(file.stream, c, format);
+    for (size_t i = 0; i < c->n && format == NULL; i++)
         write_row(file.stream, c->dim, c->points + i * c->dim);
-    }
-    for (size_t i = 0; obj && i < c->n_facets; i++) {
-        const uint32_t *f = c->facets + 3 * i;
-        fprintf(file.stream, "f %u %u %u\n", (unsigned)f[0] + 1, (unsigned)f[1] + 1,
-                (unsigned)f[2] + 1);
-    }
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* OBJ when the name says so, else one vertex per line. */
 int check_write_boundary(check *c)
 {
-    const cage *mask = &c->job.cages[0];
-    const char *name = c->job.args->boundary;
-    const char *found = output_format(name);
-    bool obj = mask->dim == 3 && found != NULL && strcmp(found, "OBJ") == 0;
-    return write_boundary(mask, name, obj);
+    return write_boundary(&c->job.cages[0], c->job.args->boundary, NULL);
 }
 
 int check_repair_surface(check *c)
 {
-    c->n_joined = weld(&c->job.cages[0]);
+    c->n_joined = weld(&c->job.cages[0], c->job.args->weld);
     int result = job_make_domains(&c->job);
     progress_end(&c->job.bar);
-    return result == DONE ? write_boundary(&c->job.cages[0], c->job.args->repair, true) : result;
+    return result == DONE ? write_boundary(&c->job.cages[0], c->job.args->repair, "OBJ") : result;
 }

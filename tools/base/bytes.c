@@ -1,0 +1,25 @@
+#include "base/bytes.h"
+
+#include <string.h>
+
+uint32_t little_endian(const char *bytes, size_t n)
+{
+    uint32_t value = 0;
+    for (size_t i = n; i-- > 0;)
+        value = value << 8 | (unsigned char)bytes[i];
+    return value;
+}
+
+float little_endian_float(const char *bytes)
+{
+    uint32_t bits = little_endian(bytes, 4);
+    float value;
+    memcpy(&value, &bits, 4);
+    return value;
+}
+
+void put_little_endian(unsigned char out[4], uint32_t value)
+{
+    for (size_t i = 0; i < 4; i++)
+        out[i] = (unsigned char)(value >> 8 * i);
+}

@@ -1,0 +1,243 @@
+/* Khronos Group, glTF 2.0 Specification, 2021: sections 3.6 (accessors) and 4 (the binary form). */
+#include "mesh/glb.h"
+
+#include "base/allocate.h"
+#include "base/bytes.h"
+#include "base/json_in.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { N_HEAD = 12, N_CHUNK = 8 };
+enum { NO_SET = 0, BYTES = 5121, SHORTS = 5123, WORDS = 5125, FLOATS = 5126 };
+
+/* ------------------------------------------------------------------ chunks */
+
+/* The chunk at *at, which is moved behind it: where its data begin, and how long they are. */
+static bool take_chunk(const char *text, size_t n, size_t *at, const char *type, size_t *begin,
+                       size_t *length, problem *wrong)
+{
+    if (n - *at < N_CHUNK)
+        return spoilt(wrong, 0, "byte %zu: the file ends before its part %.4s", *at, type);
+    if (memcmp(text + *at + 4, type, 4) != 0)
+        return spoilt(wrong, 0, "byte %zu: this is not the part %.4s", *at, type);
+    *length = little_endian(text + *at, 4);
+    if (*length > n - *at - N_CHUNK)
+        return spoilt(wrong, 0, "byte %zu: the part %.4s has %zu bytes, but %zu are left", *at,
+                      type, *length, n - *at - N_CHUNK);
+    *begin = *at + N_CHUNK;
+    *at = *begin + *length;
+    return true;
+}
+
+static bool read_json(glb *g, size_t begin, size_t n, problem *wrong)
+{
+    char *copy = need(n + 1, 1);
+    memcpy(copy, g->text + begin, n);
+    g->json = json_parse(copy, n, wrong);
+    wrong->line = 0;
+    free(copy);
+    return g->json != NULL;
+}
+
+static bool read_chunks(glb *g, size_t n, problem *wrong)
+{
+    size_t at = N_HEAD, begin, length;
+    if (n < N_HEAD)
+        return spoilt(wrong, 0, "the file ends early");
+    unsigned version = little_endian(g->text + 4, 4), total = little_endian(g->text + 8, 4);
+    if (version != 2)
+        return spoilt(wrong, 0, "byte 4: glTF of version %u; 2 is read", version);
+    if (total != n)
+        return spoilt(wrong, 0, "byte 8: the file shall have %u bytes, but it has %zu", total, n);
+    if (!take_chunk(g->text, n, &at, "JSON", &begin, &length, wrong) ||
+        !read_json(g, begin, length, wrong))
+        return false;
+    g->json_end = at;
+    return at == n || take_chunk(g->text, n, &at, "BIN", &g->bin_at, &g->bin_n, wrong);
+}
+
+/* --------------------------------------------------------------- accessors */
+
+static const cJSON **list_items(const cJSON *array, size_t *n)
+{
+    *n = (size_t)cJSON_GetArraySize(array);
+    const cJSON **items = need(*n, sizeof(cJSON *)), *item;
+    size_t i = 0;
+    cJSON_ArrayForEach(item, array) items[i++] = item;
+    return items;
+}
+
+/* A whole number of an object; `missing`: what it is when it is not there. */
+static bool take_count(const cJSON *object, const char *where, const char *name, size_t missing,
+                       size_t *out, problem *wrong)
+{
+    const cJSON *item = json_get(object, name);
+    char place[80];
+    uint32_t value;
+    *out = missing;
+    if (item == NULL)
+        return true;
+    snprintf(place, sizeof place, "%s.%s", where, name);
+    if (!json_index(item, place, "number", UINT32_MAX, &value, wrong))
+        return false;
+    *out = value;
+    return true;
+}
+
+/* The bytes of a view, which must lie in the binary part. */
+static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t *stride,
+                      problem *wrong)
+{
+    const cJSON *view = g->views[index];
+    char where[40];
+    size_t buffer;
+    snprintf(where, sizeof where, "bufferViews[%zu]", index);
+    const cJSON *extensions = json_get(view, "extensions");
+    if (extensions != NULL && json_get(extensions, "EXT_meshopt_compression") != NULL)
+        return spoilt(wrong, 0, "%s is compressed; save without compression", where);
+    if (!take_count(view, where, "buffer", 0, &buffer, wrong) ||
+        !take_count(view, where, "byteOffset", 0, at, wrong) ||
+        !take_count(view, where, "byteLength", 0, n, wrong) ||
+        !take_count(view, where, "byteStride", 0, stride, wrong))
+        return false;
+    if (buffer != 0 || g->bin_at == 0)
+        return spoilt(wrong, 0, "%s is not in the file; save as one file (.glb)", where);
+    if (*at > g->bin_n || *n > g->bin_n - *at)
+        return spoilt(wrong, 0, "%s has bytes %zu to %zu of %zu", where, *at, *at + *n, g->bin_n);
+    *at += g->bin_at;
+    return true;
+}
+
+/* Bytes of an item; 0: it is not of that kind. */
+static size_t item_size(const cJSON *accessor, bool positions)
+{
+    const char *type = cJSON_GetStringValue(json_get(accessor, "type"));
+    const cJSON *component = json_get(accessor, "componentType");
+    int number = cJSON_IsNumber(component) ? component->valueint : 0;
+    if (type == NULL || strcmp(type, positions ? "VEC3" : "SCALAR") != 0)
+        return 0;
+    if (positions)
+        return number == FLOATS ? 12 : 0;
+    return number == BYTES ? 1 : number == SHORTS ? 2 : number == WORDS ? 4 : 0;
+}
+
+static bool fits(const glb_items *items, size_t offset, size_t n_view)
+{
+    uint64_t last = (uint64_t)(items->n - 1) * items->stride + items->size;
+    return offset <= n_view && last <= n_view - offset;
+}
+
+bool glb_find_items(const glb *g, const cJSON *index, bool positions, size_t *accessor,
+                    glb_items *out, problem *wrong)
+{
+    const char *of = positions ? "POSITION" : "indices";
+    uint32_t which, view;
+    char where[40];
+    size_t offset, n_view = 0;
+    if (!json_index(index, of, "glTF accessor", (uint32_t)g->n_accessors, &which, wrong))
+        return false;
+    *accessor = which;
+    const cJSON *object = g->accessors[which];
+    snprintf(where, sizeof where, "accessors[%u]", (unsigned)which);
+    out->size = item_size(object, positions);
+    if (out->size == 0)
+        return spoilt(wrong, 0, "%s, for %s, is not of %s", where, of,
+                      positions ? "three floats" : "whole numbers without a sign");
+    if (json_get(object, "sparse") != NULL || json_get(object, "bufferView") == NULL)
+        return spoilt(wrong, 0, "%s, for %s, is sparse or compressed; save without that", where,
+                      of);
+    if (!take_count(object, where, "count", 0, &out->n, wrong) ||
+        !take_count(object, where, "byteOffset", 0, &offset, wrong) ||
+        !json_index(json_get(object, "bufferView"), where, "glTF view", (uint32_t)g->n_views, &view,
+                    wrong) ||
+        !find_view(g, view, &out->at, &n_view, &out->stride, wrong))
+        return false;
+    out->stride = out->stride > 0 ? out->stride : out->size;
+    if (out->n == 0 || out->stride < out->size || !fits(out, offset, n_view))
+        return spoilt(wrong, 0, "%s has %zu items from byte %zu on, which bufferViews[%u] has not",
+                      where, out->n, offset, (unsigned)view);
+    out->at += offset;
+    return true;
+}
+
+/* --------------------------------------------------------------- positions */
+
+static bool add_positions(glb *g, const cJSON *primitive, problem *wrong)
+{
+    const cJSON *index = json_get(json_get(primitive, "attributes"), "POSITION");
+    glb_positions set = {.first = 0};
+    if (index == NULL)
+        return spoilt(wrong, 0, "a primitive has no POSITION");
+    if (json_get(json_get(primitive, "extensions"), "KHR_draco_mesh_compression") != NULL)
+        return spoilt(wrong, 0, "a mesh is compressed (Draco); save without compression");
+    if (!glb_find_items(g, index, true, &set.accessor, &set.items, wrong))
+        return false;
+    if (g->set_of[set.accessor] != NO_SET)
+        return true;
+    g->set_of[set.accessor] = 1;
+    g->sets = grow(g->sets, &g->room, g->n_sets + 1, sizeof *g->sets);
+    g->sets[g->n_sets++] = set;
+    return true;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const glb_positions *p = a, *q = b;
+    return (p->items.at > q->items.at) - (p->items.at < q->items.at);
+}
+
+/* Vertices are numbered as they stand in the file. */
+static bool number_sets(glb *g, problem *wrong)
+{
+    size_t first = 0, end = 0;
+    if (g->n_sets > 0)
+        qsort(g->sets, g->n_sets, sizeof *g->sets, by_place);
+    for (size_t i = 0; i < g->n_sets; i++) {
+        glb_positions *set = &g->sets[i];
+        if (set->items.at < end)
+            return spoilt(wrong, 0, "accessors[%zu] and accessors[%zu] lie among each other",
+                          g->sets[i - 1].accessor, set->accessor);
+        end = set->items.at + (set->items.n - 1) * set->items.stride + set->items.size;
+        set->first = first;
+        g->set_of[set->accessor] = i;
+        first += set->items.n;
+    }
+    return true;
+}
+
+static bool find_positions(glb *g, problem *wrong)
+{
+    const cJSON *mesh, *primitive;
+    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
+    {
+        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
+        {
+            if (!add_positions(g, primitive, wrong))
+                return false;
+        }
+    }
+    return number_sets(g, wrong);
+}
+
+bool glb_open(glb *out, const char *text, size_t n, problem *wrong)
+{
+    *out = (glb){.text = text};
+    if (!read_chunks(out, n, wrong))
+        return false;
+    out->accessors = list_items(json_get(out->json, "accessors"), &out->n_accessors);
+    out->views = list_items(json_get(out->json, "bufferViews"), &out->n_views);
+    out->set_of = need(out->n_accessors, sizeof *out->set_of);
+    return find_positions(out, wrong);
+}
+
+void glb_close(glb *g)
+{
+    cJSON_Delete(g->json);
+    free(g->accessors);
+    free(g->views);
+    free(g->set_of);
+    free(g->sets);
+    *g = (glb){0};
+}
