@@ -19,6 +19,11 @@ if [ ! -d "$folder/node_modules/puppeteer-core" ]; then
     quietly "$folder/npm.log" npm install --silent --no-audit --no-fund --prefix "$folder" puppeteer-core@24
 fi
 [ "${1:-}" != --long ] || export STUDIO_LONG=1
+# A native build, if there is one, has to give the same poses.
+poses=
+for program in "$PWD"/build/*/tests/poses; do
+    [ ! -x "$program" ] || poses=$program
+done
 STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package CHROMIUM=$(command -v chromium) \
-    SHOTS=$folder/shots LIVE=$PWD/docs/live.js \
+    SHOTS=$folder/shots LIVE=$PWD/docs/live.js POSES=$poses \
     node --test --test-reporter=spec "$folder"/*.test.js

@@ -43,10 +43,10 @@ export function choice(label, name, options, value, change) {
   return make('fieldset', { class: 'choice' }, make('legend', {}, label), make('div', { class: 'segments' }, ...inputs));
 }
 
-export function toggle(label, value, change) {
-  const input = make('input', { type: 'checkbox', role: 'switch', checked: value });
+export function toggle(label, value, change, id = null) {
+  const input = make('input', { type: 'checkbox', role: 'switch', checked: value, id });
   input.addEventListener('change', () => change(input.checked));
-  return make('label', { class: 'toggle' }, input, make('span', {}, label));
+  return Object.assign(make('label', { class: 'toggle' }, input, make('span', {}, label)), { input });
 }
 
 export function slider(label, { min, max, step, value, text = String }, change) {
@@ -57,8 +57,8 @@ export function slider(label, { min, max, step, value, text = String }, change) 
     change(Number(input.value));
   });
   const row = make('label', { class: 'slider' }, make('span', {}, label), output, input);
-  row.input = input;
-  return row;
+  const set = (v) => { input.value = v; output.textContent = text(v); };
+  return Object.assign(row, { input, set });
 }
 
 export function button(text, path, onclick, attributes = {}) {

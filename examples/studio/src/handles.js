@@ -10,7 +10,8 @@ import { History } from './history.js';
 import { foldedOf, rimOf } from './mesh.js';
 import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
-import { atRest, placeOf, restOf, turnPair } from './pose.js';
+import { PoseCertificate, heldOf } from './pose_certificate.js';
+import { atRest, parallelEnd, placeOf, restOf, turnPair } from './pose.js';
 import { RIGS } from './rigs.js';
 import { SAMPLES } from './samples.js';
 
@@ -24,10 +25,11 @@ const TOOLS = {
 const LEAST_LOG = 4;           // decades of the logarithmic scale
 
 export class HandleMode {
-  view = { scale: 'linear' };
-  stats = { frames: 0, folded: 0, certified: 0, times: [] };
+  view = { scale: 'linear', keep: false };
+  stats = { frames: 0, folded: 0, times: [] };
+  certificate = new PoseCertificate();
   #remote; #say; #changed; #modes; #history = null; #live = null; #mesh = null; #values = null; #chosen = 0; #number = 0;
-  #image; #tool = 'move'; #brush = { radius: 60, amount: 0.3 }; #drag = null; #certified = null; #trouble = null; #bone = null; #buttons;
+  #image; #tool = 'move'; #brush = { radius: 60, amount: 0.3 }; #drag = null; #bone = null; #buttons;
 
   constructor(remote, { say, changed, modes }) {
     Object.assign(this, { pose: new Panel('Pose'), rest: new Panel('Weights') });
@@ -70,7 +72,7 @@ export class HandleMode {
     this.tool('move');
     this.#chosen = 0;
     const { method = 'qp', grid = false, handles, bones } = rig;
-    this.#history = new History({ outline: rig.outline, handles, bones, lines: [], regions: [], method, grid, spacing: 12,
+    this.#history = new History({ outline: rig.outline, handles, bones, lines: [], regions: [], paintings: [], method, grid, spacing: 12,
       transforms: atRest(handles.length), number: ++this.#number });
     this.#go(this.#now, 'handles.make');
   }
@@ -80,24 +82,36 @@ export class HandleMode {
 
   #push(change, operation = null, more = {}) {
     const state = { ...this.#now, ...change, ...(operation ? { number: ++this.#number } : {}) };
-    this.#go(this.#history.push(state), operation ?? 'handles.pose', more);
+    this.#go(this.#history.push(state), operation ?? 'handles.pose', more, () => this.#withdraw(state));
   }
 
-  #go(state, operation, more = {}) {
-    this.#live = state;
-    this.#certified = null;
-    this.side.setMethod(state.method);
+  /** A state that cannot be had is forgotten: what was before it stays. */
+  #withdraw(state) {
+    if (state !== this.#now) return;
+    this.#live = this.#history.withdraw();
+    this.side.setState(this.#now);
     this.#changed();
-    ask(this.#remote, 'handles', operation, { ...state, handle: this.#chosen, ...more }, (result) => this.#take(result));
+  }
+
+  #go(state, operation, more = {}, refused = () => {}) {
+    this.#live = state;
+    this.certificate.clear();
+    this.side.setState(state);
+    this.#changed();
+    ask(this.#remote, 'handles', operation, { ...state, handle: this.#chosen, ...this.#kept, ...more }, (result) => {
+      if (result.error) refused();
+      this.#take(result);
+      if (this.view.keep && !result.map) this.certify();
+    });
   }
 
   #take(result) {
-    this.#trouble = result.error ?? null;
     if (result.error) { this.#say(`${result.error.message}.`); this.#show(); return; }
     const { images, vertices, triangles, values } = result;
     if (triangles) this.#mesh = { vertices, triangles, ...result };
     if (values) this.#values = values;
     if (images) this.#mesh.images = images;
+    if (result.map) this.certificate.take(result.map);
     if (result.transforms) this.#live = { ...this.#live, transforms: result.transforms };
     this.#mesh.folded = foldedOf(this.#mesh.vertices, this.#mesh.images, this.#mesh.triangles);
     ++this.stats.frames;
@@ -109,7 +123,7 @@ export class HandleMode {
   /* -------------------------------------------------------------- what is seen */
 
   #show() {
-    const mesh = this.#certified ?? this.#mesh, rest = this.#mesh;
+    const mesh = this.certificate.mesh ?? this.#mesh, rest = this.#mesh;
     if (!mesh || !this.#live) return;
     this.pose.show({ at: mesh.images, from: mesh.vertices, triangles: mesh.triangles, folded: mesh.folded }, { look: 'picture' });
     const log = this.view.scale === 'log';
@@ -136,11 +150,9 @@ export class HandleMode {
   }
 
   #showCard(mesh) {
-    const folds = mesh.folded.length / 3, n = mesh.triangles.length / 3, { badge } = this.pose, { card } = this.side;
-    const text = `${folds} of ${n} triangles folded`;
-    if (this.#certified) card.set({ state: 'good', title: 'Certified one-to-one', lines: [text, 'The map through the outline of this pose.'] });
-    else card.set({ state: 'bad', title: 'Not certified', lines: [text, 'Poses by weights promise nothing.'] });
-    [badge.dataset.state, badge.textContent] = this.#certified ? ['good', `certified, ${folds} folded`] : ['bad', `not certified, ${folds} folded`];
+    const { card, badge } = this.certificate.report(mesh);
+    this.side.card.set(card);
+    [this.pose.badge.dataset.state, this.pose.badge.textContent] = badge;
   }
 
   setView(change) { Object.assign(this.view, change); this.#show(); }
@@ -189,8 +201,8 @@ export class HandleMode {
     const changes = d.angle && picked.length > 1
       ? turnPair(picked, places, d.angle).map((c) => ({ ...c, offset: c.offset.map((v, a) => v + d.offset[a]) }))
       : picked.map((h) => ({ handle: h, offset: d.offset, angle: d.angle }));
-    this.#certified = null;
-    ask(this.#remote, 'handles', 'handles.pose', { transforms: d.transforms, changes, handles }, (result) => {
+    if (!this.view.keep) this.certificate.clear();
+    ask(this.#remote, 'handles', 'handles.pose', { transforms: d.transforms, changes, handles, ...this.#kept }, (result) => {
       this.#take(result);
       d.shown = number;
       if (d.dropped && d.shown === d.asked) this.#settle();
@@ -213,22 +225,22 @@ export class HandleMode {
   }
 
   reset() { this.#push({ transforms: atRest(this.#now.handles.length) }); }
-  method(method) { this.#push({ method }, 'handles.method'); }
+  method(method) { this.#push({ method, paintings: [] }, 'handles.method'); }
   spacing(spacing) { this.#push({ spacing }, 'handles.make'); }
+  grid(grid) { this.#push({ grid }, 'handles.make'); }
+
+  get #kept() { return this.view.keep ? { held: heldOf(this.#live) } : {}; }
 
   async certify() {
-    const { handles, transforms, outline } = this.#live;
-    const onRing = (p) => outline.some(([x, y]) => x === p[0] && y === p[1]);
-    const held = handles.map((_, h) => h).filter((h) => !onRing(handles[h]));
-    const result = await this.#remote.call('handles.certify', { transforms, handles, held });
-    if (result.error) {
-      const crossing = result.targetDefects?.some((d) => d.kind === 'crossing');
-      this.#say(crossing ? 'The outline of this pose crosses itself: no one-to-one map has it.' : `${result.error.message}.`);
-      return;
-    }
-    this.#certified = { ...result, folded: foldedOf(result.vertices, result.images, result.triangles) };
-    this.stats.certified += result.certified ? 1 : 0;
+    this.certificate.take(await this.#remote.call('handles.certify', { ...this.#live, held: heldOf(this.#live) }));
     this.#show();
+    this.#say(this.certificate.reason ?? '');
+  }
+
+  /** Whether each pose is to be certified as it is dragged. */
+  keep(keep) {
+    this.view.keep = keep;
+    if (keep) this.certify();
   }
 
   /* -------------------------------------------------------------- edits of the rig */
@@ -262,19 +274,18 @@ export class HandleMode {
     this.tool('move');
     const { lines } = this.#now;
     if (parallel && lines.length === 0) { this.#say('There is no line yet that it could be parallel to.'); return; }
-    const other = lines.at(-1), d = parallel && [other.to[0] - other.from[0], other.to[1] - other.from[1]];
-    const share = parallel && ((to[0] - from[0]) * d[0] + (to[1] - from[1]) * d[1]) / (d[0] ** 2 + d[1] ** 2);
-    const end = parallel ? [from[0] + share * d[0], from[1] + share * d[1]] : to;
-    this.#push({ lines: [...lines, { from, to: end, parallel: parallel ? lines.length : 0 }] }, 'handles.make');
+    const line = { from, to: parallel ? parallelEnd(lines.at(-1), from, to) : to, parallel: parallel ? lines.length : 0 };
+    this.#push({ lines: [...lines, line] }, 'handles.make');
   }
 
   #remove(handle) {
-    const picked = this.#handlesOf(handle), { handles, bones, transforms } = this.#now;
+    const picked = this.#handlesOf(handle), { handles, bones, transforms, paintings } = this.#now;
     if (picked.length > 1) { this.#push({ bones: bones.filter((b) => b !== picked) }, 'handles.make'); return; }
     const [h] = picked, low = (i) => (i > h ? i - 1 : i);
     if (handles.length <= 3) { this.#say('There are three handles at least.'); return; }
     this.#chosen = 0;
     this.#push({ handles: handles.filter((_, i) => i !== h), bones: bones.filter((b) => !b.includes(h)).map((b) => b.map(low)),
+      paintings: paintings.filter((p) => p.rigid || p.handle !== h).map((p) => ({ ...p, handle: low(p.handle) })),
       transforms: transforms.filter((_, i) => Math.floor(i / 6) !== h) }, 'handles.make');
   }
 
@@ -289,5 +300,8 @@ export class HandleMode {
     this.#show();
   }
 
-  #paint(strokes) { this.#push({}, 'handles.paint', { strokes, ...this.#brush, rigid: this.#tool === 'rigid' }); }
+  #paint(strokes) {
+    const painting = { handle: this.#chosen, strokes, ...this.#brush, rigid: this.#tool === 'rigid' };
+    this.#push({ paintings: [...this.#now.paintings, painting] }, 'handles.paint');
+  }
 }

@@ -20,6 +20,13 @@ export class History {
     return state;
   }
 
+  /** Forgets the newest state; the one before it. */
+  withdraw() {
+    this.#states.length = this.#at;
+    --this.#at;
+    return this.now;
+  }
+
   undo() { if (this.canUndo) --this.#at; return this.now; }
   redo() { if (this.canRedo) ++this.#at; return this.now; }
 }

@@ -18,6 +18,13 @@ export function turnPair([h, k], places, angle) {
   });
 }
 
+/** The end of a line from a place on that is parallel to another, nearest to where it was to be. */
+export function parallelEnd(other, from, to) {
+  const [x, y] = [other.to[0] - other.from[0], other.to[1] - other.from[1]];
+  const share = ((to[0] - from[0]) * x + (to[1] - from[1]) * y) / (x * x + y * y);
+  return [from[0] + share * x, from[1] + share * y];
+}
+
 /** The place at rest of a posed point: in the triangle that it lies in; null outside. */
 export function restOf({ vertices, images, triangles }, [x, y]) {
   for (let t = 0; t < triangles.length; t += 3) {

@@ -8,6 +8,7 @@ export const LOOKS = {
   light: { width: 1360, height: 800 }, dark: { width: 1360, height: 800 },
   phone: { width: 390, height: 844, deviceScaleFactor: 2 },
 };
+export const AFTER = 'figure.first ';
 export const TOUCH = { ...LOOKS.phone, hasTouch: true, isMobile: true };
 
 export const launch = (chromium) => puppeteer.launch({ executablePath: chromium, headless: true, args: ARGUMENTS });
@@ -71,3 +72,19 @@ export const show = async (page, mode) => {
   await page.waitForFunction(`studio.modes.${mode}.stats.frames > 0`, { timeout: 120000 });
   await settle(page);
 };
+
+export const focus = (page, selector) => page.$eval(selector, (element) => element.focus());
+
+/** Screenshots in the three looks; the page is light and wide again after that. */
+export async function shoot(page, folder, name) {
+  const look = (scheme) => page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }]);
+  for (const [key, viewport] of Object.entries(LOOKS)) {
+    await look(key === 'dark' ? 'dark' : 'light');
+    await page.setViewport(viewport);
+    await settle(page);
+    await page.screenshot({ path: `${folder}/${name}-${key}.png` });
+  }
+  await look('light');
+  await page.setViewport(LOOKS.light);
+  await settle(page);
+}

@@ -1,14 +1,12 @@
-// The studio in Chromium, by mouse, touch and keys. Needs STUDIO (the page), STUDIO_PACKAGE, CHROMIUM, and SHOTS (a folder
-// for screenshots); STUDIO_LONG=1 drags through every picture and rig.
+// The studio in Chromium, by mouse, touch and keys. Needs STUDIO (the page), CHROMIUM, and SHOTS (a folder for
+// screenshots).
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import { after, before, test } from 'node:test';
-import { LOOKS, TOUCH, again, centre, drag, open, settle, show } from './browser.js';
+import { AFTER, LOOKS, TOUCH, again, centre, drag, focus, open, settle, shoot, show } from './browser.js';
 
-const { STUDIO, STUDIO_PACKAGE, CHROMIUM, SHOTS, STUDIO_LONG } = process.env;
-const AFTER = 'figure.first ';
+const { STUDIO, CHROMIUM, SHOTS } = process.env;
 const corner = (i) => `${AFTER}[data-type=vertex][data-part="0"][data-vertex="${i}"]`;
-const LONG_FRAMES = 500;
 let browser, page, wrong;
 
 before(async () => { ({ browser, page, wrong } = await open(STUDIO, CHROMIUM)); });
@@ -16,19 +14,7 @@ after(async () => browser?.close());
 
 const cage = () => page.evaluate(() => ({ ...studio.cage.stats, times: [...studio.cage.stats.times], canUndo: studio.cage.canUndo,
   shapes: studio.cage.shapes, certificate: document.getElementById('certificate')?.textContent }));
-const shot = async (name) => {
-  for (const [look, viewport] of Object.entries(LOOKS)) {
-    await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: look === 'dark' ? 'dark' : 'light' }]);
-    await page.setViewport(viewport);
-    await settle(page);
-    await page.screenshot({ path: `${SHOTS}/${name}-${look}.png` });
-  }
-  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: 'light' }]);
-  await page.setViewport(LOOKS.light);
-  await settle(page);
-};
-
-const focus = (selector) => page.$eval(selector, (element) => element.focus());
+const shot = (name) => shoot(page, SHOTS, name);
 
 /** A fresh page of the sample. */
 async function sample(name) {
@@ -83,7 +69,7 @@ test('a cage that crosses itself is refused: the edges are named, the last good 
 test('keys move, add and remove corners', async () => {
   await sample('letter');
   const n = (await cage()).shapes.target[0].points.length;
-  await focus(corner(3));
+  await focus(page, corner(3));
   for (let k = 0; k < 4; ++k) await page.keyboard.press('ArrowDown');
   await settle(page);
   const moved = (await cage()).shapes;
@@ -254,69 +240,6 @@ test('without WebGL2 a 2-D canvas shows the same', async () => {
   await again(page, LOOKS.light);
 });
 
-test('handles: moved, turned, painted, by every method, made certified', async () => {
-  await show(page, 'handles');
-  const handle = (i) => `${AFTER}[aria-label="handle ${i}"]`;
-  const stats = () => page.evaluate(() => ({ ...studio.modes.handles.stats, state: studio.modes.handles.state }));
-  await drag(page, handle(5), [50, 40], 6);
-  await drag(page, handle(5), [40, 0], 4, 'right');
-  assert.notEqual((await stats()).state.transforms[6 * 4 + 1], 0);
-  await shot('handles');
-  await page.click('#certify');
-  await settle(page);
-  assert.match(await page.$eval('.handles .certificate', (e) => e.textContent), /Certified one-to-one\s*0 of/);
-  await page.click('#rest');
-  await settle(page);
-  assert.equal((await stats()).folded, 0);
-  for (const method of ['qp', 'equality', 'l1']) {
-    await page.click(`input[name=method][value=${method}]`);
-    await settle(page);
-    assert.equal((await stats()).state.method, method);
-  }
-  await page.click('[data-tool=paint]');
-  const [x, y] = await centre(page, '.handles .panel:not(.first) .overlay');
-  const number = (await stats()).state.number;
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x + 40, y, { steps: 4 });
-  await page.mouse.up();
-  await settle(page);
-  assert.ok((await stats()).state.number > number);
-  await page.select('#rig', 'figure');
-  await settle(page);
-  await drag(page, handle(5), [-20, -90], 6);
-  await page.click('input[name=scale][value=log]');
-  await shot('figure');
-});
-
-test('poses of the thesis’ shapes equal those of the library to the bit', async () => {
-  const { load } = await import(`${STUDIO_PACKAGE}/src/index.js`);
-  const icc = await load();
-  for (const rig of ['star', 'figure', 'butterfly']) {
-    await page.select('#rig', rig);
-    await settle(page);
-    await drag(page, `${AFTER}[aria-label="handle 4"]`, [20, 14], 3);
-    await drag(page, `${AFTER}[aria-label="handle 3"]`, [30, 0], 3, 'right');
-    const seen = await page.evaluate(async () => {
-      const { state } = studio.modes.handles;
-      const { images, vertices } = await studio.remote.call('handles.recall', { ...state, handle: 0 });
-      const changes = [{ handle: 1, offset: [12.5, -3.25], angle: 0.3 }, { handle: 2, offset: [0, 7], angle: 0 }];
-      const next = await studio.remote.call('handles.pose', { ...state, changes });
-      const plain = (o) => Object.fromEntries(Object.entries(o).map(([k, v]) => [k, ArrayBuffer.isView(v) ? [...v] : v]));
-      return plain({ ...state, vertices, images, next: [...next.transforms], nextImages: [...next.images] });
-    });
-    const domain = icc.Domain.polygon(seen.outline), shape = new icc.Shape([domain]);
-    const weights = new icc.Weights(new icc.Sampling(shape, { kind: 'blue', spacing: seen.spacing }), seen.handles,
-      { method: seen.method, edges: seen.bones });
-    const binding = weights.bind(Float64Array.from(seen.vertices)), pose = new icc.Pose(seen.handles);
-    pose.transforms.set(seen.transforms);
-    assert.deepEqual([...binding.pose(pose)], seen.images, rig);
-    pose.turn(1, 0.3).move(1, [12.5, -3.25]).move(2, [0, 7]);
-    assert.deepEqual([...pose.transforms], seen.next, rig);
-    assert.deepEqual([...binding.pose(pose)], seen.nextImages, rig);
-  }
-});
-
 test('stages: every step, and a walk', async () => {
   await show(page, 'stages');
   for (const step of ['grid', 'fire', 'tree', 'function', 'levels', 'walk']) {
@@ -369,40 +292,6 @@ test('by touch', async () => {
   assert.ok(state.frames >= 10);
   assert.equal(state.uncertified + state.folded, 0);
   await again(page, LOOKS.light);
-});
-
-test('five hundred frames on five pictures and three rigs', { skip: !STUDIO_LONG }, async () => {
-  let frames = 0, refused = 0;
-  const times = [];
-  const names = ['butterfly', 'owl', 'squares', 'harbour', 'letter'];
-  for (let round = 0; frames < LONG_FRAMES; ++round) {
-    const name = names[round % names.length];
-    await sample(name);
-    const n = (await cage()).shapes.target[0].points.length, i = (5 * round + 2) % n;
-    const angle = 2.4 * round, by = [70 * Math.cos(angle), 70 * Math.sin(angle)];
-    if (round % 3 === 2) {
-      await focus(corner(i));
-      for (let k = 0; k < 12; ++k) { await page.keyboard.press(by[0] > 0 ? 'ArrowRight' : 'ArrowUp'); await settle(page); }
-    } else await drag(page, corner(i), by, 24);
-    const state = await cage();
-    assert.equal(state.uncertified, 0, name);
-    assert.equal(state.folded, 0, name);
-    frames += state.frames;
-    refused += state.refused;
-    times.push(...state.times);
-  }
-  await show(page, 'handles');
-  for (const rig of ['star', 'figure', 'butterfly']) {
-    await page.select('#rig', rig);
-    await settle(page);
-    for (const h of [2, 4, 5]) await drag(page, `${AFTER}[aria-label="handle ${h}"]`, [24, 18], 8);
-    await page.click('#certify');
-    await settle(page);
-    assert.match(await page.$eval('.handles .certificate', (e) => e.textContent), /Certified one-to-one\s*0 of/, rig);
-  }
-  times.sort((a, b) => a - b);
-  console.log(`# ${frames} frames, ${refused} refused; in the worker median ${times[times.length >> 1].toFixed(1)} ms, `
-    + `95 % ${times[Math.floor(0.95 * times.length)].toFixed(1)} ms (wall)`);
 });
 
 test('no page error, no request', () => assert.deepEqual(wrong, []));

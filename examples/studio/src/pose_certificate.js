@@ -1,0 +1,41 @@
+// The certified map to the outline of a pose, as mode handles shows it, or why there is none.
+import { foldedOf } from './mesh.js';
+
+const CROSSING = 'The outline of this pose crosses itself: no one-to-one map has it.';
+
+/** The handles that are not on the outline: a certified map has them where the pose has them. */
+export function heldOf({ handles, outline }) {
+  const onRing = (p) => outline.some(([x, y]) => x === p[0] && y === p[1]);
+  return handles.map((_, h) => h).filter((h) => !onRing(handles[h]));
+}
+
+export class PoseCertificate {
+  /** What a test looks at: maps that were certified; those that were not, and their triangles that fold. */
+  stats = { certified: 0, broken: 0 };
+  mesh = null;
+  reason = null;
+
+  clear() { this.mesh = this.reason = null; }
+
+  /** What the engine gives: the map of this pose, or an error. */
+  take(map) {
+    this.clear();
+    if (map.error) {
+      this.reason = map.targetDefects?.some((d) => d.kind === 'crossing') ? CROSSING : `${map.error.message}.`;
+      return;
+    }
+    this.mesh = { ...map, folded: foldedOf(map.vertices, map.images, map.triangles) };
+    ++this.stats[map.certified ? 'certified' : 'broken'];
+    this.stats.broken += this.mesh.folded.length / 3;
+  }
+
+  /** What stands on the card, and on the badge of the pose. */
+  report({ folded, triangles }) {
+    const folds = folded.length / 3, good = this.mesh?.certified, text = `${folds} of ${triangles.length / 3} triangles folded`;
+    const why = good ? 'The map through the outline of this pose.' : this.reason ?? 'Poses by weights promise nothing.';
+    return {
+      card: { state: good ? 'good' : 'bad', title: good ? 'Certified one-to-one' : 'Not certified', lines: [text, why] },
+      badge: [good ? 'good' : 'bad', `${good ? '' : 'not '}certified, ${folds} folded`],
+    };
+  }
+}
