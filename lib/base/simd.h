@@ -10,6 +10,11 @@
 #define ICCP_AVX512 __attribute__((target("avx512f")))
 #endif
 
+/* WebAssembly cannot ask: a module has vectors of 128 bits everywhere or nowhere. */
+#ifdef __wasm_simd128__
+#define ICCP_HAS_WASM_SIMD
+#endif
+
 typedef enum iccp_simd_level {
     ICCP_SIMD_NONE,
     ICCP_SIMD_SSE42,

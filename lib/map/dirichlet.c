@@ -152,8 +152,12 @@ void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *ba
 #else
     (void)level;
 #endif
+#ifdef ICCP_HAS_WASM_SIMD
+    iccp_dirichlet_locals_wasm(batch, majorise, local);
+#else
     for (size_t l = 0; l < ICCP_DIRICHLET_LANES; ++l) {
         const double *const image[3] = {batch->image[0][l], batch->image[1][l], batch->image[2][l]};
         set_local(2, batch->element[l], image, majorise, &local[l]);
     }
+#endif
 }

@@ -33,10 +33,12 @@ typedef struct iccp_dirichlet_batch {
 } iccp_dirichlet_batch;
 
 /* What iccp_dirichlet_local() gives for each triangle of a batch, and the same bits, with the
- * instructions of that level; and with those of AVX2. */
+ * instructions of that level; with those of AVX2; and with WebAssembly's vectors. */
 void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
                            iccp_local *local);
 void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, bool majorise,
+                                iccp_local *local);
+void iccp_dirichlet_locals_wasm(const iccp_dirichlet_batch *batch, bool majorise,
                                 iccp_local *local);
 
 #endif
