@@ -271,6 +271,7 @@ icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const i
     }
     icc_weights *weights = *out;
     weights->info = from->info;
+    weights->info.residual = 0;
     memcpy(weights->values, from->values, set->n * set->n_handles * sizeof *from->values);
     memcpy(weights->status, from->status, set->n * sizeof *from->status);
     memcpy(weights->coefficients, from->coefficients,

@@ -488,16 +488,36 @@ void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
                                  gradients);
 }
 
-void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,
-                               double *y)
+/* ---- for programs on many weights at once ---- */
+
+size_t iccp_collocation_dim(const iccp_collocation *collocation)
 {
-    const iccp_symmetric *k = &collocation->kernel.matrix;
-    for (size_t i = 0; i < k->n; ++i) {
-        double *restrict sum = y + m * i;
-        for (size_t j = 0; j < m; ++j)
-            sum[j] = k->diagonal[i] * x[m * i + j];
-        for (size_t p = k->first[i]; p < k->first[i + 1]; ++p)
-            for (size_t j = 0; j < m; ++j)
-                sum[j] += k->value[p] * x[m * k->column[p] + j];
-    }
+    return collocation->dim;
+}
+
+const double *iccp_collocation_affine(const iccp_collocation *collocation)
+{
+    return collocation->z;
+}
+
+void iccp_collocation_solve_affine(const iccp_collocation *collocation, double *x)
+{
+    solve_schur(collocation, x);
+}
+
+size_t iccp_collocation_marks(const iccp_collocation *collocation)
+{
+    return collocation->factor.nodes.n;
+}
+
+void iccp_collocation_mark(const iccp_collocation *collocation, size_t n, const uint32_t *nodes,
+                           uint8_t *needed)
+{
+    iccp_ldlt_mark(&collocation->factor, n, nodes, needed);
+}
+
+void iccp_collocation_invert(const iccp_collocation *collocation, const uint8_t *needed, size_t m,
+                             double *b, double *work)
+{
+    iccp_ldlt_solve_marked(&collocation->factor, needed, m, b, work);
 }

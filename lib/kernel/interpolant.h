@@ -46,8 +46,19 @@ void iccp_collocation_evaluate_as(iccp_simd_level level, const iccp_collocation 
                                   size_t m, const double *coefficients, const double *point,
                                   double *values, double *gradients);
 
-/* Multiplies K by n rows of m numbers. */
-void iccp_collocation_multiply(const iccp_collocation *collocation, size_t m, const double *x,
-                               double *y);
+/* Z and (P'Z)^-1 of the affine function, see interpolant.c: n rows of dim + 1, or NULL without; x,
+ * dim + 1 numbers, is replaced. */
+size_t iccp_collocation_dim(const iccp_collocation *collocation);
+const double *iccp_collocation_affine(const iccp_collocation *collocation);
+void iccp_collocation_solve_affine(const iccp_collocation *collocation, double *x);
+
+/* See iccp_ldlt_mark(): how many marks there are, and those of some nodes. */
+size_t iccp_collocation_marks(const iccp_collocation *collocation);
+void iccp_collocation_mark(const iccp_collocation *collocation, size_t n, const uint32_t *nodes,
+                           uint8_t *needed);
+
+/* K^-1 b at marked nodes, for n rows of m that are 0 at others; `work`: as many. */
+void iccp_collocation_invert(const iccp_collocation *collocation, const uint8_t *needed, size_t m,
+                             double *b, double *work);
 
 #endif

@@ -21,10 +21,11 @@ void iccp_straighten(const iccp_nodes *nodes, const iccp_line_nodes *line,
 /* See icc_weights_stiffen(). held[i] for nodes i that keep their weights; `part`: n_part nodes,
  * with the rigidity of each; `positive`: no weight becomes negative where none was; `rigidity`
  * NULL: all 1. Changes the weights of the nodes and the coefficients that belong to them. `energy`
- * is in local coordinates. */
+ * is in local coordinates. ICC_ERR_SOLVER when the program is not solved after 10,000 steps. */
 icc_status iccp_stiffen(const iccp_nodes *nodes, const iccp_handles *handles,
                         const iccp_collocation *collocation, size_t n_part, const uint32_t *part,
                         const double *rigidity, const bool *held, bool positive, double *weights,
-                        double *coefficients, double energy[2], const iccp_env *env);
+                        double *coefficients, double energy[2], double *residual,
+                        const iccp_env *env);
 
 #endif

@@ -125,7 +125,7 @@ static icc_status stiffen(icc_weights *copy, size_t n, const uint32_t *nodes,
         held[i] = set->held[i] || set->edge[i] != ICCP_NO_EDGE;
     const icc_status status = iccp_stiffen(&all, set->handles, set->collocation, n, nodes, rigidity,
                                            held, copy->info.method == ICC_WEIGHTS_QP, copy->values,
-                                           copy->coefficients, energy, env);
+                                           copy->coefficients, energy, &copy->info.residual, env);
     iccp_free(&env->memory, held);
     return status;
 }

@@ -67,6 +67,15 @@ void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *w
 void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
                              const iccp_env *env);
 
+/* Marks what solutions at some rows depend on, and what right-hand sides there reach: in `needed`,
+ * which has factor->nodes.n entries, those of marks before included. */
+void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed);
+
+/* As iccp_ldlt_solve() where b is 0 but for marked rows: it is solved for at those only, in time
+ * that depends on them. At others anything may be left. */
+void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
+                            double *work);
+
 /* The same for one right-hand side of normalised numbers, without under- or overflow. `work` has
  * room for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a
  * right-hand side that is not negative is right to the last few digits in every component, since

@@ -135,6 +135,7 @@ typedef struct solution {
     iccp_dense dense;
     const iccp_ldlt *factor;
     const iccp_subtrees *subtrees;
+    const uint8_t *needed; /* of each panel; NULL: all are */
     size_t n_rhs;
     double *work;
 } solution;
@@ -220,15 +221,17 @@ static void solve_in_turn(const solution *x)
 {
     const size_t n_panels = x->factor->nodes.n;
     for (size_t s = 0; s < n_panels; ++s)
-        pass_all(x, s, &(range){0, rows_of(x, s)});
+        if (x->needed == NULL || x->needed[s])
+            pass_all(x, s, &(range){0, rows_of(x, s)});
     for (size_t s = n_panels; s-- > 0;)
-        pass_all(x, s, NULL);
+        if (x->needed == NULL || x->needed[s])
+            pass_all(x, s, NULL);
 }
 
-static void solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
-                  const iccp_env *env)
+static void solve(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
+                  double *work, const iccp_env *env)
 {
-    const solution all = {iccp_dense_choose(), factor, &factor->small, n_rhs, work};
+    const solution all = {iccp_dense_choose(), factor, &factor->small, needed, n_rhs, work};
     for (size_t done = 0, width; done < n_rhs; done += width) {
         const group x = group_at(factor, n_rhs, done, work);
         width = x.width;
@@ -250,11 +253,27 @@ static void solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work
 
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work)
 {
-    solve(factor, n_rhs, b, work, NULL);
+    solve(factor, NULL, n_rhs, b, work, NULL);
 }
 
 void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
                              const iccp_env *env)
 {
-    solve(factor, n_rhs, b, work, env);
+    solve(factor, NULL, n_rhs, b, work, env);
+}
+
+/* A row's panel reaches those above it in the tree, and no others. */
+void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed)
+{
+    const iccp_supernodes *nodes = &factor->nodes;
+    for (size_t k = 0; k < n; ++k)
+        for (uint32_t s = nodes->owner[factor->position[rows[k]]];
+             s != ICCP_NO_PARENT && !needed[s]; s = nodes->parent[s])
+            needed[s] = 1;
+}
+
+void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
+                            double *work)
+{
+    solve(factor, needed, n_rhs, b, work, NULL);
 }

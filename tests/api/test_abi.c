@@ -508,7 +508,7 @@ AT(icc_weights_options, n_lines, 64);
 AT(icc_weights_options, lines, 72);
 AT(icc_weights_options, initial_weights, 80);
 
-SIZE(icc_weights_info, 96);
+SIZE(icc_weights_info, 104);
 AT(icc_weights_info, size, 0);
 AT(icc_weights_info, dim, 8);
 AT(icc_weights_info, kernel, 12);
@@ -523,6 +523,7 @@ AT(icc_weights_info, definiteness, 64);
 AT(icc_weights_info, seconds_initial, 72);
 AT(icc_weights_info, seconds_weights, 80);
 AT(icc_weights_info, seconds_factor, 88);
+AT(icc_weights_info, residual, 96);
 
 SIZE(icc_weights_report, 80);
 AT(icc_weights_report, size, 0);

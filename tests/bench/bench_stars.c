@@ -258,7 +258,7 @@ static void stiffen(const icc_weights *kernel, const stage *s, const char *kind)
         for (size_t j = 0; j < TIPS; ++j)
             least = fmin(least, weights[TIPS * part[i] + j]);
     printf("rigid leg, %s | thesis q 141, ~2 s | q %zu: energy / %.2f, %.3f s, least weight there "
-           "%.1e | energy / >= 3, <= 0.2 s\n",
+           "%.1e | energy / >= 3, <= 2 s\n",
            kind, n, energy[0] / energy[1], seconds, least);
     icc_weights_free(stiff);
     free(points);

@@ -86,7 +86,7 @@ export function kernelOf(core) {
 
     withMethod(method) { return new Weights(core.made('icc_weights_with_method', this, methodNumber(method))); }
 
-    /** New weights, with a part that moves as if it were rigid, and what was minimised: { weights, energy }. */
+    /** New weights, with a part that moves as if it were rigid, and half its squared derivatives before and after: { weights, energy }. */
     stiffen(nodes, rigidity = null) {
       const energy = new Float64Array(2);
       const address = core.made('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);

@@ -49,7 +49,7 @@ grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:siz
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
 sampling_info dim:i32 kind:i32 n_samples:size n_edge:size spacing:f64 nearest:f64 sigma:f64
 weights_options kernel:i32 initial:i32 method:i32 steps:i32 affine_tail:i32 within_shape:i32 sigma:f64 cutoff:f64 n_edges:size edges:ptr n_lines:size lines:ptr initial_weights:ptr
-weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 seconds_initial:f64 seconds_weights:f64 seconds_factor:f64
+weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 seconds_initial:f64 seconds_weights:f64 seconds_factor:f64 residual:f64
 weights_report n_infeasible:size n_negative:size unity:f64 reproduction:f64 reproduction_mean:f64 lagrange:f64 linearity:f64 least_weight:f64 definiteness:f64
 """
 

@@ -233,7 +233,8 @@ class Weights(Handle):
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Weights", Floats]:
         """New weights, as rigid as possible at some nodes (n,), each of which may have its own rigidity (n,),
-        positive; and the energy before and after, (2,)."""
+        positive; and half the weighted sum of squared derivatives there before and after, (2,). They are the
+        optimum of one quadratic program for all these nodes and those around them: ``info.residual``."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")

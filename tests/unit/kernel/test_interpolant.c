@@ -243,7 +243,13 @@ START_TEST(values_at_nodes_are_taken)
     for (size_t i = 0; i < n * m; ++i)
         values[i] = random_between(&r, -1, 1);
     double *a = solve(c, n + dim + 1, m, values);
-    iccp_collocation_multiply(c, m, a, product);
+    const iccp_symmetric *k_matrix = iccp_collocation_matrix(c);
+    for (size_t k = 0; k < n * m; ++k) {
+        const size_t i = k / m;
+        product[k] = k_matrix->diagonal[i] * a[k];
+        for (size_t p = k_matrix->first[i]; p < k_matrix->first[i + 1]; ++p)
+            product[k] += k_matrix->value[p] * a[m * k_matrix->column[p] + k % m];
+    }
     for (size_t i = 0; i < n; ++i)
         for (size_t j = 0; j < m; ++j) {
             double at[5], whole = product[m * i + j] + a[m * n + j];

@@ -227,7 +227,7 @@ impl Weights {
     }
 
     /// Makes weights vary as little as may be over a part of the shape, given by nodes and how much each matters
-    /// (`None`: all the same). Returns what was minimised, before and after, too.
+    /// (`None`: all the same). Returns half the weighted sum of squared derivatives there, before and after, too.
     pub fn stiffen(
         &self,
         nodes: &[u32],
