@@ -52,6 +52,11 @@ def chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum
 class Chart(Saved):
     """Coordinates of a domain's inside: a boundary point, and the share of the way to the maximum.
 
+    >>> chart = libicc.Chart([[0, 0], [4, 0], [4, 4], [0, 4]], maximum=[2, 2])
+    >>> facet, bary, t = chart.encode([[2, 1]])
+    >>> int(facet[0]), chart.decode(facet, bary, t).round(6).tolist()
+    (0, [[2.0, 1.0]])
+
     Args:
         domain: a Domain, or what `as_domain` takes
         method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best available

@@ -116,19 +116,35 @@ def coordinates(shapes: Any) -> Floats:
     return np.concatenate(arrays) if arrays else np.empty((0, 2))
 
 
-def points_of(points: ArrayLike, dim: int) -> Floats:
-    """Points as a contiguous array of shape (n, dim); copied only if need be. Of shapely geometries the
-    coordinates, heights left out in 2-D."""
+def _numbers(points: ArrayLike, dim: int) -> Floats:
+    """Points as a contiguous array of float64; copied only if need be. Of shapely geometries the coordinates, heights
+    left out in 2-D."""
     if is_geometry(points):
         points = coordinates(parts_of(points))[:, :dim]
     elif isinstance(points, (list, tuple)) and len(points) > 0 and is_geometry(points[0]):
         points = coordinates(points)[:, :dim]
-    array = np.ascontiguousarray(points, dtype=np.float64)
+    return np.ascontiguousarray(points, dtype=np.float64)
+
+
+def points_of(points: ArrayLike, dim: int) -> Floats:
+    """Points as `_numbers`, of shape (n, dim)."""
+    array = _numbers(points, dim)
     if array.ndim == 1 and array.shape[0] == dim:
         array = array.reshape(1, dim)
     if array.ndim != 2 or array.shape[1] != dim:
         raise ValueError(f"points must have the shape (n, {dim}), not {array.shape}")
     return array
+
+
+def grid_of(points: ArrayLike, dim: int) -> Tuple[Floats, Tuple[int, ...]]:
+    """Points as `points_of`, and the shape of what they came in, without the axis of coordinates: a grid
+    (height, width, dim) has the shape (height, width)."""
+    array = _numbers(points, dim)
+    shape = array.shape[:-1]
+    if array.ndim > 2 and array.shape[-1] == dim:
+        return array.reshape(-1, dim), shape
+    array = points_of(array, dim)
+    return array, array.shape[:1]
 
 
 def floats(values: ArrayLike, shape: Sequence[int], name: str) -> Floats:

@@ -40,6 +40,12 @@ INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
 class Domain(Handle):
     """A shape: its boundary, and what lies inside.
 
+    >>> shape = libicc.Domain([[0, 0], [4, 0], [4, 3], [0, 3]], holes=[[[1, 1], [1, 2], [2, 2], [2, 1]]])
+    >>> shape
+    <libicc.Domain: 2-D, 8 vertices, 8 facets>
+    >>> shape.locate([[3, 1], [1.5, 1.5], [4, 1]]).tolist() == [libicc.INSIDE, libicc.OUTSIDE, libicc.BOUNDARY]
+    True
+
     Args:
         vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last
             vertex is the first one again; or a shapely Polygon, LinearRing or MultiPolygon of one part
@@ -221,6 +227,9 @@ class Domain(Handle):
 def as_domain(shape: ShapeLike) -> Domain:
     """A domain from whatever describes one.
 
+    >>> libicc.as_domain(numpy.ones((3, 2), dtype=bool)).info.measure
+    6.0
+
     Takes a Domain; what `Domain` takes: an array of polygon vertices, a shapely polygon; a
     pair (vertices, facets); a boolean mask; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
     of tetrahedra (a conforming mesh).
@@ -291,7 +300,11 @@ def _from_meshio(mesh: Any) -> Domain:
 
 
 def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
-    """Every defect that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b)."""
+    """Every defect that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b).
+
+    >>> libicc.boundary_defects([[0, 0], [2, 2], [2, 0], [0, 2]])
+    [('crossing', 0, 2)]
+    """
     vertices = points_of(_outline(vertices), 2)
     call, n, capacity = Call(threads=1), ctypes.c_size_t(), 64
     while True:
@@ -306,7 +319,12 @@ def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
 
 def repair_mask(mask: ArrayLike) -> Tuple[Bools, int]:
     """A mask without cells that touch only along an edge or a corner, and how many cells were
-    filled for that."""
+    filled for that.
+
+    >>> mended, n = libicc.repair_mask([[1, 0], [0, 1]])
+    >>> int(mended.sum()), n
+    (3, 1)
+    """
     mask = np.asarray(mask)
     cells = np.array(mask != 0, order="F").view(np.uint8)
     shape = (ctypes.c_size_t * mask.ndim)(*mask.shape)

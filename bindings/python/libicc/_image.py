@@ -28,6 +28,12 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
                threads: Optional[int] = None) -> Array:
     """Warps a picture by a 2-D map.
 
+    >>> image = numpy.array([[10, 20], [30, 40]], dtype=numpy.uint8)
+    >>> frame = libicc.picture_cage(image.shape)
+    >>> libicc.warp_image(image, libicc.Map(frame, frame[[1, 2, 3, 0]]))
+    array([[30, 10],
+           [40, 20]], dtype=uint8)
+
     Args:
         image: (height, width) or (height, width, channels), uint8 or uint16, up to 4 channels. Pixel
             [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
@@ -63,6 +69,10 @@ class PixelTransform:
     """A 2-D map as ``skimage.transform.warp`` takes one: from places in the result to places in the
     picture, both as (column, row) with whole numbers at the centres of pixels.
 
+    >>> frame = libicc.picture_cage((20, 30))
+    >>> libicc.PixelTransform(libicc.Map(frame, frame * 2))([[9.5, 19.5]]).round(6)
+    array([[4.5, 9.5]])
+
     ``skimage.transform.warp(image, PixelTransform(mapping))``; whatever is outside the target cage stays where
     it is, or is left blank with ``outside="blank"``.
     """
@@ -89,6 +99,10 @@ class PixelTransform:
 
 
 def picture_cage(shape: Tuple[int, ...]) -> Floats:
-    """The outline of a picture of the given shape as a cage, (4, 2)."""
+    """The outline of a picture of the given shape as a cage, (4, 2).
+
+    >>> libicc.picture_cage((20, 30)).tolist()
+    [[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 20.0]]
+    """
     height, width = shape[:2]
     return np.array([[0, 0], [width, 0], [width, height], [0, height]], dtype=np.float64)

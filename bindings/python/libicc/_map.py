@@ -22,6 +22,7 @@ from ._core import (
     dimension,
     fields,
     floats,
+    grid_of,
     indices,
     name_of,
     points_of,
@@ -41,6 +42,15 @@ class Map(Saved):
 
     Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`; `inverse`, or
     `apply_inverse`, goes back.
+
+    >>> mapping = libicc.Map([[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [4, 4], [0, 3]])
+    >>> mapping
+    <libicc.Map: mesh, 2-D, certified>
+    >>> mapping([[1, 1], [9, 9]]).round(6)
+    array([[1.  , 1.25],
+           [ nan,  nan]])
+    >>> mapping.inverse([[1, 1.25]]).round(6)
+    array([[1., 1.]])
 
     Args:
         source, target: Domains, or what `as_domain` takes
@@ -136,10 +146,10 @@ class Map(Saved):
 
     def _apply(self, function: Any, points: ArrayLike, status: bool, progress: Optional[Progress],
                threads: Optional[int]) -> Any:
-        points = points_of(points, self.dim)
-        n = len(points)
-        images = np.empty_like(points)
-        states = np.empty(n, dtype=np.int32) if status else None
+        points, shape = grid_of(points, self.dim)
+        n, dim = points.shape
+        images = np.empty((*shape, dim))
+        states = np.empty(shape, dtype=np.int32) if status else None
         env, done = bulk(n, progress, threads)
         done(function(self, n, address(points), address(images), address(states), None, env))
         return (images, states) if status else images
@@ -154,7 +164,8 @@ class Map(Saved):
     def apply(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
               threads: Optional[int] = None) -> Any:
         """Source -> target: points (n, dim) -> images (n, dim), NaN for points without one. With
-        ``status`` also an int32 array (n,): 0, or the number of an `Error`."""
+        ``status`` also an int32 array (n,): 0, or the number of an `Error`. Grids (height, width, dim) and the like
+        keep their shape. Images are float64, whatever points come as."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
     @overload
@@ -176,10 +187,10 @@ class Map(Saved):
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:
         """Derivatives (n, dim, dim) at points (n, dim) of the source's inside: entry [k, i, j] is that of
-        image coordinate i by point coordinate j; NaN where there is none."""
-        points = points_of(points, self.dim)
+        image coordinate i by point coordinate j; NaN where there is none. Grids keep their shape, as in `apply`."""
+        points, shape = grid_of(points, self.dim)
         n, dim = points.shape
-        result = np.empty((n, dim, dim))
+        result = np.empty((*shape, dim, dim))
         env, done = bulk(n, progress, threads)
         done(lib.map_jacobian(self, n, address(points), address(result), None, None, env))
         return result
@@ -269,6 +280,22 @@ class Map(Saved):
         """As `certify`, but moves images of inner vertices until no simplex is inverted, where that
         is possible."""
         return self._carry(lib.map_repair, vertices, simplices, progress, threads)
+
+    def plot(self, *, lines: int = 25, axes: Optional[Sequence[Any]] = None, **style: Any) -> Any:
+        """Draws a map of kind mesh in the plane with matplotlib: the source with a grid on the left, and on the right
+        the target with what becomes of the grid.
+
+        Args:
+            lines: of the grid, along the longer side
+            axes: two of matplotlib's axes to draw onto; None: new ones
+            style: how the grid is drawn, as ``pyplot.plot`` takes it
+
+        Returns:
+            the axes
+        """
+        from ._plot import plot_map
+
+        return plot_map(self, lines, axes, style)
 
     def __repr__(self) -> str:
         info = self.info

@@ -23,6 +23,11 @@ BETWEEN = {"elastic": 1, "arc": 2}
 class Match(Handle):
     """Two domains of the same shapes as those given, with common vertices: ``Map(match.source, match.target)``.
 
+    >>> ell, other = [[0, 0], [9, 0], [9, 3], [4, 3], [4, 8], [0, 8]], [[4, 4], [4, 9], [0, 9], [0, 0], [5, 0], [10, 0], [10, 4]]
+    >>> found = libicc.Match(ell, other)
+    >>> found.source, found.info.n_vertices
+    (<libicc.Domain: 2-D, 7 vertices, 7 facets>, 7)
+
     The outlines may have other numbers of vertices, other first vertices and other senses. Without landmarks all
     starting points are compared by shape: a heuristic; look at the result. Every vertex that was given is in the
     result, bit by bit; others are added on edges.
@@ -83,7 +88,12 @@ class Match(Handle):
 
 def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None,
           **options: Any) -> Tuple[Floats, Floats, SimpleNamespace]:
-    """The vertices of two outlines that do not correspond, made common, and `Match.info`; options as of `Match`."""
+    """The vertices of two outlines that do not correspond, made common, and `Match.info`; options as of `Match`.
+
+    >>> a, b, info = libicc.match([[0, 0], [9, 0], [9, 3], [4, 3], [4, 8], [0, 8]], [[4, 4], [4, 9], [0, 9], [0, 0], [10, 0], [10, 4]])
+    >>> a.tolist()[3], b.tolist()[3]
+    ([4.0, 3.0], [4.0, 4.0])
+    """
     found = Match(source, target, landmarks, **options)
     return found.source.vertices, found.target.vertices, found.info
 

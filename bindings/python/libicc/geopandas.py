@@ -1,0 +1,124 @@
+"""GeoPandas: after ``import libicc.geopandas`` every series of geometries has ``.icc``.
+
+    moved = frame.geometry.icc.map(mapping, tolerance=0.5)
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Callable, List, Tuple
+
+import geopandas
+import numpy as np
+from pandas.api.extensions import register_series_accessor
+from shapely.ops import transform
+
+from ._errors import Error, OutsideError
+from ._map import Map
+
+if TYPE_CHECKING:
+    from ._types import Array, Floats
+
+_MOST_ROUNDS = 12
+_QUARTERS = np.array([0.25, 0.5, 0.75])[:, None]
+
+
+@register_series_accessor("icc")
+class GeometryAccessor:
+    """What maps do to the geometries of a series."""
+
+    def __init__(self, series: Any):
+        if not hasattr(series, "geom_type"):
+            raise AttributeError("only series of geometries have .icc")
+        self._series = series
+
+    def map(self, mapping: Map, *, inverse: bool = False, tolerance: float = 0, outside: str = "raise") -> Any:
+        """The geometries as a map of the plane moves them, with the same index and CRS; heights stay.
+
+        >>> import geopandas, libicc, libicc.geopandas
+        >>> from shapely.geometry import LineString
+        >>> before, after = [[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [4, 4], [0, 3]]
+        >>> lines = geopandas.GeoSeries([LineString([(1, 1), (2, 1)])])
+        >>> lines.icc.map(libicc.Map(before, after)).length.round(6)[0]
+        1.030776
+
+        Args:
+            inverse: from target to source
+            tolerance: edges get more vertices, each at most 4095, until at their quarters they are no farther than this
+                from what the map makes of them; 0: none
+            outside: of geometries that have no image, be it in part: "raise" an `OutsideError`, or "null"
+        """
+        if outside not in ("raise", "null"):
+            raise ValueError(f"outside must be 'raise' or 'null', not {outside!r}")
+        if mapping.dim != 2:
+            raise ValueError(f"geometries are of the plane; this map has dimension {mapping.dim}")
+        lines, counts = _lines_of(self._series)
+        carried = iter(_carried(lines, mapping.inverse if inverse else mapping.apply, tolerance))
+        moved: List[Any] = []
+        for (label, geometry), count in zip(self._series.items(), counts):
+            own = [next(carried) for _ in range(count)]
+            lost = any(np.isnan(line[:, :2]).any() for line in own)
+            if lost and outside == "raise":
+                raise OutsideError(f"the geometry at {label!r} has no image, be it in part; outside='null' leaves such "
+                                   "out", Error.OUTSIDE, len(moved), 0, "feature")
+            each = iter(own)
+            moved.append(None if lost or geometry is None else transform(lambda *axes: next(each).T, geometry))
+        return geopandas.GeoSeries(moved, index=self._series.index, crs=self._series.crs, name=self._series.name)
+
+
+def _lines_of(series: Any) -> Tuple[List[Floats], List[int]]:
+    """The coordinates of all points, lines and rings, in the order of `transform`, and how many each geometry has."""
+    lines: List[Floats] = []
+    counts = []
+
+    def note(*axes: Any) -> Any:
+        lines.append(np.array(axes, dtype=float).T)
+        return axes
+
+    for geometry in series:
+        before = len(lines)
+        if geometry is not None:
+            transform(note, geometry)
+        counts.append(len(lines) - before)
+    return lines, counts
+
+
+def _carried(lines: List[Floats], carry: Callable[[Floats], Floats], tolerance: float) -> List[Floats]:
+    """The lines moved, all at once, NaN where there is no image. Coordinates beyond the first two stay."""
+    if not lines:
+        return []
+    width = max(line.shape[1] for line in lines)
+    points = np.concatenate([np.pad(line, ((0, 0), (0, width - line.shape[1]))) for line in lines])
+    number = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+    images = carry(points[:, :2])
+    begins = np.flatnonzero(number[:-1] == number[1:]) if tolerance > 0 else np.empty(0, int)
+    for _ in range(_MOST_ROUNDS):
+        begins, points, images, number = _split(begins, points, images, number, carry, tolerance)
+        if len(begins) == 0:
+            break
+    points[:, :2] = images
+    parts = np.split(points, np.searchsorted(number, np.arange(1, len(lines))))
+    return [part[:, :line.shape[1]] for part, line in zip(parts, lines)]
+
+
+def _split(begins: Array, points: Floats, images: Floats, number: Array, carry: Callable[[Floats], Floats],
+           tolerance: float) -> Tuple[Array, Floats, Floats, Array]:
+    """Halves the edges that begin at these points where their images bend. Returns where the halves begin, and all
+    points with those between. A quarter without an image takes that of its edge away."""
+    edges = points[begins, None] + _QUARTERS * (points[begins + 1] - points[begins])[:, None]
+    checks = carry(edges[:, :, :2]) if len(begins) else np.empty((0, 3, 2))
+    lost = np.isnan(checks).any(axis=(1, 2))
+    images[begins[lost]] = np.nan
+    far = ~lost & (_off(images[begins], images[begins + 1], checks) > tolerance)
+    at = begins[far] + 1
+    first = at + np.arange(len(at))
+    return (np.sort(np.concatenate([first - 1, first])), np.insert(points, at, edges[far, 1], axis=0),
+            np.insert(images, at, checks[far, 1], axis=0), np.insert(number, at, number[begins[far]]))
+
+
+def _off(a: Floats, b: Floats, checks: Floats) -> Floats:
+    """How far the farthest of the checks (n, 3, 2) is from each segment a b."""
+    along = (b - a)[:, None]
+    square = (along**2).sum(-1)
+    share = ((checks - a[:, None]) * along).sum(-1) / np.where(square > 0, square, 1)
+    nearest = a[:, None] + np.clip(share, 0, 1)[..., None] * along
+    return np.sqrt(((checks - nearest) ** 2).sum(-1)).max(axis=1)

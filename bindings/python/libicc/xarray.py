@@ -1,0 +1,64 @@
+"""xarray: after ``import libicc.xarray`` every ``DataArray`` has ``.icc``.
+
+    moved = elevation.icc.warp(mapping)
+
+Rasters of rioxarray keep their reference system: it is a coordinate like others.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Optional
+
+import numpy as np
+import xarray
+
+from ._map import Map
+from .raster import Grid, warp_raster
+
+if TYPE_CHECKING:
+    from ._types import Array
+
+
+@xarray.register_dataarray_accessor("icc")
+class RasterAccessor:
+    """What maps do to a raster whose last two dimensions, y and x, have evenly spaced coordinates."""
+
+    def __init__(self, raster: Any):
+        self._raster = raster
+
+    @property
+    def grid(self) -> Grid:
+        """Where the pixels lie: coordinates are those of their centres."""
+        y, x = self._raster.dims[-2:]
+        return Grid.of_centres(self._raster[x].values, self._raster[y].values)
+
+    def warp(self, mapping: Map, like: Optional[Any] = None, *, resampling: str = "linear", fill: Optional[float] = None,
+             threads: Optional[int] = None) -> Any:
+        """The raster as a map of the plane moves it, with the same other dimensions, coordinates and attributes.
+
+        >>> import libicc, libicc.xarray, numpy, xarray
+        >>> square, right = [[0, 0], [4, 0], [4, 3], [0, 3]], [[1, 0], [5, 0], [5, 3], [1, 3]]
+        >>> raster = xarray.DataArray(numpy.arange(12.0).reshape(3, 4), [("y", [2.5, 1.5, 0.5]), ("x", [0.5, 1.5, 2.5, 3.5])])
+        >>> raster.icc.warp(libicc.Map(square, right), resampling="nearest").values
+        array([[nan,  0.,  1.,  2.],
+               [nan,  4.,  5.,  6.],
+               [nan,  8.,  9., 10.]])
+
+        Args:
+            mapping, resampling, threads: as `libicc.raster.warp_raster`
+            like: a raster whose last two dimensions and their coordinates the result has; None: its own
+            fill: what pixels without an image get; None: the attribute ``_FillValue`` or ``nodata``, or else NaN, and
+                0 in whole numbers
+        """
+        raster, like = self._raster, self._raster if like is None else like
+        nodata = raster.encoding.get("_FillValue", raster.attrs.get("_FillValue", raster.attrs.get("nodata")))
+        if fill is None:
+            fill = nodata if nodata is not None else np.nan if raster.dtype.kind == "f" else 0
+        pixels: Array = np.ascontiguousarray(raster.values).reshape(-1, *raster.shape[-2:])
+        warped = warp_raster(pixels, self.grid, mapping, like.icc.grid, resampling=resampling, fill=fill, nodata=nodata,
+                             threads=threads)
+        own, places = raster.dims[-2:], like.dims[-2:]
+        coords = {name: value for name, value in raster.coords.items() if not set(own) & set(value.dims)}
+        coords.update({name: like[name] for name in places})
+        return xarray.DataArray(warped.reshape(*raster.shape[:-2], *like.shape[-2:]), coords,
+                                (*raster.dims[:-2], *places), raster.name, raster.attrs)
