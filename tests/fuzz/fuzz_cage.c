@@ -55,7 +55,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int role = CAGE_SOURCE; role <= CAGE_TARGET; role++) {
         cage *c = &cages[role == CAGE_TARGET];
         wrong.text[0] = '\0';
-        bool good = cage_read(c, (cage_role)role, 2, text, size, &wrong);
+        const cage_choice choice = {(cage_role)role, role == CAGE_TARGET ? "name=b" : NULL};
+        bool good = cage_read(c, &choice, 2, text, size, &wrong);
         require(good ? c->cells != NULL || c->n > c->dim : c->dim == 0 && c->points == NULL);
         require(good || is_message(&wrong));
         for (size_t i = 0; i < c->n; i++)

@@ -118,9 +118,11 @@ printf '\3757zXZ\000' | names 'an xz archive' 'unpack it first'
 printf 'BZh9' | names 'a bzip2 archive' 'unpack it first'
 printf '\377\3760\000' | names 'a text in UTF-16' 'UTF-8'
 printf '0106000020E6100000010000000103000000' | names 'well-known binary' 'ST_AsText'
-printf '\036{"type":"Feature"}\n' | names 'a GeoJSON text sequence'
 one='{"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]]]}}'
-printf '%s\n%s\n' "$one" "$one" | rejects 2: 'GeoJSONSeq'
+printf '%s\n%s\n' "$one" "$one" | rejects ' ' 'none of the 2 features is a Polygon with the property "role"'
+printf '%s %s\n' "$one" "$one" | rejects 1: 'this is not valid JSON'
+printf '%s\n{"type":"Polygon"}\n' "$one" | rejects ' ' "text 2 of 2 is a 'Polygon'; in a sequence each is a Feature"
+printf '\036%s\n\036{"type":\n' "$one" | rejects 3: 'the JSON ends early'
 printf '{"type":"Topology","arcs":[]}' | rejects ' ' 'this is a TopoJSON file'
 printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'this is a glTF file'
 printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON file'
@@ -128,18 +130,18 @@ printf '# vtk DataFile Version 3.0\n' | rejects ' ' 'this is a VTK mesh'
 printf 'MeshVersionFormatted 2\n' | rejects ' ' 'this is a Medit mesh'
 
 # SVG.
-printf '<svg></svg>' | rejects ' ' 'no complete <path> or <polygon>'
-printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path> or <polygon>'
+printf '<svg></svg>' | rejects ' ' 'no complete <path>, <polygon>'
+printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path>, <polygon>'
 printf '<svg><path d="M0 0L1 0 1 1z"/><polygon points="0 0 1 0 1 1"/></svg>' | rejects ' ' '0 of the 2 shapes'
 printf '<svg>\n<path d="M0 0L1 0\n1 one z"/></svg>' | rejects 3: "'one'"
 printf '<svg><path d="M0 0L9 0 9 9zL2 1 2 2z"/></svg>' | rejects 1: 'continues after Z'
 printf '<svg><path d="M0 0L9 0 9 9zz"/></svg>' | rejects 1: 'nothing to close'
 printf '<svg><path d="M0 0L9 0 9 9M1 1\nM2 1 2 2z"/></svg>' | rejects 1: 'hole 1 has 1 vertex;'
-printf '<svg><path d="M0 0A1 1 0 0 0 5 5z"/></svg>' | rejects 1: 'has an arc'
+printf '<svg><path d="M0 0A1 1 0 0 5 5z"/></svg>' | rejects 1: "'5' in the path where 0 or 1 is expected"
 printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'
 printf '<svg><path d="M0 0B1 1"/></svg>' | rejects 1: "'B' is not a command"
 printf '<svg><path/></svg>' | rejects 1: 'has no outline'
-printf '<svg><g transform="scale(2)"><g><path d="M0 0L1 0 1 1z"/></g></g></svg>' | rejects 1: 'has a transform'
+printf '<svg><g transform="scale(2"><g><path d="M0 0L1 0 1 1z"/></g></g></svg>' | rejects 1: 'a transform that is none of SVG'
 printf '<svg><polygon points="0 0 1 0 1"/></svg>' | rejects 1: 'lacks its y'
 printf '<svg><polygon points="0 0 1 x 1 1"/></svg>' | rejects 1: "'x'"
 

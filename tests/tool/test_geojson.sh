@@ -220,7 +220,7 @@ for bad in '{"type":"Point","coordinates":[1,1]}\n,' '\n{"type":"Point","coordin
     '\n{"type":"Point","coordinates":[01,1]}' '\n{"type":"Point","coordinates":[1.,1]}' '\n{"type":"Point","coordinates":[+1,1]}' \
     '\n{"type":"Point","coordinates":[1,NaN]}' '\n{"type":"Point","x":"\\x","coordinates":[1,1]}' '\n{"type":"Point","x":"\t","coordinates":[1,1]}' \
     '\n{"type":"Point" "coordinates":[1,1]}' '\n{"type":"Point","coordinates":[1,1}]' '\n{type:"Point","coordinates":[1,1]}' '\n[}' \
-    '\n{"type":"Point","coordinates":[1,1],"x":"\\u12g4"}' '{"type":"Point","coordinates":[1,1]}\n{"type":"Point","coordinates":[1,1]}'; do
+    '\n{"type":"Point","coordinates":[1,1],"x":"\\u12g4"}' '{"type":"Point","coordinates":[1,1]}\n,{"type":"Point","coordinates":[1,1]}'; do
     # shellcheck disable=SC2059 # the format is the text
     printf "$bad" | rejects ':2: '
 done

@@ -80,7 +80,7 @@ for name in o.geojson o.csv o.xlsx o.npy; do
     misnamed "$name" decode -s nowhere -o "$name"
     misnamed "$name" weights -s nowhere -a nowhere -o "$name"
 done
-for name in o.kml o.gpkg o.shp o.txt o.geojsonl; do
+for name in o.kml o.gpkg o.shp o.txt; do
     misnamed "$name" map -s nowhere -t nowhere --geojson nowhere "$name"
 done
 for name in o.shp o.svg o.vtk; do

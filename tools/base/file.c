@@ -47,6 +47,24 @@ char *file_read(const char *name, size_t *n)
     return text;
 }
 
+char *file_read_chosen(const char *name, size_t *n, const char **choice)
+{
+    *choice = NULL;
+    for (const char *mark = strchr(name, '#'); mark != NULL && access(name, F_OK) != 0;
+         mark = strchr(mark + 1, '#')) {
+        size_t n_file = (size_t)(mark - name);
+        char *file = need(n_file + 1, 1);
+        memcpy(file, name, n_file);
+        bool found = strcmp(file, "-") == 0 || access(file, F_OK) == 0;
+        char *text = found ? file_read(file, n) : NULL;
+        free(file);
+        *choice = found ? mark + 1 : NULL;
+        if (found)
+            return text;
+    }
+    return file_read(name, n);
+}
+
 bool file_is_same(const char *input, const char *output)
 {
     struct stat in, out;

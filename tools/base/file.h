@@ -12,6 +12,10 @@
 /* The content of a file and a '\0' behind it; free() it. NULL: said why on stderr. */
 char *file_read(const char *name, size_t *n);
 
+/* The same for `FILE#CHOICE`: *choice is what stands behind the first # before which a file is named;
+ * NULL: the whole name is that of a file, or of none. */
+char *file_read_chosen(const char *name, size_t *n, const char **choice);
+
 /* Whether two names, "-" for the input being standard input, for the output standard output, are
  * those of one plain file, be it through a link. */
 bool file_is_same(const char *input, const char *output);

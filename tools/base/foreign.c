@@ -223,8 +223,6 @@ static bool is_markup(const char *text, problem *wrong)
 
 static bool is_by_text(const char *text, problem *wrong)
 {
-    if (*text == '\x1e')
-        return foreign_vector(wrong, 0, "a GeoJSON text sequence (GeoJSONSeq)"), true;
     if (is_dxf(text))
         return told(wrong, "a DXF drawing", MAKE_GEOJSON);
     if (is_hexadecimal(text))

@@ -26,6 +26,32 @@ cJSON *json_parse(const char *text, size_t n, problem *wrong)
     return NULL;
 }
 
+cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
+{
+    static const char separators[] = " \t\r\n\x1e";
+    if (foreign_told(text, n, wrong))
+        return NULL;
+    cJSON *list = cJSON_CreateArray();
+    const char *p = text + (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0),
+               *end = text + n;
+    bool apart = true;
+    while (p += strspn(p, separators), p < end || cJSON_GetArraySize(list) == 0) {
+        const char *stop = p;
+        cJSON *item = apart ? cJSON_ParseWithLengthOpts(p, (size_t)(end - p) + 1, &stop, 0) : NULL;
+        if (item == NULL) {
+            spoilt(wrong, line_of(text, stop),
+                   stop >= end ? "the JSON ends early" : "this is not valid JSON");
+            cJSON_Delete(list);
+            return NULL;
+        }
+        cJSON_AddItemToArray(list, item);
+        p = stop;
+        size_t n_between = strspn(p, separators);
+        apart = memchr(p, '\n', n_between) != NULL || memchr(p, '\x1e', n_between) != NULL;
+    }
+    return list;
+}
+
 const cJSON *json_get(const cJSON *object, const char *name)
 {
     return cJSON_GetObjectItemCaseSensitive(object, name);

@@ -14,6 +14,10 @@
 /* Parses text[0..n), with text[n] == '\0'. NULL: see `wrong`. */
 cJSON *json_parse(const char *text, size_t n, problem *wrong);
 
+/* Parses one value, or a sequence of them, each on a line of its own or behind a record separator
+ * (RFC 8142): a list of them all, to be deleted. NULL: see `wrong`. */
+cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong);
+
 const cJSON *json_get(const cJSON *object, const char *name);
 
 /* Whether it is an object with no other members than those of `names`, which ends with NULL. */

@@ -179,6 +179,19 @@ json_kind json_scan_next(json_scan *s)
     return kind;
 }
 
+bool json_scan_more(json_scan *s)
+{
+    static const char separators[] = " \t\r\n\x1e";
+    const char *p = s->text + s->at;
+    size_t n = strspn(p, separators);
+    bool apart = memchr(p, '\n', n) != NULL || memchr(p, '\x1e', n) != NULL;
+    if (s->depth > 0 || !apart || p[n] != '{')
+        return false;
+    s->at += n;
+    s->expected = VALUE;
+    return true;
+}
+
 json_kind json_scan_skip(json_scan *s, json_kind kind)
 {
     size_t begin = s->begin, depth = s->depth;

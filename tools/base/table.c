@@ -58,7 +58,7 @@ static bool read_row(const char *p, const char *end, size_t line, const table_fo
     return true;
 }
 
-static double *add_row(table *t, size_t line)
+double *table_add_row(table *t, size_t line)
 {
     t->values = grow(t->values, &t->room_values, (t->n + 1) * t->columns, sizeof *t->values);
     t->lines = grow(t->lines, &t->room_lines, t->n + 1, sizeof *t->lines);
@@ -79,7 +79,7 @@ bool table_read(table *out, const char *text, size_t n, const table_form *form, 
         if (stop == NULL)
             stop = end;
         bool filled;
-        if (!read_row(p, stop, line, form, add_row(out, line), &filled, wrong))
+        if (!read_row(p, stop, line, form, table_add_row(out, line), &filled, wrong))
             return false;
         out->n += filled;
         p = stop + (stop < end);

@@ -26,6 +26,9 @@ typedef struct table_form {
  * to be freed in either case. */
 bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong);
 
+/* Room for one more row, which counts only once `n` says so. */
+double *table_add_row(table *t, size_t line);
+
 void table_free(table *t);
 
 #endif

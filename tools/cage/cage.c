@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,6 +55,19 @@ void cage_free(cage *c)
     free(c->features);
     free(c->ties);
     *c = (cage){0};
+}
+
+const char *choice_text(char out[64], const char *named)
+{
+    char key[32], value[32];
+    size_t n = strcspn(named, "=");
+    bool paired = named[n] == '=';
+    quoted(value, named + (paired ? n + 1 : 0));
+    if (paired)
+        snprintf(out, 64, "%.*s \"%s\"", (int)(n < 24 ? n : 24), quoted(key, named), value);
+    else
+        snprintf(out, 64, "the id \"%s\"", value);
+    return out;
 }
 
 const char *cage_role_name(cage_role role)

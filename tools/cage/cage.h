@@ -16,6 +16,14 @@
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
 
+/* Which shape of a file: that with the role, or the one that is named. A name is `KEY=VALUE`: in
+ * GeoJSON the feature with that property or id, in SVG the element with that attribute; or an id, in
+ * SVG also the inkscape:label, by itself. */
+typedef struct cage_choice {
+    cage_role role;
+    const char *named; /* NULL: by its role */
+} cage_choice;
+
 /* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
 enum { CAGE_TIE = 100 };
 
@@ -59,6 +67,9 @@ void cage_add(cage *c, double x, double y, size_t line);
 
 /* Adds corner `k` (from 0) of a face; from the third on each ends a triangle of its fan. */
 void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line);
+
+/* What is named, for messages: `name "Kent"`, `the id "Kent"`. Returns `out`. */
+const char *choice_text(char out[64], const char *named);
 
 /* The name of a role: "source" or "target". */
 const char *cage_role_name(cage_role role);

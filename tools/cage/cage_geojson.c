@@ -1,5 +1,5 @@
-/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection. Rings behind the first
- * are holes. In a FeatureCollection the property `role` says what belongs to which cage: "source"
+/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection, or the Features of one as
+ * a sequence (RFC 8142). Rings behind the first are holes. In a FeatureCollection the property `role` says what belongs to which cage: "source"
  * and "target" Polygons, Points and LineStrings, these paired by an integer property `feature`, and
  * LineStrings "source-tie" and "target-tie" with numbers of their own.
  *
@@ -9,6 +9,7 @@
 #include "base/allocate.h"
 #include "base/foreign.h"
 #include "base/json_in.h"
+#include "base/number.h"
 #include "cage/cage_features.h"
 
 #include <math.h>
@@ -200,6 +201,52 @@ static bool read_features(cage *out, cage_role role, const cJSON *collection, pr
     return true;
 }
 
+/* Whether a string is `wanted`, or a number or a word means it. */
+static bool is_value(const cJSON *item, const char *wanted)
+{
+    const char *string = cJSON_GetStringValue(item);
+    double number;
+    return string != NULL ? strcmp(string, wanted) == 0
+           : cJSON_IsNumber(item)
+               ? number_parse(wanted, &number) == NUMBER_OK && number == item->valuedouble
+           : cJSON_IsBool(item) ? strcmp(wanted, cJSON_IsTrue(item) ? "true" : "false") == 0
+                                : false;
+}
+
+/* Whether a feature has what was named: a property with its value, or the id. */
+static bool has_name(const cJSON *feature, const char *named)
+{
+    size_t n = strcspn(named, "=");
+    const cJSON *property;
+    bool found = false;
+    if (named[n] == '\0')
+        return is_value(json_get(feature, "id"), named);
+    cJSON_ArrayForEach(property, json_get(feature, "properties")) found =
+        found || (strlen(property->string) == n && strncmp(property->string, named, n) == 0 &&
+                  is_value(property, named + n + 1));
+    return found ||
+           (n == 2 && strncmp(named, "id", 2) == 0 && is_value(json_get(feature, "id"), named + 3));
+}
+
+static const cJSON *choose_named(const cJSON *collection, const char *named, problem *wrong)
+{
+    const cJSON *feature, *chosen = NULL;
+    int n = 0;
+    char shown[64];
+    cJSON_ArrayForEach(feature, json_get(collection, "features"))
+    {
+        if (has_name(feature, named)) {
+            chosen = feature;
+            n++;
+        }
+    }
+    if (n == 1)
+        return chosen;
+    spoilt(wrong, 0, "%d of the %d features have %s; exactly one must", n,
+           cJSON_GetArraySize(json_get(collection, "features")), choice_text(shown, named));
+    return NULL;
+}
+
 /* The feature that is the cage: of those with the role the one that is no line or point, else the
  * only one of all. */
 static const cJSON *choose_feature(const cJSON *collection, cage_role role, problem *wrong)
@@ -227,26 +274,62 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
     return chosen;
 }
 
-static bool read_object(cage *out, cage_role role, const cJSON *object, problem *wrong)
+static bool read_object(cage *out, const cage_choice *choice, const cJSON *object, problem *wrong)
 {
     if (is_foreign(object, wrong))
         return false;
     const cJSON *collection = NULL;
     if (strcmp(type_of(object), "FeatureCollection") == 0) {
         collection = object;
-        object = choose_feature(collection, role, wrong);
+        object = choice->named != NULL ? choose_named(collection, choice->named, wrong)
+                                       : choose_feature(collection, choice->role, wrong);
         if (object == NULL)
             return false;
+    } else if (choice->named != NULL) {
+        char shown[64];
+        return spoilt(wrong, 0, "there is no list of features in which to look for %s",
+                      choice_text(shown, choice->named));
     }
     if (strcmp(type_of(object), "Feature") == 0)
         object = json_get(object, "geometry");
-    return read_geometry(out, object, wrong) && read_features(out, role, collection, wrong);
+    return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
+}
+
+/* The file's one text, or its sequence of Features as a collection. */
+static cJSON *parse(const char *text, size_t n, problem *wrong)
+{
+    cJSON *texts = json_parse_sequence(text, n, wrong), *all = NULL;
+    int n_texts = cJSON_GetArraySize(texts);
+    if (texts == NULL)
+        return NULL;
+    if (n_texts == 1) {
+        all = cJSON_DetachItemFromArray(texts, 0);
+        cJSON_Delete(texts);
+        return all;
+    }
+    const cJSON *item;
+    int number = 0;
+    cJSON_ArrayForEach(item, texts)
+    {
+        char shown[32];
+        number++;
+        if (strcmp(type_of(item), "Feature") == 0)
+            continue;
+        spoilt(wrong, 0, "text %d of %d is a '%s'; in a sequence each is a Feature", number,
+               n_texts, quoted(shown, type_of(item)));
+        cJSON_Delete(texts);
+        return NULL;
+    }
+    all = cJSON_CreateObject();
+    cJSON_AddStringToObject(all, "type", "FeatureCollection");
+    cJSON_AddItemToObject(all, "features", texts);
+    return all;
 }
 
 bool cage_geojson_has(cage_role role, const char *text, size_t n)
 {
     problem ignored;
-    cJSON *object = json_parse(text, n, &ignored);
+    cJSON *object = parse(text, n, &ignored);
     const cJSON *feature;
     bool found = false;
     cJSON_ArrayForEach(feature, json_get(object, "features")) found =
@@ -255,12 +338,13 @@ bool cage_geojson_has(cage_role role, const char *text, size_t n)
     return found;
 }
 
-bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong)
+bool cage_read_geojson(cage *out, const cage_choice *choice, const char *text, size_t n,
+                       problem *wrong)
 {
-    cJSON *object = json_parse(text, n, wrong);
+    cJSON *object = parse(text, n, wrong);
     if (object == NULL)
         return false;
-    bool good = read_object(out, role, object, wrong);
+    bool good = read_object(out, choice, object, wrong);
     cJSON_Delete(object);
     return good;
 }

@@ -1,12 +1,14 @@
-/* The data of an SVG path: subpaths of M L H V C S Q T Z, absolute or relative, the first of which
+/* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative, the first of which
  * is the outline and the others are holes.
  *
- * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size: so
+ * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size, and each arc
+ * ARC_EDGES: so
  * the same path with moved points gives the same number of vertices, and they correspond. */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
 #include "cage/cage_features.h"
+#include "cage/svg_arc.h"
 
 #include <string.h>
 
@@ -32,13 +34,27 @@ static void skip_separators(pen *p)
     }
 }
 
-static bool read_numbers(pen *p, size_t n, double *values)
+/* A digit, which the next number may follow at once. */
+static bool read_flag(pen *p, double *value)
+{
+    char shown[32];
+    if (p->at >= p->end || (*p->at != '0' && *p->at != '1'))
+        return spoilt(p->wrong, p->line, "'%s' in the path where 0 or 1 is expected",
+                      quoted(shown, p->at));
+    *value = *p->at++ - '0';
+    return true;
+}
+
+static bool read_numbers(pen *p, char command, size_t n, double *values)
 {
     for (size_t i = 0; i < n; i++) {
         skip_separators(p);
         char shown[32];
         const char *word = p->at;
-        if (p->at >= p->end || number_read(&p->at, &values[i]) != NUMBER_OK)
+        if (command == 'A' && (i == 3 || i == 4)) {
+            if (!read_flag(p, &values[i]))
+                return false;
+        } else if (p->at >= p->end || number_read(&p->at, &values[i]) != NUMBER_OK)
             return spoilt(p->wrong, p->line, "'%s' in the path where a finite number is expected",
                           quoted(shown, word));
     }
@@ -76,6 +92,17 @@ static void quadratic_to(pen *p, double a, double b, double x, double y)
     p->handle_y = b;
 }
 
+static void arc_to(pen *p, const double *v)
+{
+    const double from[2] = {p->x, p->y};
+    const arc a = {{v[0], v[1]}, v[2], v[3] > 0, v[4] > 0, {v[5], v[6]}};
+    double inner[2 * ARC_EDGES];
+    int n = arc_inner(inner, from, &a);
+    for (int i = 0; i < n; i++)
+        cage_add(p->out, inner[2 * i], inner[2 * i + 1], p->line);
+    line_to(p, v[5], v[6]);
+}
+
 static size_t numbers_of(char command)
 {
     switch (command) {
@@ -86,6 +113,8 @@ static size_t numbers_of(char command)
     case 'H':
     case 'V':
         return 1;
+    case 'A':
+        return 7;
     case 'C':
         return 6;
     case 'S':
@@ -117,6 +146,9 @@ static void draw(pen *p, char command, char previous, const double *v)
     case 'V':
         line_to(p, p->x, v[0]);
         break;
+    case 'A':
+        arc_to(p, v);
+        break;
     case 'C':
         curve_to(p, v);
         break;
@@ -135,6 +167,11 @@ static void draw(pen *p, char command, char previous, const double *v)
 /* Lower-case commands count from the pen. */
 static void make_absolute(const pen *p, char command, size_t n, double *v)
 {
+    if (command == 'A') { /* only where it ends */
+        v[5] += p->x;
+        v[6] += p->y;
+        return;
+    }
     for (size_t i = 0; i < n; i++)
         v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
 }
@@ -156,9 +193,6 @@ static bool read_command(pen *p, char letter, char *previous)
 {
     char command = (char)(letter & ~0x20);
     size_t n = numbers_of(command);
-    if (command == 'A')
-        return spoilt(p->wrong, p->line,
-                      "the path has an arc; convert it to lines or curves first");
     if (n == 0)
         return spoilt(p->wrong, p->line, "'%c' is not a command of a path",
                       letter > 32 && letter < 127 ? letter : '?');
@@ -172,8 +206,8 @@ static bool read_command(pen *p, char letter, char *previous)
     p->closed = false;
     bool relative = letter >= 'a';
     do {
-        double v[6];
-        if (!read_numbers(p, n, v))
+        double v[7];
+        if (!read_numbers(p, command, n, v))
             return false;
         if (relative)
             make_absolute(p, command, n, v);

@@ -70,13 +70,13 @@ static const char *first_word(const char *text, size_t n)
 
 static bool is_json(const char *p)
 {
-    return *p == '{' || *p == '[';
+    return *p == '{' || *p == '[' || *p == '\x1e';
 }
 
 /* The first bytes decide the kind of a cage, never the file's name: standard input has
  * none. Known formats that cannot be read are named first; plain coordinates, which begin with
  * anything, come last. */
-static bool read_any(cage *out, cage_role role, size_t dim, const char *text, size_t n,
+static bool read_any(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
                      problem *wrong)
 {
     const char *p = first_word(text, n);
@@ -84,6 +84,11 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
         return false;
     if (strncmp(p, "# vtk DataFile", 14) == 0 || strncmp(p, "MeshVersion", 11) == 0)
         return foreign_surface(wrong, 0, *p == '#' ? "a VTK mesh" : "a Medit mesh");
+    if (choice->named != NULL && !is_json(p) && *p != '<') {
+        char shown[64];
+        return spoilt(wrong, 0, "only GeoJSON and SVG have names of shapes; %s was asked for",
+                      choice_text(shown, choice->named));
+    }
     out->dim = 3;
     const char *first = skip_comments(p);
     if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
@@ -93,19 +98,20 @@ static bool read_any(cage *out, cage_role role, size_t dim, const char *text, si
         return cage_read_npy(out, text, n, wrong);
     out->dim = 2;
     if (is_json(p))
-        return cage_read_geojson(out, role, text, n, wrong);
+        return cage_read_geojson(out, choice, text, n, wrong);
     if (*p == '<')
-        return cage_read_svg(out, role, text, n, wrong);
+        return cage_read_svg(out, choice, text, n, wrong);
     if (is_wkt(p))
         return cage_read_wkt(out, text, n, wrong);
     out->dim = dim;
     return cage_read_text(out, dim, text, n, wrong);
 }
 
-bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong)
+bool cage_read(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
+               problem *wrong)
 {
     *out = (cage){0};
-    bool good = read_any(out, role, dim, text, n, wrong);
+    bool good = read_any(out, choice, dim, text, n, wrong);
     size_t least = out->dim + 1;
     good = good && cage_sort_features(out, wrong);
     for (size_t i = 0; good && i < out->n_more; i++)

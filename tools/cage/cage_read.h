@@ -4,11 +4,12 @@
 
 #include "cage/cage.h"
 
-/* Reads a cage from text[0..n), with text[n] == '\0'; its content decides the format. `role`
- * chooses among several shapes: the GeoJSON feature with the property `role` "source" or "target",
- * the SVG element with that id or inkscape:label. A text file has `dim` numbers on a line; beyond 2
+/* Reads a cage from text[0..n), with text[n] == '\0'; its content decides the format. `choice`
+ * is among several shapes; by its role: the GeoJSON feature with the property `role` "source" or
+ * "target", the SVG element with that id or inkscape:label. A text file has `dim` numbers on a line; beyond 2
  * they are vertices without facets. False: see `wrong`, and `out` is empty. */
-bool cage_read(cage *out, cage_role role, size_t dim, const char *text, size_t n, problem *wrong);
+bool cage_read(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
+               problem *wrong);
 
 /* Whether the file names a shape with the role, so that it holds this cage for sure. */
 bool cage_is_named(cage_role role, const char *text, size_t n);

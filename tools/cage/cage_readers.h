@@ -5,9 +5,11 @@
 #include "cage/cage.h"
 
 bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong);
-bool cage_read_geojson(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
+bool cage_read_geojson(cage *out, const cage_choice *choice, const char *text, size_t n,
+                       problem *wrong);
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
-bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong);
+bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_t n,
+                   problem *wrong);
 
 /* Whether something in the file has the role. */
 bool cage_geojson_has(cage_role role, const char *text, size_t n);

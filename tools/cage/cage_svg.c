@@ -1,155 +1,108 @@
-/* Cages as SVG: the outline of a <path> or a <polygon>.
+/* Cages as SVG: the outline of a <path>, a <polygon> or another basic shape, in the units of the
+ * outermost <svg>, y downwards as in every picture.
  *
- * Coordinates are taken as they are written, y downwards as in every picture. An element with the
- * id, or the inkscape:label, "source" or "target" is chosen by the role of the cage; else the file
- * must have one shape only. A transform on the shape or around it is refused, since reading on
- * would misplace the cage. */
+ * An element with the id, or the inkscape:label, "source" or "target" is chosen by the role of the
+ * cage, or any by what was named; else the file must have one path or polygon only, or without such
+ * one other shape. */
 #include "cage/cage_readers.h"
 
+#include "base/allocate.h"
 #include "base/number.h"
 #include "cage/cage_features.h"
+#include "cage/svg_tags.h"
+#include "cage/svg_transform.h"
 
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-static const char blanks[] = " \t\r\n";
-
-/* A tag between '<' and '>': its name, and its attributes behind it. */
-typedef struct tag {
-    const char *name, *end;
-    size_t n_name;
-    bool closes, stands_alone;
-} tag;
+/* What a group does to all inside it. */
+typedef struct frame {
+    transform all;
+    bool unclear; /* a transform that cannot be read */
+} frame;
 
 typedef struct shape {
     tag tag;
-    size_t n_all, n_chosen;
-    bool transformed;
+    frame frame;
+    size_t n;
 } shape;
 
-static bool is_named(const tag *t, const char *name)
+/* Of paths and polygons, of other shapes, and of those that are called as wanted. */
+typedef struct shapes {
+    shape outlines, others, chosen;
+} shapes;
+
+/* By its id, or by what Inkscape's panel of objects shows; or as it was named. */
+static bool is_chosen(const tag *t, const cage_choice *choice)
 {
-    return t->n_name == strlen(name) && strncmp(t->name, name, t->n_name) == 0;
+    const char *key = choice->named, *value = cage_role_name(choice->role);
+    size_t n = key != NULL ? strcspn(key, "=") : 0;
+    if (key != NULL && key[n] == '=')
+        return tag_has(t, key, n, key + n + 1);
+    value = key != NULL ? key : value;
+    return tag_has(t, "id", 2, value) || tag_has(t, "inkscape:label", 14, value);
 }
 
-/* The '>' that ends a tag, minding quotes; NULL if there is none. */
-static const char *tag_end(const char *p)
+static void note_shape(shape *s, const tag *t, const frame *f)
 {
-    char quote = '\0';
-    for (; *p != '\0'; p++) {
-        if (quote != '\0')
-            quote = *p == quote ? '\0' : quote;
-        else if (*p == '"' || *p == '\'')
-            quote = *p;
-        else if (*p == '>')
-            return p;
-    }
-    return NULL;
+    if (s->n++ > 0)
+        return;
+    s->tag = *t;
+    s->frame = *f;
 }
 
-/* The next tag at or behind p, comments and declarations left out; false at the end of the file. */
-static bool next_tag(const char *p, tag *out)
+static void note_tag(shapes *found, const tag *t, const frame *f, const cage_choice *choice)
 {
-    while ((p = strchr(p, '<')) != NULL) {
-        if (strncmp(p, "<!--", 4) == 0) {
-            p = strstr(p + 4, "-->");
-            if (p == NULL)
-                return false;
-            continue;
-        }
-        const char *end = tag_end(p);
-        if (end == NULL)
-            return false;
-        if (p[1] == '!' || p[1] == '?') {
-            p = end;
-            continue;
-        }
-        out->closes = p[1] == '/';
-        out->stands_alone = end[-1] == '/';
-        out->name = p + 1 + out->closes;
-        out->n_name = strcspn(out->name, " \t\r\n/>");
-        out->end = end;
-        return true;
-    }
-    return false;
+    bool outline = tag_is(t, "path") || tag_is(t, "polygon");
+    bool other =
+        tag_is(t, "polyline") || tag_is(t, "rect") || tag_is(t, "circle") || tag_is(t, "ellipse");
+    if (!outline && !other)
+        return;
+    note_shape(outline ? &found->outlines : &found->others, t, f);
+    if (is_chosen(t, choice))
+        note_shape(&found->chosen, t, f);
 }
 
-/* The value of an attribute: from the result up to *end; NULL if the tag does not have it. */
-static const char *attribute(const tag *t, const char *name, const char **end)
+static frame frame_of(const tag *t, const frame *around)
 {
-    const char *p = t->name + t->n_name;
-    size_t n = strlen(name);
-    while (p < t->end) {
-        p += strspn(p, blanks);
-        const char *key = p;
-        p += strcspn(p, "= \t\r\n/>\"'");
-        size_t n_key = (size_t)(p - key);
-        p += strspn(p, blanks);
-        if (*p != '=') {
-            p += p < t->end && (p == key || *p == '/');
-            continue;
-        }
-        p++;
-        p += strspn(p, blanks);
-        if (*p != '"' && *p != '\'')
-            continue;
-        const char *value = p + 1;
-        *end = strchr(value, *p);
-        if (*end == NULL || *end > t->end)
-            return NULL;
-        if (n_key == n && strncmp(key, name, n) == 0)
-            return value;
-        p = *end + 1;
-    }
-    return NULL;
+    const char *end, *list = tag_attribute(t, "transform", 9, &end);
+    frame inner = *around;
+    if (list != NULL && !transform_read(&inner.all, &around->all, list, end))
+        inner.unclear = true;
+    return inner;
 }
 
-static bool is_attribute(const tag *t, const char *name, const char *wanted)
+/* Tags nest; the frames of those that are open are on a stack. */
+static shapes find_shapes(const char *text, const cage_choice *choice)
 {
-    const char *end, *value = attribute(t, name, &end);
-    return value != NULL && (size_t)(end - value) == strlen(wanted) &&
-           strncmp(value, wanted, strlen(wanted)) == 0;
-}
-
-/* By its id, or by what Inkscape's panel of objects shows. */
-static bool is_called(const tag *t, const char *name)
-{
-    return is_attribute(t, "id", name) || is_attribute(t, "inkscape:label", name);
-}
-
-/* Finds the shape to read. Tags nest; `outer` is the depth of the outermost open transform. */
-static shape find_shape(const char *text, cage_role role)
-{
-    shape found = {0};
-    size_t depth = 0, outer = 0;
+    shapes found = {.chosen = {.n = 0}};
+    frame *frames = NULL;
+    size_t depth = 0, room = 0;
     tag t;
-    for (const char *p = text; next_tag(p, &t); p = t.end + 1) {
-        const char *end;
+    for (const char *p = text; tag_next(&t, p); p = t.end + 1) {
+        const frame none = {.all = transform_none()};
         if (t.closes) {
             depth -= depth > 0;
-            outer = depth < outer ? 0 : outer;
             continue;
         }
-        bool moved = attribute(&t, "transform", &end) != NULL;
-        if (is_named(&t, "path") || is_named(&t, "polygon")) {
-            bool chosen = is_called(&t, cage_role_name(role));
-            if (chosen || found.n_all == 0) {
-                found.tag = t;
-                found.transformed = moved || outer > 0;
-            }
-            found.n_all++;
-            found.n_chosen += chosen;
-        }
-        if (!t.stands_alone) {
-            depth++;
-            outer = outer == 0 && moved ? depth : outer;
-        }
+        frame inner = frame_of(&t, depth > 0 ? &frames[depth - 1] : &none);
+        note_tag(&found, &t, &inner, choice);
+        if (t.stands_alone)
+            continue;
+        frames = grow(frames, &room, depth + 1, sizeof *frames);
+        frames[depth++] = inner;
     }
+    free(frames);
     return found;
 }
 
+/* ------------------------------------------------------------------ shapes */
+
 /* The `points` of a polygon: pairs of numbers, separated by commas or spaces. The last vertex
  * joins the first. */
-static bool read_polygon(cage *out, const char *p, const char *end, size_t line, problem *wrong)
+static bool read_points(cage *out, const char *p, const char *end, size_t line, problem *wrong)
 {
     double xy[2];
     size_t n = 0;
@@ -170,29 +123,139 @@ static bool read_polygon(cage *out, const char *p, const char *end, size_t line,
     return cage_end_ring(out, 0, wrong);
 }
 
-bool cage_svg_has(cage_role role, const char *text)
+/* A length, in the units of the drawing; `missing` where there is none. */
+static bool read_length(const tag *t, const char *name, double missing, double *out, size_t line,
+                        problem *wrong)
 {
-    return find_shape(text, role).n_chosen > 0;
+    const char *end, *value = tag_attribute(t, name, strlen(name), &end);
+    char shown[32];
+    *out = missing;
+    if (value == NULL || strncmp(value, "auto", 4) == 0)
+        return true;
+    const char *p = value + strspn(value, " \t\r\n");
+    bool good = number_read(&p, out) == NUMBER_OK;
+    p += strncmp(p, "px", 2) == 0 ? 2 : 0;
+    p += strspn(p, " \t\r\n");
+    return (good && p == end) || spoilt(wrong, line, "%s is '%s'; only plain numbers are read",
+                                        name, quoted(shown, value));
 }
 
-bool cage_read_svg(cage *out, cage_role role, const char *text, size_t n, problem *wrong)
+/* An ellipse as its four quarters, clockwise as it is seen. */
+static bool read_ellipse(cage *out, const tag *t, size_t line, problem *wrong)
 {
-    (void)n;
-    const char *id = cage_role_name(role), *end = NULL;
-    shape found = find_shape(text, role);
-    if (found.n_all == 0)
-        return spoilt(wrong, 0, "there is no complete <path> or <polygon> in this SVG");
-    if (found.n_chosen > 1 || (found.n_chosen == 0 && found.n_all > 1))
-        return spoilt(wrong, 0,
-                      "%zu of the %zu shapes have the id or label \"%s\"; exactly one must",
-                      found.n_chosen, found.n_all, id);
-    bool polygon = is_named(&found.tag, "polygon");
-    const char *data = attribute(&found.tag, polygon ? "points" : "d", &end);
-    size_t line = line_of(text, data != NULL ? data : found.tag.name);
-    if (found.transformed)
-        return spoilt(wrong, line, "the shape has a transform; apply it to the coordinates first");
+    bool circle = tag_is(t, "circle");
+    double x, y, rx, ry;
+    char path[800];
+    if (!read_length(t, "cx", 0, &x, line, wrong) || !read_length(t, "cy", 0, &y, line, wrong) ||
+        !read_length(t, circle ? "r" : "rx", 0, &rx, line, wrong) ||
+        !read_length(t, circle ? "r" : "ry", 0, &ry, line, wrong))
+        return false;
+    if (!(rx > 0 && ry > 0))
+        return spoilt(wrong, line, "the %s has no radius", circle ? "circle" : "ellipse");
+    snprintf(path, sizeof path,
+             "M%.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17g"
+             "A%.17g,%.17g 0 0 1 %.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gZ",
+             x + rx, y, rx, ry, x, y + ry, rx, ry, x - rx, y, rx, ry, x, y - ry, rx, ry, x + rx, y);
+    return cage_read_path(out, path, path + strlen(path), line, wrong);
+}
+
+/* Corners are rounded by one radius if only one is given, and by half the sides at most. */
+static bool read_rectangle(cage *out, const tag *t, size_t line, problem *wrong)
+{
+    double x, y, w, h, rx, ry;
+    char path[800];
+    if (!read_length(t, "x", 0, &x, line, wrong) || !read_length(t, "y", 0, &y, line, wrong) ||
+        !read_length(t, "width", 0, &w, line, wrong) ||
+        !read_length(t, "height", 0, &h, line, wrong) ||
+        !read_length(t, "rx", -1, &rx, line, wrong) || !read_length(t, "ry", -1, &ry, line, wrong))
+        return false;
+    if (!(w > 0 && h > 0))
+        return spoilt(wrong, line, "the rectangle has no width or no height");
+    rx = fmin(fmax(rx < 0 ? ry : rx, 0), w / 2);
+    ry = fmin(fmax(ry < 0 ? rx : ry, 0), h / 2);
+    if (rx > 0 && ry > 0)
+        snprintf(path, sizeof path,
+                 "M%.17g,%.17gH%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gV%.17gA%.17g,%.17g 0 0 1 "
+                 "%.17g,%.17gH%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gV%.17gA%.17g,%.17g 0 0 1 "
+                 "%.17g,%.17gZ",
+                 x + rx, y, x + w - rx, rx, ry, x + w, y + ry, y + h - ry, rx, ry, x + w - rx,
+                 y + h, x + rx, rx, ry, x, y + h - ry, y + ry, rx, ry, x + rx, y);
+    else
+        snprintf(path, sizeof path, "M%.17g,%.17gH%.17gV%.17gH%.17gZ", x, y, x + w, y + h, x);
+    return cage_read_path(out, path, path + strlen(path), line, wrong);
+}
+
+static bool read_shape(cage *out, const tag *t, const char *text, problem *wrong)
+{
+    bool path = tag_is(t, "path"), points = tag_is(t, "polygon") || tag_is(t, "polyline");
+    const char *end = NULL;
+    const char *data = path     ? tag_attribute(t, "d", 1, &end)
+                       : points ? tag_attribute(t, "points", 6, &end)
+                                : t->name;
+    size_t line = line_of(text, data != NULL ? data : t->name);
     if (data == NULL)
         return spoilt(wrong, line, "the shape has no outline");
-    return polygon ? read_polygon(out, data, end, line, wrong)
-                   : cage_read_path(out, data, end, line, wrong);
+    return path                ? cage_read_path(out, data, end, line, wrong)
+           : points            ? read_points(out, data, end, line, wrong)
+           : tag_is(t, "rect") ? read_rectangle(out, t, line, wrong)
+                               : read_ellipse(out, t, line, wrong);
+}
+
+/* -------------------------------------------------------------------- file */
+
+static bool move(size_t n, double *points, const transform *t)
+{
+    for (size_t i = 0; i < n; i++) {
+        transform_apply(t, points + 2 * i);
+        if (!isfinite(points[2 * i]) || !isfinite(points[2 * i + 1]))
+            return false;
+    }
+    return true;
+}
+
+static bool move_all(cage *c, const transform *t)
+{
+    bool good = move(c->n, c->points, t);
+    for (size_t i = 0; good && i < c->n_features; i++)
+        good = move(c->features[i].n, c->features[i].points, t);
+    return good;
+}
+
+bool cage_svg_has(cage_role role, const char *text)
+{
+    return find_shapes(text, &(cage_choice){role, NULL}).chosen.n > 0;
+}
+
+/* The shape to read, or NULL. */
+static const shape *choose(const shapes *found, const cage_choice *choice, problem *wrong)
+{
+    size_t n_all = found->outlines.n + found->others.n;
+    const shape *only = found->outlines.n > 0 ? &found->outlines : &found->others;
+    char shown[64], called[64];
+    snprintf(called, sizeof called, "the id or label \"%s\"", cage_role_name(choice->role));
+    if (n_all == 0)
+        spoilt(wrong, 0, "there is no complete <path>, <polygon> or other shape in this SVG");
+    else if (found->chosen.n == 1)
+        return &found->chosen;
+    else if (found->chosen.n == 0 && only->n == 1 && choice->named == NULL)
+        return only;
+    else
+        spoilt(wrong, 0, "%zu of the %zu shapes have %s; exactly one must", found->chosen.n, n_all,
+               choice->named != NULL ? choice_text(shown, choice->named) : called);
+    return NULL;
+}
+
+bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_t n, problem *wrong)
+{
+    (void)n;
+    shapes found = find_shapes(text, choice);
+    const shape *s = choose(&found, choice, wrong);
+    if (s == NULL)
+        return false;
+    size_t line = line_of(text, s->tag.name);
+    if (s->frame.unclear)
+        return spoilt(wrong, line, "the shape has, or is in, a transform that is none of SVG's");
+    return read_shape(out, &s->tag, text, wrong) &&
+           (move_all(out, &s->frame.all) ||
+            spoilt(wrong, line, "the transform takes the shape beyond the range of numbers"));
 }

@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "geo/geo_carry.h"
 #include "job/job.h"
+#include "job/output_name.h"
 #include "job/ties_file.h"
 #include "job/triangulation.h"
 
@@ -152,6 +153,8 @@ static int carry_file(job *j)
         result = failed(name, wrong.line, "%s", wrong.text);
     }
     progress_end(&j->bar);
+    if (result == DONE && r.sequence)
+        result = output_fits(j->args->command, j->args->operands[1], "GeoJSONSeq");
     if (result == DONE)
         result = finish(j, &r, text, n, seconds_now() - began);
     geo_result_free(&r);

@@ -270,6 +270,7 @@ bool geo_carry(geo_result *out, const carrier *carries, geo_policy policy, doubl
     *out = (geo_result){0};
     noding_start(&c.noding, carries);
     bool good = geo_index_read(&c.index, text, n, wrong);
+    out->sequence = c.index.sequence;
     if (good) {
         c.boxes = need(c.index.n, sizeof *c.boxes);
         good = carry_objects(&c);

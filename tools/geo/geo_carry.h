@@ -25,6 +25,7 @@ typedef struct geo_result {
     size_t n_positions, n_without; /* positions, and those without image */
     size_t n_faults, room_faults;
     geo_fault *faults;
+    bool sequence; /* of texts (GeoJSONSeq) */
 } geo_result;
 
 /* Carries text[0..n), with text[n] == '\0'. Lines are off by at most `tolerance`. False: see

@@ -214,19 +214,33 @@ static bool settle(geo_index *out, const char *text, problem *wrong)
     return true;
 }
 
+/* One text with all that it holds; *object: whether it is an object. */
+static json_kind read_text(indexer *x, uint32_t number, bool *object)
+{
+    json_kind kind = json_scan_next(&x->scan);
+    *object = kind == JSON_OBJECT;
+    if (*object)
+        open_object(x, GEO_NOWHERE, GEO_ROOT, number);
+    else if (kind != JSON_BAD)
+        kind = json_scan_skip(&x->scan, kind);
+    while (kind != JSON_BAD && x->depth > 0 && x->out->n < GEO_NOWHERE)
+        kind = read_piece(x);
+    return kind;
+}
+
 bool geo_index_read(geo_index *out, const char *text, size_t n, problem *wrong)
 {
     *out = (geo_index){0};
     indexer x = {.out = out};
+    bool object = true;
+    uint32_t number = 0;
     json_scan_start(&x.scan, text, n);
-    json_kind kind = json_scan_next(&x.scan);
-    bool object = kind == JSON_OBJECT;
-    if (object)
-        open_object(&x, GEO_NOWHERE, GEO_ROOT, 0);
-    else if (kind != JSON_BAD)
-        kind = json_scan_skip(&x.scan, kind);
-    while (kind != JSON_BAD && x.depth > 0 && out->n < GEO_NOWHERE)
-        kind = read_piece(&x);
+    out->sequence = json_scan_more(&x.scan) && text[x.scan.at - 1] == '\x1e';
+    json_kind kind = read_text(&x, number, &object);
+    while (kind != JSON_BAD && object && x.depth == 0 && json_scan_more(&x.scan)) {
+        out->sequence = true;
+        kind = read_text(&x, ++number, &object);
+    }
     if (kind != JSON_BAD && x.depth == 0)
         kind = json_scan_next(&x.scan);
     bool good = kind == JSON_END;

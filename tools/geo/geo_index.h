@@ -51,6 +51,7 @@ typedef struct geo_object {
 typedef struct geo_index {
     geo_object *objects;
     size_t n, room;
+    bool sequence; /* of several texts, or with separators (RFC 8142) */
 } geo_index;
 
 /* Checks text[0..n), with text[n] == '\0', and finds its objects. False: see `wrong`. To be freed

@@ -218,7 +218,8 @@ static int check_inputs(const args *a, const command *c)
                             has_input ? a->operands[0] : NULL};
     size_t n_standard = 0;
     for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        n_standard += inputs[i] != NULL && strcmp(inputs[i], "-") == 0;
+        n_standard +=
+            inputs[i] != NULL && (strcmp(inputs[i], "-") == 0 || strncmp(inputs[i], "-#", 2) == 0);
     if (n_standard > 1)
         return misused(c->name, "only one input can be standard input");
     return DONE;

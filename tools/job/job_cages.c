@@ -25,11 +25,12 @@ static int join_vertices(job *j, size_t side)
     return DONE;
 }
 
-static int read_cage(job *j, size_t side, const char *text, size_t n)
+static int read_cage(job *j, size_t side, const char *named, const char *text, size_t n)
 {
     problem wrong;
+    const cage_choice choice = {side == 0 ? CAGE_SOURCE : CAGE_TARGET, named};
     size_t dim = side == 0 ? 2 : job_dim(j);
-    if (cage_read(&j->cages[side], side == 0 ? CAGE_SOURCE : CAGE_TARGET, dim, text, n, &wrong))
+    if (cage_read(&j->cages[side], &choice, dim, text, n, &wrong))
         return join_vertices(j, side);
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
@@ -48,12 +49,13 @@ static int read_target(job *j, const char *text, size_t n)
     if (a->target == NULL && cage_is_named(CAGE_TARGET, text, n)) {
         a->target = a->source;
         j->both = true;
-        return read_cage(j, 1, text, n);
+        return read_cage(j, 1, NULL, text, n);
     }
     if (a->target == NULL)
         return a->needs_target ? misused(a->command, "--target FILE is missing") : DONE;
-    char *own = file_read(a->target, &n);
-    int result = own != NULL ? read_cage(j, 1, own, n) : FAILED;
+    const char *named;
+    char *own = file_read_chosen(a->target, &n, &named);
+    int result = own != NULL ? read_cage(j, 1, named, own, n) : FAILED;
     free(own);
     return result;
 }
@@ -149,10 +151,11 @@ int job_read_cages(job *j)
     if (job_dim(j) > 0)
         return DONE;
     size_t n;
-    char *text = file_read(job_file(j, 1), &n);
+    const char *named;
+    char *text = file_read_chosen(job_file(j, 1), &n, &named);
     if (text == NULL)
         return FAILED;
-    int result = read_cage(j, 0, text, n);
+    int result = read_cage(j, 0, named, text, n);
     if (result == DONE)
         result = check_points(j);
     if (result == DONE)

@@ -1,7 +1,7 @@
 #include "job/match_cages.h"
 
 #include "base/allocate.h"
-#include "job/point_file.h"
+#include "job/landmark_file.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -71,8 +71,7 @@ int match_cages(job *j)
 {
     const args *a = j->args;
     table landmarks = {0};
-    table_form form = {.columns = 4, .what = "landmarks are `x y x' y'`, one pair per line"};
-    if (a->landmarks != NULL && rows_read(&landmarks, a->landmarks, &form) != DONE)
+    if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks) != DONE)
         return FAILED;
     icc_match_options options = {.size = sizeof options, .turning = a->turning};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;

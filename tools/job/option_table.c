@@ -54,7 +54,8 @@ const option options[] = {
      .commands = HAS_CAGES | FOR_ANIMATE,
      .offset = AT(source),
      .value = "FILE",
-     .help = "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; a .npy mask"},
+     .help = "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; a .npy mask; "
+             "FILE#name=Kent: the feature with that property"},
     {.name = "target",
      .letter = 't',
      .kind = OPTION_TEXT,
@@ -76,7 +77,8 @@ const option options[] = {
      .offset = AT(landmarks),
      .value = "FILE",
      .help =
-         "match: points that go together, `x y` of the source and `x y` of the target per line"},
+         "match: points that go together, `x y` of the source and `x y` of the target per line; or "
+         "QGIS's .points"},
     {.name = "turning",
      .kind = OPTION_CHOICE,
      .commands = TAKES_TARGET,

@@ -143,7 +143,7 @@ int output_fits(const char *of, const char *name, const char *list)
 /* What the last operand may be, before its input has been looked at. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
-    return a->geojson                          ? "GeoJSON, JSON"
+    return a->geojson                          ? "GeoJSON, GeoJSONSeq, JSON"
            : c->bit & (FOR_WARP | FOR_ANIMATE) ? PICTURES
            : a->fill                           ? "Medit, VTK"
            : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"

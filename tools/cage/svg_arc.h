@@ -1,0 +1,25 @@
+/* Arcs of ellipses between two points, as SVG has them, and turns by degrees. */
+#ifndef SVG_ARC_H
+#define SVG_ARC_H
+
+#include <stdbool.h>
+
+/* Edges of an arc, a power of two. An edge of a whole ellipse is off by .005 of its radius at most,
+ * one of a quarter by .0003. */
+enum { ARC_EDGES = 32 };
+
+/* What SVG says of an arc, in its order. */
+typedef struct arc {
+    double radii[2], turn; /* of the first axis, in degrees */
+    bool large, positive;  /* positive: from x towards y */
+    double to[2];
+} arc;
+
+/* The cosine and the sine of an angle in degrees; of multiples of 90 exactly. */
+void turn_by(double degrees, double *cosine, double *sine);
+
+/* Its vertices between both ends, at equal steps of the angle, and how many there are: ARC_EDGES - 1,
+ * or none of an arc that is a line. */
+int arc_inner(double out[2 * ARC_EDGES], const double from[2], const arc *a);
+
+#endif

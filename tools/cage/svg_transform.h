@@ -1,0 +1,20 @@
+/* The transforms of SVG. */
+#ifndef SVG_TRANSFORM_H
+#define SVG_TRANSFORM_H
+
+#include <stdbool.h>
+
+/* Takes (x, y) to (m[0] x + m[2] y + m[4], m[1] x + m[3] y + m[5]). */
+typedef struct transform {
+    double m[6];
+} transform;
+
+transform transform_none(void);
+
+/* Reads a list of them up to `end`, each of which applies before those on its left, and all before
+ * `after`. False: it is none. */
+bool transform_read(transform *out, const transform *after, const char *list, const char *end);
+
+void transform_apply(const transform *t, double point[2]);
+
+#endif

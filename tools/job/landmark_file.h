@@ -1,0 +1,11 @@
+/* Landmarks: pairs of points that go together, a line each. */
+#ifndef LANDMARK_FILE_H
+#define LANDMARK_FILE_H
+
+#include "base/table.h"
+
+/* Reads rows `x y x' y'`, or what the georeferencer of QGIS saves (.points), whose points that are
+ * not enabled are left out. The table is to be freed if it is DONE; else said why. */
+int landmarks_read(table *out, const char *name);
+
+#endif
