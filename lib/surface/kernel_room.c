@@ -1,0 +1,65 @@
+/* Based on: I. E. Sutherland, G. W. Hodgman, Reentrant Polygon Clipping, 1974, with planes through
+ * the centre of the sphere. */
+#include "surface/kernel_room.h"
+
+#include "math/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A cone round a direction, wide enough for all that the faces at it can surround in a drawing: its
+ * corners are 83 degrees off. */
+static void begin(double (*corner)[3], const double *axis)
+{
+    static const double eighth[ICCP_ROOM_CORNERS][2] = {
+        {8, 0}, {5.5, 5.5}, {0, 8}, {-5.5, 5.5}, {-8, 0}, {-5.5, -5.5}, {0, -8}, {5.5, -5.5}};
+    const double side[3] = {fabs(axis[0]) < 0.7, fabs(axis[0]) >= 0.7, 0};
+    double u[3], v[3];
+    iccp_vec_cross(axis, side, u);
+    const double length = iccp_vec_norm(3, u);
+    for (int k = 0; k < 3; ++k)
+        u[k] /= length;
+    iccp_vec_cross(axis, u, v);
+    for (int i = 0; i < ICCP_ROOM_CORNERS; ++i)
+        for (int k = 0; k < 3; ++k)
+            corner[i][k] = axis[k] + eighth[i][0] * u[k] + eighth[i][1] * v[k];
+}
+
+/* Keeps what lies on the positive side of a plane. */
+static size_t clip(double (*out)[3], size_t n, const double (*corner)[3], const double normal[3])
+{
+    size_t n_out = 0;
+    double before = iccp_vec_dot(3, corner[n - 1], normal);
+    for (size_t i = 0, last = n - 1; i < n; last = i++) {
+        const double now = iccp_vec_dot(3, corner[i], normal);
+        if ((now > 0) != (before > 0)) {
+            const double s = fabs(now) / (fabs(now) + fabs(before));
+            for (int k = 0; k < 3; ++k)
+                out[n_out][k] = s * corner[last][k] + (1 - s) * corner[i][k];
+            ++n_out;
+        }
+        if (now > 0)
+            memcpy(out[n_out++], corner[i], sizeof *out);
+        before = now;
+    }
+    return n_out;
+}
+
+size_t iccp_kernel_room(double (*work)[3], const double axis[3], size_t n,
+                        const double *const *ring)
+{
+    double(*from)[3] = work, (*to)[3] = work + ICCP_ROOM_CORNERS + n;
+    size_t n_corners = ICCP_ROOM_CORNERS;
+    begin(from, axis);
+    for (size_t i = 0; i < n && n_corners >= 3; ++i) {
+        double normal[3];
+        iccp_vec_cross(ring[i], ring[i + 1 < n ? i + 1 : 0], normal);
+        n_corners = clip(to, n_corners, (const double(*)[3])from, normal);
+        double(*const swap)[3] = from;
+        from = to;
+        to = swap;
+    }
+    if (from != work)
+        memmove(work, from, n_corners * sizeof *work);
+    return n_corners;
+}

@@ -1,0 +1,293 @@
+/* Based on: E. Praun, H. Hoppe, Spherical Parametrization and Remeshing, 2003: the surface is made
+ * coarse down to a tetrahedron, and its vertices are put back one by one, each where it sees all
+ * sides of the ring of its neighbours. There always is such a place beside the vertex that it was
+ * collapsed to. A vertex only moves within the cone of these places, so that all faces stay
+ * positive and the neighbours of every vertex go round it once. */
+#include "surface/sphere.h"
+
+#include "base/error.h"
+#include "base/minmax.h"
+#include "surface/decimate.h"
+#include "surface/direction.h"
+#include "surface/drawn_star.h"
+#include "surface/kernel_room.h"
+#include "surface/sphere_certificate.h"
+
+#include <math.h>
+#include <string.h>
+
+/* All vertices are moved in sweeps whenever there are so many times as many: in more of them while
+ * there are few, which costs little and decides how limbs come to lie. */
+static const double level = 1.5;
+enum { FEW = 2000, SWEEPS_OF_FEW = 24, SWEEPS = 6, LAST_SWEEPS = 30 };
+
+/* Steps of a vertex in one turn, and trial lengths of a step, at most. */
+enum { STEPS = 8, STEPS_WHEN_NEW = 4, HALVINGS = 6 };
+
+/* Vertices with more neighbours than this move in sweeps only, not each time that one of these is
+ * put back, and never jump: work stays in proportion. */
+enum { MOST_NEIGHBOURS = 64 };
+
+/* A vertex takes another step if the last one has left less than this share of its energy. */
+static const double worthwhile = 0.9;
+
+/* Vertices whose faces have a mean energy, to the power 1.5, above this may jump. */
+static const double bad = 90;
+
+/* The last sweeps end when one lowers the energy by less than this share. */
+static const double little = 1e-3;
+
+typedef struct drawing {
+    iccp_half_edges m;
+    const double *x;
+    double *directions;
+    double scale; /* area of the surface times its square: that of the sphere */
+    iccp_drawn_star star;
+    double (*room)[3];
+} drawing;
+
+static double *direction_of(const drawing *d, uint32_t vertex)
+{
+    return d->directions + 3 * (size_t)vertex;
+}
+
+static void gather(drawing *d, uint32_t vertex)
+{
+    iccp_drawn_star_gather(&d->star, &d->m, vertex, d->x, d->scale, d->directions);
+}
+
+/* ---- moving ---- */
+
+/* Newton's step, with a multiple of the identity added to the Hessian where it is not clearly
+ * positive; no longer than the way to the farthest neighbour. */
+static void find_step(double step[2], const iccp_drawn_star_jet *jet, double farthest)
+{
+    const double mean = 0.5 * (jet->hessian[0] + jet->hessian[2]);
+    const double half = 0.5 * (jet->hessian[0] - jet->hessian[2]);
+    const double radius = sqrt(half * half + jet->hessian[1] * jet->hessian[1]);
+    const double more = iccp_max(0, 0.05 * (fabs(mean) + radius) - (mean - radius));
+    const double a = jet->hessian[0] + more, b = jet->hessian[1], c = jet->hessian[2] + more;
+    const double det = a * c - b * b;
+    step[0] = -(c * jet->gradient[0] - b * jet->gradient[1]) / det;
+    step[1] = -(a * jet->gradient[1] - b * jet->gradient[0]) / det;
+    const double length = iccp_vec_norm(2, step);
+    if (length > farthest)
+        for (int k = 0; k < 2; ++k)
+            step[k] *= farthest / length;
+}
+
+/* Moves a vertex whose star has been gathered by a step of Newton's method, shortened until the
+ * star holds it and its energy falls. The energy then; what it fell by is added to *gain. */
+static double move(drawing *d, uint32_t vertex, double *gain)
+{
+    double *const p = direction_of(d, vertex);
+    iccp_drawn_star_jet jet;
+    double step[2], farthest = 0;
+    for (size_t i = 0; i < d->star.n; ++i)
+        farthest = iccp_max(farthest, iccp_vec_distance(3, p, d->star.ring[i]));
+    iccp_drawn_star_expand(&jet, &d->star, p);
+    find_step(step, &jet, farthest);
+    for (int n = 0; n < HALVINGS; ++n) {
+        double q[3];
+        for (int k = 0; k < 3; ++k)
+            q[k] = p[k] + step[0] * jet.axis[0][k] + step[1] * jet.axis[1][k];
+        iccp_direction(q, q);
+        if (iccp_drawn_star_holds(&d->star, q)) {
+            const double energy = iccp_drawn_star_energy(&d->star, q);
+            if (energy < jet.value) {
+                memcpy(p, q, sizeof q);
+                *gain += jet.value - energy;
+                return energy;
+            }
+        }
+        step[0] *= 0.5;
+        step[1] *= 0.5;
+    }
+    return jet.value;
+}
+
+/* Looks for a better place for a vertex whose star has been gathered among some in the room that it
+ * has as seen from an axis: the middle, and half the way from there to each corner. `least` is the
+ * energy where it is. */
+static double jump(drawing *d, uint32_t vertex, const double axis[3], double least)
+{
+    const size_t n = iccp_kernel_room(d->room, axis, d->star.n, d->star.ring);
+    double middle[3] = {0, 0, 0};
+    for (size_t i = 0; i < n; ++i) {
+        const double length = iccp_vec_norm(3, d->room[i]);
+        for (int k = 0; k < 3; ++k) {
+            d->room[i][k] /= length;
+            middle[k] += d->room[i][k] / (double)n;
+        }
+    }
+    for (size_t i = 0; i <= n && n >= 3; ++i) {
+        double p[3];
+        for (int k = 0; k < 3; ++k)
+            p[k] = i < n ? 0.5 * (middle[k] + d->room[i][k]) : middle[k];
+        iccp_direction(p, p);
+        if (iccp_drawn_star_holds(&d->star, p)) {
+            const double energy = iccp_drawn_star_energy(&d->star, p);
+            if (energy < least) {
+                least = energy;
+                memcpy(direction_of(d, vertex), p, sizeof p);
+            }
+        }
+    }
+    return least;
+}
+
+/* Moves a vertex by some steps, as long as they help much. */
+static double improve(drawing *d, uint32_t vertex, int n_steps, double *gain)
+{
+    double energy = HUGE_VAL;
+    gather(d, vertex);
+    for (int n = 0; n < n_steps; ++n) {
+        const double before = energy;
+        energy = move(d, vertex, gain);
+        if (n > 0 && energy > worthwhile * before)
+            break;
+    }
+    if (energy > bad * d->star.weight && d->star.n <= MOST_NEIGHBOURS) {
+        const double now = jump(d, vertex, direction_of(d, vertex), energy);
+        if (now < energy) {
+            *gain += energy - now;
+            energy = move(d, vertex, gain);
+        }
+    }
+    return energy;
+}
+
+/* A sweep: the sum of the energies, and what it fell by. */
+static void move_all(drawing *d, double *energy, double *gain)
+{
+    *energy = *gain = 0;
+    for (uint32_t v = 0; v < d->m.n_vertices; ++v)
+        if (d->m.degree[v] > 0)
+            *energy += improve(d, v, STEPS, gain);
+}
+
+/* ---- growing ---- */
+
+/* The corners of a regular tetrahedron for the last four vertices. */
+static void begin(drawing *d)
+{
+    static const double corner[4][3] = {{1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, -1}};
+    const iccp_half_edges *const m = &d->m;
+    uint32_t v = 0;
+    while (m->degree[v] == 0)
+        ++v;
+    iccp_direction(direction_of(d, v), corner[0]);
+    uint32_t h = m->out[v];
+    for (int k = 1; k < 4; ++k, h = iccp_edge_turn(m, h))
+        iccp_direction(direction_of(d, iccp_edge_end(m, h)), corner[k]);
+}
+
+/* Puts the last vertex that was taken away back. */
+static bool grow(drawing *d)
+{
+    const uint32_t u = iccp_edge_restore(&d->m);
+    double gain = 0;
+    gather(d, u);
+    if (jump(d, u, d->star.ring[0], HUGE_VAL) == HUGE_VAL)
+        return false;
+    improve(d, u, STEPS_WHEN_NEW, &gain);
+    uint32_t h = d->m.out[u];
+    do {
+        const uint32_t v = iccp_edge_end(&d->m, h);
+        if (d->m.degree[v] <= MOST_NEIGHBOURS)
+            improve(d, v, STEPS_WHEN_NEW, &gain);
+        h = iccp_edge_turn(&d->m, h);
+    } while (h != d->m.out[u]);
+    improve(d, u, STEPS_WHEN_NEW, &gain);
+    return true;
+}
+
+static icc_status grow_all(drawing *d, const iccp_env *env, icc_error *err)
+{
+    const size_t n = d->m.n_left + d->m.n_collapsed;
+    size_t next = 5;
+    double energy, gain;
+    icc_status status = ICC_OK;
+    while (d->m.n_collapsed > 0 && status == ICC_OK) {
+        if (!grow(d))
+            return iccp_fail(err, ICC_ERR_RESOLUTION,
+                             "directions on the sphere, multiples of 2^-51, are too coarse to draw "
+                             "the surface: there is no room for vertex %lu",
+                             (unsigned long)d->m.origin[d->m.collapsed[d->m.n_collapsed]]);
+        if (d->m.n_left >= next) {
+            const int n_sweeps = d->m.n_left < FEW ? SWEEPS_OF_FEW : SWEEPS;
+            for (int k = 0; k < n_sweeps; ++k)
+                move_all(d, &energy, &gain);
+            next = (size_t)(level * (double)d->m.n_left) + 1;
+        }
+        if (d->m.n_left % 256 == 0)
+            status = iccp_progress(env, "match", 0.7 * (double)d->m.n_left / (double)n);
+    }
+    for (int k = 0; k < LAST_SWEEPS && status == ICC_OK; ++k) {
+        move_all(d, &energy, &gain);
+        if (gain < little * energy)
+            break;
+        status = iccp_progress(env, "match", 0.7 + 0.3 * k / LAST_SWEEPS);
+    }
+    return iccp_explain(err, status);
+}
+
+/* ---- from beginning to end ---- */
+
+/* The factor that makes the surface's area that of the sphere. */
+static double scale_of(const drawing *d)
+{
+    double twice = 0;
+    for (size_t f = 0; f < d->m.n_faces; ++f) {
+        const uint32_t *const v = d->m.origin + 3 * f;
+        const double *const a = d->x + 3 * (size_t)v[0], *const b = d->x + 3 * (size_t)v[1];
+        const double *const c = d->x + 3 * (size_t)v[2];
+        double g[3], h[3], normal[3];
+        for (int k = 0; k < 3; ++k) {
+            g[k] = b[k] - a[k];
+            h[k] = c[k] - a[k];
+        }
+        iccp_vec_cross(g, h, normal);
+        twice += iccp_vec_norm(3, normal);
+    }
+    return sqrt(8 * 3.14159265358979323846 / twice);
+}
+
+static icc_status draw_all(drawing *d, const iccp_env *env, icc_error *err)
+{
+    const iccp_env first = iccp_part(env, NULL, 0, 0.25), rest = iccp_part(env, NULL, 0.25, 1);
+    icc_status status = iccp_decimate(&d->m, d->x, 4, &first);
+    if (status != ICC_OK)
+        return iccp_explain(err, status);
+    d->room =
+        iccp_alloc(&d->m.memory, 2 * (ICCP_ROOM_CORNERS + d->m.most_neighbours), sizeof *d->room);
+    if (!iccp_drawn_star_create(&d->star, d->m.most_neighbours, &d->m.memory) || d->room == NULL)
+        return iccp_fail_memory(err);
+    begin(d);
+    status = grow_all(d, &rest, err);
+    if (status != ICC_OK)
+        return status;
+    const iccp_sphere_certificate c = iccp_sphere_certify(&d->m, d->directions);
+    if (c.n_faces > 0 || c.n_stars > 0)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the drawing on the sphere is not one-to-one: %zu faces are not positive, "
+                         "round %zu vertices the faces do not go once",
+                         c.n_faces, c.n_stars);
+    return ICC_OK;
+}
+
+icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
+                            const uint32_t *faces, const iccp_env *env, icc_error *err)
+{
+    drawing d = {.x = x, .directions = directions};
+    icc_status status = iccp_half_edges_create(&d.m, n_vertices, n_faces, faces, env, err);
+    memset(directions, 0, 3 * n_vertices * sizeof *directions);
+    if (status == ICC_OK) {
+        d.scale = scale_of(&d);
+        status = draw_all(&d, env, err);
+    }
+    iccp_drawn_star_free(&d.star, &env->memory);
+    iccp_free(&env->memory, d.room);
+    iccp_half_edges_free(&d.m);
+    return status;
+}

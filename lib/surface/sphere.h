@@ -1,0 +1,18 @@
+/* Closed surfaces drawn on the sphere: every vertex gets a direction, so that every face becomes a
+ * triangle of the sphere, and these cover it once. */
+#ifndef ICCP_SPHERE_H
+#define ICCP_SPHERE_H
+
+#include "base/env.h"
+
+/* Directions (surface/direction.h) for the vertices of a closed surface without handles, 3
+ * n_vertices numbers each, x of size about 1; vertices without faces get zeros. Faces that are
+ * counter-clockwise from outside are so on the sphere. Areas and angles are kept as far as they can
+ * be. Certified: see surface/sphere_certificate.h.
+ *
+ * ICC_ERR_RESOLUTION if directions are too coarse for the surface; ICC_ERR_MEMORY,
+ * ICC_ERR_CANCELLED. O(n log n) for a bounded number of neighbours. The same on every machine. */
+icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
+                            const uint32_t *faces, const iccp_env *env, icc_error *err);
+
+#endif
