@@ -57,6 +57,11 @@ static void try_handles(const char *text, size_t size)
         require(set.regions[i].n >= 3 && set.dim == 2);
         require_finite(2 * set.regions[i].n, set.regions[i].points);
     }
+    for (size_t i = 0; i < set.n_strokes; i++) {
+        require(set.strokes[i].handle < set.n_handles && set.strokes[i].radius > 0);
+        require_finite(set.dim, set.strokes[i].centre);
+        require_finite(1, &set.strokes[i].amount);
+    }
     for (size_t i = 0; i < set.n_rigid; i++)
         require(set.rigid[i].rigidity > 0 &&
                 (set.rigid[i].region.n > 0 || set.rigid[i].radius > 0));

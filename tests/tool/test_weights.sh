@@ -92,6 +92,21 @@ for part in '"region": [[6, 1], [8, 1], [8, 3], [6, 3]]' '"centre": [7, 2], "rad
         complain "the energy does not fall"
 done
 
+# Painted weights rise where the brush was, one stroke after the other, and stay as they were elsewhere.
+stroke='{"handle": 1, "centre": [7, 2], "radius": 2, "amount": 0.2}'
+echo "{\"handles\": $handles}" >plain.json
+echo "{\"handles\": $handles, \"paint\": [$stroke]}" >once.json
+echo "{\"handles\": $handles, \"paint\": [$stroke, $stroke]}" >twice.json
+printf '7 2\n1.5 8\n' >where.txt
+for name in plain once twice; do
+    run 0 weights -s cage.txt -a $name.json --spacing 0.2 -p where.txt -o $name.out
+done
+paste -d ' ' plain.out once.out twice.out |
+    awk 'NR == 1 { exit !($7 > $2 + 0.05 && $12 > $7 + 0.05) }' || complain "painted weights do not rise"
+paste -d ' ' plain.out once.out |
+    awk 'NR == 2 { for (j = 1; j <= 5; j++) { d = $j - $(j + 5); if (d * d > 1e-6) exit 1 } }' ||
+    complain "painted weights change far away"
+
 # In space.
 make_cubes
 echo '{"handles": [[0.1, 0.1, 0.1], [0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9], [0.9, 0.9, 0.9]]}' >cube.json
@@ -165,6 +180,11 @@ wrong "{\"handles\": $handles, \"curves\": {\"vertices\": [[0, 0]], \"segments\"
 wrong "{\"handles\": $handles, \"rigid\": [{}]}" 'rigid[0] must have either'
 wrong "{\"handles\": $handles, \"rigid\": [{\"centre\": [1, 1], \"radius\": -1}]}" 'rigid[0].radius must be above 0'
 wrong "{\"handles\": $handles, \"rigid\": [{\"centre\": [70, 1], \"radius\": 1}]}" 'rigid[0] holds no sample'
+wrong "{\"handles\": $handles, \"paint\": [{\"handle\": 5}]}" 'paint[0].handle must be a handle'
+wrong "{\"handles\": $handles, \"paint\": [{\"handle\": 0, \"centre\": [1, 1], \"radius\": 0}]}" 'paint[0].radius must be above 0'
+wrong "{\"handles\": $handles, \"paint\": [{\"handle\": 0, \"centre\": [1, 1], \"radius\": 1}]}" 'paint[0].amount'
+wrong "{\"handles\": $handles, \"paint\": [{\"handle\": 0, \"centre\": [70, 1], \"radius\": 1, \"amount\": 1}]}" \
+    'paint[0] holds no sample'
 wrong '{"handles": [[1, 1], [9, 1], [8, 8]]}' 'handle 2 is outside the shape'
 wrong '{"handles": [[1, 1], [9, 1], [1, 4], [9, 1]]}' 'handle'
 wrong '{"handles": [[1, 1], [2, 1], [3, 1]]}' ''

@@ -100,15 +100,46 @@ static bool read_curves(handle_set *set, const cJSON *curves, problem *wrong)
                        set->n_vertices, &set->n_segments, &set->segments, wrong));
 }
 
-static bool read_ball(rigid_part *part, const cJSON *item, const char *where, size_t dim,
-                      problem *wrong)
+static bool read_ball(double *centre, double *radius, const cJSON *item, const char *where,
+                      size_t dim, problem *wrong)
 {
-    char centre[64], radius[64];
-    snprintf(centre, sizeof centre, "%s.centre", where);
-    snprintf(radius, sizeof radius, "%s.radius", where);
-    return json_reals(json_get(item, "centre"), centre, dim, part->centre, wrong) &&
-           json_real(json_get(item, "radius"), radius, &part->radius, wrong) &&
-           (part->radius > 0 || spoilt(wrong, 0, "%s must be above 0", radius));
+    char middle[64], size[64];
+    snprintf(middle, sizeof middle, "%s.centre", where);
+    snprintf(size, sizeof size, "%s.radius", where);
+    return json_reals(json_get(item, "centre"), middle, dim, centre, wrong) &&
+           json_real(json_get(item, "radius"), size, radius, wrong) &&
+           (*radius > 0 || spoilt(wrong, 0, "%s must be above 0", size));
+}
+
+static bool read_stroke(const handle_set *set, stroke *out, const cJSON *item, const char *where,
+                        problem *wrong)
+{
+    static const char *const members[] = {"handle", "centre", "radius", "amount", NULL};
+    char handle[64], amount[64];
+    snprintf(handle, sizeof handle, "%s.handle", where);
+    snprintf(amount, sizeof amount, "%s.amount", where);
+    return json_is_object(item, where, members, wrong) &&
+           json_index(json_get(item, "handle"), handle, "handle", set->n_handles, &out->handle,
+                      wrong) &&
+           read_ball(out->centre, &out->radius, item, where, set->dim, wrong) &&
+           json_real(json_get(item, "amount"), amount, &out->amount, wrong);
+}
+
+static bool read_paint(handle_set *set, const cJSON *list, problem *wrong)
+{
+    if (!json_list(list, "paint", &set->n_strokes, wrong))
+        return false;
+    set->strokes = need(set->n_strokes, sizeof *set->strokes);
+    size_t i = 0;
+    const cJSON *item;
+    cJSON_ArrayForEach(item, list)
+    {
+        char where[48];
+        snprintf(where, sizeof where, "paint[%zu]", i);
+        if (!read_stroke(set, &set->strokes[i++], item, where, wrong))
+            return false;
+    }
+    return true;
 }
 
 /* One of "rigid": an outline or a ball, never both, and how stiff it is compared with the others.
@@ -133,7 +164,7 @@ static bool read_part(rigid_part *part, const cJSON *item, const char *where, si
                       where);
     return json_get(item, "region") != NULL
                ? read_outline(&part->region, json_get(item, "region"), region, dim, wrong)
-               : read_ball(part, item, where, dim, wrong);
+               : read_ball(part->centre, &part->radius, item, where, dim, wrong);
 }
 
 static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
@@ -156,7 +187,7 @@ static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
 bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong)
 {
     static const char *const members[] = {"handles", "edges", "lines", "regions",
-                                          "curves",  "rigid", NULL};
+                                          "curves",  "paint", "rigid", NULL};
     *out = (handle_set){0};
     cJSON *file = json_parse(text, n, wrong);
     if (file == NULL)
@@ -168,6 +199,7 @@ bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong
                 read_lines(out, json_get(file, "lines"), wrong) &&
                 read_regions(out, json_get(file, "regions"), wrong) &&
                 read_curves(out, json_get(file, "curves"), wrong) &&
+                read_paint(out, json_get(file, "paint"), wrong) &&
                 read_rigid(out, json_get(file, "rigid"), wrong);
     cJSON_Delete(file);
     if (!good)
@@ -187,6 +219,7 @@ void handle_set_free(handle_set *set)
     free(set->regions);
     free(set->vertices);
     free(set->segments);
+    free(set->strokes);
     free(set->rigid);
     *set = (handle_set){0};
 }

@@ -1,5 +1,5 @@
 /* Handles and what goes with them, from JSON: where they are, the edges between them, lines to keep
- * straight, further regions and curves of the shape, rigid parts. */
+ * straight, further regions and curves of the shape, weights to be painted, rigid parts. */
 #ifndef HANDLE_SET_H
 #define HANDLE_SET_H
 
@@ -19,6 +19,12 @@ typedef struct rigid_part {
     double centre[3], radius, rigidity;
 } rigid_part;
 
+/* More weight for a handle, less and less towards the radius. */
+typedef struct stroke {
+    uint32_t handle;
+    double centre[3], radius, amount;
+} stroke;
+
 typedef struct handle_set {
     size_t dim;
     size_t n_handles;
@@ -33,6 +39,8 @@ typedef struct handle_set {
     double *vertices;  /* n_vertices * dim */
     size_t n_segments;
     uint32_t *segments; /* n_segments * 2 */
+    size_t n_strokes;
+    stroke *strokes;
     size_t n_rigid;
     rigid_part *rigid;
 } handle_set;

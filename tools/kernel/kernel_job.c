@@ -141,17 +141,52 @@ static int make_weights(kernel_job *k)
     return status == ICC_OK ? DONE : failed_set(k, "", &err);
 }
 
+/* Whether a node lies in a ball. */
+static bool in_ball(const kernel_job *k, const double *node, const double *centre, double radius)
+{
+    double squared = 0;
+    for (size_t c = 0; c < k->set.dim; c++)
+        squared += pow(node[c] - centre[c], 2);
+    return squared <= radius * radius;
+}
+
+/* Replaces the weights by painted ones, one stroke after the other. */
+static int paint(kernel_job *k)
+{
+    icc_weights_info info = {.size = sizeof info};
+    icc_weights_get_info(k->weights, &info);
+    double *nodes = need(info.n_nodes, k->set.dim * sizeof *nodes);
+    icc_weights_get_nodes(k->weights, nodes, NULL, NULL, NULL);
+    int result = DONE;
+    for (size_t s = 0; s < k->set.n_strokes && result == DONE; s++) {
+        const stroke *by = &k->set.strokes[s];
+        icc_weights *painted;
+        icc_error err = {.size = sizeof err, .index = -1};
+        size_t n_inside = 0;
+        char what[48];
+        snprintf(what, sizeof what, "paint[%zu]", s);
+        for (size_t i = 0; i < info.n_nodes; i++)
+            n_inside += in_ball(k, nodes + k->set.dim * i, by->centre, by->radius);
+        if (n_inside == 0)
+            result = failed(k->job.args->handles, 0, "%s holds no sample", what);
+        else if (icc_weights_paint(&painted, k->weights, by->handle, by->centre, by->radius,
+                                   by->amount, &k->job.env, &err) != ICC_OK)
+            result = failed_set(k, what, &err);
+        if (result != DONE)
+            break;
+        icc_weights_free(k->weights);
+        k->weights = painted;
+    }
+    free(nodes);
+    return result;
+}
+
 /* Which of n nodes a rigid part holds. */
 static icc_status find_part(const kernel_job *k, const rigid_part *part, size_t n,
                             const double *nodes, bool *inside, icc_error *err)
 {
-    size_t dim = k->set.dim;
-    for (size_t i = 0; part->region.n == 0 && i < n; i++) {
-        double squared = 0;
-        for (size_t c = 0; c < dim; c++)
-            squared += pow(nodes[dim * i + c] - part->centre[c], 2);
-        inside[i] = squared <= part->radius * part->radius;
-    }
+    for (size_t i = 0; part->region.n == 0 && i < n; i++)
+        inside[i] = in_ball(k, nodes + k->set.dim * i, part->centre, part->radius);
     if (part->region.n == 0)
         return ICC_OK;
     icc_domain *domain;
@@ -240,6 +275,8 @@ int kernel_job_make(kernel_job *k)
     int result = make_samples(k);
     if (result == DONE)
         result = make_weights(k);
+    if (result == DONE)
+        result = paint(k);
     if (result == DONE && k->set.n_rigid > 0)
         result = stiffen(k);
     progress_end(&k->job.bar);
