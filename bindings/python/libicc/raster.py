@@ -81,6 +81,8 @@ class Grid(NamedTuple):
         """Columns and rows, with fractions, of points (.., 2)."""
         a, b, c, d, e, f = self.transform
         det = a * e - b * d
+        if det == 0:
+            raise ValueError(f"the grid's rows and columns have one direction: {self.transform}")
         x, y = points[..., 0] - c, points[..., 1] - f
         return (e * x - b * y) / det, (a * y - d * x) / det
 
@@ -200,7 +202,7 @@ def _linear(pixels: Array, column: Floats, row: Floats, nodata: Optional[float],
         for j in (0, 1):
             share, corner = shares[0][i] * shares[1][j], pixels[:, places[0][i], places[1][j]]
             empty |= _is(corner, nodata) & (share > 0)
-            values += np.where(share > 0, share * corner, 0)
+            values += np.multiply(share, corner, out=np.zeros(empty.shape), where=share > 0)
     return values
 
 

@@ -93,7 +93,20 @@ def test_no_data_stays_none(before, grid):
         assert set(np.unique(warped)) == {-1, 50}
 
 
+def test_not_finite_is_not_spread(before, grid):
+    """A pixel counts where it has a share, and nowhere else."""
+    mapping = libicc.Map(before + [EAST, NORTH], before + [EAST, NORTH])
+    exact = grid._replace(transform=(0.0625, 0, EAST - 2, 0, -0.0625, NORTH + 13))
+    data = np.ones((280, 320))
+    data[100, 50], data[120, 60] = np.inf, np.nan
+    with np.errstate(all="raise"):
+        warped = warp_raster(data, exact, mapping)
+    assert np.isinf(warped).sum() == 1 and np.isnan(warped).sum() == 1
+
+
 def test_wrong_rasters(mapping, data, grid):
+    with pytest.raises(ValueError, match="one direction"):
+        warp_raster(data, grid._replace(transform=(1, 1, 0, 1, 1, 0)), mapping, grid)
     with pytest.raises(ValueError, match="cubic"):
         warp_raster(data, grid, mapping, resampling="cubic")
     with pytest.raises(ValueError, match="the raster has the shape"):
