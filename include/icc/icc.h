@@ -890,7 +890,7 @@ typedef struct icc_match_info {
     size_t n_vertices;  /**< common vertices of the two domains */
     size_t n_landmarks; /**< landmarks; they are among these */
     size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
-    double cost;        /**< of the pairing: 0 for similar shapes, at most 4; HUGE_VAL by arc
+    double cost; /**< of the outer rings' pairing: 0 for similar shapes, at most 4; HUGE_VAL by arc
                              length */
     double second;      /**< of the best one that differs from it by more than 5 % of the
                              perimeter; HUGE_VAL: no other was found, or there were landmarks */
@@ -899,7 +899,7 @@ typedef struct icc_match_info {
     double turn;        /**< the source is turned by so many degrees, counter-clockwise, to lie as
                              the target does */
     double least_slope; /**< share of the target's perimeter over that of the source's, of the edge
-                             that shrinks most, */
+                             of the outer ring that shrinks most, */
     double most_slope;  /**< and of the one that grows most */
 } icc_match_info;
 
@@ -915,33 +915,44 @@ typedef struct icc_match_info {
  * order; the others are added on edges, rounded. The result begins with the source's vertex 0 and
  * has the source's sense. It is checked as icc_domain_create() checks it.
  *
+ * Holes, lines and points inside go together, too, each with one of its kind. The outer rings'
+ * pairing says about where each should be in the target (by mean value coordinates); it goes to
+ * what is there, so that the squares of all distances have the least sum. Holes and lines are then
+ * paired along themselves, from where they lie nearest; lines from end to end. The result has the
+ * features of the source, in its order and with its senses, and those of the target that go with
+ * them.
+ *
  * @param[out] out    the match; owned by the caller, see icc_match_free()
- * @param source      a domain of the plane, without features or a mesh
- * @param target      likewise
+ * @param source      a domain of the plane, without a mesh; it may have features
+ * @param target      likewise, with as many holes, lines and points, and points with a radius
  * @param n_landmarks how many pairs of points are known, at most 1000
  * @param landmarks   n_landmarks * 2 dim coordinates: a point of the source, then one of the
  *                    target. The nearest vertex within 0.5 % of the shape's diameter is taken, or
  *                    else the nearest boundary point; a point on the boundary is taken as it is.
- *                    NULL if there are none
+ *                    Points inside and those of holes and lines are boundary points here: such a
+ *                    landmark says which features go together, and where. NULL if there are none
  * @param options     may be NULL
  * @param env         may be NULL
  * @param err         may be NULL; `index` is the landmark at fault
  * @return ::ICC_OK; ::ICC_ERR_AMBIGUOUS (another pairing is nearly as good: give a
- *         landmark, or ask for arc length, which is never taken unasked);
+ *         landmark, or ask for arc length, which is never taken unasked; or two features, of which
+ *         `index` is one of the source's, could change places: give a landmark on one of them);
  *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
- *         where another one does, or does not follow it round both outlines alike);
- *         ::ICC_ERR_UNSUPPORTED (another dimension, features or a mesh); ::ICC_ERR_BOUNDARY (the
- *         common vertices cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
+ *         where another one does, or does not follow it round both outlines alike, or pairs what
+ *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, or a mesh);
+ *         ::ICC_ERR_BOUNDARY (other numbers of features of a kind; or the common vertices, which
+ *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
  *         ::ICC_ERR_CANCELLED
  *
  * Where both outlines have many vertices, they are paired with one another as far as their edges
  * run alike; few are left to be paired with places on edges.
  *
- * Cost: some 0.3 s and 6 MB whatever the number of vertices n, then O(n log n), some 0.2 s and
- * 6 MB for 15,000 on both sides. Deterministic. The map between the two domains then takes longer
- * than between outlines of which the same vertices correspond: on coasts to which a third was added
- * at random on both sides two to four times, on one that is turned into a swirl eight times. Where
- * a corner is paired with a straight place, triangles fold at first and have to be repaired.
+ * Cost: some 0.3 s and 6 MB whatever the number of vertices n, then O(n log n), some 0.2 s and 6 MB
+ * for 15,000 on both sides; some 0.01 s for each hole or line, and O(m^3) at worst, O(m^2) mostly,
+ * for m features of a kind. Deterministic. The map between the two domains then takes longer than
+ * between outlines of which the same vertices correspond: on coasts to which a third was added at
+ * random on both sides two to four times, on one that is turned into a swirl eight times. Where a
+ * corner is paired with a straight place, triangles fold at first and have to be repaired.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,

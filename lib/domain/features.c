@@ -61,6 +61,7 @@ static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_fea
         features->item[f].kind = given[f].kind;
         features->item[f].first = (uint32_t)d->n_vertices;
         features->item[f].n = (uint32_t)given[f].n_vertices;
+        features->item[f].rim_of = UINT32_MAX;
         d->n_vertices += given[f].n_vertices;
         features->n_holes += given[f].kind == ICC_FEATURE_HOLE;
         features->n_lines += given[f].kind == ICC_FEATURE_LINE;
@@ -223,6 +224,10 @@ icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const d
             }
         status = create(out, n_outer, outer, n, all, env, err);
     }
+    n = n_features;
+    for (size_t f = 0; f < n_features && status == ICC_OK; ++f)
+        if (features[f].radius > 0)
+            (*out)->features->item[n++].rim_of = (uint32_t)f;
     iccp_free(&env->memory, all);
     iccp_free(&env->memory, rims);
     return status;

@@ -15,6 +15,7 @@ typedef struct iccp_feature {
     uint32_t first, n;    /* its vertices */
     uint32_t first_facet; /* the facet from its first vertex to the next; of a point, its own */
     uint32_t n_facets;
+    uint32_t rim_of; /* of the circle round a point with a radius: the point; else UINT32_MAX */
 } iccp_feature;
 
 typedef struct iccp_features {

@@ -269,6 +269,13 @@ static void follow(elastic *e, candidate *c)
     place_of(c->place, &path, i, j);
 }
 
+/* A candidate followed as often as it pays. */
+static void follow_up(elastic *e, candidate *c)
+{
+    for (int pass = 0; pass < N_PASSES; ++pass)
+        follow(e, c);
+}
+
 static void read_knots(iccp_pairing_knots *knots, const candidate *c)
 {
     knots->n = (size_t)c->path.n_points - 1;
@@ -312,8 +319,7 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
         status = mirror_cost(e, &mirrored, &parts[1]);
     for (size_t k = 0; k < e->n_candidates && status == ICC_OK; ++k) {
         candidate *const c = &e->candidates[k];
-        for (int pass = 0; pass < N_PASSES; ++pass)
-            follow(e, c);
+        follow_up(e, c);
         c->score = c->path.cost + (is_free ? 0 : upright * (1 - c->rotation[0]) / 2);
         status = iccp_progress(&parts[2], NULL, (double)(k + 1) / (double)e->n_candidates);
     }
@@ -323,4 +329,19 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     }
     release(e, &env->memory);
     return status;
+}
+
+icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, double start, const iccp_memory *memory)
+{
+    elastic *const e = prepare(source, target, memory);
+    if (e == NULL)
+        return ICC_ERR_MEMORY;
+    candidate *const c = &e->candidates[0];
+    for (int k = 0; k < N; ++k)
+        c->place[k] = (float)(k + N * start);
+    follow_up(e, c);
+    read_knots(knots, c);
+    release(e, memory);
+    return ICC_OK;
 }

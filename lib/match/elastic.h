@@ -27,6 +27,11 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
                                const iccp_outline *source, const iccp_outline *target, bool is_free,
                                const iccp_env *env);
 
+/* Near the pairing by arc length that begins with the source's first vertex and a share of the
+ * target's. The source lies as the target should. `knots` has room for 2 N + 1 pairs. */
+icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, double start, const iccp_memory *memory);
+
 /* Between landmarks: n pairs of shares, both growing by less than one turn. Knots at all of them.
  * `knots` has room for 4 N + 9 n pairs. */
 icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *report,

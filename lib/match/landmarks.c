@@ -52,17 +52,24 @@ static double nearest(const iccp_outline *outline, const double *point, double *
     return iccp_outline_wrap(share);
 }
 
+double iccp_landmark_share(const iccp_outline *outline, const double *point, double *away)
+{
+    double local[2];
+    iccp_frame_in(&outline->domain->frame, 2, point, local);
+    const double share = nearest(outline, local, away);
+    return outline->end > 0 && share > outline->share[outline->end] ? 1 - share : share;
+}
+
 static icc_status place(landmark *out, const double *given, const iccp_outline *const *outlines,
                         icc_error *err)
 {
     for (int side = 0; side < 2; ++side) {
         const double *const p = given + 2 * side;
-        double local[2], away;
+        double away;
         if (!isfinite(p[0]) || !isfinite(p[1]))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
                                 "landmark %zu is not finite", out->number);
-        iccp_frame_in(&outlines[side]->domain->frame, 2, p, local);
-        out->share[side] = nearest(outlines[side], local, &away);
+        out->share[side] = iccp_landmark_share(outlines[side], p, &away);
         if (!(away <= farthest)) {
             iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
                          "landmark %zu lies off the %s's outline, by %.3g %% of its diameter; at "
@@ -101,8 +108,9 @@ static icc_status check_order(landmark *all, size_t n, icc_error *err)
 }
 
 icc_status iccp_landmarks_place(double *shares, size_t n, const double *landmarks,
-                                const iccp_outline *source, const iccp_outline *target,
-                                const iccp_memory *memory, icc_error *err)
+                                const size_t *numbers, const iccp_outline *source,
+                                const iccp_outline *target, const iccp_memory *memory,
+                                icc_error *err)
 {
     const iccp_outline *const outlines[2] = {source, target};
     landmark *const all = iccp_alloc(memory, n, sizeof *all);
@@ -110,7 +118,7 @@ icc_status iccp_landmarks_place(double *shares, size_t n, const double *landmark
         return iccp_fail_memory(err);
     icc_status status = ICC_OK;
     for (size_t k = 0; k < n && status == ICC_OK; ++k) {
-        all[k].number = k;
+        all[k].number = numbers != NULL ? numbers[k] : k;
         status = place(&all[k], landmarks + 4 * k, outlines, err);
     }
     if (status == ICC_OK) {

@@ -1,4 +1,5 @@
-/* The boundary of a domain of the plane, walked counter-clockwise, by its share of arc length. */
+/* A ring of a domain of the plane, walked counter-clockwise, by its share of arc length; or a line
+ * inside, which is walked from end to end and back. */
 #ifndef ICCP_OUTLINE_H
 #define ICCP_OUTLINE_H
 
@@ -7,16 +8,25 @@
 typedef struct iccp_outline {
     const icc_domain *domain; /* borrowed */
     size_t n;
-    uint32_t *vertex; /* n: the domain's numbers of the vertices, its vertex 0 first */
+    size_t end;       /* of a line: the place of its other end among the n; else 0 */
+    bool is_back;     /* the domain lists it the other way round */
+    uint32_t *vertex; /* n: the domain's numbers of the vertices, the first one first */
     double *points;   /* 2 (n + 1), local; the first once more at the end */
     double *share;    /* n + 1: the length up to a vertex, of that of the whole: 0 .. 1 */
     double diameter;  /* diagonal of the bounding box */
     double perimeter;
 } iccp_outline;
 
-/* Of a polygon without features. */
+/* Of the outer ring. */
 icc_status iccp_outline_create(iccp_outline *outline, const icc_domain *domain,
                                const iccp_memory *memory, icc_error *err);
+
+/* Of a hole, or of a line, which is walked from its last vertex if `is_back`. */
+icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *domain,
+                                       size_t feature, bool is_back, const iccp_memory *memory);
+
+/* Puts the points to where these vertices of the domain are, and measures. */
+void iccp_outline_place(iccp_outline *outline, const double *vertices);
 
 /* Accepts one that is all zero. */
 void iccp_outline_free(iccp_outline *outline, const iccp_memory *memory);

@@ -90,6 +90,32 @@ awk '{ print -$1, $2 }' key.txt >mirrored.txt
 run 0 match -s key.txt -t mirrored.txt --landmarks /dev/null
 holds out 'looks like a mirror image'
 
+# Holes, lines and points inside go together, whatever their order and vertices; results can be mapped.
+printf '{"type": "FeatureCollection", "features": [%s]}\n' \
+    '{"type": "Feature", "properties": {"role": "source"}, "geometry": {"type": "Polygon", "coordinates": [
+        [[0, 0], [8, 0], [8, 4], [1, 5], [0, 0]], [[1, 1], [2, 1], [2, 2], [1, 2], [1, 1]], [[5, 1], [7, 1], [5, 2], [5, 1]]]}},
+     {"type": "Feature", "properties": {"role": "source", "feature": 4}, "geometry": {"type": "Point", "coordinates": [3, 3]}},
+     {"type": "Feature", "properties": {"role": "source", "feature": 7}, "geometry": {"type": "LineString", "coordinates": [[3, 1], [4, 2], [4, 3]]}},
+     {"type": "Feature", "properties": {"role": "target"}, "geometry": {"type": "Polygon", "coordinates": [
+        [[1, 5], [0, 0], [4, 0], [8, 0], [8, 4], [1, 5]], [[5.1, 2], [7.1, 1], [6, 1], [5.1, 1], [5.1, 2]], [[2, 2.1], [1, 2.1], [1, 1.1], [2, 1.1], [2, 2.1]]]}},
+     {"type": "Feature", "properties": {"role": "target", "feature": 1}, "geometry": {"type": "LineString", "coordinates": [[4, 3], [4, 2.5], [4, 2], [3, 1.1]]}},
+     {"type": "Feature", "properties": {"role": "target", "feature": 2}, "geometry": {"type": "Point", "coordinates": [3.1, 3]}}' >inside.geojson
+run 0 match -s inside.geojson -t inside.geojson -o common.geojson
+holds out 'common      18 vertices; 15 of them are of both outlines'
+run 0 check -s common.geojson -t common.geojson
+holds out 'one-to-one: yes, certified'
+printf '3 3\n1 1\n3 1\n4 3\n5 1\n' >points.txt
+printf '3.1 3\n1 1.1\n3 1.1\n4 3\n5.1 1\n' >expected
+run 0 map -s inside.geojson --match auto -p points.txt
+close_to out expected 1e-12
+run 0 plot -s inside.geojson --match auto out.svg
+[ "$(grep -c 'hsl(' out.svg)" -eq $((2 * (5 + 4))) ] || complain 'plot does not number features'
+printf '1 1 2 2.1\n5 1 5.1 1\n' >inside.txt
+run 0 match -s inside.geojson --landmarks inside.txt
+sed 's/\(, \[\[5.1.*5.1, 2\]\]\)/ /' inside.geojson | sed 's/^\( *\[\[1, 5\].*\]\]\).*, \[\[2, 2.1/\1, [[2, 2.1/' >one.geojson
+run 1 match -s inside.geojson -t one.geojson
+says 'the source has 2 holes, the target 1'
+
 # Wrong usage.
 run 2 match -s key.txt -t turned.txt -o a.txt
 says '--target-output FILE is missing'

@@ -135,9 +135,9 @@ int fill_domains(job *j)
     for (size_t side = 0; result == DONE && side < n; side++)
         result = make_filled(&filled[side], j, side);
     for (size_t side = 0; side < 2; side++) {
-        icc_domain_free(result == DONE ? j->domains[side] : filled[side]);
+        icc_domain_free(result == DONE ? j->made[side] : filled[side]);
         if (result == DONE)
-            j->domains[side] = filled[side];
+            j->domains[side] = j->made[side] = filled[side];
     }
     j->filled = result == DONE;
     return result;

@@ -33,8 +33,9 @@ void job_end(job *j)
     progress_end(&j->bar);
     icc_map_free(j->map);
     icc_chart_free(j->chart);
+    icc_match_free(j->match);
     for (size_t side = 0; side < 2; side++) {
-        icc_domain_free(j->domains[side]);
+        icc_domain_free(j->made[side]);
         cage_free(&j->cages[side]);
     }
     for (size_t i = 0; i < j->n_parts; i++)

@@ -20,8 +20,11 @@ typedef struct job {
     icc_env env;
     cage cages[2]; /* source, target */
     bool both;     /* are in one file */
-    icc_domain *domains[2];
-    bool filled;            /* the domains: see job/fill.h */
+    const icc_domain *domains[2];
+    icc_domain *made[2]; /* the same, but for those that are of `match` */
+    bool has_domains;    /* of all parts */
+    bool filled;         /* the domains: see job/fill.h */
+    icc_match *match;
     icc_match_info matched; /* size 0: the cages correspond as they are */
     size_t function;        /* which of args->functions; the first unless there are several */
     icc_chart *chart;       /* of the source */

@@ -124,11 +124,12 @@ static int make_domain(job *j, size_t side)
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
     icc_status status =
-        c->cells != NULL && c->n == 0 ? icc_domain_create_mask(&j->domains[side], (int32_t)c->dim,
+        c->cells != NULL && c->n == 0 ? icc_domain_create_mask(&j->made[side], (int32_t)c->dim,
                                                                c->shape, c->cells, &j->env, &err)
-        : c->n_features > 0           ? job_make_polygon(&j->domains[side], c, &j->env, &err)
-                            : icc_domain_create(&j->domains[side], (int32_t)c->dim, c->n, c->points,
+        : c->n_features > 0           ? job_make_polygon(&j->made[side], c, &j->env, &err)
+                            : icc_domain_create(&j->made[side], (int32_t)c->dim, c->n, c->points,
                                                 c->n_facets, c->facets, &j->env, &err);
+    j->domains[side] = j->made[side];
     if (status == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;
@@ -202,12 +203,12 @@ static void note_all(const job *j)
 
 int job_make_domains(job *j)
 {
-    if (j->domains[0] != NULL)
+    if (j->has_domains)
         return DONE;
     int result = job_read_cages(j);
-    if (result == DONE)
+    if (result == DONE && j->match == NULL)
         result = make_source(j);
-    if (result == DONE && j->args->target != NULL)
+    if (result == DONE && j->match == NULL && j->args->target != NULL)
         result = make_domain(j, 1);
     for (size_t i = 0; i < j->n_parts && result == DONE; i++)
         result = job_make_domains(&j->parts[i]);
@@ -215,5 +216,6 @@ int job_make_domains(job *j)
         result = parts_check(j);
     if (result == DONE)
         note_all(j);
+    j->has_domains = result == DONE;
     return result;
 }

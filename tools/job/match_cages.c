@@ -31,40 +31,84 @@ static int refuse(job *j, icc_error *err, const table *landmarks)
     progress_end(&j->bar);
     if (err->item == ICC_ITEM_POINT && err->index >= 0 && (size_t)err->index < landmarks->n)
         return failed(j->args->landmarks, landmarks->lines[err->index], "%s", err->message);
-    bool is_common = err->status == ICC_ERR_BOUNDARY;
+    bool is_common = err->status == ICC_ERR_BOUNDARY && err->index >= 0;
     err->index = is_common ? -1 : err->index;
     return job_failed_with(j, err,
-                           err->status == ICC_ERR_AMBIGUOUS ? " (--landmarks FILE, or --match arc)"
-                           : is_common                      ? " (of the common vertices)"
-                                                            : "");
+                           is_common                          ? " (of the common vertices)"
+                           : err->status != ICC_ERR_AMBIGUOUS ? ""
+                           : err->item == ICC_ITEM_FEATURE    ? " (--landmarks FILE)"
+                                                           : " (--landmarks FILE, or --match arc)");
 }
 
-static void take_common(cage *c, const icc_domain *domain, size_t n, const uint32_t *origin)
+/* The feature of a cage that a vertex of its domain is of. */
+static const cage_feature *feature_of(const cage *c, size_t vertex)
 {
-    cage common = {.dim = 2, .n = n, .n_heights = c->n_heights};
-    common.points = need(n, 2 * sizeof *common.points);
-    common.lines = need(n, sizeof *common.lines);
-    icc_domain_get_boundary(domain, common.points, NULL);
-    for (size_t i = 0; i < n && c->cells == NULL; i++)
-        common.lines[i] = origin[i] != UINT32_MAX ? c->lines[origin[i]] : 0;
-    cage_free(c);
-    *c = common;
+    size_t end = c->n;
+    const cage_feature *f = c->features;
+    while ((end += f->n) <= vertex)
+        f++;
+    return f;
 }
 
-static void take(job *j, const icc_match *match)
+/* Holes, lines and points of one side, with their numbers in the source. */
+static void take_features(cage *common, const cage *given, const cage *source,
+                          const icc_domain *domain, const double *points, const uint32_t *origin)
+{
+    common->n_features = given->n_features;
+    common->features = need(given->n_features, sizeof *common->features);
+    for (size_t i = 0; i < given->n_features; i++) {
+        icc_feature_info info = {.size = sizeof info};
+        icc_domain_get_feature(domain, i, &info);
+        size_t known = info.first_vertex, n = info.n_vertices;
+        while (origin[known] == UINT32_MAX)
+            known++;
+        cage_feature *f = &common->features[i];
+        *f = *feature_of(given, origin[known]);
+        f->number = source->features[i].number;
+        f->n = n;
+        f->points = need(n, 2 * sizeof *f->points);
+        memcpy(f->points, points + 2 * info.first_vertex, n * 2 * sizeof *f->points);
+    }
+}
+
+static cage common_cage(const cage *given, const cage *source, const icc_domain *domain,
+                        const uint32_t *origin)
+{
+    icc_domain_info size = {.size = sizeof size};
+    icc_feature_info first = {.size = sizeof first};
+    icc_domain_get_info(domain, &size);
+    bool has_features = icc_domain_get_feature(domain, 0, &first) == ICC_OK;
+    cage c = {.dim = 2, .n = has_features ? first.first_vertex : size.n_vertices};
+    c.n_heights = given->n_heights;
+    c.points = need(size.n_vertices, 2 * sizeof *c.points);
+    c.lines = need(c.n, sizeof *c.lines);
+    icc_domain_get_boundary(domain, c.points, NULL);
+    for (size_t i = 0; i < c.n && given->cells == NULL; i++)
+        c.lines[i] = origin[i] != UINT32_MAX ? given->lines[origin[i]] : 0;
+    take_features(&c, given, source, domain, c.points, origin);
+    return c;
+}
+
+static void take(job *j)
 {
     j->matched.size = sizeof j->matched;
-    icc_match_get_info(match, &j->matched);
+    icc_match_get_info(j->match, &j->matched);
     size_t n = j->matched.n_vertices;
     uint32_t *origins = need(n, 2 * sizeof *origins);
-    icc_match_get_origins(match, origins, origins + n);
-    take_common(&j->cages[0], icc_match_source(match), n, origins);
-    take_common(&j->cages[1], icc_match_target(match), n, origins + n);
-    free(origins);
+    icc_match_get_origins(j->match, origins, origins + n);
+    j->domains[0] = icc_match_source(j->match);
+    j->domains[1] = icc_match_target(j->match);
+    cage common[2];
+    for (size_t side = 0; side < 2; side++)
+        common[side] =
+            common_cage(&j->cages[side], &j->cages[0], j->domains[side], origins + side * n);
     for (size_t side = 0; side < 2; side++) {
-        icc_domain_free(j->domains[side]);
-        j->domains[side] = NULL;
+        cage_free(&j->cages[side]);
+        j->cages[side] = common[side];
+        icc_domain_free(j->made[side]);
+        j->made[side] = NULL;
     }
+    free(origins);
 }
 
 int match_cages(job *j)
@@ -76,16 +120,14 @@ int match_cages(job *j)
     icc_match_options options = {.size = sizeof options, .turning = a->turning};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;
     icc_error err = {.size = sizeof err, .index = -1};
-    icc_match *match = NULL;
     progress_expect(&j->bar, MATCHED);
-    icc_status status = icc_match_create(&match, j->domains[0], j->domains[1], landmarks.n,
+    icc_status status = icc_match_create(&j->match, j->domains[0], j->domains[1], landmarks.n,
                                          landmarks.values, &options, &j->env, &err);
     int result = DONE;
     if (status == ICC_OK)
-        take(j, match);
+        take(j);
     else
         result = refuse(j, &err, &landmarks);
-    icc_match_free(match);
     table_free(&landmarks);
     return result;
 }

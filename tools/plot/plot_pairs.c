@@ -1,4 +1,5 @@
-/* Which places of two matched outlines go together: numbers on both. */
+/* Which places of two matched outlines, and which holes, lines and points, go together: numbers on
+ * both. */
 #include "plot/plot.h"
 
 #include <math.h>
@@ -13,7 +14,7 @@ static double step(const cage *c, size_t i)
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* Colours run round the outline once. */
+/* Colours run round the outline once, and go on. */
 static void draw_number(const panel *p, const double *point, size_t number)
 {
     double at[2];
@@ -22,10 +23,11 @@ static void draw_number(const panel *p, const double *point, size_t number)
             "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%g\" fill=\"hsl(%zu,75%%,38%%)\" "
             "stroke=\"white\"/><text x=\"%.2f\" y=\"%.2f\" font-family=\"sans-serif\" "
             "font-size=\"9\" text-anchor=\"middle\" fill=\"white\">%zu</text>\n",
-            at[0], at[1], radius, number * 360 / N_PAIRS, at[0], at[1] + 3.2, number + 1);
+            at[0], at[1], radius, number % N_PAIRS * 360 / N_PAIRS, at[0], at[1] + 3.2, number + 1);
 }
 
-/* The first vertex behind each of so many even places along the source. */
+/* The first vertex behind each of so many even places along the source; then the first of each
+ * feature. */
 void plot_pairs(const panel *p, const job *j)
 {
     const cage *source = &j->cages[0], *shown = &j->cages[p->side == 2];
@@ -38,4 +40,6 @@ void plot_pairs(const panel *p, const job *j)
             draw_number(p, shown->points + 2 * i, number++);
         walked += step(source, i);
     }
+    for (size_t i = 0; i < shown->n_features; i++)
+        draw_number(p, shown->features[i].points, number++);
 }

@@ -33,7 +33,7 @@ class Match(Handle):
     result, bit by bit; others are added on edges.
 
     Args:
-        source, target: Domains of the plane without features, or what `as_domain` takes
+        source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too
         landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target
         turning: without landmarks: "upright" prefers what turns little, "free" does not
         between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the

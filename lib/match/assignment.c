@@ -1,0 +1,107 @@
+/* Shortest augmenting paths: R. Jonker and A. Volgenant, A shortest augmenting path algorithm for
+ * dense and sparse linear assignment problems, 1987. */
+#include "match/assignment.h"
+
+#include <math.h>
+
+#define NONE UINT32_MAX
+
+typedef struct search {
+    const iccp_spot *a, *b;
+    size_t n;
+    double *u, *v, *least;      /* duals of both sides; least reduced cost to each of b */
+    uint32_t *row, *from, *way; /* of each of b: its partner; the one before it on the path */
+    unsigned char *is_done;
+} search;
+
+double iccp_spot_distance(const iccp_spot *a, const iccp_spot *b)
+{
+    const double x = a->at[0] - b->at[0], y = a->at[1] - b->at[1], s = a->size - b->size;
+    return x * x + y * y + s * s;
+}
+
+/* The shortest path of alternating pairs from a's spot i to one of b that has no partner (Dijkstra
+ * on reduced costs), along which all partners change. `way` keeps the order of b's spots that were
+ * reached. */
+static void augment(search *s, uint32_t i)
+{
+    size_t n_reached = 0;
+    uint32_t last = NONE, row = i;
+    double length = 0;
+    for (size_t j = 0; j < s->n; ++j) {
+        s->least[j] = HUGE_VAL;
+        s->is_done[j] = 0;
+    }
+    for (;;) {
+        uint32_t best = NONE;
+        for (uint32_t j = 0; j < s->n; ++j) {
+            if (s->is_done[j])
+                continue;
+            const double to =
+                length + (iccp_spot_distance(&s->a[row], &s->b[j]) - s->u[row] - s->v[j]);
+            if (to < s->least[j]) {
+                s->least[j] = to;
+                s->from[j] = last;
+            }
+            if (best == NONE || s->least[j] < s->least[best])
+                best = j;
+        }
+        length = s->least[best];
+        last = best;
+        if (s->row[best] == NONE)
+            break;
+        s->is_done[best] = 1;
+        s->way[n_reached++] = best;
+        row = s->row[best];
+    }
+    s->u[i] += length;
+    for (size_t k = 0; k < n_reached; ++k) {
+        const uint32_t j = s->way[k];
+        s->u[s->row[j]] += length - s->least[j];
+        s->v[j] -= length - s->least[j];
+    }
+    for (uint32_t j = last; j != NONE; j = s->from[j])
+        s->row[j] = s->from[j] != NONE ? s->row[s->from[j]] : i;
+}
+
+static void reorder(const search *s, iccp_spot *b)
+{
+    /* Spot j goes to place row[j], along each cycle. */
+    for (uint32_t j = 0; j < s->n; ++j)
+        while (s->row[j] != j) {
+            const uint32_t to = s->row[j];
+            const iccp_spot swap = b[to];
+            b[to] = b[j];
+            b[j] = swap;
+            s->row[j] = s->row[to];
+            s->row[to] = to;
+        }
+}
+
+icc_status iccp_assign(const iccp_spot *a, iccp_spot *b, size_t n, const iccp_env *env)
+{
+    const iccp_memory *const memory = &env->memory;
+    search s = {.a = a, .b = b, .n = n};
+    s.u = iccp_alloc_zero(memory, n, 3 * sizeof *s.u);
+    s.row = iccp_alloc(memory, n, 3 * sizeof *s.row);
+    s.is_done = iccp_alloc(memory, n, 1);
+    icc_status status = s.u != NULL && s.row != NULL && s.is_done != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        s.v = s.u + n;
+        s.least = s.v + n;
+        s.from = s.row + n;
+        s.way = s.from + n;
+        for (size_t j = 0; j < n; ++j)
+            s.row[j] = NONE;
+    }
+    for (uint32_t i = 0; i < n && status == ICC_OK; ++i) {
+        augment(&s, i);
+        status = iccp_progress(env, NULL, (double)(i + 1) / (double)n);
+    }
+    if (status == ICC_OK)
+        reorder(&s, b);
+    iccp_free(memory, s.u);
+    iccp_free(memory, s.row);
+    iccp_free(memory, s.is_done);
+    return status;
+}

@@ -1,0 +1,15 @@
+/* Holes, lines and points of two domains, paired once their outer rings are. */
+#ifndef ICCP_FEATURE_PAIRING_H
+#define ICCP_FEATURE_PAIRING_H
+
+#include "match/feature_landmarks.h"
+#include "match/joint.h"
+
+/* Adds the features of two domains whose outer rings have `common` vertices, in the order of the
+ * source's; both have as many of each kind. ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT. */
+icc_status iccp_pair_features(iccp_joint *joint, const iccp_outline *outer,
+                              const iccp_common *common, const iccp_parted_landmarks *landmarks,
+                              const icc_match_options *options, const iccp_env *env,
+                              icc_error *err);
+
+#endif

@@ -1,0 +1,174 @@
+#include "match/feature_partners.h"
+
+#include "base/error.h"
+#include "domain/features.h"
+#include "domain/features_check.h"
+#include "match/assignment.h"
+#include "math/elementary.h"
+
+#include <math.h>
+
+#define NONE UINT32_MAX
+
+/* Shares of the target's diameter that places differ by without saying anything. */
+static const double noise = 1e-3;
+
+/* The kinds that features have here: a circle is more than a line, and settles what its point goes
+ * with. */
+enum { RIM = ICC_FEATURE_POINT + 1, KINDS };
+
+static int32_t kind_of(const iccp_feature *feature)
+{
+    return feature->rim_of != NONE ? RIM : feature->kind;
+}
+
+bool iccp_features_may_pair(const icc_domain *source, uint32_t f, const icc_domain *target,
+                            uint32_t g)
+{
+    return kind_of(&source->features->item[f]) == kind_of(&target->features->item[g]);
+}
+
+icc_status iccp_features_count(const icc_domain *source, const icc_domain *target, icc_error *err)
+{
+    static const char *const name[KINDS] = {[ICC_FEATURE_HOLE] = "holes",
+                                            [ICC_FEATURE_LINE] = "lines inside",
+                                            [ICC_FEATURE_POINT] = "points inside",
+                                            [RIM] = "points with a radius"};
+    const icc_domain *const domains[2] = {source, target};
+    size_t n[2][KINDS] = {{0}, {0}};
+    for (int e = 0; e < 2; ++e)
+        for (size_t f = 0; domains[e]->features != NULL && f < domains[e]->features->n; ++f)
+            ++n[e][kind_of(&domains[e]->features->item[f])];
+    for (int kind = 0; kind < KINDS; ++kind)
+        if (n[0][kind] != n[1][kind])
+            return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu %s, the target %zu",
+                             n[0][kind], name[kind], n[1][kind]);
+    return ICC_OK;
+}
+
+/* A feature's centre by length, and how far it reaches from there on the average. */
+static iccp_spot spot_of(const iccp_feature *f, uint32_t number, const double *vertices)
+{
+    iccp_spot out = {.number = number};
+    const double *const p = vertices + 2 * (size_t)f->first;
+    double length = 0, square = 0;
+    for (uint32_t k = 0; k < f->n_facets && f->n > 1; ++k) {
+        const double *const a = p + 2 * k, *const b = p + 2 * ((k + 1) % f->n);
+        const double d = iccp_hypot(b[0] - a[0], b[1] - a[1]);
+        length += d;
+        for (int e = 0; e < 2; ++e) {
+            out.at[e] += d * (a[e] + b[e]) / 2;
+            square += d * (a[e] * a[e] + a[e] * b[e] + b[e] * b[e]) / 3;
+        }
+    }
+    for (int e = 0; e < 2; ++e)
+        out.at[e] = length > 0 ? out.at[e] / length : p[e];
+    square = length > 0 ? square / length - out.at[0] * out.at[0] - out.at[1] * out.at[1] : 0;
+    out.size = sqrt(square > 0 ? square : 0);
+    return out;
+}
+
+/* Whether no two of n pairs could change partners. */
+static icc_status check(const iccp_spot *a, const iccp_spot *b, size_t n, const iccp_feature *all,
+                        double least, double sure, icc_error *err)
+{
+    for (size_t i = 0; i < n; ++i)
+        for (size_t k = 0; k < i; ++k) {
+            const double is = iccp_spot_distance(&a[i], &b[i]) + iccp_spot_distance(&a[k], &b[k]);
+            const double other =
+                iccp_spot_distance(&a[i], &b[k]) + iccp_spot_distance(&a[k], &b[i]);
+            if (other + least < sure * (is + least)) {
+                iccp_fail_at(err, ICC_ERR_AMBIGUOUS, ICC_ITEM_FEATURE, (int64_t)a[i].number,
+                             "feature %lu (%s) and feature %lu could go to one another's places "
+                             "almost as well: give a landmark, a point of one of them and its "
+                             "partner's",
+                             (unsigned long)a[i].number, iccp_feature_name(all[a[i].number].kind),
+                             (unsigned long)a[k].number);
+                return iccp_fail_side(err, ICC_ERR_AMBIGUOUS, 1);
+            }
+        }
+    return ICC_OK;
+}
+
+typedef struct pairs {
+    const icc_domain *domain[2];
+    const double *vertices[2]; /* the source's moved */
+    uint32_t *partner[2];      /* of the features of each side */
+    iccp_spot *spots[2];
+} pairs;
+
+static void settle(pairs *p, uint32_t f, uint32_t g)
+{
+    p->partner[0][f] = g;
+    p->partner[1][g] = f;
+}
+
+/* A circle and its point have partners alike: from the one to the other, either way. */
+static void settle_rims(pairs *p, bool is_known_by_point)
+{
+    const iccp_feature *const a = p->domain[0]->features->item;
+    const iccp_feature *const b = p->domain[1]->features->item;
+    const size_t n = p->domain[0]->features->n;
+    for (uint32_t f = 0; f < n; ++f) {
+        if (a[f].rim_of == NONE)
+            continue;
+        if (p->partner[0][f] != NONE)
+            settle(p, a[f].rim_of, b[p->partner[0][f]].rim_of);
+        for (uint32_t g = 0; g < n && is_known_by_point; ++g)
+            if (b[g].rim_of != NONE && p->partner[0][a[f].rim_of] == b[g].rim_of)
+                settle(p, f, g);
+    }
+}
+
+/* The features of one kind that have no partner yet. */
+static icc_status pair_kind(pairs *p, int32_t kind, double sure, const iccp_env *env,
+                            icc_error *err)
+{
+    size_t n[2] = {0, 0};
+    for (int e = 0; e < 2; ++e) {
+        const iccp_features *const all = p->domain[e]->features;
+        for (uint32_t f = 0; f < all->n; ++f)
+            if (kind_of(&all->item[f]) == kind && p->partner[e][f] == NONE)
+                p->spots[e][n[e]++] = spot_of(&all->item[f], f, p->vertices[e]);
+    }
+    icc_status status = iccp_explain(err, iccp_assign(p->spots[0], p->spots[1], n[0], env));
+    const icc_domain *const target = p->domain[1];
+    const double least = noise * iccp_hypot(target->upper[0] - target->lower[0],
+                                            target->upper[1] - target->lower[1]);
+    if (status == ICC_OK)
+        status = check(p->spots[0], p->spots[1], n[0], p->domain[0]->features->item, least * least,
+                       sure, err);
+    for (size_t k = 0; k < n[0] && status == ICC_OK; ++k)
+        settle(p, p->spots[0][k].number, p->spots[1][k].number);
+    return status;
+}
+
+icc_status iccp_features_partner(uint32_t *partner, const icc_domain *source,
+                                 const icc_domain *target, const double *moved, double sure,
+                                 const iccp_env *env, icc_error *err)
+{
+    static const int32_t order[] = {ICC_FEATURE_HOLE, ICC_FEATURE_LINE, RIM, ICC_FEATURE_POINT};
+    const size_t n = source->features->n;
+    pairs p = {.domain = {source, target}, .vertices = {moved, target->vertices}};
+    p.partner[0] = partner;
+    p.partner[1] = iccp_alloc(&env->memory, n, sizeof *partner);
+    p.spots[0] = iccp_alloc(&env->memory, n, 2 * sizeof *p.spots[0]);
+    icc_status status = p.partner[1] != NULL && p.spots[0] != NULL ? ICC_OK : iccp_fail_memory(err);
+    if (status == ICC_OK) {
+        p.spots[1] = p.spots[0] + n;
+        for (uint32_t f = 0; f < n; ++f)
+            p.partner[1][f] = NONE;
+        for (uint32_t f = 0; f < n; ++f)
+            if (partner[f] != NONE)
+                settle(&p, f, partner[f]);
+        settle_rims(&p, true);
+    }
+    for (size_t k = 0; k < sizeof order / sizeof *order && status == ICC_OK; ++k) {
+        status = pair_kind(&p, order[k], sure, env, err);
+        if (status == ICC_OK && order[k] == RIM)
+            settle_rims(&p, false);
+    }
+    iccp_free(&env->memory, p.partner[1]);
+    iccp_free(&env->memory, p.spots[0]);
+    return status;
+}
