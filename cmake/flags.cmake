@@ -12,6 +12,16 @@ if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang")
     $<$<C_COMPILER_ID:GNU>:-fexcess-precision=fast>)
 endif()
 
+# Not tried: there is no such compiler where the tests run. It has C11's atomics behind an option.
+if(MSVC)
+  target_compile_options(icc_flags INTERFACE /fp:precise /experimental:c11atomics)
+endif()
+
+# Names beyond POSIX (_SC_NPROCESSORS_ONLN) are hidden there once _POSIX_C_SOURCE is defined.
+if(APPLE)
+  target_compile_definitions(icc_flags INTERFACE _DARWIN_C_SOURCE)
+endif()
+
 # There GCC takes the stack to be aligned to 16 bytes and moves vectors of 32 and 64 as if it were aligned to as many
 # (GCC bug 54412); and isnan() of mingw-w64's math.h has a branch for single precision.
 if(MINGW AND CMAKE_C_COMPILER_ID STREQUAL GNU)

@@ -45,8 +45,17 @@ template <class T> inline constexpr bool is_view<view<T>> = true;
 template <class E, class T> inline constexpr bool is_row = false;
 template <class T, std::size_t N> inline constexpr bool is_row<std::array<T, N>, T> = true;
 
+/** Whether C is a matrix that tells how its numbers lie, as Eigen's do. */
+template <class C, class = void> inline constexpr bool is_matrix = false;
+template <class C>
+inline constexpr bool is_matrix<C, std::void_t<decltype(std::declval<C &>().innerStride()),
+                                               decltype(std::declval<C &>().outerStride()),
+                                               decltype(C::IsVectorAtCompileTime)>> = true;
+
 /** Contiguous elements that someone else owns: a vector, an array, a `std::span`, or a list in braces;
- *  also of `std::array`, such as `std::vector<std::array<double, 2>>` for points. */
+ *  also of `std::array`, such as `std::vector<std::array<double, 2>>` for points; or a matrix of Eigen's, of
+ *  which each column is a point (`Matrix<double, 2, Dynamic>`), or, where it is RowMajor, each row. Any other way
+ *  to lie is refused by the call. */
 template <class T> class view {
     using value = std::remove_const_t<T>;
     template <class C> using element = std::remove_pointer_t<decltype(std::data(std::declval<C &>()))>;
@@ -63,7 +72,11 @@ public:
     template <class C, class = std::enable_if_t<
                            !is_view<std::decay_t<C>> &&
                            std::is_convertible_v<decltype(std::data(std::declval<C &>())), T *>>>
-    constexpr view(C &&all) noexcept : view(std::data(all), std::size(all)) {}
+    constexpr view(C &&all) noexcept : view(std::data(all), static_cast<std::size_t>(std::size(all)))
+    {
+        if constexpr (is_matrix<std::remove_reference_t<C>>)
+            width_ = width_of(all);
+    }
     /** The same to read. */
     template <class U, class = std::enable_if_t<std::is_convertible_v<U *, T *>>>
     constexpr view(const view<U> &other) noexcept
@@ -83,6 +96,15 @@ public:
     constexpr std::size_t width() const noexcept { return width_; } /**< of a row; 0 if there are no rows */
 
 private:
+    /** How many numbers follow one another, up to a gap if there is one, which is no width of points. */
+    template <class Matrix> static constexpr std::size_t width_of(const Matrix &m)
+    {
+        if (Matrix::IsVectorAtCompileTime)
+            return m.innerStride() == 1 ? 0 : SIZE_MAX;
+        const bool dense = m.innerStride() == 1 && m.outerStride() == m.innerSize();
+        return dense ? static_cast<std::size_t>(m.innerSize()) : SIZE_MAX;
+    }
+
     T *data_ = nullptr;
     std::size_t size_ = 0, width_ = 0;
 };
@@ -162,14 +184,14 @@ template <class T> std::size_t count(view<T> list, std::int64_t each)
     if (list.size() % n != 0)
         throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "a list ends amid a point or simplex"});
     if (list.width() != 0 && list.width() != n)
-        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "points are of another dimension"});
+        throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "points are of another dimension, or do not lie one after the other"});
     return list.size() / n;
 }
 
 /** Throws icc::error unless a list that the caller provides has room for exactly so many. */
 template <class T> void expect(view<T> list, std::size_t n)
 {
-    if (list.size() != n)
+    if (list.size() != n || list.width() == SIZE_MAX)
         throw error({sizeof(icc_error), ICC_ERR_ARGUMENT, 0, -1, ICC_ITEM_NONE, "a list for results has another length"});
 }
 

@@ -6,6 +6,10 @@
 double iccp_seconds(void)
 {
     struct timespec now;
+#ifdef CLOCK_MONOTONIC
     clock_gettime(CLOCK_MONOTONIC, &now);
+#else
+    timespec_get(&now, TIME_UTC); /* what C11 has; it goes back where the time of day is set back */
+#endif
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

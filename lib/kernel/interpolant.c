@@ -516,6 +516,12 @@ void iccp_collocation_mark(const iccp_collocation *collocation, size_t n, const 
     iccp_ldlt_mark(&collocation->factor, n, nodes, needed);
 }
 
+size_t iccp_collocation_marked(const iccp_collocation *collocation, const uint8_t *needed,
+                               uint32_t *nodes)
+{
+    return iccp_ldlt_marked(&collocation->factor, needed, nodes);
+}
+
 void iccp_collocation_invert(const iccp_collocation *collocation, const uint8_t *needed, size_t m,
                              double *b, double *work)
 {

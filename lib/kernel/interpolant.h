@@ -57,7 +57,11 @@ size_t iccp_collocation_marks(const iccp_collocation *collocation);
 void iccp_collocation_mark(const iccp_collocation *collocation, size_t n, const uint32_t *nodes,
                            uint8_t *needed);
 
-/* K^-1 b at marked nodes, for n rows of m that are 0 at others; `work`: as many. */
+/* The nodes that are marked by then, in `nodes`, which has room for all; returns their number. */
+size_t iccp_collocation_marked(const iccp_collocation *collocation, const uint8_t *needed,
+                               uint32_t *nodes);
+
+/* K^-1 b at marked nodes, for n rows of m that are taken to be 0 at others; `work`: as many. */
 void iccp_collocation_invert(const iccp_collocation *collocation, const uint8_t *needed, size_t m,
                              double *b, double *work);
 

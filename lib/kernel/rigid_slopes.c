@@ -78,10 +78,12 @@ icc_status iccp_slopes_create(iccp_slopes *slopes, const iccp_nodes *nodes,
         return status;
     const bool affine = iccp_collocation_affine(collocation) != NULL;
     s->affine = affine ? iccp_alloc(memory, dim * n_places, (dim + 1) * sizeof *s->affine) : NULL;
+    s->marked = iccp_alloc(memory, nodes->n, sizeof *s->marked);
     s->needed = iccp_alloc_zero(memory, iccp_collocation_marks(collocation), sizeof *s->needed);
     s->all = iccp_alloc(memory, nodes->n, m * sizeof *s->all);
     s->work = iccp_alloc(memory, nodes->n, m * sizeof *s->work);
-    if ((affine && s->affine == NULL) || s->needed == NULL || s->all == NULL || s->work == NULL) {
+    if ((affine && s->affine == NULL) || s->needed == NULL || s->marked == NULL || s->all == NULL ||
+        s->work == NULL) {
         iccp_slopes_free(s);
         return ICC_ERR_MEMORY;
     }
@@ -90,6 +92,7 @@ icc_status iccp_slopes_create(iccp_slopes *slopes, const iccp_nodes *nodes,
         fill_affine(s, dim);
     iccp_collocation_mark(collocation, n_free, free, s->needed);
     iccp_collocation_mark(collocation, n, s->kernel.column, s->needed);
+    s->n_marked = iccp_collocation_marked(collocation, s->needed, s->marked);
     return ICC_OK;
 }
 
@@ -98,6 +101,7 @@ void iccp_slopes_free(iccp_slopes *slopes)
     iccp_sparse_free(&slopes->kernel);
     iccp_free(&slopes->memory, slopes->affine);
     iccp_free(&slopes->memory, slopes->needed);
+    iccp_free(&slopes->memory, slopes->marked);
     iccp_free(&slopes->memory, slopes->all);
     iccp_free(&slopes->memory, slopes->work);
     *slopes = (iccp_slopes){.memory = slopes->memory};
@@ -126,11 +130,17 @@ static void add_affine(const iccp_slopes *s, size_t n_from, size_t n_to, const d
     }
 }
 
+static void clear(const iccp_slopes *s)
+{
+    for (size_t k = 0; k < s->n_marked; ++k)
+        memset(s->all + s->m * s->marked[k], 0, s->m * sizeof *s->all);
+}
+
 void iccp_slopes_apply(const iccp_slopes *slopes, const double *weights, double *derivatives)
 {
     const iccp_slopes *s = slopes;
     const size_t m = s->m;
-    memset(s->all, 0, s->kernel.n_columns * m * sizeof *s->all);
+    clear(s);
     for (size_t i = 0; i < s->n_free; ++i)
         memcpy(s->all + m * s->free[i], weights + m * i, m * sizeof *weights);
     iccp_collocation_invert(s->collocation, s->needed, m, s->all, s->work);
@@ -145,7 +155,7 @@ void iccp_slopes_transpose(const iccp_slopes *slopes, const double *derivatives,
 {
     const iccp_slopes *s = slopes;
     const size_t m = s->m;
-    memset(s->all, 0, s->kernel.n_columns * m * sizeof *s->all);
+    clear(s);
     for (size_t row = 0; row < n_rows(s); ++row)
         for (size_t p = s->kernel.first[row]; p < s->kernel.first[row + 1]; ++p)
             add(m, s->kernel.value[p], derivatives + m * row, s->all + m * s->kernel.column[p]);

@@ -16,7 +16,9 @@ typedef struct iccp_slopes {
     iccp_sparse kernel;   /* from coefficients of all nodes to derivatives: dim rows a place */
     double *affine;       /* (dim + 1) numbers a row, for the affine function; NULL without */
     uint8_t *needed;      /* what of the factor concerns these nodes */
-    double *all, *work;   /* m numbers for each of all nodes */
+    size_t n_marked;
+    uint32_t *marked;   /* the nodes that this is about; room for all */
+    double *all, *work; /* m numbers for each of all nodes */
 } iccp_slopes;
 
 /* Derivatives at `places`, in local coordinates: row dim * k + axis for place k. Memory: two rows

@@ -71,8 +71,11 @@ void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, d
  * which has factor->nodes.n entries, those of marks before included. */
 void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed);
 
-/* As iccp_ldlt_solve() where b is 0 but for marked rows: it is solved for at those only, in time
- * that depends on them. At others anything may be left. */
+/* Lists all rows that are marked, rising; room for n of them. Returns how many there are. */
+size_t iccp_ldlt_marked(const iccp_ldlt *factor, const uint8_t *needed, uint32_t *rows);
+
+/* As iccp_ldlt_solve() where b is 0 but for marked rows: it is solved for at those only, and in
+ * time that depends on them. Others are not looked at. */
 void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
                             double *work);
 

@@ -228,27 +228,61 @@ static void solve_in_turn(const solution *x)
             pass_all(x, s, NULL);
 }
 
+/* The first column, from k on, of a panel that is needed; how far such columns go from there. */
+static size_t next_needed(const solution *x, size_t k, size_t *end)
+{
+    const iccp_supernodes *nodes = &x->factor->nodes;
+    *end = x->factor->n;
+    if (x->needed == NULL || k == x->factor->n)
+        return k;
+    size_t s = nodes->owner[k];
+    while (s < nodes->n && !x->needed[s])
+        ++s;
+    const size_t begin = s < nodes->n && nodes->column[s] > k ? nodes->column[s] : k;
+    if (s == nodes->n)
+        return x->factor->n;
+    while (s < nodes->n && x->needed[s])
+        ++s;
+    *end = nodes->column[s];
+    return begin;
+}
+
+/* The right-hand sides, from rows in their own order to groups of columns in the factor's. */
+static void take_rows(const solution *x, const double *b)
+{
+    for (size_t k = 0, end; (k = next_needed(x, k, &end)) < x->factor->n; k = end)
+        for (size_t done = 0, width; done < x->n_rhs; done += width) {
+            const group g = group_at(x->factor, x->n_rhs, done, x->work);
+            width = g.width;
+            for (size_t i = k; i < end; ++i)
+                memcpy(g.value + i * width, b + x->factor->order[i] * x->n_rhs + done,
+                       width * sizeof *b);
+        }
+}
+
+static void give_rows(const solution *x, double *b)
+{
+    for (size_t k = 0, end; (k = next_needed(x, k, &end)) < x->factor->n; k = end)
+        for (size_t done = 0, width; done < x->n_rhs; done += width) {
+            const group g = group_at(x->factor, x->n_rhs, done, x->work);
+            width = g.width;
+            for (size_t i = k; i < end; ++i)
+                memcpy(b + x->factor->order[i] * x->n_rhs + done, g.value + i * width,
+                       width * sizeof *b);
+        }
+}
+
 static void solve(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
                   double *work, const iccp_env *env)
 {
     const solution all = {iccp_dense_choose(), factor, &factor->small, needed, n_rhs, work};
-    for (size_t done = 0, width; done < n_rhs; done += width) {
-        const group x = group_at(factor, n_rhs, done, work);
-        width = x.width;
-        for (size_t k = 0; k < factor->n; ++k)
-            memcpy(x.value + k * width, b + factor->order[k] * n_rhs + done, width * sizeof *b);
-    }
+    take_rows(&all, b);
     if (env != NULL && iccp_has_threads(env) && factor->small.n > 1 &&
         factor->n_entries * n_rhs > FEW_ENTRIES)
         solve_by_subtrees(&all, env);
     else
         solve_in_turn(&all);
-    for (size_t done = 0, width; done < n_rhs; done += width) {
-        const group x = group_at(factor, n_rhs, done, work);
-        width = x.width;
-        for (size_t k = 0; k < factor->n; ++k)
-            memcpy(b + factor->order[k] * n_rhs + done, x.value + k * width, width * sizeof *b);
-    }
+    give_rows(&all, b);
 }
 
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work)
@@ -270,6 +304,15 @@ void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uin
         for (uint32_t s = nodes->owner[factor->position[rows[k]]];
              s != ICCP_NO_PARENT && !needed[s]; s = nodes->parent[s])
             needed[s] = 1;
+}
+
+size_t iccp_ldlt_marked(const iccp_ldlt *factor, const uint8_t *needed, uint32_t *rows)
+{
+    size_t n = 0;
+    for (uint32_t i = 0; i < factor->n; ++i)
+        if (needed[factor->nodes.owner[factor->position[i]]])
+            rows[n++] = i;
+    return n;
 }
 
 void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,

@@ -2,6 +2,14 @@
 #include <icc/icc.hpp>
 #include <icc/stages.h>
 
+#if __has_include(<eigen3/Eigen/Core>)
+#define HAS_EIGEN 1
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#include <eigen3/Eigen/Core>
+#pragma GCC diagnostic pop
+#endif
+
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -363,6 +371,41 @@ void has_features()
     check(icc::map(source, target).ties().empty(), "no ties");
 }
 
+#if HAS_EIGEN
+// Matrices are not copied, and those whose points do not lie one after the other are refused.
+void takes_matrices()
+{
+    using columns = Eigen::Matrix<double, 2, Eigen::Dynamic>;
+    using rows = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+    const icc::map map(source, target);
+    columns points(2, 3);
+    points << 1, 2, 3.5, 1, 1.5, 0.5;
+    const icc::view<const double> seen(points);
+    check(seen.data() == points.data() && seen.size() == 6 && seen.width() == 2, "the view of a matrix");
+    columns images(2, 3);
+    check(map.apply(points, images) == 0 && (images - 2 * points).cwiseAbs().maxCoeff() < 1e-9, "columns");
+    rows row_points = points.transpose(), row_images(3, 2);
+    check(map.apply(row_points, row_images) == 0 && row_images == images.transpose(), "rows");
+    check(is_times(map.apply(points), 2, {1, 1, 2, 1.5, 3.5, 0.5}), "images of a matrix as a vector");
+    const Eigen::Vector2d one(1, 1);
+    check(is_times(map.apply(one), 2, {1, 1}), "a vector");
+    check(map.apply(points.leftCols(2)).size() == 4, "a block of whole columns");
+
+    const Eigen::MatrixXd wrong = points.transpose(); // x of all points, then y of all
+    check(thrown([&] { map.apply(wrong); }, none).status == ICC_ERR_ARGUMENT, "points in rows, column by column");
+    const Eigen::Matrix<double, 3, Eigen::Dynamic> high = Eigen::MatrixXd::Ones(3, 2);
+    check(thrown([&] { map.apply(high.topRows<2>()); }, none).status == ICC_ERR_ARGUMENT, "a block with gaps");
+    check(thrown([&] { map.apply(high.row(0)); }, none).status == ICC_ERR_ARGUMENT, "a row with gaps");
+    Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(3, 3);
+    check(thrown([&] { map.apply(points, wide.topRows<2>()); }, none).status == ICC_ERR_ARGUMENT, "results with gaps");
+    Eigen::Matrix<std::uint32_t, 2, 4> sides;
+    sides << 0, 1, 2, 3, 1, 2, 3, 0;
+    Eigen::Matrix<double, 2, 4> square;
+    square << 0, 4, 4, 0, 0, 0, 3, 3;
+    check(icc::domain(2, square, sides).info().measure == 12, "facets");
+}
+#endif
+
 void saves()
 {
     const icc::map map(source, target);
@@ -391,5 +434,8 @@ int main()
     makes_maps_of_maps();
     asks_charts_and_domains();
     has_features();
+#if HAS_EIGEN
+    takes_matrices();
+#endif
     return n_failed != 0;
 }

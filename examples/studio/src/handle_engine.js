@@ -173,7 +173,8 @@ export function handleOperations(icc) {
       return { vertices, images: moved, triangles, certified: proved === 1 && kind === 'mesh' };
     } catch (error) {
       if (!(error instanceof icc.IccError)) throw error;
-      return { error: error.plain, targetDefects: icc.boundaryDefects(rim).slice(0, 8) };
+      const outside = error.code === 'OUTSIDE' ? { outside: held[error.index] } : {};
+      return { error: error.plain, ...outside, targetDefects: icc.boundaryDefects(rim).slice(0, 8) };
     } finally {
       for (const domain of domains) domain.free();
     }

@@ -3,6 +3,12 @@ import { foldedOf } from './mesh.js';
 
 const CROSSING = 'The outline of this pose crosses itself: no one-to-one map has it.';
 
+/** Why a pose has no certified map. */
+function reasonOf({ error, outside, targetDefects }) {
+  if (targetDefects?.some((d) => d.kind === 'crossing')) return CROSSING;
+  return outside === undefined ? `${error.message}.` : `Handle ${outside + 1} lies outside the outline of this pose.`;
+}
+
 /** The handles that are not on the outline: a certified map has them where the pose has them. */
 export function heldOf({ handles, outline }) {
   const onRing = (p) => outline.some(([x, y]) => x === p[0] && y === p[1]);
@@ -20,10 +26,7 @@ export class PoseCertificate {
   /** What the engine gives: the map of this pose, or an error. */
   take(map) {
     this.clear();
-    if (map.error) {
-      this.reason = map.targetDefects?.some((d) => d.kind === 'crossing') ? CROSSING : `${map.error.message}.`;
-      return;
-    }
+    if (map.error) { this.reason = reasonOf(map); return; }
     this.mesh = { ...map, folded: foldedOf(map.vertices, map.images, map.triangles) };
     ++this.stats[map.certified ? 'certified' : 'broken'];
     this.stats.broken += this.mesh.folded.length / 3;

@@ -2,6 +2,7 @@
 // pose beside that of the native library. Needs STUDIO (the page), CHROMIUM, SHOTS (a folder for screenshots), and POSES
 // (tests/poses of a native build).
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import { after, before, test } from 'node:test';
 import { AFTER, centre, drag, focus, open, settle, shoot, show } from './browser.js';
 import { compare, record } from './tape.js';
@@ -160,6 +161,54 @@ test('a pose is made certified, and reset', async () => {
   await page.click('#rest');
   await settle(page);
   assert.equal(await page.evaluate(() => studio.modes.handles.stats.folded), 0);
+});
+
+test('poses and samplings are saved, and loaded again', async () => {
+  const folder = `${SHOTS}/handles`, cdp = await browser.target().createCDPSession();
+  fs.rmSync(folder, { recursive: true, force: true });
+  await cdp.send('Browser.setDownloadBehavior', { behavior: 'allow', downloadPath: folder });
+  const press = (label) => page.evaluate((text) =>
+    [...document.querySelectorAll('.handles button')].find((b) => b.textContent === text).click(), label);
+  const load = async (label, file) => {
+    const [chooser] = await Promise.all([page.waitForFileChooser(), press(label)]);
+    await chooser.accept([file]);
+    await settle(page);
+    await settle(page);
+  };
+  await drag(page, handle(8), [15, -30], 4);
+  const { transforms } = await state();
+  for (const [label, name] of [['Save pose', 'pose.json'], ['Save sampling', 'sampling.icc']]) {
+    await press(label);
+    for (let k = 0; k < 200 && !fs.existsSync(`${folder}/${name}`); ++k) await new Promise((done) => { setTimeout(done, 50); });
+  }
+  await page.click('#rest');
+  await settle(page);
+  await load('Load pose …', `${folder}/pose.json`);
+  assert.deepEqual((await state()).transforms, transforms);
+  const facts = () => page.$eval('.handles dl', (e) => e.textContent), samples = await facts();
+  await load('Load sampling …', `${folder}/sampling.icc`);
+  assert.equal(await facts(), samples);
+  fs.writeFileSync(`${folder}/other.icc`, 'no sampling');
+  const was = await state();
+  await load('Load sampling …', `${folder}/other.icc`);
+  assert.deepEqual(await state(), was);
+  assert.notEqual(await page.$eval('#toast', (e) => e.textContent), '');
+});
+
+test('a pose is certified while it is dragged; where there is no such map it is not, and says why', async () => {
+  await rig('figure');
+  await page.click('#keep');
+  await settle(page);
+  await drag(page, handle(5), [10, 20], 6);
+  await drag(page, handle(1), [12, 4], 6);
+  assert.match(await certificate(), /Certified one-to-one\s*0 of/);
+  await shoot(page, SHOTS, 'figure-certified');
+  await drag(page, handle(5), [-30, -80], 6);
+  assert.match(await certificate(), /Not certified.*Handle 4 lies outside the outline/);
+  await rig('butterfly');
+  await drag(page, handle(4), [-290, 40], 6);
+  assert.match(await certificate(), /Not certified.*crosses itself/);
+  await page.click('#keep');
 });
 
 test('no page error, no request', (t) => {

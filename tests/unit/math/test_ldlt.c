@@ -593,6 +593,52 @@ static bool everywhere(int x, int y, int z)
     return true;
 }
 
+/* Where few rows count, the others are not even looked at, and these get the same bits. */
+START_TEST(marked_rows_are_solved_alone)
+{
+    enum { SIDE = 40, CORNER = 5, SIDES = 7, ROWS = SIDE * SIDE };
+    lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
+    const iccp_env env = plain_env();
+    random_source r = {8};
+    iccp_ldlt l;
+    ck_assert_int_eq(iccp_ldlt_analyse(&l, &g.m, 1, &env), ICC_OK);
+    ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
+    uint8_t *needed = calloc(l.nodes.n, 1);
+    double *whole = calloc(ROWS * SIDES, sizeof *whole), *some = calloc(ROWS * SIDES, sizeof *some);
+    double *work = calloc(ROWS * SIDES, sizeof *work);
+    uint32_t corner[CORNER * CORNER], *marked = calloc(ROWS, sizeof *marked);
+    for (uint32_t k = 0; k < CORNER * CORNER; ++k) {
+        corner[k] = k / CORNER * SIDE + k % CORNER;
+        fill(whole + SIDES * corner[k], SIDES, &r);
+    }
+    for (size_t k = 0; k < ROWS * SIDES; ++k)
+        some[k] = NAN;
+    iccp_ldlt_mark(&l, CORNER * CORNER, corner, needed);
+    const size_t n = iccp_ldlt_marked(&l, needed, marked);
+    ck_assert(n >= CORNER * CORNER && n < ROWS / 2);
+    for (size_t k = 0; k < n; ++k)
+        memcpy(some + SIDES * marked[k], whole + SIDES * marked[k], SIDES * sizeof *some);
+    iccp_ldlt_solve(&l, SIDES, whole, work);
+    iccp_ldlt_solve_marked(&l, needed, SIDES, some, work);
+    for (uint32_t i = 0, k = 0; i < ROWS; ++i) {
+        const bool is_marked = k < n && marked[k] == i;
+        k += is_marked;
+        ck_assert(!is_marked ||
+                  memcmp(some + SIDES * i, whole + SIDES * i, SIDES * sizeof *some) == 0);
+        ck_assert(is_marked || isnan(some[SIDES * i]));
+    }
+    for (uint32_t k = 0; k < CORNER * CORNER; ++k)
+        ck_assert(isfinite(some[SIDES * corner[k]]));
+    iccp_ldlt_free(&l);
+    free(needed);
+    free(whole);
+    free(some);
+    free(work);
+    free(marked);
+    lattice_clear(&g);
+}
+END_TEST
+
 typedef struct watch {
     int n_reports;
     double share;
@@ -987,6 +1033,7 @@ int main(void)
                         sizeof MAZES / sizeof *MAZES);
     tcase_add_test(tests, rings_are_solved_in_order_of_distance);
     tcase_add_test(tests, stored_zeros_carry_nothing);
+    tcase_add_test(tests, marked_rows_are_solved_alone);
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, groups_are_analysed_as_their_rows);

@@ -1,0 +1,25 @@
+#!/bin/sh
+# What is not ISO C11 is listed: every file of the library and the command that includes a header of another standard, or
+# asks for POSIX, is named in CONTRIBUTING.md under "Other systems", and what is named there exists.
+# usage: check_portable.sh TOP
+set -eu
+cd "$1"
+standard='assert|complex|ctype|errno|fenv|float|inttypes|iso646|limits|locale|math|setjmp|signal|stdalign|stdarg|stdatomic'
+standard="$standard|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|tgmath|threads|time|uchar|wchar|wctype"
+others='icc/|cjson/|png|jpeglib|jerror|zlib' # our own, and libraries that CMake looks for
+# shellcheck disable=SC2016 # Markdown's quotes
+listed=$(sed -n '/^## Other systems/,/^## Benchmarks/p' CONTRIBUTING.md | grep -oE '`[a-z]+/[a-z0-9_/]+[.][a-z]+`' | tr -d '`' | sort -u)
+
+failed=0
+[ -n "$listed" ] || failed=1
+for file in $listed; do
+    [ -e "$file" ] || { echo "CONTRIBUTING.md names $file, which is not there"; failed=1; }
+done
+found=$(grep -rlE --include='*.[ch]' '^#include <|^#define _(POSIX|XOPEN|GNU|DARWIN)' lib tools | while read -r file; do
+    if grep -E '^#include <' "$file" | grep -vqE "^#include <(($standard)\.h|($others).*)>" ||
+        grep -qE '^#define _(POSIX|XOPEN|GNU|DARWIN)' "$file"; then echo "$file"; fi
+done)
+for file in $found; do
+    echo "$listed" | grep -qx "$file" || { echo "$file is not ISO C11, and CONTRIBUTING.md does not name it"; failed=1; }
+done
+exit $failed
