@@ -19,6 +19,7 @@
  * shrinkage-thresholding algorithm for linear inverse problems, SIAM J. Imaging Sci. 2, 2009;
  * B. O'Donoghue, E. Candes, Adaptive restart for accelerated gradient schemes, Found. Comput. Math.
  * 15, 2015. */
+#include "base/minmax.h"
 #include "kernel/rigid_program.h"
 #include "kernel/structure.h"
 
@@ -28,6 +29,8 @@
 /* Of the first step: the last one. The energy is then right to about the square of it times the
  * condition number of the Hessian. */
 static const double RESIDUAL = 1e-8;
+/* Of the size of all weights: what steps change when there is nothing to gain. */
+static const double ROUNDING = 1e-14;
 /* How much steps get shorter when the energy bends more than was thought. */
 static const double MARGIN = 1.1;
 /* Half of the steps, as far as progress goes; and when a program is given up. */
@@ -145,7 +148,9 @@ static icc_status minimise(iccp_rigid *r, double *residual, const iccp_env *env)
             status = step(r, &bend, &length);
         if (status != ICC_OK)
             return status;
-        first = k == 0 ? length : first;
+        if (k == 0)
+            first =
+                iccp_max(length, bend * ROUNDING / RESIDUAL * sqrt(dot(n, r->before, r->before)));
         const bool is_short = length <= RESIDUAL * first, restarted = age <= 1;
         const double older = age;
         age = is_short || turns_back(r) ? 1 : (1 + sqrt(1 + 4 * age * age)) / 2;

@@ -5,6 +5,7 @@
 
 /* Of the mean rigidity: how much derivatives around the part count. */
 static const double SURROUNDINGS = 0.1;
+
 /* Numbers the places: the part in the caller's order, then the free nodes within the kernel's reach
  * of it, and among all of these those that are free. */
 static icc_status find_places(iccp_rigid *r, const uint32_t *part, const bool *held,
@@ -49,9 +50,9 @@ static void count_places(iccp_rigid *r, const double *rigidity)
         r->count[k] = k >= r->n_part ? SURROUNDINGS : rigidity != NULL ? rigidity[k] / r->mean : 1;
 }
 
-/* Allocates all arrays of numbers by one table of their lengths, so that each is there or NULL when
- * they are freed. */
+/* All arrays of numbers: of weights the first six, of derivatives the next four. */
 enum { N_ARRAYS = 12 };
+
 static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
 {
     double **const list[N_ARRAYS] = {
@@ -60,6 +61,7 @@ static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
     memcpy(arrays, list, sizeof list);
 }
 
+/* By one table of lengths, so that each array is there or NULL when they are freed. */
 static icc_status allocate(iccp_rigid *r, const iccp_env *env)
 {
     const size_t dim = r->nodes->dim, m = r->nodes->n_handles;

@@ -168,6 +168,37 @@ START_TEST(stiff_parts_vary_less)
 }
 END_TEST
 
+/* Three handles leave no choice, and weights that have been stiffened hardly any: both are answers,
+ * and the second has no more energy. */
+START_TEST(stiff_parts_without_freedom_stay)
+{
+    icc_sampling *sampling = sample_square(0.05);
+    uint32_t part[40];
+    for (uint32_t i = 0; i < 40; ++i)
+        part[i] = 100 + i;
+    for (size_t n_handles = 3; n_handles <= 5; n_handles += 2) {
+        icc_weights *weights = make(sampling, n_handles, HANDLES, NULL), *stiff, *again;
+        double first[2], second[2];
+        ck_assert_int_eq(icc_weights_stiffen(&stiff, weights, 40, part, NULL, first, NULL, NULL),
+                         ICC_OK);
+        ck_assert_int_eq(icc_weights_stiffen(&again, stiff, 40, part, NULL, second, NULL, NULL),
+                         ICC_OK);
+        ck_assert_double_le(second[1], first[1] * (1 + 1e-9));
+        if (n_handles == 3) {
+            double *before = weights_of(weights), *after = weights_of(again);
+            for (size_t k = 0; k < 3 * info_of(weights).n_nodes; ++k)
+                ck_assert_double_eq_tol(after[k], before[k], 1e-12);
+            free(before);
+            free(after);
+        }
+        icc_weights_free(weights);
+        icc_weights_free(stiff);
+        icc_weights_free(again);
+    }
+    icc_sampling_free(sampling);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("weights_edit");
@@ -176,6 +207,7 @@ int main(void)
     tcase_add_test(tests, repainting_takes_wishes);
     tcase_add_test(tests, another_method_starts_afresh);
     tcase_add_test(tests, stiff_parts_vary_less);
+    tcase_add_test(tests, stiff_parts_without_freedom_stay);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
