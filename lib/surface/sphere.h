@@ -10,7 +10,8 @@
  * counter-clockwise from outside are so on the sphere. Areas and angles are kept as far as they can
  * be. Certified: see surface/sphere_certificate.h.
  *
- * ICC_ERR_RESOLUTION if directions are too coarse for the surface; ICC_ERR_MEMORY,
+ * ICC_ERR_RESOLUTION if directions are too coarse for the surface; ICC_ERR_CERTIFICATE, which is
+ * to say never; ICC_ERR_BOUNDARY for faces that are not of a closed surface; ICC_ERR_MEMORY,
  * ICC_ERR_CANCELLED. O(n log n) for a bounded number of neighbours. The same on every machine. */
 icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
                             const uint32_t *faces, const iccp_env *env, icc_error *err);

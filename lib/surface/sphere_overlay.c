@@ -1,10 +1,13 @@
-/* The planar graph is put together as in P. Schmidt, M. Campen, J. Born, L. Kobbelt, Inter-Surface
- * Maps via Constant-Curvature Metrics, 2020; faces are the orbits of its darts. */
+/* A graph on a surface by the cyclic order of the edges at each node, its faces being orbits:
+ * J. Edmonds, A Combinatorial Representation for Polyhedral Surfaces, 1960. */
 #include "surface/sphere_overlay.h"
 
 #include "base/error.h"
 #include "surface/paired_crossings.h"
 #include "surface/shared_vertices.h"
+
+/* Crossings, at most: darts, four more for each, are counted in 32 bits. */
+static const size_t most_of_all = (size_t)1 << 28;
 
 /* An edge is cut into pieces by its crossings. Piece k has two darts, 2 k along the way that the
  * edge was walked and 2 k + 1 back. */
@@ -233,8 +236,9 @@ icc_status iccp_sphere_overlay_create(iccp_sphere_overlay *overlay,
                            {.m = m[1], .directions = directions[1]}}};
     *overlay = (iccp_sphere_overlay){.n_vertices = {m[0]->n_vertices, m[1]->n_vertices}};
     icc_status status = iccp_shared_vertices_find(g.drawing, &overlay->n_nodes, &env->memory);
-    status = status == ICC_OK ? overlay_all(overlay, &g, most_crossings, env, err)
-                              : iccp_explain(err, status);
+    const size_t most = most_crossings < most_of_all ? most_crossings : most_of_all;
+    status =
+        status == ICC_OK ? overlay_all(overlay, &g, most, env, err) : iccp_explain(err, status);
     free_graph(&g, &env->memory);
     return status;
 }

@@ -27,7 +27,7 @@ typedef struct iccp_sphere_overlay {
  * edges overlap, faces without area come about.
  *
  * By exact signs alone: both drawings have been walked through the other with the same crossings,
- * and the faces make a sphere. ICC_ERR_RESOLUTION if there are more than `most_crossings`;
+ * and the faces make a sphere. ICC_ERR_RESOLUTION if there are more than `most_crossings`, or 2^28;
  * ICC_ERR_CERTIFICATE if one of these does not hold, which is to say never; ICC_ERR_MEMORY,
  * ICC_ERR_CANCELLED. To be freed in any case. O(n log n) for n vertices, edges and crossings. */
 icc_status iccp_sphere_overlay_create(iccp_sphere_overlay *overlay,
