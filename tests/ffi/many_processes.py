@@ -13,6 +13,7 @@ import resource
 import tempfile
 import time
 
+import dask
 import dask.array as da
 import libicc
 import numpy as np
@@ -145,6 +146,8 @@ def main():
     parser.add_argument("--folder", help="where the files go for a while")
     wanted = parser.parse_args()
     mapping = libicc.Map(BEFORE, AFTER)
+    # What a worker holds is not put on the disk: maps that come back from there would count as sent.
+    dask.config.set({"distributed.worker.memory.target": False, "distributed.worker.memory.spill": False})
     with tempfile.TemporaryDirectory(dir=wanted.folder) as folder, \
             LocalCluster(n_workers=wanted.workers, threads_per_worker=1, processes=True, dashboard_address=None,
                          local_directory=folder, memory_limit=wanted.memory) as cluster, Client(cluster) as client:

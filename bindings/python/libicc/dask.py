@@ -129,7 +129,7 @@ def warp_raster(mapping: Map, raster: Raster, out: Optional[Grid] = None, *, chu
 
     Args:
         mapping, out, resampling: as `libicc.raster.warp_raster`
-        chunk: the result has chunks of chunk x chunk pixels; a worker needs some 150 bytes for each, and `max_pixels`
+        chunk: the result has chunks of chunk x chunk pixels; a worker needs some 200 bytes for each, and `max_pixels`
             of the raster
         fill: what pixels without an image get; None: the raster's own nodata, or 0
         max_pixels: so many of the raster are read at a time
