@@ -601,14 +601,16 @@ struct carried_mesh {
     icc_certificate certificate; /**< whether it is still a mesh */
 };
 
-/** A picture in memory whose rows follow each other: `Sample` is `std::uint8_t` or `std::uint16_t`;
- *  `alpha`: the last channel is opacity. */
+/** A picture in memory whose rows follow each other: `Sample` is `std::uint8_t`, `std::uint16_t`, `float` or
+ *  `double`; `alpha`: the last channel is opacity. How a source is interpolated, and what is missing in it, is to
+ *  be set in the result. */
 template <class Sample>
 icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t height, std::int32_t channels,
                     bool alpha = false)
 {
     using value = std::remove_const_t<Sample>;
-    static_assert(std::is_same_v<value, std::uint8_t> || std::is_same_v<value, std::uint16_t>);
+    static_assert(std::is_same_v<value, std::uint8_t> || std::is_same_v<value, std::uint16_t> ||
+                  std::is_same_v<value, float> || std::is_same_v<value, double>);
     auto result = sized<icc_picture>();
     result.width = width;
     result.height = height;

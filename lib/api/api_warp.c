@@ -2,6 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
+#include "map/picture_values.h"
 #include "map/warp.h"
 
 /* Reads a picture of the caller's version and refuses one whose pixels would not fit in memory:
@@ -15,19 +16,29 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
     if (full->width < 1 || full->height < 1)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "the %s picture has %ld x %ld pixels", name,
                          (long)full->width, (long)full->height);
-    if (full->channels < 1 || full->channels > 4)
+    if (full->channels < 1 || full->channels > ICCP_MOST_CHANNELS)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "the %s picture has %ld channels; there must be 1 to 4", name,
-                         (long)full->channels);
-    if (full->bytes < 1 || full->bytes > 2)
+                         "the %s picture has %ld channels; there must be 1 to %d", name,
+                         (long)full->channels, (int)ICCP_MOST_CHANNELS);
+    if (full->bytes != 1 && full->bytes != 2 && full->bytes != 4 && full->bytes != 8)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "a sample of the %s picture has %ld bytes; it must have 1 or 2", name,
-                         (long)full->bytes);
+                         "a sample of the %s picture has %ld bytes; it must have 1, 2, 4 or 8",
+                         name, (long)full->bytes);
     if (full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_picture: alpha is %ld with %ld channels; it must be 0, or 1 with at "
                          "least two channels",
                          (long)full->alpha, (long)full->channels);
+    if (full->interpolation < 0 || full->interpolation > ICC_INTERPOLATION_CUBIC ||
+        full->has_nodata < 0 || full->has_nodata > 1)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_picture: interpolation %ld or has_nodata %ld is unknown",
+                         (long)full->interpolation, (long)full->has_nodata);
+    if (full->alpha && full->interpolation != ICC_INTERPOLATION_NEAREST &&
+        iccp_picture_has_values(full))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_picture: alpha goes with up to 4 channels of 1 or 2 bytes, linear or "
+                         "nearest interpolation, and no nodata");
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)

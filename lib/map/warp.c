@@ -8,6 +8,7 @@
 
 #include "base/threads.h"
 #include "map/boundary_pixels.h"
+#include "map/picture_values.h"
 #include "map/scan.h"
 #include "map/warp_points.h"
 
@@ -254,7 +255,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
 icc_status iccp_map_warp(const icc_map *map, const icc_picture *source, const icc_picture *target,
                          size_t *n_failed, const iccp_env *env)
 {
-    if (map->mesh == NULL)
+    if (map->mesh == NULL || iccp_picture_has_values(source))
         return iccp_warp_points(map, source, target, n_failed, env);
     if (n_failed != NULL)
         *n_failed = 0;

@@ -6,6 +6,7 @@
 
 #include "base/minmax.h"
 #include "base/threads.h"
+#include "map/picture_values.h"
 #include "map/sampler.h"
 #include "map/scan.h"
 #include "math/elementary.h"
@@ -18,6 +19,7 @@ enum { ROWS = 16 };
 typedef struct warp {
     const icc_map *map;
     const icc_picture *target;
+    const icc_picture *values; /* the source, if its samples are no colours; else NULL */
     iccp_sampler source;
     iccp_env alone; /* for calls from tasks */
     atomic_size_t n_failed;
@@ -61,6 +63,27 @@ static void add_sample(const iccp_sampler *source, const double place[2], iccp_g
         iccp_sampler_gather(source, &line, 1, 0, 1, gathered);
 }
 
+/* What the picture has at the places that are known, or else at one. */
+static void paint_places(const warp *w, size_t n, const double *places, const double *else_at,
+                         uint8_t *to)
+{
+    iccp_gathered gathered = {{0}, 0};
+    size_t n_known = 0;
+    for (size_t k = 0; k < n; ++k) {
+        n_known += isnan(places[2 * k]) ? 0 : 1;
+        if (w->values == NULL)
+            add_sample(&w->source, places + 2 * k, &gathered);
+    }
+    if (w->values != NULL) {
+        iccp_picture_values_paint(w->values, n_known > 0 ? n : 1, n_known > 0 ? places : else_at,
+                                  to);
+        return;
+    }
+    if (!(gathered.weight > 0))
+        add_sample(&w->source, else_at, &gathered);
+    iccp_sampler_store(&w->source, &gathered, 1, to);
+}
+
 /* The mean of a grid of samples; of the centre alone when none of them has an origin. */
 static icc_status paint_mean(const warp *w, const double *centre_origin, int32_t column,
                              int32_t row, int32_t columns, int32_t rows, uint8_t *to)
@@ -73,12 +96,7 @@ static icc_status paint_mean(const warp *w, const double *centre_origin, int32_t
     }
     const icc_status status =
         iccp_map_apply(w->map, true, n, points, points, NULL, NULL, &w->alone);
-    iccp_gathered gathered = {{0}, 0};
-    for (size_t k = 0; k < n; ++k)
-        add_sample(&w->source, points + 2 * k, &gathered);
-    if (!(gathered.weight > 0))
-        add_sample(&w->source, centre_origin, &gathered);
-    iccp_sampler_store(&w->source, &gathered, 1, to);
+    paint_places(w, n, points, centre_origin, to);
     return status;
 }
 
@@ -94,10 +112,14 @@ static icc_status paint_pixel(const warp *w, const band *b, int32_t column, int3
                                             column + 1 < to->width ? here + 2 : NULL);
     const int32_t rows = samples_between(r > 0 ? here - 2 * width : NULL, here,
                                          r + 1 < b->n_rows ? here + 2 * width : NULL);
-    if (columns * rows > 1)
+    const bool nearest = w->values != NULL && w->values->interpolation == ICC_INTERPOLATION_NEAREST;
+    if (columns * rows > 1 && !nearest)
         return paint_mean(w, here, column, row, columns, rows, pixel);
     const iccp_line line = {here[0] - 0.5, here[1] - 0.5, 0, 0, 1};
-    iccp_sampler_paint(&w->source, &line, pixel);
+    if (w->values != NULL)
+        iccp_picture_values_paint(w->values, 1, here, pixel);
+    else
+        iccp_sampler_paint(&w->source, &line, pixel);
     return ICC_OK;
 }
 
@@ -142,7 +164,10 @@ icc_status iccp_warp_points(const icc_map *map, const icc_picture *source,
     warp w = {.map = map,
               .target = target,
               .alone = {.memory = env->memory, .user = env->user, .threads = 1}};
-    iccp_sampler_init(&w.source, source);
+    if (iccp_picture_has_values(source))
+        w.values = source;
+    else
+        iccp_sampler_init(&w.source, source);
     const icc_status status =
         iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_chunk, &w);
     if (n_failed != NULL)

@@ -106,6 +106,10 @@ IS(ICC_GROW_AS_GIVEN, 1);
 IS(ICC_GROW_GROWN, 2);
 IS(ICC_GROW_THINNED, 3);
 
+IS(ICC_INTERPOLATION_NEAREST, 1);
+IS(ICC_INTERPOLATION_LINEAR, 2);
+IS(ICC_INTERPOLATION_CUBIC, 3);
+
 IS(ICC_SAMPLING_GRID, 1);
 IS(ICC_SAMPLING_BLUE, 2);
 IS(ICC_SAMPLING_POINTS, 3);
@@ -383,7 +387,7 @@ AT(icc_certificate, n_flat, 24);
 AT(icc_certificate, n_no_image, 32);
 AT(icc_certificate, first, 40);
 
-SIZE(icc_picture, 48);
+SIZE(icc_picture, 64);
 AT(icc_picture, size, 0);
 AT(icc_picture, width, 8);
 AT(icc_picture, height, 12);
@@ -392,6 +396,9 @@ AT(icc_picture, bytes, 20);
 AT(icc_picture, alpha, 24);
 AT(icc_picture, stride, 32);
 AT(icc_picture, pixels, 40);
+AT(icc_picture, interpolation, 48);
+AT(icc_picture, has_nodata, 52);
+AT(icc_picture, nodata, 56);
 
 SIZE(icc_grid_info, 152);
 AT(icc_grid_info, size, 0);

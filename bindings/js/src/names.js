@@ -25,6 +25,7 @@ export const ENUMERATIONS = [
   ['icc_gradient_info', 'function', 'ICC_FUNCTION_'], ['icc_gradient_info', 'tree', 'ICC_TREE_'],
   ['icc_map_options', 'kind', 'ICC_MAP_'], ['icc_map_info', 'kind', 'ICC_MAP_'],
   ['icc_map_info', 'reason', 'ICC_REASON_'],
+  ['icc_picture', 'interpolation', 'ICC_INTERPOLATION_'],
   ['icc_match_options', 'turning', 'ICC_TURNING_'], ['icc_match_options', 'between', 'ICC_BETWEEN_'],
   ['icc_tree_options', 'form', 'ICC_TREE_'],
   ['icc_function_options', 'function', 'ICC_FUNCTION_'],

@@ -15,17 +15,20 @@ if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats
 
 
-def _picture(image: Array, alpha: bool) -> Any:
+_INTERPOLATIONS = {"nearest": 1, "linear": 2, "cubic": 3}
+
+
+def _picture(image: Array, alpha: bool, **more: Any) -> Any:
     height, width, channels = image.shape
     size = image.dtype.itemsize
     return new("picture", width=width, height=height, channels=channels, bytes=size,
                alpha=int(alpha), stride=width * channels * size,
-               pixels=image.ctypes.data)
+               pixels=image.ctypes.data, **more)
 
 
 def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, *,
-               alpha: Optional[bool] = None, progress: Optional[Progress] = None,
-               threads: Optional[int] = None) -> Array:
+               alpha: Optional[bool] = None, interpolation: str = "linear", nodata: Optional[float] = None,
+               progress: Optional[Progress] = None, threads: Optional[int] = None) -> Array:
     """Warps a picture by a 2-D map.
 
     >>> image = numpy.array([[10, 20], [30, 40]], dtype=numpy.uint8)
@@ -35,20 +38,25 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
            [40, 20]], dtype=uint8)
 
     Args:
-        image: (height, width) or (height, width, channels), uint8 or uint16, up to 4 channels. Pixel
-            [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
+        image: (height, width) or (height, width, channels), uint8, uint16, float32 or float64, up to 64
+            channels. Pixel [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
         mapping: from places in the picture to places in the result
         out: a picture to draw onto, with as many channels, of any size: its pixels outside the target
             stay. None: a copy of `image`.
-        alpha: whether the last channel is opacity; None: if there are 2 or 4
+        alpha: whether the last channel is opacity; None: if there are 2 or 4 of whole numbers, interpolation is
+            linear, and nothing is missing
+        interpolation: "nearest", "linear" or "cubic"
+        nodata: the value of samples that are missing, also NaN; None: none are
         progress, threads: see `libicc.Progress`
 
     Returns:
         the picture drawn, a new array of the shape of `out`
     """
     image = np.asarray(image)
-    if image.dtype not in (np.uint8, np.uint16):
-        raise ValueError(f"pictures are uint8 or uint16, not {image.dtype}")
+    if image.dtype not in (np.uint8, np.uint16, np.float32, np.float64):
+        raise ValueError(f"pictures are uint8, uint16, float32 or float64, not {image.dtype}")
+    if interpolation not in _INTERPOLATIONS:
+        raise ValueError(f"interpolation must be one of {', '.join(_INTERPOLATIONS)}")
     if image.ndim not in (2, 3):
         raise ValueError(f"pictures have the shape (height, width[, channels]), not {image.shape}")
     result = np.array(image if out is None else out, dtype=image.dtype, order="C")
@@ -57,8 +65,11 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
     if flat.shape[2] != source.shape[2]:
         raise ValueError("both pictures must have the same channels")
     if alpha is None:
-        alpha = source.shape[2] in (2, 4)
-    before, after = _picture(source, alpha), _picture(flat, alpha)
+        alpha = (source.shape[2] in (2, 4) and image.dtype.kind == "u" and interpolation == "linear"
+                 and nodata is None)
+    before = _picture(source, alpha, interpolation=_INTERPOLATIONS[interpolation],
+                      has_nodata=int(nodata is not None), nodata=nodata or 0.0)
+    after = _picture(flat, alpha)
     call = Call(progress, threads)
     call.check(lib.map_warp(mapping, ctypes.addressof(before), ctypes.addressof(after), None,
                             call.env, call.err))

@@ -35,12 +35,41 @@ def test_one_row():
 
 def test_wrong_pictures(picture):
     cage = libicc.picture_cage(picture.shape)
-    with pytest.raises(ValueError, match="5 channels; there must be 1 to 4"):
-        libicc.warp_image(np.zeros((9, 9, 5), np.uint8), libicc.Map(cage, cage))
+    with pytest.raises(ValueError, match="65 channels; there must be 1 to 64"):
+        libicc.warp_image(np.zeros((9, 9, 65), np.uint8), libicc.Map(cage, cage))
     with pytest.raises(ValueError, match="it must be 0, or 1 with at least two channels"):
         libicc.warp_image(picture[:, :, 0], libicc.Map(cage, cage), alpha=True)
     with pytest.raises(ValueError, match="uint8"):
-        libicc.warp_image(picture.astype(float), libicc.Map(cage, cage))
+        libicc.warp_image(picture.astype(int), libicc.Map(cage, cage))
+    with pytest.raises(ValueError, match="one of nearest, linear, cubic"):
+        libicc.warp_image(picture, libicc.Map(cage, cage), interpolation="bilinear")
+    with pytest.raises(ValueError, match="alpha goes with"):
+        libicc.warp_image(picture, libicc.Map(cage, cage), interpolation="cubic", alpha=True)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32, np.float64])
+@pytest.mark.parametrize("interpolation", ["nearest", "linear", "cubic"])
+def test_values(dtype, interpolation):
+    """Many bands, floats and missing values through a shift by a quarter of a pixel; a plane is what it was but shifted."""
+    y, x = np.mgrid[:20, :30]
+    bands = np.stack([4 * x + 2 * y + k for k in range(7)], axis=2).astype(dtype)
+    cage = libicc.picture_cage(bands.shape)
+    assert np.array_equal(libicc.warp_image(bands, libicc.Map(cage, cage), interpolation=interpolation), bands)
+    shifted = libicc.warp_image(bands, libicc.Map(cage, cage + 0.25), interpolation=interpolation)
+    off = 0 if interpolation == "nearest" else -1.5
+    inner = np.s_[3:-3, 3:-3]
+    np.testing.assert_allclose(shifted[inner], np.round(bands[inner] + off + 1e-9) if bands.dtype.kind == "u"
+                               else bands[inner] + off, atol=1e-4)
+
+
+@pytest.mark.parametrize("nodata", [np.nan, -9999.0])
+def test_missing(nodata):
+    heights = np.full((20, 30), 7.0)
+    heights[5:9, 10:20] = nodata
+    cage = libicc.picture_cage(heights.shape)
+    result = libicc.warp_image(heights, libicc.Map(cage, cage + 0.25), nodata=nodata)[1:, 1:]
+    missing = np.isnan(result) if np.isnan(nodata) else result == nodata
+    assert missing.sum() == 40 and np.allclose(result[~missing], 7)
 
 
 def test_scikit_image(picture, neighbour):

@@ -543,7 +543,7 @@ START_TEST(test_arguments)
         bad.size = k == 0 ? 0 : bad.size;
         bad.width = k == 1 ? 0 : k == 2 ? 42 : bad.width;
         bad.height = k == 3 ? 0 : k == 4 ? -1 : bad.height;
-        bad.channels = k == 5 ? 0 : k == 6 ? 5 : bad.channels;
+        bad.channels = k == 5 ? 0 : k == 6 ? 65 : bad.channels;
         bad.bytes = k == 7 ? 0 : k == 8 ? 3 : bad.bytes;
         bad.alpha = k == 9 ? 2 : k == 10 ? 1 : bad.alpha;
         bad.stride = k == 11 ? SIZE_MAX / 8 : bad.stride;

@@ -980,6 +980,13 @@ pub struct icc_certificate {
 }
 sized!(icc_certificate);
 
+/// The pixel's own samples, for classes and labels; no means.
+pub const ICC_INTERPOLATION_NEAREST: i32 = 1;
+/// Bilinear.
+pub const ICC_INTERPOLATION_LINEAR: i32 = 2;
+/// Bicubic, exact for quadratic functions; may overshoot.
+pub const ICC_INTERPOLATION_CUBIC: i32 = 3;
+
 /// A picture in memory: rows from top to bottom, samples of a pixel side by side.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -990,17 +997,24 @@ pub struct icc_picture {
     pub width: i32,
     /// rows
     pub height: i32,
-    /// samples of a pixel, 1..4
+    /// samples of a pixel, 1..64
     pub channels: i32,
-    /// of a sample: 1, or 2 in the machine's order; unsigned, all values used
+    /// of a sample, in the machine's order: 1 or 2, unsigned, all values used;
+    /// 4 or 8: floats
     pub bytes: i32,
-    /// 1: the last of at least two channels is opacity, and the others are not
-    /// multiplied by it; 0: there is none
+    /// 1: the last of two to four channels of 1 or 2 bytes is opacity, and the
+    /// others are not multiplied by it; 0: there is none
     pub alpha: i32,
     /// bytes from a row to the next
     pub stride: usize,
     /// the first row; any alignment. Only read in a source.
     pub pixels: *mut c_void,
+    /// of a source: `ICC_INTERPOLATION_*`; 0: linear
+    pub interpolation: i32,
+    /// of a source: 1: samples that are `nodata` are missing; without alpha
+    pub has_nodata: i32,
+    /// may be NaN
+    pub nodata: f64,
 }
 sized!(icc_picture);
 

@@ -67,7 +67,7 @@ pub use map::{
 };
 pub use matching::{Between, Match, MatchInfo, MatchOptions, Turning};
 pub use object::Borrowed;
-pub use picture::{Layout, Picture, PictureMut};
+pub use picture::{Interpolation, Layout, Picture, PictureMut};
 pub use slices::{flat, flat_mut, rows};
 
 /// The version of the library that is linked, such as "0.1.0".

@@ -1,7 +1,7 @@
 //! Pictures in memory.
 use crate::error::{Error, Result};
 use crate::slices::int;
-use crate::sys::icc_picture;
+use crate::sys::{self, icc_picture};
 use std::marker::PhantomData;
 use std::os::raw::c_void;
 
@@ -22,12 +22,24 @@ pub struct PictureMut<'a> {
 /// How samples lie in memory, if not one byte each in rows without gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// of a sample: 1, or 2 in the machine's order; 0: 1
+    /// of a sample, in the machine's order: 1 or 2, unsigned; 4 or 8: floats; 0: 1
     pub bytes: usize,
     /// whether the last of at least two channels is opacity
     pub alpha: bool,
     /// bytes from a row to the next; 0: no gaps
     pub stride: usize,
+}
+
+/// How a [`Picture`] is read between the centres of its pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(i32)]
+pub enum Interpolation {
+    /// the pixel's own samples, for classes and labels
+    Nearest = sys::ICC_INTERPOLATION_NEAREST,
+    /// bilinear
+    Linear = sys::ICC_INTERPOLATION_LINEAR,
+    /// bicubic
+    Cubic = sys::ICC_INTERPOLATION_CUBIC,
 }
 
 impl<'a> Picture<'a> {
@@ -53,6 +65,19 @@ impl<'a> Picture<'a> {
         let raw = picture(width, height, channels, layout, pixels.len())?;
         let pixels_at = pixels.as_ptr() as *mut c_void;
         Ok(Picture { raw: icc_picture { pixels: pixels_at, ..raw }, pixels: PhantomData })
+    }
+
+    /// How it is read between the centres of its pixels; without this linearly.
+    pub fn interpolated(mut self, interpolation: Interpolation) -> Self {
+        self.raw.interpolation = interpolation as i32;
+        self
+    }
+
+    /// Samples with this value, which may be NaN, are missing.
+    pub fn with_nodata(mut self, nodata: f64) -> Self {
+        self.raw.has_nodata = 1;
+        self.raw.nodata = nodata;
+        self
     }
 
     pub(crate) fn raw(&self) -> *const icc_picture {

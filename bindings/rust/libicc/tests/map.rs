@@ -1,7 +1,7 @@
 //! Maps and charts from Rust: what comes back, what fails and how, threads and callbacks.
 use libicc::{
-    flat, Certificate, Chart, ChartOptions, Domain, Env, Feature, Images, ImproveOptions, Item, Layout, Map,
-    MapKind, MapOptions, Method, OwnedTie, Picture, PictureMut, Side, Status, Tie,
+    flat, Certificate, Chart, ChartOptions, Domain, Env, Feature, Images, ImproveOptions, Interpolation,
+    Item, Layout, Map, MapKind, MapOptions, Method, OwnedTie, Picture, PictureMut, Side, Status, Tie,
 };
 use std::cell::Cell;
 use std::ops::ControlFlow;
@@ -142,6 +142,27 @@ fn maps_of_charts() {
     let images = map.apply(&points, env).unwrap();
     assert_eq!((images.n_failed, decoded.n_failed), (0, 0));
     assert!(farthest(&images.points, &decoded.points) < 1e-9);
+}
+
+#[test]
+fn pictures_of_values() {
+    let env = &mut Env::new();
+    let square = domain(&[[0.0, 0.0], [6.0, 0.0], [6.0, 5.0], [0.0, 5.0]]);
+    let map = Map::new(&square, &square, &MapOptions::default(), env).unwrap();
+    let values: Vec<f32> = (0..30).map(|k| if k == 7 { f32::NAN } else { k as f32 + 0.5 }).collect();
+    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_ne_bytes().to_vec()).collect();
+    let layout = Layout { bytes: 4, ..Default::default() };
+    for how in [Interpolation::Nearest, Interpolation::Linear, Interpolation::Cubic] {
+        let mut result = vec![0; bytes.len()];
+        let source = Picture::with_layout(6, 5, 1, layout, &bytes).unwrap();
+        let source = source.interpolated(how).with_nodata(f64::NAN);
+        let mut target = PictureMut::with_layout(6, 5, 1, layout, &mut result).unwrap();
+        map.warp(&source, &mut target, env).unwrap();
+        for (k, value) in result.chunks(4).enumerate() {
+            let value = f32::from_ne_bytes([value[0], value[1], value[2], value[3]]);
+            assert!(if k == 7 { value.is_nan() } else { value == values[k] }, "{:?} {}", how, k);
+        }
+    }
 }
 
 /// Two bytes a sample, alpha, rows with gaps: the gaps stay as they are.
