@@ -1,6 +1,7 @@
-# What Doxygen cannot follow in a page of Markdown: pictures by their folders, headings of other pages, and files that
-# are no pages, but for the headers.
+# What Doxygen cannot follow in a page of Markdown: pictures by their folders, headings of other pages and of the same
+# one, and files that are no pages, but for the headers.
 s,\](\(\.\./\)*\(docs/\)*images/,](,g
 s,\(\]([^():]*\.md\)#[a-z0-9-]*),\1),g
+s,\[\([^]]*\)\](#[a-z0-9-]*),\1,g
 s,\[`icc/\([a-z.]*\)`\]([^()]*),@ref icc/\1,g
 s,\[`\([^`]*\)`\](\([^():]*\)\.\(c\|h\|hpp\|js\|py\|rs\|sh\)),`\1`,g

@@ -9,7 +9,13 @@ int main(void)
     enum { n = 4, SIDE = 8 };
     static const double before[] = {0, 0, 8, 0, 8, 8, 0, 8}, after[] = {4, 0, 8, 4, 4, 8, 0, 4};
     static unsigned char pixels[SIDE * SIDE], result[SIDE * SIDE];
-    icc_picture picture = {sizeof picture, SIDE, SIDE, 1, 1, 0, SIDE, NULL}, warped;
+    icc_picture picture = {.size = sizeof picture,
+                           .width = SIDE,
+                           .height = SIDE,
+                           .channels = 1,
+                           .bytes = 1,
+                           .stride = SIDE},
+                warped;
     icc_error err = {sizeof err, ICC_OK, 0, -1, ICC_ITEM_NONE, ""};
     icc_map *map = NULL;
     picture.pixels = memset(pixels, 200, sizeof pixels);
