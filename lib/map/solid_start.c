@@ -5,9 +5,11 @@
 
 #include "base/clock.h"
 #include "base/threads.h"
+#include "map/cone_map.h"
 #include "map/curves.h"
 #include "map/mesh_repair.h"
 #include "map/solid_chords.h"
+#include "map/solid_edit.h"
 #include "map/solid_improve.h"
 #include "map/solid_mend.h"
 
@@ -140,6 +142,32 @@ static icc_status mend(iccp_solid_map *map, direction way, bool anew, icc_map_in
     return status;
 }
 
+/* Without the charts, anew on a mesh without chords: where a point sees all of the target's surface
+ * from inside. Else the map is none, and what is told stays. */
+static icc_status unfold(iccp_solid_map *map, direction way, icc_map_info *info,
+                         const iccp_env *env)
+{
+    const double began = iccp_seconds();
+    const icc_domain *from = way.source->domain, *to = way.target->domain;
+    iccp_simplices *cut, *mesh = NULL;
+    double *images;
+    icc_status status = iccp_solid_cut_chords(&cut, from, env);
+    if (status == ICC_OK)
+        status = iccp_cone_map(&mesh, &images, cut != NULL ? cut : from->mesh, to->vertices, env);
+    iccp_simplices_free(cut);
+    if (status == ICC_OK && mesh != NULL) {
+        iccp_simplices_free(map->own);
+        iccp_free(&map->memory, map->images);
+        map->own = mesh;
+        map->mesh = mesh;
+        map->images = images;
+        status = iccp_solid_check(map, from, env);
+        info->n_unrepaired = count_inverted(map);
+    }
+    info->seconds_repair += iccp_seconds() - began;
+    return status;
+}
+
 /* Both meshes have the same boundary, by the same numbers. */
 static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
 {
@@ -160,13 +188,13 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
     return ICC_OK;
 }
 
-/* Fits, then mends, by turns on the source's mesh and on the target's, until one leads to a map;
- * what else is told is of the last one. */
+/* Fits, then mends, then unfolds, by turns on the source's mesh and on the target's, until one
+ * leads to a map; what else is told is of the last one. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                             icc_map_info *info, const iccp_env *env)
 {
-    enum { STAGES = 3 };
-    static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1};
+    enum { STAGES = 4 };
+    static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1, 1, 1};
     const direction ways[2] = {{source, target}, {target, source}};
     iccp_solid_map other = {.memory = env->memory, .mesh = target->domain->mesh};
     iccp_solid_map *const maps[2] = {map, &other};
@@ -178,9 +206,10 @@ icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const 
     other.stretch = 1 / map->stretch;
     for (size_t k = 0; status == ICC_OK && fewest > 0 && k < 2 * STAGES; ++k) {
         const size_t side = k % 2;
-        status = k < 2 ? fit(maps[side], ways[side], info, &part[k])
-                       : mend(maps[side], ways[side], k >= 4, info, &part[k]);
-        if (status == ICC_OK && info->n_unrepaired > 0)
+        status = k < 2   ? fit(maps[side], ways[side], info, &part[k])
+                 : k < 6 ? mend(maps[side], ways[side], k >= 4, info, &part[k])
+                         : unfold(maps[side], ways[side], info, &part[k]);
+        if (status == ICC_OK && info->n_unrepaired > 0 && k < 6)
             iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
                      side == 0 ? "source" : "target");
         if (status == ICC_OK && info->n_unrepaired == 0 && side == 1)

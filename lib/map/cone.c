@@ -1,0 +1,215 @@
+/* Cells are asked by predicates alone, whatever they are: tetrahedra in place, and cones over faces
+ * of the front. */
+#include "map/cone.h"
+
+#include "map/simplicial_map.h"
+
+#include <string.h>
+
+/* In place of a corner: no side is the cone's. */
+enum { NO_SIDE = 4 };
+
+bool iccp_cone_reserve(iccp_cone *cone)
+{
+    iccp_tets *m = &cone->mesh;
+    if (m->points.room > cone->point_room) {
+        const size_t n = m->points.room, old = cone->point_room;
+        if (!iccp_enlarge(&m->memory, &cone->image, old, n, 3 * sizeof *cone->image) ||
+            !iccp_enlarge(&m->memory, &cone->n_faces, old, n, sizeof *cone->n_faces)) {
+            m->no_memory = true;
+            return false;
+        }
+        memset(cone->n_faces + old, 0, (n - old) * sizeof *cone->n_faces);
+        cone->point_room = n;
+        for (size_t v = old; v < n; ++v)
+            iccp_cone_forget(cone, (uint32_t)v);
+    }
+    if (m->room > cone->tet_room) {
+        if (!iccp_enlarge(&m->memory, &cone->is_placed, cone->tet_room, m->room, 1)) {
+            m->no_memory = true;
+            return false;
+        }
+        memset(cone->is_placed + cone->tet_room, 0, m->room - cone->tet_room);
+        cone->tet_room = m->room;
+    }
+    return true;
+}
+
+static bool copy_mesh(iccp_cone *cone, const iccp_simplices *mesh)
+{
+    iccp_tets *m = &cone->mesh;
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        if (iccp_tets_add_point(m, mesh->points + 3 * v) == ICCP_NO_TET)
+            return false;
+    if (!iccp_tets_reserve(m, mesh->n_simplices) || !iccp_cone_reserve(cone))
+        return false;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        const uint32_t *v = mesh->corners + 4 * t;
+        (void)iccp_tets_new(m, v[0], v[1], v[2], v[3]);
+        memcpy(m->tet[t].across, mesh->across + 4 * t, sizeof m->tet[t].across);
+    }
+    return true;
+}
+
+static void count_faces(iccp_cone *cone, uint32_t tet, int side, uint32_t change)
+{
+    for (int k = 0; k < 3; ++k)
+        cone->n_faces[cone->mesh.tet[tet].v[iccp_tet_face[side][k]]] += change;
+}
+
+icc_status iccp_cone_create(iccp_cone *cone, const iccp_simplices *mesh, const double *boundary,
+                            const iccp_memory *memory)
+{
+    *cone = (iccp_cone){.n_fixed = mesh->n_boundary, .n_left = mesh->n_simplices};
+    iccp_tets_init(&cone->mesh, memory);
+    cone->room.memory = *memory;
+    if (!copy_mesh(cone, mesh))
+        return ICC_ERR_MEMORY;
+    memcpy(cone->image, boundary, 3 * cone->n_fixed * sizeof *boundary);
+    for (uint32_t t = 0; t < cone->n_left; ++t)
+        for (int i = 0; i < 4; ++i)
+            if (iccp_cone_is_front(cone, t, i))
+                count_faces(cone, t, i, 1);
+    return ICC_OK;
+}
+
+void iccp_cone_free(iccp_cone *cone)
+{
+    const iccp_memory *memory = &cone->mesh.memory;
+    iccp_free(memory, cone->image);
+    iccp_free(memory, cone->n_faces);
+    iccp_free(memory, cone->is_placed);
+    iccp_halfspaces_free(&cone->room);
+    iccp_tets_free(&cone->mesh);
+}
+
+/* ---- the front ---- */
+
+int iccp_cone_front_sides(const iccp_cone *cone, uint32_t tet, int side[4])
+{
+    int n = 0;
+    for (int i = 0; i < 4; ++i)
+        if (iccp_cone_is_front(cone, tet, i))
+            side[n++] = i;
+    return n;
+}
+
+void iccp_cone_place(iccp_cone *cone, uint32_t tet)
+{
+    for (int i = 0; i < 4; ++i)
+        count_faces(cone, tet, i, iccp_cone_is_front(cone, tet, i) ? UINT32_MAX : 1);
+    cone->is_placed[tet] = 1;
+    --cone->n_left;
+}
+
+void iccp_cone_take_out(iccp_cone *cone, uint32_t tet)
+{
+    for (int i = 0; i < 4; ++i)
+        count_faces(cone, tet, i, iccp_cone_is_front(cone, tet, i) ? 1 : UINT32_MAX);
+    cone->is_placed[tet] = 0;
+    ++cone->n_left;
+}
+
+/* ---- cells: a tetrahedron, of which corner `side` is the apex, or none ---- */
+
+static const double *corner_of(const iccp_cone *cone, uint32_t tet, int side, int k)
+{
+    return k == side ? cone->apex : iccp_cone_image(cone, cone->mesh.tet[tet].v[k]);
+}
+
+static bool is_positive(const iccp_cone *cone, uint32_t tet, int side)
+{
+    return iccp_orient3d(corner_of(cone, tet, side, 0), corner_of(cone, tet, side, 1),
+                         corner_of(cone, tet, side, 2), corner_of(cone, tet, side, 3)) > 0;
+}
+
+bool iccp_cone_is_good(const iccp_cone *cone, uint32_t tet)
+{
+    bool good = is_positive(cone, tet, NO_SIDE);
+    for (int i = 0; i < 4 && good; ++i) {
+        const uint32_t across = cone->mesh.tet[tet].across[i];
+        if (!iccp_is_wall_side(across) && !cone->is_placed[across / 4])
+            good = is_positive(cone, across / 4, (int)(across % 4));
+    }
+    return good;
+}
+
+/* What is asked of the cells at a point: `corner` is where it is in them. */
+typedef bool (*cell_question)(iccp_cone *cone, uint32_t tet, int side, int corner);
+
+/* Whether it holds of all: of tetrahedra in place, and of cones over faces of the front. */
+static bool ask_star(iccp_cone *cone, uint32_t point, cell_question question)
+{
+    iccp_tets *m = &cone->mesh;
+    bool holds = iccp_tets_star(m, point);
+    for (size_t s = 0; holds && s < m->star.n; ++s) {
+        const uint32_t t = m->star.item[s];
+        const int k = iccp_tet_index(&m->tet[t], point);
+        if (cone->is_placed[t])
+            holds = question(cone, t, NO_SIDE, k);
+        for (int i = 0; holds && !cone->is_placed[t] && i < 4; ++i)
+            if (i != k && iccp_cone_is_front(cone, t, i))
+                holds = question(cone, t, i, k);
+    }
+    return holds;
+}
+
+static bool ask_positive(iccp_cone *cone, uint32_t tet, int side, int corner)
+{
+    (void)corner;
+    return is_positive(cone, tet, side);
+}
+
+bool iccp_cone_is_star_good(iccp_cone *cone, uint32_t point)
+{
+    return ask_star(cone, point, ask_positive);
+}
+
+/* The side of the face opposite on which the point has to be. */
+static bool add_room(iccp_cone *cone, uint32_t tet, int side, int corner)
+{
+    const uint8_t *f = iccp_tet_face[corner];
+    if (!iccp_halfspaces_reserve(&cone->room, cone->room.n + 1)) {
+        cone->mesh.no_memory = true;
+        return false;
+    }
+    return iccp_halfspaces_add(&cone->room, corner_of(cone, tet, side, f[0]),
+                               corner_of(cone, tet, side, f[1]), corner_of(cone, tet, side, f[2]));
+}
+
+bool iccp_cone_find_room(iccp_cone *cone, uint32_t point)
+{
+    cone->room.n = 0;
+    return ask_star(cone, point, add_room);
+}
+
+bool iccp_cone_find_apex_room(iccp_cone *cone)
+{
+    cone->room.n = 0;
+    for (uint32_t t = 0; t < cone->mesh.n_tets; ++t)
+        for (int i = 0; iccp_cone_is_left(cone, t) && i < 4; ++i)
+            if (iccp_cone_is_front(cone, t, i) && !add_room(cone, t, i, i))
+                return false;
+    return true;
+}
+
+bool iccp_cone_is_apex_good(const iccp_cone *cone)
+{
+    for (uint32_t t = 0; t < cone->mesh.n_tets; ++t)
+        for (int i = 0; iccp_cone_is_left(cone, t) && i < 4; ++i)
+            if (iccp_cone_is_front(cone, t, i) && !is_positive(cone, t, i))
+                return false;
+    return true;
+}
+
+void iccp_cone_forget(iccp_cone *cone, uint32_t point)
+{
+    *iccp_cone_image(cone, point) = NAN;
+}
+
+void iccp_cone_put(iccp_cone *cone, uint32_t point, const double image[3])
+{
+    double *x = iccp_cone_image(cone, point);
+    memcpy(x, image, 3 * sizeof *x);
+    iccp_simplicial_round(3, x);
+}
