@@ -137,7 +137,7 @@ END_TEST
 
 /* Where the map makes larger, and no means are taken, a function that is interpolated exactly gives its
  * own values, but for the rounding of places. */
-static void check_function(function f, int32_t interpolation, int32_t kind, double limit)
+static void require_values(function f, int32_t interpolation, int32_t kind, double limit)
 {
     static const double part[8] = {8, 6, 22, 6, 22, 14, 8, 14};
     static const double turned[8] = {29, 1, 28, 19, 1, 18, 2, 1};
@@ -166,9 +166,9 @@ static void check_function(function f, int32_t interpolation, int32_t kind, doub
 START_TEST(test_functions)
 {
     for (int32_t kind = ICC_MAP_CURVES; kind <= ICC_MAP_MESH; ++kind) {
-        check_function(linear, 0, kind, 1e-5);
-        check_function(linear, ICC_INTERPOLATION_CUBIC, kind, 1e-5);
-        check_function(quadratic, ICC_INTERPOLATION_CUBIC, kind, 1e-4);
+        require_values(linear, 0, kind, 1e-5);
+        require_values(linear, ICC_INTERPOLATION_CUBIC, kind, 1e-5);
+        require_values(quadratic, ICC_INTERPOLATION_CUBIC, kind, 1e-4);
     }
 }
 END_TEST
