@@ -66,6 +66,7 @@ START_TEST(signs_are_those_of_moved_directions)
     }
     ck_assert_int_gt(n_flat, 1000);
 }
+END_TEST
 
 /* ---- overlays ---- */
 
@@ -237,6 +238,7 @@ START_TEST(random_drawings)
         free_drawn(&d[1]);
     }
 }
+END_TEST
 
 START_TEST(equal_drawings)
 {
@@ -253,6 +255,7 @@ START_TEST(equal_drawings)
         free_drawn(&d[1]);
     }
 }
+END_TEST
 
 /* Vertices on edges, edges on edges, vertices on vertices whose edges differ. */
 START_TEST(degenerate_drawings)
@@ -276,6 +279,7 @@ START_TEST(degenerate_drawings)
         free_drawn(&d[1]);
     }
 }
+END_TEST
 
 START_TEST(some_vertices_in_common)
 {
@@ -295,6 +299,7 @@ START_TEST(some_vertices_in_common)
         free_drawn(&d[1]);
     }
 }
+END_TEST
 
 START_TEST(too_many_crossings_are_refused)
 {
@@ -320,6 +325,7 @@ START_TEST(too_many_crossings_are_refused)
     free_drawn(&d[0]);
     free_drawn(&d[1]);
 }
+END_TEST
 
 static icc_status overlay_once(const icc_env *given, icc_error *err, void *argument)
 {
@@ -346,6 +352,7 @@ START_TEST(failures_leave_nothing_behind)
     free_drawn(&d[0]);
     free_drawn(&d[1]);
 }
+END_TEST
 
 int main(void)
 {

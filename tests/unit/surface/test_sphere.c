@@ -108,6 +108,7 @@ START_TEST(surfaces_shrink_and_grow)
         iccp_half_edges_free(&m);
     }
 }
+END_TEST
 
 START_TEST(an_edge_with_other_common_neighbours_stays)
 {
@@ -124,6 +125,7 @@ START_TEST(an_edge_with_other_common_neighbours_stays)
         ck_assert(m.degree[v] == 0 || !iccp_edge_collapsible(&m, m.out[v]));
     iccp_half_edges_free(&m);
 }
+END_TEST
 
 START_TEST(flat_parts_go_first)
 {
@@ -153,6 +155,7 @@ START_TEST(flat_parts_go_first)
     check_half_edges(&m);
     iccp_half_edges_free(&m);
 }
+END_TEST
 
 /* ---- certificates ---- */
 
@@ -205,6 +208,7 @@ START_TEST(a_double_cover_is_not_certified)
         iccp_half_edges_free(&m);
     }
 }
+END_TEST
 
 START_TEST(a_face_turned_over_or_flat_is_not_certified)
 {
@@ -221,6 +225,7 @@ START_TEST(a_face_turned_over_or_flat_is_not_certified)
     ck_assert_uint_eq(iccp_sphere_certify(&m, v).n_faces, 0);
     iccp_half_edges_free(&m);
 }
+END_TEST
 
 /* ---- drawings ---- */
 
@@ -266,6 +271,7 @@ START_TEST(hard_surfaces_are_drawn)
     }
     ck_assert_int_gt(n, 0);
 }
+END_TEST
 
 START_TEST(round_surfaces_stay_round)
 {
@@ -293,6 +299,7 @@ START_TEST(round_surfaces_stay_round)
         free(directions);
     }
 }
+END_TEST
 
 START_TEST(vertices_without_faces_get_zeros)
 {
@@ -308,6 +315,7 @@ START_TEST(vertices_without_faces_get_zeros)
     for (int k = 0; k < 3; ++k)
         ck_assert(directions[18 + k] == 0);
 }
+END_TEST
 
 /* What is left of a surface after collapses at random, and then by shape. */
 static void check_decimation(const obj *o, random_source *r)
@@ -348,6 +356,7 @@ START_TEST(real_surfaces_are_drawn)
         obj_free(&o);
     }
 }
+END_TEST
 
 START_TEST(decimated_surfaces_are_drawn)
 {
@@ -361,6 +370,7 @@ START_TEST(decimated_surfaces_are_drawn)
         obj_free(&o);
     }
 }
+END_TEST
 
 static icc_status draw_once(const icc_env *given, icc_error *err, void *argument)
 {
@@ -380,6 +390,7 @@ START_TEST(failures_leave_nothing_behind)
     surface_star(&shape, 3, .3, &r);
     faulty_sweep(draw_once, &shape);
 }
+END_TEST
 
 START_TEST(open_surfaces_are_refused)
 {
@@ -390,6 +401,7 @@ START_TEST(open_surfaces_are_refused)
     ck_assert_int_eq(iccp_sphere_draw(directions, 6, shape.vertices, 7, shape.faces, &env, &err),
                      ICC_ERR_BOUNDARY);
 }
+END_TEST
 
 int main(void)
 {
