@@ -238,8 +238,8 @@ static icc_status prepare(job *j, const iccp_memory *memory)
 {
     j->room = j->cone.mesh.points.room;
     j->far = iccp_alloc(memory, j->room, sizeof *j->far);
-    const bool has_memory = iccp_heap_create(&j->ready, j->most, memory) &
-                            iccp_heap_create(&j->next, j->most, memory) &
+    const bool has_memory = iccp_heap_create(&j->ready, j->most, memory) &&
+                            iccp_heap_create(&j->next, j->most, memory) &&
                             iccp_heap_create(&j->blocked, j->most, memory);
     return has_memory && j->far != NULL ? find_order(j, memory) : ICC_ERR_MEMORY;
 }
