@@ -119,7 +119,7 @@ printf 'BZh9' | names 'a bzip2 archive' 'unpack it first'
 printf '\377\3760\000' | names 'a text in UTF-16' 'UTF-8'
 printf '0106000020E6100000010000000103000000' | names 'well-known binary' 'ST_AsText'
 one='{"type":"Feature","geometry":{"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9]]]}}'
-printf '%s\n%s\n' "$one" "$one" | rejects ' ' 'none of the 2 features is a Polygon with the property "role"'
+printf '%s\n%s\n' "$one" "$one" | rejects ' ' 'none of the 2 features of the sequence is a Polygon with the property "role"'
 printf '%s %s\n' "$one" "$one" | rejects 1: 'this is not valid JSON'
 printf '%s\n{"type":"Polygon"}\n' "$one" | rejects ' ' "text 2 of 2 is a 'Polygon'; in a sequence each is a Feature"
 printf '\036%s\n\036{"type":\n' "$one" | rejects 3: 'the JSON ends early'

@@ -39,7 +39,7 @@ holds filled.mesh 'Tetrahedra'
 
 # Without --weld it is said what is missing; in the plane there is nothing to join.
 run 1 map -s cube.text.stl -t moved.text.stl -m field -n 8 -p points.txt
-says '28 vertices coincide with others: --weld joins them'
+says '28 vertices coincide with others, as those of STL do: --weld joins them'
 printf '0 0\n1 0\n1 1\n' >plane.txt
 run 1 map -s plane.txt -t plane.txt --weld -p points.txt
 says 'libicc: plane.txt: not a surface in space; --weld joins vertices of such'

@@ -111,7 +111,7 @@ printf 'x' | cat little.ply - | rejects ' ' 'there is more behind the last eleme
 # Faces that do not share their vertices: the hint, and what it says mends them.
 awk '/^v/ { v[++n] = $0 } /^f/ { for (i = 2; i <= 4; i++) print v[$i]; m += 3; print "f", m - 2, m - 1, m }' cube.obj >loose.obj
 run 1 check -s loose.obj --method field -n 8
-says '28 vertices coincide with others: --weld joins them'
+says '28 vertices coincide with others, as those of STL do: --weld joins them'
 run 1 map -s loose.obj -t loose.obj -p points.txt
 says '28 vertices coincide'
 "$tool" check -s loose.obj --method field -n 8 --json=report.json --repair joined.obj >out 2>err

@@ -264,11 +264,13 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
     if (n_chosen == 0 && cJSON_GetArraySize(features) == 1)
         return cJSON_GetArrayItem(features, 0);
     if (n_chosen != 1) {
-        spoilt(wrong, 0,
-               "%s of the %d features is a Polygon with the property \"role\": \"%s\"; exactly one "
-               "must be",
-               n_chosen == 0 ? "none" : "more than one", cJSON_GetArraySize(features),
-               cage_role_name(role));
+        spoilt(
+            wrong, 0,
+            "%s of the %d features%s is a Polygon with the property \"role\": \"%s\"; exactly one "
+            "must be",
+            n_chosen == 0 ? "none" : "more than one", cJSON_GetArraySize(features),
+            json_get(collection, "sequence") != NULL ? " of the sequence" : "",
+            cage_role_name(role));
         return NULL;
     }
     return chosen;
@@ -295,7 +297,7 @@ static bool read_object(cage *out, const cage_choice *choice, const cJSON *objec
     return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
 }
 
-/* The file's one text, or its sequence of Features as a collection. */
+/* The file's one text, or its sequence of Features as a collection that says so. */
 static cJSON *parse(const char *text, size_t n, problem *wrong)
 {
     cJSON *texts = json_parse_sequence(text, n, wrong), *all = NULL;
@@ -322,6 +324,7 @@ static cJSON *parse(const char *text, size_t n, problem *wrong)
     }
     all = cJSON_CreateObject();
     cJSON_AddStringToObject(all, "type", "FeatureCollection");
+    cJSON_AddTrueToObject(all, "sequence");
     cJSON_AddItemToObject(all, "features", texts);
     return all;
 }

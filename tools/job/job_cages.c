@@ -100,7 +100,8 @@ static int failed_surface(job *j, size_t side, const icc_error *err)
     char hint[120] = "";
     size_t n = weld_count(&j->cages[side]);
     if (n > 0)
-        snprintf(hint, sizeof hint, "; %zu vertices coincide with others: --weld joins them", n);
+        snprintf(hint, sizeof hint,
+                 "; %zu vertices coincide with others, as those of STL do: --weld joins them", n);
     return job_failed_with(j, err, hint);
 }
 
