@@ -9,6 +9,7 @@
 #define ICCP_TRIMESH_H
 
 #include "base/env.h"
+#include "base/triangle_corners.h"
 #include "mesh/walls.h"
 
 #include <stdbool.h>
@@ -30,17 +31,6 @@ typedef struct iccp_trimesh {
     uint32_t n_triangles;
     iccp_corner *corners; /* room for 3 (2 n_points - 2), as many as there are in the end */
 } iccp_trimesh;
-
-/* The next corner of the triangle, counter-clockwise. */
-static inline uint32_t iccp_after(uint32_t corner)
-{
-    return corner % 3 == 2 ? corner - 2 : corner + 1;
-}
-
-static inline uint32_t iccp_before(uint32_t corner)
-{
-    return corner % 3 == 0 ? corner + 2 : corner - 1;
-}
 
 /* The corner at the same vertex in the next triangle round it, counter-clockwise. */
 static inline uint32_t iccp_around(const iccp_trimesh *mesh, uint32_t corner)

@@ -72,7 +72,7 @@ static start start_inside(const walker *w, uint32_t face, vertex u, vertex v)
             return s;
         }
     for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) {
-        const vertex a = origin(w, h), b = origin(w, iccp_edge_next(h));
+        const vertex a = origin(w, h), b = origin(w, iccp_after(h));
         if (sign(u, v, a) < 0 && sign(u, v, b) > 0) {
             s.exit = h;
             s.ends = sign(a, b, v) > 0;
@@ -88,7 +88,7 @@ static start start_at(const walker *w, uint32_t h, uint32_t at, vertex u, vertex
     start s = {ICCP_NO_EDGE, ICCP_NO_EDGE, false};
     uint32_t e = m->out[at];
     do {
-        const vertex a = origin(w, iccp_edge_next(e)), b = origin(w, iccp_edge_previous(e));
+        const vertex a = origin(w, iccp_after(e)), b = origin(w, iccp_before(e));
         if (a.number == v.number) {
             w->walk->sector[h] = e;
             w->walk->sector[w->x->m->twin[h]] = m->twin[e];
@@ -97,7 +97,7 @@ static start start_at(const walker *w, uint32_t h, uint32_t at, vertex u, vertex
             return s;
         }
         if (b.number != v.number && sign(u, a, v) > 0 && sign(u, v, b) > 0) {
-            s.exit = iccp_edge_next(e);
+            s.exit = iccp_after(e);
             s.ends = sign(a, b, v) > 0;
             w->walk->sector[h] = e;
         }
@@ -123,7 +123,7 @@ static icc_status walk_edge(walker *w, uint32_t h, const iccp_env *env)
         const icc_status status = add_crossing(w, exit, env);
         if (status != ICC_OK)
             return status;
-        const uint32_t g = m->twin[exit], pr = iccp_edge_next(g), rq = iccp_edge_previous(g);
+        const uint32_t g = m->twin[exit], pr = iccp_after(g), rq = iccp_before(g);
         const vertex p = origin(w, pr), q = origin(w, g), r = origin(w, rq);
         exit = pr;
         if (r.number == v.number) {

@@ -24,10 +24,9 @@ typedef struct decimation {
     iccp_half_edges *m;
     const double *x;
     double (*quadric)[QUADRIC];
-    double area;   /* twice that of the surface */
-    uint32_t most; /* neighbours */
-    iccp_heap
-        heap; /* vertices by the cost of their cheapest collapse when they were last looked at */
+    double area;    /* twice that of the surface */
+    uint32_t most;  /* neighbours */
+    iccp_heap heap; /* vertices by their cheapest collapse's cost when they were last looked at */
 } decimation;
 
 static const double *at(const decimation *d, uint32_t vertex)
@@ -83,8 +82,8 @@ static double penalty(const decimation *d, uint32_t h)
     double factor = 1;
     uint32_t e = iccp_edge_turn(m, h);
     for (uint32_t next = iccp_edge_turn(m, e); next != h; e = next, next = iccp_edge_turn(m, e)) {
-        const double *const a = at(d, iccp_edge_end(m, e)), *const b =
-                                                                at(d, iccp_edge_end(m, next));
+        const double *const a = at(d, iccp_edge_end(m, e));
+        const double *const b = at(d, iccp_edge_end(m, next));
         double before[3], after[3];
         normal(before, u, a, b);
         normal(after, v, a, b);

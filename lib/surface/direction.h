@@ -16,6 +16,17 @@ static inline void iccp_direction(double out[3], const double v[3])
         out[k] = (v[k] / length + 3.0) - 3.0; /* between 2 and 4 doubles are 2^-51 apart */
 }
 
+/* Two more axes at right angles to a direction, to rounding; with it they are right-handed. */
+static inline void iccp_direction_axes(const double p[3], double axis[2][3])
+{
+    const double side[3] = {fabs(p[0]) < 0.7, fabs(p[0]) >= 0.7, 0};
+    iccp_vec_cross(p, side, axis[0]);
+    const double length = iccp_vec_norm(3, axis[0]);
+    for (int k = 0; k < 3; ++k)
+        axis[0][k] /= length;
+    iccp_vec_cross(p, axis[0], axis[1]);
+}
+
 /* The sign of a . (b x c): +1 when the three are counter-clockwise seen from outside and lie in one
  * open half of the sphere, so that they are the corners of a triangle there. */
 static inline int iccp_direction_sign(const double a[3], const double b[3], const double c[3])

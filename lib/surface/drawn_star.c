@@ -156,22 +156,11 @@ static void add_face(iccp_drawn_star_jet *jet, const iccp_drawn_star_face *f, co
     }
 }
 
-/* Two axes at right angles to a direction. */
-static void touch(double axis[2][3], const double p[3])
-{
-    const double side[3] = {fabs(p[0]) < 0.7, fabs(p[0]) >= 0.7, 0};
-    iccp_vec_cross(p, side, axis[0]);
-    const double length = iccp_vec_norm(3, axis[0]);
-    for (int k = 0; k < 3; ++k)
-        axis[0][k] /= length;
-    iccp_vec_cross(p, axis[0], axis[1]);
-}
-
 void iccp_drawn_star_expand(iccp_drawn_star_jet *jet, const iccp_drawn_star *star,
                             const double p[3])
 {
     *jet = (iccp_drawn_star_jet){0};
-    touch(jet->axis, p);
+    iccp_direction_axes(p, jet->axis);
     for (size_t i = 0; i < star->n; ++i) {
         const drawn d = draw(star, i, p);
         add_face(jet, &star->face[i], &d, p);

@@ -29,7 +29,7 @@ static icc_status join(iccp_half_edges *m, const iccp_env *env, icc_error *err)
         return iccp_fail_memory(err);
     const icc_status status = iccp_complex_join(&c, env, err);
     for (uint32_t h = 0; h < 3 * m->n_faces && status == ICC_OK; ++h) {
-        const uint32_t face = c.across[iccp_edge_previous(h)];
+        const uint32_t face = c.across[iccp_before(h)];
         m->twin[h] = edge_from(m, face, iccp_edge_end(m, h));
     }
     iccp_free(&m->memory, c.across);
@@ -102,8 +102,7 @@ typedef struct sides {
 static sides sides_of(const iccp_half_edges *m, uint32_t h)
 {
     const uint32_t g = m->twin[h];
-    return (sides){iccp_edge_next(h), iccp_edge_previous(h), iccp_edge_next(g),
-                   iccp_edge_previous(g)};
+    return (sides){iccp_after(h), iccp_before(h), iccp_after(g), iccp_before(g)};
 }
 
 static void pair(iccp_half_edges *m, uint32_t h, uint32_t g)

@@ -1,14 +1,15 @@
 /* A closed surface of triangles that shrinks by collapses of edges and grows again by taking them
  * back.
  *
- * Half-edge 3 f + i runs from corner i of face f to the next one. A collapse changes none of the
- * entries of the two faces that it takes away, so that they are all that is needed to take it back:
- * D. E. Knuth, Dancing Links, 2000. Taken back in reverse order the surface is what it was, number
- * by number. */
+ * Half-edge 3 f + i, which has the number of a corner, runs from it to the next one. A collapse
+ * changes none of the entries of the two faces that it takes away, so that they are all that is
+ * needed to take it back: D. E. Knuth, Dancing Links, 2000. Taken back in reverse order the surface
+ * is what it was, number by number. */
 #ifndef ICCP_HALF_EDGES_H
 #define ICCP_HALF_EDGES_H
 
 #include "base/env.h"
+#include "base/triangle_corners.h"
 
 #include <stdbool.h>
 
@@ -27,26 +28,16 @@ typedef struct iccp_half_edges {
     uint32_t *degree;       /* n_vertices: half-edges from it; 0: it is not there */
 } iccp_half_edges;
 
-static inline uint32_t iccp_edge_next(uint32_t h)
-{
-    return h % 3 == 2 ? h - 2 : h + 1;
-}
-
-static inline uint32_t iccp_edge_previous(uint32_t h)
-{
-    return h % 3 == 0 ? h + 2 : h - 1;
-}
-
 /* The vertex that it runs to. */
 static inline uint32_t iccp_edge_end(const iccp_half_edges *m, uint32_t h)
 {
-    return m->origin[iccp_edge_next(h)];
+    return m->origin[iccp_after(h)];
 }
 
 /* The next half-edge from the same vertex, counter-clockwise. */
 static inline uint32_t iccp_edge_turn(const iccp_half_edges *m, uint32_t h)
 {
-    return m->twin[iccp_edge_previous(h)];
+    return m->twin[iccp_before(h)];
 }
 
 /* Faces of a closed surface of one piece, on which those at a vertex form one ring; vertices

@@ -2,7 +2,7 @@
  * the centre of the sphere. */
 #include "surface/kernel_room.h"
 
-#include "math/vec.h"
+#include "surface/direction.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,16 +13,11 @@ static void begin(double (*corner)[3], const double *axis)
 {
     static const double eighth[ICCP_ROOM_CORNERS][2] = {
         {8, 0}, {5.5, 5.5}, {0, 8}, {-5.5, 5.5}, {-8, 0}, {-5.5, -5.5}, {0, -8}, {5.5, -5.5}};
-    const double side[3] = {fabs(axis[0]) < 0.7, fabs(axis[0]) >= 0.7, 0};
-    double u[3], v[3];
-    iccp_vec_cross(axis, side, u);
-    const double length = iccp_vec_norm(3, u);
-    for (int k = 0; k < 3; ++k)
-        u[k] /= length;
-    iccp_vec_cross(axis, u, v);
+    double across[2][3];
+    iccp_direction_axes(axis, across);
     for (int i = 0; i < ICCP_ROOM_CORNERS; ++i)
         for (int k = 0; k < 3; ++k)
-            corner[i][k] = axis[k] + eighth[i][0] * u[k] + eighth[i][1] * v[k];
+            corner[i][k] = axis[k] + eighth[i][0] * across[0][k] + eighth[i][1] * across[1][k];
 }
 
 /* Keeps what lies on the positive side of a plane. */
