@@ -64,9 +64,9 @@ static void augment(search *s, uint32_t i)
         s->row[j] = s->from[j] != NONE ? s->row[s->from[j]] : i;
 }
 
+/* Spot j goes to place row[j], along each cycle. */
 static void reorder(const search *s, iccp_spot *b)
 {
-    /* Spot j goes to place row[j], along each cycle. */
     for (uint32_t j = 0; j < s->n; ++j)
         while (s->row[j] != j) {
             const uint32_t to = s->row[j];

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "domain/features.h"
 #include "domain/features_check.h"
+#include "domain/segment.h"
 #include "match/feature_partners.h"
 
 #include <math.h>
@@ -10,30 +11,20 @@
 
 #define NONE UINT32_MAX
 
-/* The square of the distance from a segment. */
-static double away(const double *point, const double *p, const double *q)
-{
-    const double d[2] = {q[0] - p[0], q[1] - p[1]}, e[2] = {point[0] - p[0], point[1] - p[1]};
-    const double square = d[0] * d[0] + d[1] * d[1];
-    double along = square > 0 ? (d[0] * e[0] + d[1] * e[1]) / square : 0;
-    along = along > 0 ? along < 1 ? along : 1 : 0;
-    const double x = e[0] - along * d[0], y = e[1] - along * d[1];
-    return x * x + y * y;
-}
-
 /* The nearest feature; NONE: the outer ring is nearer, or there are none. */
 static uint32_t feature_near(const icc_domain *domain, const double *point)
 {
     const iccp_features *const all = domain->features;
-    double local[2], least = HUGE_VAL;
+    double local[2], share, least = HUGE_VAL;
     size_t nearest = 0;
     if (all == NULL || !isfinite(point[0]) || !isfinite(point[1]))
         return NONE;
     iccp_frame_in(&domain->frame, 2, point, local);
     for (size_t k = 0; k < all->n_places; ++k) {
         const uint32_t *const ends = domain->facets + 2 * k;
-        const double d = away(local, domain->vertices + 2 * (size_t)ends[0],
-                              domain->vertices + 2 * (size_t)ends[1]);
+        const double d =
+            iccp_segment_nearest(domain->vertices + 2 * (size_t)ends[0],
+                                 domain->vertices + 2 * (size_t)ends[1], local, &share);
         if (d < least) {
             least = d;
             nearest = k;
