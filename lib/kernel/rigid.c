@@ -22,6 +22,7 @@
 #include "base/minmax.h"
 #include "kernel/rigid_program.h"
 #include "kernel/structure.h"
+#include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,21 +38,13 @@ static const double MARGIN = 1.1;
 #define TYPICAL 100.0
 enum { MOST_STEPS = 10000 };
 
-static double dot(size_t n, const double *a, const double *b)
-{
-    double sum = 0;
-    for (size_t k = 0; k < n; ++k)
-        sum += a[k] * b[k];
-    return sum;
-}
-
 /* The sum of squared derivatives, each as much as it counts. */
 static double measure(const iccp_rigid *r, size_t n_places, const double *slopes)
 {
     const size_t row = r->nodes->dim * r->nodes->n_handles;
     double sum = 0;
     for (size_t k = 0; k < n_places; ++k)
-        sum += r->count[k] * dot(row, slopes + row * k, slopes + row * k);
+        sum += r->count[k] * iccp_vec_dot(row, slopes + row * k, slopes + row * k);
     return sum;
 }
 
@@ -81,7 +74,7 @@ static icc_status allow(const iccp_rigid *r, double *weights)
 /* How much the energy bends along a change of weights, whose derivatives go to `forces`. */
 static double find_bend(const iccp_rigid *r, const double *change)
 {
-    const double length2 = dot(iccp_rigid_weights(r), change, change);
+    const double length2 = iccp_vec_dot(iccp_rigid_weights(r), change, change);
     iccp_slopes_apply(&r->map, change, r->forces);
     return length2 > 0 ? measure(r, r->n_places, r->forces) / length2 : 0;
 }
@@ -105,7 +98,7 @@ static icc_status step(const iccp_rigid *r, double *bend, double *length)
     }
     for (size_t k = 0; k < iccp_rigid_derivatives(r); ++k)
         r->next.slopes[k] = r->ahead.slopes[k] + r->forces[k];
-    *length = *bend * sqrt(dot(iccp_rigid_weights(r), r->change, r->change));
+    *length = *bend * iccp_vec_norm(iccp_rigid_weights(r), r->change);
     return ICC_OK;
 }
 
@@ -138,8 +131,8 @@ static icc_status minimise(iccp_rigid *r, double *residual, const iccp_env *env)
     for (size_t i = 0; i < r->n_free; ++i)
         iccp_handles_project(r->handles, r->gradient + r->nodes->n_handles * i);
     double bend = MARGIN * find_bend(r, r->gradient);
-    extrapolate(n, 0, r->x.weights, r->x.weights, r->ahead.weights);
-    extrapolate(iccp_rigid_derivatives(r), 0, r->x.slopes, r->x.slopes, r->ahead.slopes);
+    memcpy(r->ahead.weights, r->x.weights, n * sizeof *r->x.weights);
+    memcpy(r->ahead.slopes, r->x.slopes, iccp_rigid_derivatives(r) * sizeof *r->x.slopes);
     for (size_t k = 0; bend > 0; ++k) {
         iccp_env round = iccp_round(env, k, TYPICAL);
         status = k < MOST_STEPS ? iccp_progress(&round, "weights", 0) : ICC_ERR_SOLVER;
@@ -149,8 +142,7 @@ static icc_status minimise(iccp_rigid *r, double *residual, const iccp_env *env)
         if (status != ICC_OK)
             return status;
         if (k == 0)
-            first =
-                iccp_max(length, bend * ROUNDING / RESIDUAL * sqrt(dot(n, r->before, r->before)));
+            first = iccp_max(length, bend * ROUNDING / RESIDUAL * iccp_vec_norm(n, r->before));
         const bool is_short = length <= RESIDUAL * first, restarted = age <= 1;
         const double older = age;
         age = is_short || turns_back(r) ? 1 : (1 + sqrt(1 + 4 * age * age)) / 2;

@@ -7,6 +7,8 @@
  * is 0 but for the free nodes: both lie near the part, and so does what is read of the factor. */
 #include "kernel/rigid_slopes.h"
 
+#include "math/vec.h"
+
 #include <string.h>
 
 static size_t n_rows(const iccp_slopes *s)
@@ -29,9 +31,7 @@ static void fill_kernel(iccp_sparse *out, const iccp_nodes *nodes,
         out->first[row] = n;
         for (size_t p = matrix->first[i]; p < matrix->first[i + 1]; ++p) {
             const double *y = nodes->points + dim * matrix->column[p];
-            double distance2 = 0;
-            for (size_t k = 0; k < dim; ++k)
-                distance2 += (x[k] - y[k]) * (x[k] - y[k]);
+            const double distance2 = iccp_vec_distance2(dim, x, y);
             out->column[n] = matrix->column[p];
             out->value[n++] = 2 * iccp_radial_slope(radial, distance2) * (x[axis] - y[axis]);
         }
