@@ -193,7 +193,7 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                             icc_map_info *info, const iccp_env *env)
 {
-    enum { STAGES = 4 };
+    enum { FIT, MEND, MEND_ANEW, UNFOLD, STAGES };
     static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1, 1, 1};
     const direction ways[2] = {{source, target}, {target, source}};
     iccp_solid_map other = {.memory = env->memory, .mesh = target->domain->mesh};
@@ -205,11 +205,12 @@ icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const 
     map->mesh = source->domain->mesh;
     other.stretch = 1 / map->stretch;
     for (size_t k = 0; status == ICC_OK && fewest > 0 && k < 2 * STAGES; ++k) {
-        const size_t side = k % 2;
-        status = k < 2   ? fit(maps[side], ways[side], info, &part[k])
-                 : k < 6 ? mend(maps[side], ways[side], k >= 4, info, &part[k])
-                         : unfold(maps[side], ways[side], info, &part[k]);
-        if (status == ICC_OK && info->n_unrepaired > 0 && k < 6)
+        const size_t stage = k / 2, side = k % 2;
+        iccp_solid_map *const m = maps[side];
+        status = stage == FIT      ? fit(m, ways[side], info, &part[k])
+                 : stage == UNFOLD ? unfold(m, ways[side], info, &part[k])
+                                   : mend(m, ways[side], stage == MEND_ANEW, info, &part[k]);
+        if (status == ICC_OK && info->n_unrepaired > 0 && stage != UNFOLD)
             iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
                      side == 0 ? "source" : "target");
         if (status == ICC_OK && info->n_unrepaired == 0 && side == 1)

@@ -69,18 +69,18 @@ static void paint_places(const warp *w, size_t n, const double *places, const do
 {
     iccp_gathered gathered = {{0}, 0};
     size_t n_known = 0;
-    for (size_t k = 0; k < n; ++k) {
+    for (size_t k = 0; k < n; ++k)
         n_known += isnan(places[2 * k]) ? 0 : 1;
-        if (w->values == NULL)
-            add_sample(&w->source, places + 2 * k, &gathered);
+    if (n_known == 0) {
+        places = else_at;
+        n = 1;
     }
     if (w->values != NULL) {
-        iccp_picture_values_paint(w->values, n_known > 0 ? n : 1, n_known > 0 ? places : else_at,
-                                  to);
+        iccp_picture_values_paint(w->values, n, places, to);
         return;
     }
-    if (!(gathered.weight > 0))
-        add_sample(&w->source, else_at, &gathered);
+    for (size_t k = 0; k < n; ++k)
+        add_sample(&w->source, places + 2 * k, &gathered);
     iccp_sampler_store(&w->source, &gathered, 1, to);
 }
 
