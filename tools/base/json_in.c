@@ -2,6 +2,7 @@
 
 #include "base/allocate.h"
 #include "base/foreign.h"
+#include "base/json_scan.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -28,14 +29,15 @@ cJSON *json_parse(const char *text, size_t n, problem *wrong)
 
 cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
 {
-    static const char separators[] = " \t\r\n\x1e";
     if (foreign_told(text, n, wrong))
         return NULL;
     cJSON *list = cJSON_CreateArray();
     const char *p = text + (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0),
                *end = text + n;
-    bool apart = true;
-    while (p += strspn(p, separators), p < end || cJSON_GetArraySize(list) == 0) {
+    bool apart;
+    p += json_scan_gap(p, &apart);
+    apart = true; /* the first text needs nothing before it */
+    while (p < end || cJSON_GetArraySize(list) == 0) {
         const char *stop = p;
         cJSON *item = apart ? cJSON_ParseWithLengthOpts(p, (size_t)(end - p) + 1, &stop, 0) : NULL;
         if (item == NULL) {
@@ -45,9 +47,7 @@ cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
             return NULL;
         }
         cJSON_AddItemToArray(list, item);
-        p = stop;
-        size_t n_between = strspn(p, separators);
-        apart = memchr(p, '\n', n_between) != NULL || memchr(p, '\x1e', n_between) != NULL;
+        p = stop + json_scan_gap(stop, &apart);
     }
     return list;
 }

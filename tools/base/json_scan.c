@@ -179,12 +179,18 @@ json_kind json_scan_next(json_scan *s)
     return kind;
 }
 
+size_t json_scan_gap(const char *p, bool *apart)
+{
+    size_t n = strspn(p, " \t\r\n\x1e");
+    *apart = memchr(p, '\n', n) != NULL || memchr(p, '\x1e', n) != NULL;
+    return n;
+}
+
 bool json_scan_more(json_scan *s)
 {
-    static const char separators[] = " \t\r\n\x1e";
     const char *p = s->text + s->at;
-    size_t n = strspn(p, separators);
-    bool apart = memchr(p, '\n', n) != NULL || memchr(p, '\x1e', n) != NULL;
+    bool apart;
+    size_t n = json_scan_gap(p, &apart);
     if (s->depth > 0 || !apart || p[n] != '{')
         return false;
     s->at += n;

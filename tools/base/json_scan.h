@@ -32,8 +32,11 @@ typedef struct json_scan {
 void json_scan_start(json_scan *s, const char *text, size_t n);
 json_kind json_scan_next(json_scan *s);
 
-/* Behind a value that stands in no other: whether another object follows, as in a sequence of texts,
- * where each begins on a line of its own or behind a record separator (RFC 8142). */
+/* The blanks and record separators between two texts of a sequence: how many there are. *apart:
+ * whether another text may follow, on a line of its own or behind a record separator (RFC 8142). */
+size_t json_scan_gap(const char *p, bool *apart);
+
+/* Behind a value that stands in no other: whether another object follows in such a sequence. */
 bool json_scan_more(json_scan *s);
 
 /* Passes over the rest of a value that began with a piece of this kind; JSON_BAD, or the kind. */

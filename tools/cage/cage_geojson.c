@@ -1,7 +1,8 @@
 /* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection, or the Features of one as
- * a sequence (RFC 8142). Rings behind the first are holes. In a FeatureCollection the property `role` says what belongs to which cage: "source"
- * and "target" Polygons, Points and LineStrings, these paired by an integer property `feature`, and
- * LineStrings "source-tie" and "target-tie" with numbers of their own.
+ * a sequence (RFC 8142). Rings behind the first are holes. In a FeatureCollection the property
+ * `role` says what belongs to which cage: "source" and "target" Polygons, Points and LineStrings,
+ * these paired by an integer property `feature`, and LineStrings "source-tie" and "target-tie" with
+ * numbers of their own.
  *
  * A ring that is not closed is taken as it is, like one in text. */
 #include "cage/cage_readers.h"

@@ -1,9 +1,9 @@
 /* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative, the first of which
  * is the outline and the others are holes.
  *
- * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size, and each arc
- * ARC_EDGES: so
- * the same path with moved points gives the same number of vertices, and they correspond. */
+ * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size, and
+ * each arc ARC_EDGES: so the same path with moved points gives the same number of vertices, and they
+ * correspond. */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"

@@ -20,8 +20,7 @@ static const double FIRST = 0.3;
 typedef struct animation {
     const args *args;
     size_t n_keys;
-    job *
-        keys; /* from the source to each cage of the path; maps and progress are those of the first */
+    job *keys; /* from the source to each cage of the path; the first one has map and progress */
     picture from;
     picture_style style;
     icc_map *map; /* to the cage of the present frame; not the first */
@@ -57,12 +56,7 @@ static picture canvas(animation *x)
 static int read_picture(animation *x)
 {
     const args *a = x->args;
-    size_t n;
-    char *bytes = file_read(a->operands[0], &n);
-    if (bytes == NULL)
-        return FAILED;
-    int result = picture_take(&x->from, a->operands[0], bytes, n);
-    free(bytes);
+    int result = picture_read(&x->from, a->operands[0]);
     if (result != DONE)
         return result;
     picture to = canvas(x);

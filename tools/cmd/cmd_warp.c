@@ -6,8 +6,6 @@
 #include "plot/picture_file.h"
 #include "plot/picture_warp.h"
 
-#include <stdlib.h>
-
 typedef struct warp {
     job job;
     picture from, to;
@@ -18,13 +16,8 @@ typedef struct warp {
 static int read_picture(warp *w)
 {
     const args *a = w->job.args;
-    size_t n;
-    char *bytes = file_read(a->operands[0], &n);
-    if (bytes == NULL)
-        return FAILED;
     bool clears = a->has_background || a->outside == OUTSIDE_NULL;
-    int result = picture_take(&w->from, a->operands[0], bytes, n);
-    free(bytes);
+    int result = picture_read(&w->from, a->operands[0]);
     if (result != DONE)
         return result;
     w->to = picture_canvas(&w->from, clears ? a->background : NULL);

@@ -27,15 +27,12 @@ static const format gltf = {"glTF", NULL, false, true, mesh_read_glb};
 /* The format of the file of n bytes, and in `r` where it begins, behind comments. */
 static const format *find_format(lines *r, size_t n)
 {
-    bool binary = mesh_is_glb(r->at, n);
-    if (binary || mesh_is_stl(r->at, n)) {
-        r->at += strncmp(r->at, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-        r->end = r->at + strcspn(r->at, "\n");
-        return binary ? &gltf : &stl;
-    }
+    const format *whole = mesh_is_glb(r->at, n) ? &gltf : mesh_is_stl(r->at, n) ? &stl : NULL;
     if (strncmp(r->at, "\xef\xbb\xbf", 3) == 0)
         r->at += 3;
     r->end = r->at + strcspn(r->at, "\n");
+    if (whole != NULL)
+        return whole;
     if (strncmp(r->at, formats[0].begin, strlen(formats[0].begin)) == 0)
         return &formats[0];
     while (lines_skip_blanks(r), r->at == r->end && lines_next(r))

@@ -1,5 +1,5 @@
-/* Reading a mesh: what the formats share, most of it for text. Each takes one line or one word at a time; blanks
- * and comments (from # on) are left out. Whatever returns false has said why. */
+/* Reading a mesh: what the formats share, most of it for text. Each takes one line or one word at a
+ * time; blanks and comments (from # on) are left out. Whatever returns false has said why. */
 #ifndef MESH_LINES_H
 #define MESH_LINES_H
 

@@ -12,11 +12,6 @@
  * bytes more. */
 enum { N_HEAD = 80, N_TRIANGLE = 50, N_POINT = 12 };
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 /* The size decides, since the first bytes may be anything, also `solid`. */
 static bool is_binary(const char *text, size_t n)
 {
@@ -29,7 +24,7 @@ static bool is_text(const char *text)
 {
     text += strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     text += strspn(text, " \t\r\n");
-    if (strncmp(text, "solid", 5) != 0 || (!is_blank(text[5]) && text[5] != '\0'))
+    if (strncmp(text, "solid", 5) != 0 || strchr(" \t\r\n", text[5]) == NULL) /* or the end */
         return false;
     const char *p = text + strcspn(text, "\n");
     p += strspn(p, " \t\r\n");

@@ -69,6 +69,15 @@ int picture_take(picture *out, const char *name, const char *bytes, size_t n)
     return picture_decode(out, bytes, n, &wrong) ? DONE : failed(name, 0, "%s", wrong.text);
 }
 
+int picture_read(picture *out, const char *name)
+{
+    size_t n;
+    char *bytes = file_read(name, &n);
+    int result = bytes != NULL ? picture_take(out, name, bytes, n) : FAILED;
+    free(bytes);
+    return result;
+}
+
 /* The format that a name says. */
 static picture_format named(const char *name)
 {

@@ -21,8 +21,9 @@ unsigned char *picture_encode(const picture *p, const picture_style *style, size
 int picture_choose(picture_style *style, const picture *p, const picture *from, int32_t quality,
                    const char *of, const char *name);
 
-/* picture_decode() of a file that has been read, and picture_encode() to a file: DONE, or FAILED
- * with a line on stderr. */
+/* picture_decode() of a file, also of one that has been read, and picture_encode() to a file: DONE,
+ * or FAILED with a line on stderr. */
+int picture_read(picture *out, const char *name);
 int picture_take(picture *out, const char *name, const char *bytes, size_t n);
 int picture_save(const picture *p, const picture_style *style, const char *name);
 
