@@ -2,6 +2,8 @@
 #include "map/warp.h"
 #include "map/warp_points.h"
 
+#include "../../pictures.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,23 +14,14 @@
 static icc_picture make(int32_t width, int32_t height, int32_t channels, int32_t bytes,
                         int32_t alpha)
 {
-    icc_picture p = {.size = sizeof p,
-                     .width = width,
-                     .height = height,
-                     .channels = channels,
-                     .bytes = bytes,
-                     .alpha = alpha,
-                     /* A gap between rows, so that strides are taken seriously. */
-                     .stride = (size_t)width * (size_t)(channels * bytes) + 3};
-    p.pixels = calloc(p.stride, (size_t)height);
-    ck_assert_ptr_nonnull(p.pixels);
+    icc_picture p = make_picture(width, height, channels, bytes);
+    p.alpha = alpha;
     return p;
 }
 
 static unsigned get(const icc_picture *p, int32_t i, int32_t j, int32_t c)
 {
-    const uint8_t *at = (const uint8_t *)p->pixels + (size_t)j * p->stride +
-                        (size_t)((i * p->channels + c) * p->bytes);
+    const uint8_t *at = sample_at(p, i, j, c);
     uint16_t two;
     memcpy(&two, at, p->bytes == 2 ? 2 : 1);
     return p->bytes == 2 ? two : *at;
@@ -36,8 +29,7 @@ static unsigned get(const icc_picture *p, int32_t i, int32_t j, int32_t c)
 
 static void set(const icc_picture *p, int32_t i, int32_t j, int32_t c, unsigned value)
 {
-    uint8_t *at =
-        (uint8_t *)p->pixels + (size_t)j * p->stride + (size_t)((i * p->channels + c) * p->bytes);
+    uint8_t *at = sample_at(p, i, j, c);
     const uint16_t two = (uint16_t)value;
     if (p->bytes == 2)
         memcpy(at, &two, 2);
@@ -64,41 +56,7 @@ static void fill_waves(const icc_picture *p)
                                (127.5 + 120 * sin(0.02 * (i + c * 9) + 0.013 * j))));
 }
 
-static bool same(const icc_picture *a, const icc_picture *b)
-{
-    return memcmp(a->pixels, b->pixels, a->stride * (size_t)a->height) == 0;
-}
-
 /* ---- maps ---- */
-
-typedef struct mapped {
-    icc_domain *source, *target;
-    icc_map *map;
-} mapped;
-
-static mapped make_map(size_t n, const double *source, const double *target, int32_t kind)
-{
-    mapped m;
-    const icc_map_options options = {.size = sizeof options, .kind = kind};
-    ck_assert_int_eq(icc_domain_create(&m.source, 2, n, source, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_create(&m.target, 2, n, target, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_create(&m.map, m.source, m.target, &options, NULL, NULL), ICC_OK);
-    return m;
-}
-
-static void unmake(mapped *m)
-{
-    icc_map_free(m->map);
-    icc_domain_free(m->source);
-    icc_domain_free(m->target);
-}
-
-static void warp(const mapped *m, const icc_picture *from, const icc_picture *to)
-{
-    size_t n_failed = 77;
-    ck_assert_int_eq(icc_map_warp(m->map, from, to, &n_failed, NULL, NULL), ICC_OK);
-    ck_assert_uint_eq(n_failed, 0);
-}
 
 static int32_t map_kind(const mapped *m)
 {

@@ -1,6 +1,8 @@
 /* Pictures of values: floats, many channels, other interpolations, missing samples. */
 #include <icc/icc.h>
 
+#include "../../pictures.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdbool.h>
@@ -9,47 +11,11 @@
 
 enum { WIDE = 30, HIGH = 20, MOST = 64 };
 
-typedef struct mapped {
-    icc_domain *source, *target;
-    icc_map *map;
-} mapped;
-
 static const double frame[8] = {0, 0, WIDE, 0, WIDE, HIGH, 0, HIGH};
-
-static mapped make_map(const double *source, const double *target, int32_t kind)
-{
-    mapped m;
-    const icc_map_options options = {.size = sizeof options, .kind = kind};
-    ck_assert_int_eq(icc_domain_create(&m.source, 2, 4, source, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_create(&m.target, 2, 4, target, 0, NULL, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_create(&m.map, m.source, m.target, &options, NULL, NULL), ICC_OK);
-    return m;
-}
-
-static void unmake(mapped *m)
-{
-    icc_map_free(m->map);
-    icc_domain_free(m->source);
-    icc_domain_free(m->target);
-}
 
 static icc_picture make(int32_t channels, int32_t bytes)
 {
-    icc_picture p = {.size = sizeof p,
-                     .width = WIDE,
-                     .height = HIGH,
-                     .channels = channels,
-                     .bytes = bytes,
-                     .stride = (size_t)(WIDE * channels * bytes) + 3};
-    p.pixels = calloc(p.stride, HIGH);
-    ck_assert_ptr_nonnull(p.pixels);
-    return p;
-}
-
-static void *at(const icc_picture *p, int32_t i, int32_t j, int32_t c)
-{
-    return (uint8_t *)p->pixels + (size_t)j * p->stride +
-           (size_t)(i * p->channels + c) * (size_t)p->bytes;
+    return make_picture(WIDE, HIGH, channels, bytes);
 }
 
 static double get(const icc_picture *p, int32_t i, int32_t j, int32_t c)
@@ -57,7 +23,7 @@ static double get(const icc_picture *p, int32_t i, int32_t j, int32_t c)
     uint16_t two;
     float four;
     double eight;
-    const void *sample = at(p, i, j, c);
+    const void *sample = sample_at(p, i, j, c);
     memcpy(&two, sample, p->bytes == 1 ? 1 : 2);
     if (p->bytes <= 2)
         return p->bytes == 1 ? *(const uint8_t *)sample : two;
@@ -77,7 +43,7 @@ static void set(const icc_picture *p, int32_t i, int32_t j, int32_t c, double va
                        : p->bytes == 2 ? (const void *)&two
                        : p->bytes == 4 ? (const void *)&four
                                        : (const void *)&value;
-    memcpy(at(p, i, j, c), from, (size_t)p->bytes);
+    memcpy(sample_at(p, i, j, c), from, (size_t)p->bytes);
 }
 
 typedef double (*function)(double x, double y);
@@ -105,22 +71,10 @@ static double checks(double x, double y)
     return fmod(floor(x) + floor(y), 2) > 0 ? 200 : 10;
 }
 
-static void warp(const mapped *m, const icc_picture *from, const icc_picture *to)
-{
-    size_t n_failed = 77;
-    ck_assert_int_eq(icc_map_warp(m->map, from, to, &n_failed, NULL, NULL), ICC_OK);
-    ck_assert_uint_eq(n_failed, 0);
-}
-
-static bool same(const icc_picture *a, const icc_picture *b)
-{
-    return memcmp(a->pixels, b->pixels, a->stride * HIGH) == 0;
-}
-
 START_TEST(test_identity)
 {
     static const int32_t sizes[4] = {1, 2, 4, 8};
-    mapped m = make_map(frame, frame, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, frame, ICC_MAP_MESH);
     for (int32_t k = 0; k < 48; ++k) {
         icc_picture from = make(k % 4 == 0 ? MOST : k % 4, sizes[k / 4 % 4]);
         icc_picture to = make(from.channels, from.bytes);
@@ -141,7 +95,7 @@ static void require_values(function f, int32_t interpolation, int32_t kind, doub
 {
     static const double part[8] = {8, 6, 22, 6, 22, 14, 8, 14};
     static const double turned[8] = {29, 1, 28, 19, 1, 18, 2, 1};
-    mapped m = make_map(part, turned, kind);
+    mapped m = make_map(4, part, turned, kind);
     icc_picture from = make(2, 8), to = make(2, 8);
     size_t n_seen = 0;
     from.interpolation = interpolation;
@@ -178,7 +132,7 @@ START_TEST(test_shift)
 {
     const double shifted[8] = {0.25,        0.5,        WIDE + 0.25, 0.5,
                                WIDE + 0.25, HIGH + 0.5, 0.25,        HIGH + 0.5};
-    mapped m = make_map(frame, shifted, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, shifted, ICC_MAP_MESH);
     for (int32_t k = 0; k < 3; ++k) {
         icc_picture from = make(1, 8), to = make(1, 8);
         from.interpolation = k + 1;
@@ -201,7 +155,7 @@ END_TEST
 START_TEST(test_channels)
 {
     const double small[8] = {2, 3, 14, 2, 15, 12, 3, 11};
-    mapped m = make_map(frame, small, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, small, ICC_MAP_MESH);
     for (int32_t k = 0; k < 3; ++k) {
         icc_picture from = make(MOST, 2), to = make(MOST, 2);
         from.interpolation = k + 1;
@@ -238,7 +192,7 @@ START_TEST(test_nodata)
 {
     const double shifted[8] = {0.25,        0.25,        WIDE + 0.25, 0.25,
                                WIDE + 0.25, HIGH + 0.25, 0.25,        HIGH + 0.25};
-    mapped m = make_map(frame, shifted, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, shifted, ICC_MAP_MESH);
     for (int32_t k = 0; k < 12; ++k) {
         const int32_t bytes = k % 2 == 0 ? 4 : 8;
         icc_picture from = make(2, bytes), to = make(2, bytes);
@@ -270,7 +224,7 @@ END_TEST
 START_TEST(test_threads)
 {
     const double bent[8] = {2, 1, 29, 3, 26, 19, 4, 16};
-    mapped m = make_map(frame, bent, ICC_MAP_CURVES);
+    mapped m = make_map(4, frame, bent, ICC_MAP_CURVES);
     icc_picture from = make(5, 4), first = make(5, 4);
     fill(&from, quadratic);
     warp(&m, &from, &first);
@@ -291,7 +245,7 @@ END_TEST
 START_TEST(test_colours_as_before)
 {
     const double bent[8] = {2, 1, 29, 3, 26, 19, 4, 16};
-    mapped m = make_map(frame, bent, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, bent, ICC_MAP_MESH);
     icc_picture from = make(4, 1), first = make(4, 1);
     from.alpha = first.alpha = 1;
     fill(&from, checks);
@@ -313,7 +267,7 @@ END_TEST
 
 START_TEST(test_arguments)
 {
-    mapped m = make_map(frame, frame, ICC_MAP_MESH);
+    mapped m = make_map(4, frame, frame, ICC_MAP_MESH);
     icc_picture from = make(4, 8), to = make(4, 8);
     for (int k = 0; k < 7; ++k) {
         icc_picture bad = from, target = to;
