@@ -890,8 +890,8 @@ typedef struct icc_match_info {
     size_t n_vertices;  /**< common vertices of the two domains */
     size_t n_landmarks; /**< landmarks; they are among these */
     size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
-    double cost; /**< of the outer rings' pairing: 0 for similar shapes, at most 4; HUGE_VAL by arc
-                             length */
+    double cost;        /**< of the outer rings' pairing: 0 for similar shapes, at most 4;
+                             HUGE_VAL by arc length */
     double second;      /**< of the best one that differs from it by more than 5 % of the
                              perimeter; HUGE_VAL: no other was found, or there were landmarks */
     double sure;        /**< (second + 0.05) / (cost + 0.05): 1 if another pairing is as good; a

@@ -42,7 +42,7 @@ def map_points(mapping: Map, points: Any, *, inverse: bool = False) -> Any:
         raise ValueError(f"points must have the shape (.., {mapping.dim}), not {points.shape}")
     points = points.rechunk({points.ndim - 1: -1})
     return map_blocks(_images, points, delayed(mapping, pure=True), inverse, dtype=np.float64,
-                         meta=np.empty((0,) * points.ndim))
+                      meta=np.empty((0,) * points.ndim))
 
 
 def _map_rows(mapping: Map, source: str, target: str, first: int, last: int, inverse: bool) -> int:
@@ -139,7 +139,7 @@ def warp_raster(mapping: Map, raster: Raster, out: Optional[Grid] = None, *, chu
     chunks = ((raster.n_bands,), *(_chunks(n, chunk) for n in (out.height, out.width)))
     how = Sampling(resampling, fill, raster.nodata, max_pixels)
     return map_blocks(_warp_block, delayed(mapping, pure=True), raster, out, how, chunks=chunks,
-                         dtype=raster.dtype, meta=np.empty((0, 0, 0), raster.dtype))
+                      dtype=raster.dtype, meta=np.empty((0, 0, 0), raster.dtype))
 
 
 def _chunks(n: int, chunk: int) -> Tuple[int, ...]:
