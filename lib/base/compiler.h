@@ -11,7 +11,12 @@
 #endif
 #define ICCP_LIKELY(x) __builtin_expect(!!(x), 1)
 #define ICCP_UNLIKELY(x) __builtin_expect(!!(x), 0)
+/* Copies of a loop for each dimension, say: where small code is asked for, the compiler judges. */
+#ifdef __OPTIMIZE_SIZE__
+#define ICCP_INLINE inline
+#else
 #define ICCP_INLINE inline __attribute__((always_inline))
+#endif
 #define ICCP_PREFETCH(address) __builtin_prefetch(address)
 #else
 #define ICCP_PRINTF(text, first)
