@@ -8,7 +8,6 @@
 typedef struct walker {
     iccp_arc_walk *walk;
     const iccp_drawing *x, *y; /* x walks through y */
-    uint32_t *face;            /* by vertex of x that is not y's: the face of y that it is in */
     uint32_t *queue;           /* vertices of x whose place is known */
     uint8_t *is_known;
     size_t most;
@@ -116,7 +115,7 @@ static icc_status walk_edge(walker *w, uint32_t h, const iccp_env *env)
     const uint32_t twin = w->x->m->twin[h], partner = w->x->partner[from];
     const vertex u = vertex_of(w->x, from), v = vertex_of(w->x, to);
     w->walk->begin[h] = (uint32_t)w->walk->n_crossed;
-    const start s = partner == ICCP_NO_EDGE ? start_inside(w, w->face[from], u, v)
+    const start s = partner == ICCP_NO_EDGE ? start_inside(w, w->walk->face[from], u, v)
                                             : start_at(w, h, partner, u, v);
     uint32_t exit = s.exit, corner = s.corner;
     for (bool ends = s.ends; !ends;) {
@@ -137,7 +136,7 @@ static icc_status walk_edge(walker *w, uint32_t h, const iccp_env *env)
     }
     w->walk->n[h] = w->walk->n[twin] = (uint32_t)w->walk->n_crossed - w->walk->begin[h];
     if (w->x->partner[to] == ICCP_NO_EDGE)
-        w->face[to] = exit / 3;
+        w->walk->face[to] = exit / 3;
     else if (corner != ICCP_NO_EDGE)
         w->walk->sector[twin] = corner;
     return ICC_OK;
@@ -171,7 +170,7 @@ static icc_status walk_all(walker *w, const iccp_env *env)
     w->queue[0] = first;
     w->is_known[first] = 1;
     if (w->x->partner[first] == ICCP_NO_EDGE)
-        w->face[first] = find_face(w, vertex_of(w->x, first));
+        w->walk->face[first] = find_face(w, vertex_of(w->x, first));
     for (size_t k = 0; k < n_known && status == ICC_OK; ++k) {
         const uint32_t v = w->queue[k];
         uint32_t h = m->out[v];
@@ -203,15 +202,14 @@ icc_status iccp_arc_walk_create(iccp_arc_walk *walk, const iccp_drawing *walked,
     walk->n = iccp_alloc(memory, n, sizeof *walk->n);
     walk->sector = iccp_alloc(memory, n, sizeof *walk->sector);
     walk->is_common = iccp_alloc_zero(memory, n, 1);
-    w.face = iccp_alloc(memory, n_vertices, sizeof *w.face);
+    walk->face = iccp_alloc(memory, n_vertices, sizeof *walk->face);
     w.queue = iccp_alloc(memory, n_vertices, sizeof *w.queue);
     w.is_known = iccp_alloc_zero(memory, n_vertices, 1);
     if (walk->begin != NULL && walk->n != NULL && walk->sector != NULL && walk->is_common != NULL &&
-        w.face != NULL && w.queue != NULL && w.is_known != NULL) {
+        walk->face != NULL && w.queue != NULL && w.is_known != NULL) {
         memset(walk->begin, 0xff, n * sizeof *walk->begin);
         status = walk_all(&w, env);
     }
-    iccp_free(memory, w.face);
     iccp_free(memory, w.queue);
     iccp_free(memory, w.is_known);
     return status == ICC_ERR_RESOLUTION
@@ -226,6 +224,7 @@ void iccp_arc_walk_free(iccp_arc_walk *walk, const iccp_memory *memory)
     iccp_free(memory, walk->n);
     iccp_free(memory, walk->sector);
     iccp_free(memory, walk->is_common);
+    iccp_free(memory, walk->face);
     iccp_free(memory, walk->crossed);
     *walk = (iccp_arc_walk){0};
 }

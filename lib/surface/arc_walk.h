@@ -21,6 +21,7 @@ typedef struct iccp_arc_walk {
     uint32_t *sector;   /* from a vertex that is also the other's: the other's half-edge from there
                           that comes before it, clockwise, or lies on it */
     uint8_t *is_common; /* whether it lies on it: the edge is one of both drawings */
+    uint32_t *face;     /* by vertex that is not the other's: the other's face that it is in */
     size_t n_crossed, room;
     uint32_t *crossed; /* the other's half-edges, from right to left, in the order of the way */
 } iccp_arc_walk;

@@ -16,7 +16,8 @@ typedef struct graph {
     iccp_arc_walk walk[2];
     uint32_t *piece[2]; /* by half-edge that was walked: its first piece */
     iccp_paired_crossings paired;
-    size_t n_pieces;
+    size_t n_pieces, n_first; /* those of the first drawing's edges come first */
+    uint32_t *along;          /* by piece: its half-edge, as it was walked */
     uint32_t *origin; /* by dart: its node */
     uint32_t *back;   /* by dart: the next one at the node, clockwise */
 } graph;
@@ -41,13 +42,26 @@ static uint32_t first_dart(const graph *g, int side, uint32_t h)
 
 static void number_pieces(graph *g)
 {
-    for (int side = 0; side < 2; ++side)
+    for (int side = 0; side < 2; ++side) {
+        g->n_first = g->n_pieces;
         for (uint32_t h = 0; h < 3 * g->drawing[side].m->n_faces; ++h) {
             const bool counts =
                 g->walk[side].begin[h] != ICCP_NO_EDGE && !(side == 1 && g->walk[1].is_common[h]);
             g->piece[side][h] = (uint32_t)g->n_pieces;
             if (counts)
                 g->n_pieces += g->walk[side].n[h] + 1;
+        }
+    }
+}
+
+static void name_pieces(graph *g)
+{
+    for (int side = 0; side < 2; ++side)
+        for (uint32_t h = 0; h < 3 * g->drawing[side].m->n_faces; ++h) {
+            const bool counts =
+                g->walk[side].begin[h] != ICCP_NO_EDGE && !(side == 1 && g->walk[1].is_common[h]);
+            for (uint32_t k = 0; counts && k <= g->walk[side].n[h]; ++k)
+                g->along[g->piece[side][h] + k] = h;
         }
 }
 
@@ -138,7 +152,29 @@ static void turn_round_crossings(graph *g, size_t n_vertices)
 
 /* ---- faces ---- */
 
-/* Follows the darts round each face, which is to their left. */
+/* A dart of a face: the drawings' faces to its left, where it runs along their edges. */
+static void look_left(uint32_t within[2], const graph *g, uint32_t dart)
+{
+    const int side = dart / 2 >= g->n_first;
+    const uint32_t along = g->along[dart / 2];
+    const uint32_t h = dart % 2 == 0 ? along : g->drawing[side].m->twin[along];
+    within[side] = h / 3;
+    if (side == 0 && g->walk[0].is_common[h])
+        within[1] = g->walk[0].sector[h] / 3;
+}
+
+/* A corner of a face: the face of the other drawing that a vertex of one alone is in. */
+static void look_round(uint32_t within[2], const iccp_sphere_overlay *overlay, const graph *g,
+                       uint32_t node)
+{
+    const int side = node >= overlay->n_vertices[0];
+    const uint32_t v = node - (uint32_t)(side == 1 ? overlay->n_vertices[0] : 0);
+    if (v < overlay->n_vertices[side] && g->drawing[side].partner[v] == ICCP_NO_EDGE)
+        within[1 - side] = g->walk[side].face[v];
+}
+
+/* Follows the darts round each face, which is to their left. A face that has no edge of a drawing
+ * is one of the other, whole: at least two of its corners are of that alone. */
 static bool trace_faces(iccp_sphere_overlay *overlay, graph *g, uint8_t *is_done)
 {
     size_t n = 0;
@@ -146,15 +182,23 @@ static bool trace_faces(iccp_sphere_overlay *overlay, graph *g, uint8_t *is_done
         uint32_t dart = first;
         if (is_done[first])
             continue;
+        uint32_t within[2] = {0, 0};
         overlay->begin[overlay->n_faces++] = (uint32_t)n;
         do {
             is_done[dart] = 1;
+            look_round(within, overlay, g, g->origin[dart]);
             overlay->corner[n++] = g->origin[dart];
             dart = g->back[reversed(dart)];
         } while (!is_done[dart]);
         const size_t corners = n - overlay->begin[overlay->n_faces - 1];
         if (dart != first || corners < 3 || corners > ICCP_OVERLAY_CORNERS)
             return false;
+        do {
+            look_left(within, g, dart);
+            dart = g->back[reversed(dart)];
+        } while (dart != first);
+        for (int side = 0; side < 2; ++side)
+            overlay->within[side][overlay->n_faces - 1] = within[side];
     }
     overlay->begin[overlay->n_faces] = (uint32_t)n;
     return overlay->n_nodes + overlay->n_faces == g->n_pieces + 2;
@@ -170,10 +214,14 @@ static icc_status make_faces(iccp_sphere_overlay *overlay, graph *g, const iccp_
     g->back = iccp_alloc(memory, g->n_pieces, 2 * sizeof *g->back);
     overlay->begin = iccp_alloc(memory, g->n_pieces, sizeof *overlay->begin);
     overlay->corner = iccp_alloc(memory, g->n_pieces, 2 * sizeof *overlay->corner);
+    for (int side = 0; side < 2; ++side)
+        overlay->within[side] = iccp_alloc(memory, g->n_pieces, sizeof *overlay->within[side]);
+    g->along = iccp_alloc(memory, g->n_pieces, sizeof *g->along);
     overlay->crossing = iccp_alloc(memory, overlay->n_crossings, sizeof *overlay->crossing);
     uint8_t *const is_done = iccp_alloc_zero(memory, g->n_pieces, 2);
-    if (g->origin == NULL || g->back == NULL || overlay->begin == NULL || overlay->corner == NULL ||
-        overlay->crossing == NULL || is_done == NULL) {
+    if (g->origin == NULL || g->back == NULL || g->along == NULL || overlay->begin == NULL ||
+        overlay->corner == NULL || overlay->crossing == NULL || overlay->within[0] == NULL ||
+        overlay->within[1] == NULL || is_done == NULL) {
         iccp_free(memory, is_done);
         return iccp_fail_memory(err);
     }
@@ -181,6 +229,7 @@ static icc_status make_faces(iccp_sphere_overlay *overlay, graph *g, const iccp_
         overlay->crossing[p][0] = g->paired.edge_of[0][p];
         overlay->crossing[p][1] = g->walk[0].crossed[p];
     }
+    name_pieces(g);
     turn_round_vertices(g);
     turn_round_common(g);
     turn_round_crossings(g, n_vertices);
@@ -223,6 +272,7 @@ static void free_graph(graph *g, const iccp_memory *memory)
         iccp_free(memory, g->piece[side]);
     }
     iccp_paired_crossings_free(&g->paired, memory);
+    iccp_free(memory, g->along);
     iccp_free(memory, g->origin);
     iccp_free(memory, g->back);
 }
@@ -239,6 +289,13 @@ icc_status iccp_sphere_overlay_create(iccp_sphere_overlay *overlay,
     const size_t most = most_crossings < most_of_all ? most_crossings : most_of_all;
     status =
         status == ICC_OK ? overlay_all(overlay, &g, most, env, err) : iccp_explain(err, status);
+    /* Where vertices are is kept. */
+    overlay->partner = g.drawing[0].partner;
+    g.drawing[0].partner = NULL;
+    for (int side = 0; side < 2; ++side) {
+        overlay->face[side] = g.walk[side].face;
+        g.walk[side].face = NULL;
+    }
     free_graph(&g, &env->memory);
     return status;
 }
@@ -248,5 +305,10 @@ void iccp_sphere_overlay_free(iccp_sphere_overlay *overlay, const iccp_memory *m
     iccp_free(memory, overlay->crossing);
     iccp_free(memory, overlay->begin);
     iccp_free(memory, overlay->corner);
+    iccp_free(memory, overlay->partner);
+    for (int side = 0; side < 2; ++side) {
+        iccp_free(memory, overlay->face[side]);
+        iccp_free(memory, overlay->within[side]);
+    }
     *overlay = (iccp_sphere_overlay){0};
 }

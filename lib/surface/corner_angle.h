@@ -1,0 +1,31 @@
+/* Angles and normals of triangles in space. */
+#ifndef ICCP_CORNER_ANGLE_H
+#define ICCP_CORNER_ANGLE_H
+
+#include "base/minmax.h"
+#include "math/vec.h"
+
+/* A normal, as long as twice the area. */
+static inline void iccp_triangle_normal(double normal[3], const double *a, const double *b,
+                                        const double *c)
+{
+    const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+    iccp_vec_cross(u, v, normal);
+}
+
+/* The sine of the least angle of a triangle: its height on the longest side by the longer one of
+ * the others. 0 if it has no area. */
+static inline double iccp_least_sine(const double *a, const double *b, const double *c)
+{
+    double normal[3];
+    iccp_triangle_normal(normal, a, b, c);
+    const double twice = iccp_vec_norm(3, normal);
+    const double ab = iccp_vec_distance2(3, a, b), bc = iccp_vec_distance2(3, b, c);
+    const double ca = iccp_vec_distance2(3, c, a);
+    /* Of the three products of two sides the largest is that at the least angle. */
+    const double most = iccp_max(ab * bc, iccp_max(bc * ca, ca * ab));
+    return most > 0 ? twice / sqrt(most) : 0;
+}
+
+#endif
