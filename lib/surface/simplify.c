@@ -247,13 +247,12 @@ static icc_status run(simplification *s, const iccp_env *env)
 
 /* ---- from beginning to end ---- */
 
-/* Leaves out vertices and triangles that are no longer there; the others keep their order. `number`
- * has room for all vertices. */
-static void compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *number)
+/* Leaves out vertices and triangles that are no longer there; the others keep their order. */
+static void compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *became)
 {
     size_t n = 0, n_faces = 0;
     for (uint32_t v = 0; v < m->n_vertices; ++v) {
-        number[v] = (uint32_t)n;
+        became[v] = (uint32_t)n;
         if (m->degree[v] == 0)
             continue;
         for (int side = 0; side < 2; ++side) {
@@ -270,14 +269,18 @@ static void compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *
         for (int side = 0; side < 2; ++side)
             c->within[side][n_faces] = c->within[side][f];
         for (int i = 0; i < 3; ++i)
-            c->faces[3 * n_faces + (size_t)i] = number[v[i]];
+            c->faces[3 * n_faces + (size_t)i] = became[v[i]];
         ++n_faces;
+    }
+    for (size_t k = m->n_collapsed; k-- > 0;) {
+        const uint32_t h = m->collapsed[k];
+        became[m->origin[h]] = became[iccp_edge_end(m, h)];
     }
     c->n_vertices = n;
     c->n_faces = n_faces;
 }
 
-static icc_status simplify(simplification *s, iccp_common_surface *c,
+static icc_status simplify(simplification *s, iccp_common_surface *c, uint32_t *became,
                            const iccp_half_edges *const given[2], const double *const x[2],
                            const iccp_env *env)
 {
@@ -297,19 +300,19 @@ static icc_status simplify(simplification *s, iccp_common_surface *c,
         return ICC_ERR_MEMORY;
     const icc_status status = run(s, env);
     if (status == ICC_OK)
-        compact(c, &s->m, s->first[0]);
+        compact(c, &s->m, became);
     return status;
 }
 
-icc_status iccp_simplify(iccp_common_surface *common, const iccp_half_edges *const given[2],
-                         const double *const x[2], const iccp_simplify_limits *limits,
-                         const iccp_env *env)
+icc_status iccp_simplify(iccp_common_surface *common, uint32_t *became,
+                         const iccp_half_edges *const given[2], const double *const x[2],
+                         const iccp_simplify_limits *limits, const iccp_env *env)
 {
     simplification s = {.c = common, .limits = limits};
     icc_status status = iccp_half_edges_create(&s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     if (status == ICC_OK)
-        status = simplify(&s, common, given, x, env);
+        status = simplify(&s, common, became, given, x, env);
     for (int side = 0; side < 2; ++side) {
         iccp_free(&env->memory, s.plane[side]);
         iccp_free(&env->memory, s.first[side]);
