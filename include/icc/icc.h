@@ -879,6 +879,10 @@ typedef struct icc_match_options {
                             within this share of the perimeter of each other, both vertices become
                             one pair and the two added points are dropped; at most 0.01; 0: only
                             where they lie within 0.3 of the shorter edge at them */
+    double tolerance;  /**< in space, how far the common surfaces may be off those that were given,
+                            as a share of the diagonal of the bounding box (the mean of both): at
+                            most 0.1; 0: 1e-3; < 0: not at all, which takes four to six times as
+                            many vertices as both have together, and many thin triangles */
 } icc_match_options;
 
 /** What icc_match_get_info() reports. */
@@ -891,7 +895,7 @@ typedef struct icc_match_info {
     size_t n_landmarks; /**< landmarks; they are among these */
     size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
     double cost;        /**< of the outer rings' pairing: 0 for similar shapes, at most 4;
-                             HUGE_VAL by arc length */
+                             HUGE_VAL by arc length and in space */
     double second;      /**< of the best one that differs from it by more than 5 % of the
                              perimeter; HUGE_VAL: no other was found, or there were landmarks */
     double sure;        /**< (second + 0.05) / (cost + 0.05): 1 if another pairing is as good; a
@@ -900,7 +904,15 @@ typedef struct icc_match_info {
                              the target does */
     double least_slope; /**< share of the target's perimeter over that of the source's, of the edge
                              of the outer ring that shrinks most, */
-    double most_slope;  /**< and of the one that grows most */
+    double most_slope;  /**< and of the one that grows most; in space of areas and triangles */
+    double energy;      /**< in space: how the common triangles are stretched, once both surfaces
+                             have the same area: the mean, by area of the source, of (s^2 + t^2)
+                             (1 + 1 / (s t)^2) for the singular values s and t; 4 for an isometry */
+    double off;         /**< in space: the farthest that the common surfaces are off those that
+                             were given, as measured from vertices and from middles of edges and
+                             triangles, both ways; as icc_match_options::tolerance has it */
+    double least_angle; /**< in space: of the common triangles on either surface, in degrees */
+    size_t n_overlay;   /**< in space: common vertices before surfaces were made coarse */
 } icc_match_info;
 
 /**
@@ -922,9 +934,21 @@ typedef struct icc_match_info {
  * features of the source, in its order and with its senses, and those of the target that go with
  * them.
  *
+ * In space, surfaces that need not have the same triangles become two with common ones. Both are
+ * drawn on the sphere, one-to-one, one drawing is turned so that the map between them stretches
+ * little, and both are cut by one another; then both are made coarse together, up to
+ * icc_match_options::tolerance, except where a surface would meet itself. By exact signs, before
+ * places are rounded: the drawings are one-to-one, and what they are cut into is the same on both.
+ * Checked on each result: neither surface meets itself, and the distance in
+ * icc_match_info::off. That like parts lie on one another is neither: surfaces that are nearly the
+ * same up to a motion, or bend moderately, do well; bodies with limbs in other poses do not, and
+ * icc_match_info::energy shows it. Landmarks in space are not supported yet. Vertices that are left
+ * have the bits they were given with; facets are listed as seen from outside.
+ *
  * @param[out] out    the match; owned by the caller, see icc_match_free()
- * @param source      a domain of the plane, without a mesh; it may have features
- * @param target      likewise, with as many holes, lines and points, and points with a radius
+ * @param source      a domain of the plane, which may have features, or of space; without a mesh
+ * @param target      likewise, of the same dimension, with as many holes, lines and points, and
+ *                    points with a radius
  * @param n_landmarks how many pairs of points are known, at most 1000
  * @param landmarks   n_landmarks * 2 dim coordinates: a point of the source, then one of the
  *                    target. The nearest vertex within 0.5 % of the shape's diameter is taken, or
@@ -939,10 +963,12 @@ typedef struct icc_match_info {
  *         `index` is one of the source's, could change places: give a landmark on one of them);
  *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
  *         where another one does, or does not follow it round both outlines alike, or pairs what
- *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, or a mesh);
+ *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, a mesh, or landmarks in
+ *         space; any surfaces in the WebAssembly build);
  *         ::ICC_ERR_BOUNDARY (other numbers of features of a kind; or the common vertices, which
- *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION,
- *         ::ICC_ERR_CANCELLED
+ *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_RESOLUTION (surfaces whose
+ *         triangles are too different in size to be drawn on the sphere in doubles);
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
  *
  * Where both outlines have many vertices, they are paired with one another as far as their edges
  * run alike; few are left to be paired with places on edges.
@@ -952,7 +978,8 @@ typedef struct icc_match_info {
  * for m features of a kind. Deterministic. The map between the two domains then takes longer than
  * between outlines of which the same vertices correspond: on coasts to which a third was added at
  * random on both sides two to four times, on one that is turned into a swirl eight times. Where a
- * corner is paired with a straight place, triangles fold at first and have to be repaired.
+ * corner is paired with a straight place, triangles fold at first and have to be repaired. In space
+ * some 1 s and 20 MB for 4,700 vertices on both sides, 10 s and 150 MB for 21,000.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,

@@ -9,7 +9,7 @@
 
 ICCP_END(match)
 
-static const double max_drop = .01;
+static const double max_drop = .01, max_tolerance = .1;
 
 static icc_status check_options(const icc_match_options *options, icc_error *err)
 {
@@ -27,6 +27,10 @@ static icc_status check_options(const icc_match_options *options, icc_error *err
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_match_options.drop is %g; it must lie in [0, %g]", options->drop,
                          max_drop);
+    if (!(options->tolerance <= max_tolerance))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.tolerance is %g; it must be at most %g",
+                         options->tolerance, max_tolerance);
     return ICC_OK;
 }
 

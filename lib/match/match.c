@@ -5,6 +5,9 @@
 #include "match/feature_partners.h"
 #include "match/landmarks.h"
 #include "match/ring_pairing.h"
+#ifndef ICCP_WITHOUT_SURFACES
+#include "match/surfaces.h"
+#endif
 
 void iccp_match_release(icc_match *match)
 {
@@ -19,8 +22,9 @@ void iccp_match_release(icc_match *match)
 
 static icc_status check(const icc_domain *domain, int32_t side, icc_error *err)
 {
-    if (domain->dim != 2) {
-        iccp_fail(err, ICC_ERR_UNSUPPORTED, "only domains of the plane can be matched, not %ld-D",
+    if (domain->dim != 2 && domain->dim != 3) {
+        iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                  "only domains of the plane and of space can be matched, not %ld-D",
                   (long)domain->dim);
         return iccp_fail_side(err, ICC_ERR_UNSUPPORTED, side);
     }
@@ -29,6 +33,18 @@ static icc_status check(const icc_domain *domain, int32_t side, icc_error *err)
         return iccp_fail_side(err, ICC_ERR_UNSUPPORTED, side);
     }
     return ICC_OK;
+}
+
+static icc_status check_both(const icc_domain *source, const icc_domain *target, icc_error *err)
+{
+    icc_status status = check(source, 1, err);
+    if (status == ICC_OK)
+        status = check(target, 2, err);
+    if (status == ICC_OK && source->dim != target->dim)
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                           "a domain of %ld dimensions cannot be matched with one of %ld",
+                           (long)source->dim, (long)target->dim);
+    return status == ICC_OK ? iccp_features_count(source, target, err) : status;
 }
 
 /* The domains, from what is joint. */
@@ -101,29 +117,49 @@ static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const d
     return status;
 }
 
+static icc_status match_outlines(icc_match *match, const icc_domain *source,
+                                 const icc_domain *target, size_t n_landmarks,
+                                 const double *landmarks, const icc_match_options *options,
+                                 const iccp_env *env, icc_error *err)
+{
+    iccp_outline outline[2] = {{0}, {0}};
+    icc_status status = iccp_outline_create(&outline[0], source, &env->memory, err);
+    if (status == ICC_OK)
+        status = iccp_outline_create(&outline[1], target, &env->memory, err);
+    if (status == ICC_OK)
+        status = run(match, outline, n_landmarks, landmarks, options, env, err);
+    for (int e = 0; e < 2; ++e)
+        iccp_outline_free(&outline[e], &env->memory);
+    return status;
+}
+
+#ifdef ICCP_WITHOUT_SURFACES
+static icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source,
+                                      const icc_domain *target, const icc_match_options *options,
+                                      const iccp_env *env, icc_error *err)
+{
+    (void)match, (void)source, (void)target, (void)options, (void)env;
+    return iccp_fail(err, ICC_ERR_UNSUPPORTED, "this build of the library cannot match surfaces");
+}
+#endif
+
 icc_status iccp_match_create(icc_match **out, const icc_domain *source, const icc_domain *target,
                              size_t n_landmarks, const double *landmarks,
                              const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
-    const icc_domain *const domains[2] = {source, target};
-    iccp_outline outline[2] = {{0}, {0}};
-    icc_status status = check(source, 1, err);
-    if (status == ICC_OK)
-        status = check(target, 2, err);
-    if (status == ICC_OK)
-        status = iccp_features_count(source, target, err);
+    icc_status status = check_both(source, target, err);
     if (status != ICC_OK)
         return status;
     icc_match *const match = iccp_alloc_zero(&env->memory, 1, sizeof *match);
     if (match == NULL)
         return iccp_fail_memory(err);
     match->memory = env->memory;
-    for (int e = 0; e < 2 && status == ICC_OK; ++e)
-        status = iccp_outline_create(&outline[e], domains[e], &env->memory, err);
-    if (status == ICC_OK)
-        status = run(match, outline, n_landmarks, landmarks, options, env, err);
-    for (int e = 0; e < 2; ++e)
-        iccp_outline_free(&outline[e], &env->memory);
+    if (source->dim == 2)
+        status = match_outlines(match, source, target, n_landmarks, landmarks, options, env, err);
+    else if (n_landmarks > 0)
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "landmarks are for domains of the plane");
+    else
+        status = iccp_match_surfaces(match, source, target, options, env, err);
     if (status == ICC_OK)
         *out = match;
     else

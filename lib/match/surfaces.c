@@ -1,0 +1,231 @@
+/* Both surfaces are drawn on the sphere (surface/sphere.h), one drawing is turned to lie on the
+ * other (surface/rotation.h), and both are cut by one another (surface/sphere_overlay.h), so that
+ * they have the same triangles, which are then made fewer (surface/simplify_apart.h). */
+#include "match/surfaces.h"
+
+#include "base/error.h"
+#include "base/minmax.h"
+#include "surface/corner_angle.h"
+#include "surface/rotation.h"
+#include "surface/simplify_apart.h"
+#include "surface/sphere.h"
+#include "surface/stretch.h"
+
+#include <string.h>
+
+/* Of the mean diagonal. */
+static const double default_tolerance = 1e-3, longest_edge = 0.05;
+
+/* Crossings of the two drawings, at most, for each vertex: where a fair map is found there are 3. */
+enum { MOST_CROSSINGS = 200 };
+
+static const double most_energy = 1e8;
+
+typedef struct body {
+    const icc_domain *domain;
+    iccp_half_edges m; /* faces counter-clockwise from outside */
+    const double *x;   /* local coordinates */
+    double *directions;
+} body;
+
+static icc_status make_body(body *b, const icc_domain *domain, const iccp_env *env, icc_error *err)
+{
+    const size_t n = domain->n_facets;
+    uint32_t *const faces = iccp_alloc(&env->memory, n, 3 * sizeof *faces);
+    b->domain = domain;
+    b->x = domain->vertices;
+    b->directions = iccp_alloc(&env->memory, domain->n_vertices, 3 * sizeof *b->directions);
+    if (faces == NULL || b->directions == NULL) {
+        iccp_free(&env->memory, faces);
+        return iccp_fail_memory(err);
+    }
+    for (size_t f = 0; f < n; ++f) {
+        const uint32_t *const v = domain->facets + 3 * f;
+        faces[3 * f] = v[0];
+        faces[3 * f + 1] = domain->orientation > 0 ? v[1] : v[2];
+        faces[3 * f + 2] = domain->orientation > 0 ? v[2] : v[1];
+    }
+    const icc_status status =
+        iccp_half_edges_create(&b->m, domain->n_vertices, n, faces, env, err);
+    iccp_free(&env->memory, faces);
+    return status;
+}
+
+static void free_body(body *b, const iccp_memory *memory)
+{
+    iccp_half_edges_free(&b->m);
+    iccp_free(memory, b->directions);
+}
+
+static double mean_diagonal(const body bodies[2])
+{
+    double sum = 0;
+    for (int side = 0; side < 2; ++side)
+        sum += iccp_vec_distance(3, bodies[side].domain->lower, bodies[side].domain->upper);
+    return 0.5 * sum;
+}
+
+/* ---- on the sphere ---- */
+
+static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
+{
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+        body *const b = &bodies[side];
+        const iccp_env part = iccp_part(env, NULL, 0.4 * side, 0.4 * side + 0.4);
+        status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
+                                  &part, err);
+        if (status != ICC_OK)
+            return iccp_fail_side(err, status, side + 1);
+    }
+    const iccp_env last = iccp_part(env, NULL, 0.8, 1);
+    double energy;
+    return iccp_explain(
+        err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
+                                (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                                (const double *const[]){bodies[0].x, bodies[1].x}, &energy, &last));
+}
+
+static icc_status cut(iccp_common_surface *common, const body bodies[2], const iccp_env *env,
+                      icc_error *err)
+{
+    const iccp_half_edges *const m[2] = {&bodies[0].m, &bodies[1].m};
+    const double *const directions[2] = {bodies[0].directions, bodies[1].directions};
+    const double *const x[2] = {bodies[0].x, bodies[1].x};
+    const size_t most = MOST_CROSSINGS * (m[0]->n_left + m[1]->n_left);
+    iccp_sphere_overlay overlay;
+    icc_status status = iccp_sphere_overlay_create(&overlay, m, directions, most, env, err);
+    if (status == ICC_OK)
+        status = iccp_common_surface_create(common, &overlay, m, directions, x, &env->memory, err);
+    iccp_sphere_overlay_free(&overlay, &env->memory);
+    return status;
+}
+
+/* ---- what came of it ---- */
+
+/* Energy, slopes and angles of the common triangles. */
+static void measure(icc_match_info *info, const iccp_common_surface *c)
+{
+    double area[2] = {0, 0}, least_sine = 1, sum = 0;
+    for (int round = 0; round < 2; ++round)
+        for (size_t f = 0; f < c->n_faces; ++f) {
+            const double *p[2][3];
+            double scaled[3][3], twice[2];
+            const double *to[3];
+            /* The target is scaled once its area is known. */
+            const double scale = round == 0 ? 1 : sqrt(area[0] / area[1]);
+            for (int side = 0; side < 2; ++side) {
+                double normal[3];
+                for (size_t i = 0; i < 3; ++i)
+                    p[side][i] = c->x[side] + 3 * (size_t)c->faces[3 * f + i];
+                iccp_triangle_normal(normal, p[side][0], p[side][1], p[side][2]);
+                twice[side] = iccp_vec_norm(3, normal);
+                if (round == 0)
+                    area[side] += twice[side];
+                least_sine = iccp_min(least_sine,
+                                      iccp_least_sine(p[side][0], p[side][1], p[side][2]));
+            }
+            if (round == 0)
+                continue;
+            for (int i = 0; i < 3; ++i) {
+                for (int k = 0; k < 3; ++k)
+                    scaled[i][k] = scale * p[1][i][k];
+                to[i] = scaled[i];
+            }
+            sum += twice[0] * iccp_stretch_energy(p[0], to, most_energy);
+            const double slope = twice[1] / twice[0] * scale * scale;
+            info->least_slope = f == 0 ? slope : iccp_min(info->least_slope, slope);
+            info->most_slope = f == 0 ? slope : iccp_max(info->most_slope, slope);
+        }
+    info->energy = sum / area[0];
+    info->least_angle = 180 / 3.14159265358979323846 * asin(iccp_min(1, least_sine));
+}
+
+static void fill_in(icc_match_info *info, const iccp_common_surface *c, double off)
+{
+    info->dim = 3;
+    info->cost = info->second = info->sure = HUGE_VAL;
+    info->n_vertices = c->n_vertices;
+    info->off = off;
+    for (size_t v = 0; v < c->n_vertices; ++v)
+        info->n_joined += c->origin[0][v] != ICCP_NO_EDGE && c->origin[1][v] != ICCP_NO_EDGE;
+    measure(info, c);
+}
+
+/* A common surface as a domain, in the caller's coordinates; vertices that were given have the bits
+ * that they were given with. */
+static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side, const body *b,
+                              const iccp_env *env, icc_error *err)
+{
+    for (size_t v = 0; v < c->n_vertices; ++v) {
+        double *const p = c->x[side] + 3 * v;
+        if (c->origin[side][v] != ICCP_NO_EDGE)
+            iccp_domain_given(b->domain, c->origin[side][v], p);
+        else
+            iccp_frame_out(&b->domain->frame, 3, p, p);
+    }
+    const icc_status status = iccp_domain_create(out, 3, c->n_vertices, c->x[side], c->n_faces,
+                                                 c->faces, env, err);
+    return status == ICC_OK ? status : iccp_fail_side(err, status, side + 1);
+}
+
+/* ---- from beginning to end ---- */
+
+static icc_status simplify(iccp_common_surface *common, double *off, const body bodies[2],
+                           double tolerance, const iccp_env *env)
+{
+    const double diagonal = mean_diagonal(bodies);
+    const iccp_simplify_limits limits = {.off = tolerance * diagonal,
+                                         .edge = longest_edge * diagonal};
+    const icc_status status = iccp_simplify_apart(
+        common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+        (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);
+    *off /= diagonal;
+    return status;
+}
+
+static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *common,
+                      const icc_match_options *options, const iccp_env *env, icc_error *err)
+{
+    const double tolerance = options->tolerance == 0 ? default_tolerance : options->tolerance;
+    iccp_env parts[4];
+    iccp_split(parts, 4, (const double[]){10, 2, 20, 1}, env);
+    for (int k = 0; k < 4; ++k)
+        parts[k].stage = "match";
+    double off = 0;
+    icc_status status = draw(bodies, &parts[0], err);
+    if (status == ICC_OK)
+        status = cut(common, bodies, &parts[1], err);
+    if (status != ICC_OK)
+        return status;
+    match->info.n_overlay = common->n_vertices;
+    if (tolerance > 0)
+        status = iccp_explain(err, simplify(common, &off, bodies, tolerance, &parts[2]));
+    if (status != ICC_OK)
+        return status;
+    fill_in(&match->info, common, off);
+    match->n = common->n_vertices;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+        status = make_domain(&match->domain[side], common, side, &bodies[side], &parts[3], err);
+        match->origin[side] = common->origin[side];
+        common->origin[side] = NULL;
+    }
+    return status;
+}
+
+icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source,
+                               const icc_domain *target, const icc_match_options *options,
+                               const iccp_env *env, icc_error *err)
+{
+    body bodies[2] = {{0}, {0}};
+    iccp_common_surface common = {0};
+    icc_status status = make_body(&bodies[0], source, env, err);
+    if (status == ICC_OK)
+        status = make_body(&bodies[1], target, env, err);
+    if (status == ICC_OK)
+        status = run(match, bodies, &common, options, env, err);
+    iccp_common_surface_free(&common, &env->memory);
+    for (int side = 0; side < 2; ++side)
+        free_body(&bodies[side], &env->memory);
+    return status;
+}
