@@ -14,7 +14,11 @@
 #include <string.h>
 
 /* Of the mean diagonal. */
-static const double default_tolerance = 1e-3, longest_edge = 0.05;
+static const double default_tolerance = 1e-3;
+
+/* Edges that come about are at most this part of the mean diagonal, or so many times as long as
+ * those that were given are on average: the map between the surfaces bends at vertices only. */
+static const double longest_edge = 0.05, times_given = 2;
 
 /* Crossings of the two drawings, at most, for each vertex: where a fair map is found there are 3. */
 enum { MOST_CROSSINGS = 200 };
@@ -63,6 +67,20 @@ static double mean_diagonal(const body bodies[2])
     for (int side = 0; side < 2; ++side)
         sum += iccp_vec_distance(3, bodies[side].domain->lower, bodies[side].domain->upper);
     return 0.5 * sum;
+}
+
+/* Of the edges of both. */
+static double mean_edge(const body bodies[2])
+{
+    double sum = 0;
+    for (int side = 0; side < 2; ++side) {
+        const iccp_half_edges *const m = &bodies[side].m;
+        const double *const x = bodies[side].x;
+        for (uint32_t h = 0; h < 3 * m->n_faces; ++h)
+            sum += iccp_vec_distance(3, x + 3 * (size_t)m->origin[h],
+                                     x + 3 * (size_t)iccp_edge_end(m, h));
+    }
+    return sum / (3 * (double)(bodies[0].m.n_faces + bodies[1].m.n_faces));
 }
 
 /* ---- on the sphere ---- */
@@ -176,7 +194,8 @@ static icc_status simplify(iccp_common_surface *common, double *off, const body 
 {
     const double diagonal = mean_diagonal(bodies);
     const iccp_simplify_limits limits = {.off = tolerance * diagonal,
-                                         .edge = longest_edge * diagonal};
+                                         .edge = iccp_max(longest_edge * diagonal,
+                                                          times_given * mean_edge(bodies))};
     const icc_status status = iccp_simplify_apart(
         common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
         (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);

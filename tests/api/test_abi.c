@@ -160,14 +160,15 @@ AT(icc_domain_info, n_features, 136);
 AT(icc_domain_info, n_mesh_vertices, 144);
 AT(icc_domain_info, n_mesh_simplices, 152);
 
-SIZE(icc_match_options, 32);
+SIZE(icc_match_options, 40);
 AT(icc_match_options, size, 0);
 AT(icc_match_options, turning, 8);
 AT(icc_match_options, between, 12);
 AT(icc_match_options, least_sure, 16);
 AT(icc_match_options, drop, 24);
+AT(icc_match_options, tolerance, 32);
 
-SIZE(icc_match_info, 88);
+SIZE(icc_match_info, 120);
 AT(icc_match_info, size, 0);
 AT(icc_match_info, dim, 8);
 AT(icc_match_info, mirrored, 12);
@@ -180,6 +181,10 @@ AT(icc_match_info, sure, 56);
 AT(icc_match_info, turn, 64);
 AT(icc_match_info, least_slope, 72);
 AT(icc_match_info, most_slope, 80);
+AT(icc_match_info, energy, 88);
+AT(icc_match_info, off, 96);
+AT(icc_match_info, least_angle, 104);
+AT(icc_match_info, n_overlay, 112);
 
 SIZE(icc_fill_options, 24);
 AT(icc_fill_options, size, 0);

@@ -130,6 +130,18 @@ says '--landmarks goes with --match'
 run 2 check -s key.txt -t turned.txt --match auto --repair x.geojson
 says '--repair does not go with --match'
 make_cubes
-run 1 map -s cube.obj -t moved.obj --match auto -p points.txt
-says '3 dimensions; --match is for the plane'
+printf '.5 .5 .5\n' >points.txt
+run 0 map -s cube.obj -t moved.obj --match auto -p points.txt
+# The same cube with the other diagonals, and one more vertex.
+printf 'v 0 0 0\nv 0 0 1\nv 0 1 0\nv 0 1 1\nv 1 0 0\nv 1 0 1\nv 1 1 0\nv 1 1 1\nv 0 .5 .4\n' >other.obj
+printf 'f 1 2 9\nf 2 4 9\nf 4 3 9\nf 3 1 9\nf 5 7 8\nf 5 8 6\nf 1 5 6\nf 1 6 2\n' >>other.obj
+printf 'f 3 4 8\nf 3 8 7\nf 1 3 7\nf 1 7 5\nf 2 6 8\nf 2 8 4\n' >>other.obj
+run 0 match -s cube.obj -t other.obj -o a.obj --target-output b.obj
+holds out 'energy'
+run 0 check -s a.obj -t b.obj
+holds out 'one-to-one: yes, certified'
+run 0 match -s cube.obj -t other.obj --json
+holds out '"overlay"'
+run 1 match -s cube.obj -t key.txt
+says 'a domain of 3 dimensions cannot be matched with one of 2'
 finish

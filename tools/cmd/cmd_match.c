@@ -1,4 +1,4 @@
-/* libicc match: two outlines that do not correspond, with common vertices. */
+/* libicc match: two outlines, or two surfaces, that do not correspond, with common vertices. */
 #include "cmd/commands.h"
 
 #include "job/cage_file.h"
@@ -42,8 +42,23 @@ static int write_cages(const job *j)
     return result == DONE ? cages_write(a->target_output, NULL, target) : result;
 }
 
+static void print_surfaces(const icc_match_info *info)
+{
+    printf("common      %zu vertices, of %zu before they were made fewer\n", info->n_vertices,
+           info->n_overlay);
+    printf("energy      %.6g (4: an isometry)\n", info->energy);
+    printf("off         %.3g of the diagonal\n", info->off);
+    printf("angles      %.3g degrees or more\n", info->least_angle);
+    printf("slopes      %.6g to %.6g, a triangle's share of the target's area over the source's\n",
+           info->least_slope, info->most_slope);
+}
+
 static void print(const icc_match_info *info)
 {
+    if (info->dim == 3) {
+        print_surfaces(info);
+        return;
+    }
     printf("common      %zu vertices; %zu of them are of both outlines\n", info->n_vertices,
            info->n_joined);
     if (isfinite(info->cost))

@@ -153,7 +153,7 @@ static const command commands[] = {
      .needs_target = true,
      .run = run_match,
      .usage = "--source FILE --target FILE [OPTION]...",
-     .summary = "Gives two outlines that do not correspond common vertices",
+     .summary = "Gives two outlines or surfaces that do not correspond common vertices",
      .details =
          "In the plane. Other numbers of vertices, another first one, another sense do not matter: "
          "like parts\n"
@@ -165,7 +165,10 @@ static const command commands[] = {
          "together). Landmarks\n"
          "help. Outlines without features, as discs, are paired by arc length where --match arc "
          "says so.\n"
-         "map, warp, check and the others take --match as well, and need no files between.\n"},
+         "map, warp, check and the others take --match as well, and need no files between.\n"
+         "Surfaces in space (-o A.obj --target-output B.obj) get common triangles, within 1/1000 of the "
+         "diagonal; the\n"
+         "less the 'energy' is over 4 the less they are stretched.\n"},
     {.name = "weights",
      .bit = FOR_WEIGHTS,
      .run = run_weights,

@@ -1,6 +1,7 @@
 #include "job/cage_file.h"
 
 #include "base/file.h"
+#include "cage/surface_write.h"
 #include "job/output_name.h"
 
 #include <string.h>
@@ -47,7 +48,9 @@ int cages_write(const char *name, const cage *source, const cage *target)
     if (!outfile_open(&file, name))
         return FAILED;
     const cage *one = source != NULL ? source : target;
-    if ((source != NULL && target != NULL) || output_is_json(name))
+    if (one->dim == 3)
+        surface_write(file.stream, one, output_format(name) != NULL ? output_format(name) : "OBJ");
+    else if ((source != NULL && target != NULL) || output_is_json(name))
         write_collection(file.stream, source, target);
     else
         for (size_t i = 0; i < one->n; i++)

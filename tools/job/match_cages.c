@@ -14,8 +14,9 @@ int match_check(const job *j)
     for (int side = 1; side <= 2; side++) {
         const cage *c = &j->cages[side - 1];
         side_text where;
-        if (c->dim != 2)
-            return failed(job_file(j, side), 0, "%s%zu dimension%s; --match is for the plane",
+        if (c->dim != 2 && c->dim != 3)
+            return failed(job_file(j, side), 0,
+                          "%s%zu dimension%s; --match is for the plane and for surfaces",
                           job_side(where, j, side), c->dim, c->dim == 1 ? "" : "s");
         if (c->n_more > 0)
             return failed(job_file(j, side), 0,
@@ -71,12 +72,28 @@ static void take_features(cage *common, const cage *given, const cage *source,
     }
 }
 
+/* What is told of its vertices and faces has no line. */
+static cage common_surface(const icc_domain *domain, const icc_domain_info *size)
+{
+    cage c = {.dim = 3, .n = size->n_vertices, .n_facets = size->n_facets};
+    c.points = need(c.n, 3 * sizeof *c.points);
+    c.facets = need(c.n_facets, 3 * sizeof *c.facets);
+    c.lines = need(c.n, sizeof *c.lines);
+    c.facet_lines = need(c.n_facets, sizeof *c.facet_lines);
+    memset(c.lines, 0, c.n * sizeof *c.lines);
+    memset(c.facet_lines, 0, c.n_facets * sizeof *c.facet_lines);
+    icc_domain_get_boundary(domain, c.points, c.facets);
+    return c;
+}
+
 static cage common_cage(const cage *given, const cage *source, const icc_domain *domain,
                         const uint32_t *origin)
 {
     icc_domain_info size = {.size = sizeof size};
     icc_feature_info first = {.size = sizeof first};
     icc_domain_get_info(domain, &size);
+    if (size.dim == 3)
+        return common_surface(domain, &size);
     bool has_features = icc_domain_get_feature(domain, 0, &first) == ICC_OK;
     cage c = {.dim = 2, .n = has_features ? first.first_vertex : size.n_vertices};
     c.n_heights = given->n_heights;
@@ -137,11 +154,18 @@ void match_report(json *r, const icc_match_info *info)
     json_open(r, "match", '{');
     json_count(r, "landmarks", info->n_landmarks);
     json_count(r, "joined", info->n_joined);
-    json_number(r, "cost", info->cost);
-    json_number(r, "second", info->second);
-    json_number(r, "sure", info->sure);
-    json_number(r, "turn", info->turn);
-    json_flag(r, "mirrored", info->mirrored != 0);
+    if (info->dim == 2) {
+        json_number(r, "cost", info->cost);
+        json_number(r, "second", info->second);
+        json_number(r, "sure", info->sure);
+        json_number(r, "turn", info->turn);
+        json_flag(r, "mirrored", info->mirrored != 0);
+    } else {
+        json_count(r, "overlay", info->n_overlay);
+        json_number(r, "energy", info->energy);
+        json_number(r, "off", info->off);
+        json_number(r, "least_angle", info->least_angle);
+    }
     json_number(r, "least_slope", info->least_slope);
     json_number(r, "most_slope", info->most_slope);
     json_close(r, '}');

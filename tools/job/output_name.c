@@ -157,8 +157,8 @@ int output_names_check(const args *a, const command *c)
 {
     const struct {
         const char *name, *formats;
-    } outputs[] = {{a->output, c->bit & FOR_MATCH ? "text, GeoJSON, JSON" : "text"},
-                   {a->target_output, "text, GeoJSON, JSON"},
+    } outputs[] = {{a->output, c->bit & FOR_MATCH ? "text, GeoJSON, JSON, " SURFACES : "text"},
+                   {a->target_output, "text, GeoJSON, JSON, " SURFACES},
                    {a->triangulation, "JSON"},
                    {a->ties, "GeoJSON, JSON"},
                    {a->repair, "text, GeoJSON, JSON, " SURFACES ", NumPy"},

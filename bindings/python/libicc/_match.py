@@ -1,4 +1,4 @@
-"""Outlines that do not correspond."""
+"""Outlines, and surfaces, that do not correspond."""
 
 from __future__ import annotations
 
@@ -33,13 +33,16 @@ class Match(Handle):
     result, bit by bit; others are added on edges.
 
     Args:
-        source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too
+        source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too. Or surfaces
+            in space, which get common triangles
         landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target
         turning: without landmarks: "upright" prefers what turns little, "free" does not
         between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the
             outlines, laid on one another unturned, are nearest
         least_sure: what ``info.sure`` has to be; None: 1.06; 1: anything
         drop: share of the perimeter within which vertices become one
+        tolerance: in space, how far the common surfaces may be off those given, as a share of the diagonal; None:
+            1e-3; 0: not at all
         progress, threads: as for `Domain`
 
     Raises:
@@ -51,11 +54,12 @@ class Match(Handle):
 
     def __init__(self, source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None, *,
                  turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
-                 drop: float = 0, progress: Optional[Progress] = None, threads: Optional[int] = None):
+                 drop: float = 0, tolerance: Optional[float] = None, progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         options = new("match_options", turning=choose(turning, TURNING, "turning"),
-                      between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop)
-        given = np.reshape(np.asarray([] if landmarks is None else landmarks, dtype=float), (-1, 4))
+                      between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop,
+                      tolerance=0 if tolerance is None else tolerance if tolerance > 0 else -1)
+        given = np.reshape(np.asarray([] if landmarks is None else landmarks, dtype=float), (-1, 2 * source.dim))
         pairs = floats(given, given.shape, "landmarks")
         self._take(create(lib.match_create, source, target, len(pairs), address(pairs),
                           ctypes.addressof(options), progress=progress, threads=threads))

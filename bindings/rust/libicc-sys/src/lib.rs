@@ -733,6 +733,8 @@ pub struct icc_match_options {
     pub least_sure: f64,
     /// share of the perimeter within which vertices become one pair; at most 0.01
     pub drop: f64,
+    /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
+    pub tolerance: f64,
 }
 sized!(icc_match_options);
 
@@ -764,6 +766,14 @@ pub struct icc_match_info {
     pub least_slope: f64,
     /// and of the one that grows most
     pub most_slope: f64,
+    /// in space: how the common triangles are stretched; 4 for an isometry
+    pub energy: f64,
+    /// in space: the farthest that the common surfaces are off those that were given
+    pub off: f64,
+    /// in space: of the common triangles, in degrees
+    pub least_angle: f64,
+    /// in space: common vertices before surfaces were made coarse
+    pub n_overlay: usize,
 }
 sized!(icc_match_info);
 

@@ -66,11 +66,13 @@ pub struct MatchOptions {
     /// vertices that are so close in shares of the perimeter become one pair; at most 0.01; 0: only where they lie
     /// within 0.3 of the shorter edge at them
     pub drop: f64,
+    /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
+    pub tolerance: f64,
 }
 
 impl Match {
-    /// Pairs the boundaries of two domains of the plane. `landmarks` has rows of a point of the source and one of the
-    /// target, 2 coordinates each, or none.
+    /// Pairs the boundaries of two domains of the plane, or of space. `landmarks` has rows of a point of the source and
+    /// one of the target, or none.
     ///
     /// # Errors
     /// [`Status::AMBIGUOUS`](crate::Status::AMBIGUOUS) where another pairing is nearly as good;
@@ -82,16 +84,17 @@ impl Match {
         options: &MatchOptions,
         env: &mut Env<'_>,
     ) -> Result<Match> {
-        let n = count(landmarks, 4, "landmarks")?;
+        let n = count(landmarks, 2 * source.dim(), "landmarks")?;
         let raw = sys::icc_match_options {
             turning: options.turning.map_or(0, |turning| turning as i32),
             between: options.between.map_or(0, |between| between as i32),
             least_sure: options.least_sure,
             drop: options.drop,
+            tolerance: options.tolerance,
             ..Default::default()
         };
         Match::make(env, |out, env, err| {
-            // SAFETY: n rows of 4 coordinates.
+            // SAFETY: n rows of two points.
             unsafe {
                 sys::icc_match_create(
                     out,

@@ -1,0 +1,234 @@
+/* Two surfaces with different triangles become two with the same, on the shapes that were given. */
+#include <icc/icc.h>
+
+#include "../../faulty.h"
+#include "../../surfaces.h"
+
+#include <check.h>
+
+static surface one, two;
+
+static icc_domain *domain_of(const surface *s)
+{
+    icc_domain *domain = NULL;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces,
+                                    NULL, &err) == ICC_OK,
+                  "%s", err.message);
+    return domain;
+}
+
+static icc_status match_both(icc_match **match, double tolerance, const icc_env *env,
+                             icc_error *err)
+{
+    icc_domain *source = domain_of(&one), *target = domain_of(&two);
+    const icc_match_options options = {.size = sizeof options, .tolerance = tolerance};
+    const icc_status status =
+        icc_match_create(match, source, target, 0, NULL, &options, env, err);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    return status;
+}
+
+static icc_match *matched(double tolerance, icc_match_info *info)
+{
+    icc_match *match = NULL;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(match_both(&match, tolerance, NULL, &err) == ICC_OK, "%s", err.message);
+    *info = (icc_match_info){.size = sizeof *info};
+    ck_assert_int_eq(icc_match_get_info(match, info), ICC_OK);
+    return match;
+}
+
+/* Same triangles; vertices with an origin have its bits; the volume is what it was, nearly. */
+static void check_common(const icc_match *match, const icc_match_info *info)
+{
+    const icc_domain *const domain[2] = {icc_match_source(match), icc_match_target(match)};
+    const surface *const given[2] = {&one, &two};
+    icc_domain_info size[2] = {{.size = sizeof *size}, {.size = sizeof *size}};
+    uint32_t *facets[2], *origin[2];
+    for (int s = 0; s < 2; ++s) {
+        ck_assert_int_eq(icc_domain_get_info(domain[s], &size[s]), ICC_OK);
+        ck_assert_uint_eq(size[s].n_vertices, info->n_vertices);
+        ck_assert_int_eq(size[s].orientation, 1);
+        facets[s] = malloc(3 * size[s].n_facets * sizeof(uint32_t));
+        origin[s] = malloc(info->n_vertices * sizeof(uint32_t));
+        ck_assert(facets[s] != NULL && origin[s] != NULL);
+    }
+    ck_assert_int_eq(icc_match_get_origins(match, origin[0], origin[1]), ICC_OK);
+    size_t n_joined = 0;
+    for (int s = 0; s < 2; ++s) {
+        double *const x = malloc(3 * info->n_vertices * sizeof *x);
+        ck_assert_ptr_nonnull(x);
+        ck_assert_int_eq(icc_domain_get_boundary(domain[s], x, facets[s]), ICC_OK);
+        for (size_t v = 0; v < info->n_vertices; ++v) {
+            if (origin[s][v] == UINT32_MAX)
+                continue;
+            ck_assert_uint_lt(origin[s][v], given[s]->n_vertices);
+            ck_assert_mem_eq(x + 3 * v, given[s]->vertices + 3 * (size_t)origin[s][v],
+                             3 * sizeof *x);
+            n_joined += s == 0 && origin[1][v] != UINT32_MAX;
+        }
+        free(x);
+        icc_domain *const before = domain_of(given[s]);
+        icc_domain_info was = {.size = sizeof was};
+        ck_assert_int_eq(icc_domain_get_info(before, &was), ICC_OK);
+        ck_assert_double_eq_tol(size[s].measure / was.measure, 1, info->off > 0 ? .02 : 1e-12);
+        icc_domain_free(before);
+    }
+    ck_assert_uint_eq(size[0].n_facets, size[1].n_facets);
+    ck_assert_mem_eq(facets[0], facets[1], 3 * size[0].n_facets * sizeof(uint32_t));
+    ck_assert_uint_eq(n_joined, info->n_joined);
+    for (int s = 0; s < 2; ++s) {
+        free(facets[s]);
+        free(origin[s]);
+    }
+}
+
+static void certify_map(const icc_match *match)
+{
+    icc_map *map = NULL;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_map_create(&map, icc_match_source(match), icc_match_target(match), NULL, NULL,
+                                 &err) == ICC_OK,
+                  "%s", err.message);
+    icc_map_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
+    ck_assert_int_eq(info.certified, 1);
+    icc_map_free(map);
+}
+
+/* An ellipsoid from a triangulation that is turned first, so that two of these have other vertices. */
+static void ellipsoid(surface *s, int splits, const double axis[3], double turn)
+{
+    surface_octahedron(s);
+    for (int i = 0; i < splits; ++i)
+        surface_split(s);
+    for (size_t v = 0; v < s->n_vertices; ++v) {
+        double *const p = s->vertices + 3 * v, r = sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        const double x = (cos(turn) * p[0] - sin(turn) * p[1]) / r;
+        const double y = (sin(turn) * p[0] + cos(turn) * p[1]) / r, z = p[2] / r;
+        p[0] = axis[0] * x;
+        p[1] = axis[1] * (cos(turn) * y - sin(turn) * z);
+        p[2] = axis[2] * (sin(turn) * y + cos(turn) * z);
+    }
+}
+
+START_TEST(ellipsoids_of_other_triangles)
+{
+    static const double axes[3] = {1, .7, .5}, others[3] = {2.1, 1.5, 1.2};
+    ellipsoid(&one, 3, axes, 0);
+    ellipsoid(&two, 3, others, .4);
+    icc_match_info exact, info;
+    icc_match *match = matched(-1, &exact);
+    ck_assert_uint_eq(exact.n_vertices, exact.n_overlay);
+    ck_assert_double_eq(exact.off, 0);
+    check_common(match, &exact);
+    icc_match_free(match);
+    match = matched(0, &info);
+    ck_assert_uint_eq(info.n_overlay, exact.n_overlay);
+    ck_assert_uint_lt(3 * info.n_vertices, 2 * info.n_overlay);
+    ck_assert(info.off > 0 && info.off <= 1e-3);
+    ck_assert_double_lt(info.energy, 4.2);
+    check_common(match, &info);
+    certify_map(match);
+    icc_match_free(match);
+}
+END_TEST
+
+/* Their vertices become common ones, and no energy is left. */
+START_TEST(equal_surfaces)
+{
+    static const double axes[3] = {1, .7, .5};
+    icc_match_info info;
+    ellipsoid(&one, 3, axes, 0);
+    two = one;
+    for (size_t v = 0; v < two.n_vertices; ++v)
+        two.vertices[3 * v] += 3;
+    icc_match *const match = matched(0, &info);
+    ck_assert_double_lt(info.energy, 4.01);
+    check_common(match, &info);
+    icc_match_free(match);
+}
+END_TEST
+
+START_TEST(tolerance_is_kept)
+{
+    random_source r = {7};
+    surface_star(&one, 3, .3, &r);
+    surface_star(&two, 3, .3, &r);
+    size_t before = 0;
+    for (int k = 0; k < 4; ++k) {
+        static const double tolerance[] = {.03, 3e-3, 1e-6, -1};
+        icc_match_info info;
+        icc_match *const match = matched(tolerance[k], &info);
+        ck_assert_double_le(info.off, tolerance[k] > 0 ? tolerance[k] : 0);
+        ck_assert_uint_ge(info.n_vertices, before);
+        check_common(match, &info);
+        before = info.n_vertices;
+        icc_match_free(match);
+    }
+}
+END_TEST
+
+START_TEST(what_cannot_be_matched_is_refused)
+{
+    static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1}, pair[6] = {1, 0, 0, 1, 0, 0};
+    surface_octahedron(&one);
+    icc_domain *const solid = domain_of(&one);
+    icc_domain *flat = NULL;
+    icc_match *match = NULL;
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(icc_domain_create(&flat, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_match_create(&match, solid, flat, 0, NULL, NULL, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_match_create(&match, solid, solid, 1, pair, NULL, NULL, &err),
+                     ICC_ERR_UNSUPPORTED);
+    for (int k = 0; k < 2; ++k) {
+        const icc_match_options options = {.size = sizeof options, .tolerance = k ? NAN : .2};
+        ck_assert_int_eq(icc_match_create(&match, solid, solid, 0, NULL, &options, NULL, &err),
+                         ICC_ERR_ARGUMENT);
+        ck_assert_ptr_nonnull(strstr(err.message, "tolerance"));
+    }
+    ck_assert_ptr_null(match);
+    icc_domain_free(solid);
+    icc_domain_free(flat);
+}
+END_TEST
+
+static icc_status match_once(const icc_env *env, icc_error *err, void *argument)
+{
+    icc_match *match = NULL;
+    (void)argument;
+    const icc_status status = match_both(&match, 0, env, err);
+    ck_assert((status == ICC_OK) == (match != NULL));
+    icc_match_free(match);
+    return status;
+}
+
+START_TEST(fails_cleanly)
+{
+    static const double axes[3] = {1, .7, .5};
+    ellipsoid(&one, 1, axes, 0);
+    ellipsoid(&two, 0, axes, .4);
+    faulty_sweep(match_once, NULL);
+}
+END_TEST
+
+int main(void)
+{
+    Suite *suite = suite_create("match_surfaces");
+    TCase *tests = tcase_create("all");
+    tcase_set_timeout(tests, 3600);
+    tcase_add_test(tests, ellipsoids_of_other_triangles);
+    tcase_add_test(tests, equal_surfaces);
+    tcase_add_test(tests, tolerance_is_kept);
+    tcase_add_test(tests, what_cannot_be_matched_is_refused);
+    tcase_add_test(tests, fails_cleanly);
+    suite_add_tcase(suite, tests);
+    SRunner *runner = srunner_create(suite);
+    srunner_run_all(runner, CK_NORMAL);
+    const int n_failed = srunner_ntests_failed(runner);
+    srunner_free(runner);
+    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}
