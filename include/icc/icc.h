@@ -964,7 +964,7 @@ typedef struct icc_match_info {
  *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
  *         where another one does, or does not follow it round both outlines alike, or pairs what
  *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, a mesh, or landmarks in
- *         space; any surfaces in the WebAssembly build);
+ *         space);
  *         ::ICC_ERR_BOUNDARY (other numbers of features of a kind; or the common vertices, which
  *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_RESOLUTION (surfaces whose
  *         triangles are too different in size to be drawn on the sphere in doubles);

@@ -5,9 +5,7 @@
 #include "match/feature_partners.h"
 #include "match/landmarks.h"
 #include "match/ring_pairing.h"
-#ifndef ICCP_WITHOUT_SURFACES
 #include "match/surfaces.h"
-#endif
 
 void iccp_match_release(icc_match *match)
 {
@@ -132,16 +130,6 @@ static icc_status match_outlines(icc_match *match, const icc_domain *source,
         iccp_outline_free(&outline[e], &env->memory);
     return status;
 }
-
-#ifdef ICCP_WITHOUT_SURFACES
-static icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source,
-                                      const icc_domain *target, const icc_match_options *options,
-                                      const iccp_env *env, icc_error *err)
-{
-    (void)match, (void)source, (void)target, (void)options, (void)env;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED, "this build of the library cannot match surfaces");
-}
-#endif
 
 icc_status iccp_match_create(icc_match **out, const icc_domain *source, const icc_domain *target,
                              size_t n_landmarks, const double *landmarks,

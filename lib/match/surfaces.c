@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "math/elementary.h"
 #include "surface/corner_angle.h"
 #include "surface/rotation.h"
 #include "surface/simplify_apart.h"
@@ -20,7 +21,7 @@ static const double default_tolerance = 1e-3;
  * those that were given are on average: the map between the surfaces bends at vertices only. */
 static const double longest_edge = 0.05, times_given = 2;
 
-/* Crossings of the two drawings, at most, for each vertex: where a fair map is found there are 3. */
+/* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
 enum { MOST_CROSSINGS = 200 };
 
 static const double most_energy = 1e8;
@@ -49,8 +50,7 @@ static icc_status make_body(body *b, const icc_domain *domain, const iccp_env *e
         faces[3 * f + 1] = domain->orientation > 0 ? v[1] : v[2];
         faces[3 * f + 2] = domain->orientation > 0 ? v[2] : v[1];
     }
-    const icc_status status =
-        iccp_half_edges_create(&b->m, domain->n_vertices, n, faces, env, err);
+    const icc_status status = iccp_half_edges_create(&b->m, domain->n_vertices, n, faces, env, err);
     iccp_free(&env->memory, faces);
     return status;
 }
@@ -140,8 +140,8 @@ static void measure(icc_match_info *info, const iccp_common_surface *c)
                 twice[side] = iccp_vec_norm(3, normal);
                 if (round == 0)
                     area[side] += twice[side];
-                least_sine = iccp_min(least_sine,
-                                      iccp_least_sine(p[side][0], p[side][1], p[side][2]));
+                least_sine =
+                    iccp_min(least_sine, iccp_least_sine(p[side][0], p[side][1], p[side][2]));
             }
             if (round == 0)
                 continue;
@@ -156,7 +156,8 @@ static void measure(icc_match_info *info, const iccp_common_surface *c)
             info->most_slope = f == 0 ? slope : iccp_max(info->most_slope, slope);
         }
     info->energy = sum / area[0];
-    info->least_angle = 180 / 3.14159265358979323846 * asin(iccp_min(1, least_sine));
+    info->least_angle =
+        360 * iccp_atan2_turns(least_sine, sqrt(iccp_max(0, 1 - least_sine * least_sine)));
 }
 
 static void fill_in(icc_match_info *info, const iccp_common_surface *c, double off)
@@ -182,8 +183,8 @@ static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side
         else
             iccp_frame_out(&b->domain->frame, 3, p, p);
     }
-    const icc_status status = iccp_domain_create(out, 3, c->n_vertices, c->x[side], c->n_faces,
-                                                 c->faces, env, err);
+    const icc_status status =
+        iccp_domain_create(out, 3, c->n_vertices, c->x[side], c->n_faces, c->faces, env, err);
     return status == ICC_OK ? status : iccp_fail_side(err, status, side + 1);
 }
 
@@ -193,9 +194,9 @@ static icc_status simplify(iccp_common_surface *common, double *off, const body 
                            double tolerance, const iccp_env *env)
 {
     const double diagonal = mean_diagonal(bodies);
-    const iccp_simplify_limits limits = {.off = tolerance * diagonal,
-                                         .edge = iccp_max(longest_edge * diagonal,
-                                                          times_given * mean_edge(bodies))};
+    const iccp_simplify_limits limits = {
+        .off = tolerance * diagonal,
+        .edge = iccp_max(longest_edge * diagonal, times_given * mean_edge(bodies))};
     const icc_status status = iccp_simplify_apart(
         common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
         (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);
@@ -232,9 +233,9 @@ static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *com
     return status;
 }
 
-icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source,
-                               const icc_domain *target, const icc_match_options *options,
-                               const iccp_env *env, icc_error *err)
+icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const icc_domain *target,
+                               const icc_match_options *options, const iccp_env *env,
+                               icc_error *err)
 {
     body bodies[2] = {{0}, {0}};
     iccp_common_surface common = {0};

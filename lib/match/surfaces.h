@@ -5,8 +5,8 @@
 #include "match/match.h"
 
 /* Fills in a match of two domains of dimension 3 without meshes; see icc_match_create(). */
-icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source,
-                               const icc_domain *target, const icc_match_options *options,
-                               const iccp_env *env, icc_error *err);
+icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const icc_domain *target,
+                               const icc_match_options *options, const iccp_env *env,
+                               icc_error *err);
 
 #endif

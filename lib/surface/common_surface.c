@@ -55,8 +55,8 @@ static void put_in_face(const maker *k, int other, const double p[3], uint32_t f
     put_between(k, other, 3, x, weight);
 }
 
-/* The next vertex's place on an edge that is crossed: the great circle through the ends of the other
- * edge parts it in the ratio of the determinants with its own ends. */
+/* The next vertex's place on an edge that is crossed: the great circle through the ends of the
+ * other edge parts it in the ratio of the determinants with its own ends. */
 static void put_on_edge(const maker *k, int side, const uint32_t h[2])
 {
     const iccp_half_edges *const m = k->m[side], *const other = k->m[1 - side];
@@ -66,7 +66,8 @@ static void put_on_edge(const maker *k, int side, const uint32_t h[2])
     const double at_u = fabs(iccp_direction_det(p, q, vector_of(k->directions[side], u)));
     const double at_v = fabs(iccp_direction_det(p, q, vector_of(k->directions[side], v)));
     const double sum = at_u + at_v, share = sum > 0 ? at_u / sum : 0.5;
-    put_between(k, side, 2, (const double *const[]){vector_of(k->x[side], u), vector_of(k->x[side], v)},
+    put_between(k, side, 2,
+                (const double *const[]){vector_of(k->x[side], u), vector_of(k->x[side], v)},
                 (const double[]){1 - share, share});
 }
 
@@ -103,9 +104,9 @@ static double least_angle(const maker *k, const uint32_t *v, size_t n, size_t fr
     for (size_t i = 1; i + 1 < n; ++i)
         for (int side = 0; side < 2; ++side) {
             const double *const x = k->common->x[side];
-            least = iccp_min(least, iccp_least_sine(vector_of(x, v[from]),
-                                                    vector_of(x, v[(from + i) % n]),
-                                                    vector_of(x, v[(from + i + 1) % n])));
+            least = iccp_min(least,
+                             iccp_least_sine(vector_of(x, v[from]), vector_of(x, v[(from + i) % n]),
+                                             vector_of(x, v[(from + i + 1) % n])));
         }
     return least;
 }

@@ -44,7 +44,8 @@ static uint32_t walk(const iccp_drawn_finder *f, uint32_t face, const double p[3
     double best = -HUGE_VAL;
     for (uint32_t other = 0; other < f->m->n_faces; ++other) {
         (void)exit_of(f, other, p, &how);
-        if (how > best && iccp_vec_dot(3, p, f->directions + 3 * (size_t)f->m->origin[3 * other]) > 0) {
+        if (how > best &&
+            iccp_vec_dot(3, p, f->directions + 3 * (size_t)f->m->origin[3 * other]) > 0) {
             best = how;
             face = other;
         }

@@ -73,7 +73,8 @@ static void find_image(const search *s, const double p[3], double image[3])
     for (int k = 0; k < 3; ++k) {
         image[k] = 0;
         for (uint32_t i = 0; i < 3; ++i)
-            image[k] += s->scale[1] * weight[i] * s->x[1][3 * (size_t)s->m->origin[3 * face + i] + (size_t)k];
+            image[k] += s->scale[1] * weight[i] *
+                        s->x[1][3 * (size_t)s->m->origin[3 * face + i] + (size_t)k];
     }
 }
 
@@ -208,8 +209,9 @@ static icc_status find(search *s, double *first, double *turned, const iccp_half
     return status;
 }
 
-icc_status iccp_rotation_find(double *first, const double *second, const iccp_half_edges *const m[2],
-                              const double *const x[2], double *energy, const iccp_env *env)
+icc_status iccp_rotation_find(double *first, const double *second,
+                              const iccp_half_edges *const m[2], const double *const x[2],
+                              double *energy, const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
     search s = {.first = first, .x = {x[0], x[1]}, .m = m[1]};
@@ -217,8 +219,8 @@ icc_status iccp_rotation_find(double *first, const double *second, const iccp_ha
     s.image = iccp_alloc(memory, m[0]->n_vertices, sizeof *s.image);
     for (int side = 0; side < 2; ++side)
         s.scale[side] = 1 / sqrt(total_area(m[side], x[side]));
-    icc_status status = iccp_half_edges_create(&s.coarse, m[0]->n_vertices, m[0]->n_faces,
-                                               m[0]->origin, env, NULL);
+    icc_status status =
+        iccp_half_edges_create(&s.coarse, m[0]->n_vertices, m[0]->n_faces, m[0]->origin, env, NULL);
     if (turned == NULL || s.image == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK && m[0]->n_left > SAMPLES)

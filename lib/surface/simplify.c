@@ -124,8 +124,8 @@ static double thinnest_round(const simplification *s, uint32_t u)
     for (uint32_t k = 0; k < m->degree[u]; ++k, h = iccp_edge_turn(m, h)) {
         const uint32_t a = iccp_edge_end(m, h), b = m->origin[iccp_before(h)];
         for (int side = 0; side < 2; ++side)
-            least = iccp_min(least,
-                             iccp_least_sine(at(s, side, u), at(s, side, a), at(s, side, b)));
+            least =
+                iccp_min(least, iccp_least_sine(at(s, side, u), at(s, side, a), at(s, side, b)));
     }
     return least;
 }
@@ -309,8 +309,8 @@ icc_status iccp_simplify(iccp_common_surface *common, uint32_t *became,
                          const iccp_simplify_limits *limits, const iccp_env *env)
 {
     simplification s = {.c = common, .limits = limits};
-    icc_status status = iccp_half_edges_create(&s.m, common->n_vertices, common->n_faces,
-                                               common->faces, env, NULL);
+    icc_status status =
+        iccp_half_edges_create(&s.m, common->n_vertices, common->n_faces, common->faces, env, NULL);
     if (status == ICC_OK)
         status = simplify(&s, common, became, given, x, env);
     for (int side = 0; side < 2; ++side) {

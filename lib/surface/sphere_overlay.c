@@ -18,8 +18,8 @@ typedef struct graph {
     iccp_paired_crossings paired;
     size_t n_pieces, n_first; /* those of the first drawing's edges come first */
     uint32_t *along;          /* by piece: its half-edge, as it was walked */
-    uint32_t *origin; /* by dart: its node */
-    uint32_t *back;   /* by dart: the next one at the node, clockwise */
+    uint32_t *origin;         /* by dart: its node */
+    uint32_t *back;           /* by dart: the next one at the node, clockwise */
 } graph;
 
 static uint32_t reversed(uint32_t dart)

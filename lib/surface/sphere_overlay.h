@@ -16,13 +16,13 @@ typedef struct iccp_sphere_overlay {
     size_t n_nodes;          /* that stand for something */
     uint32_t (*crossing)[2]; /* n_crossings: the half-edges of both drawings; the second one runs
                                 from the right to the left of the first */
-    uint32_t *partner; /* by vertex of the first drawing: the second's that it also is; or
+    uint32_t *partner;       /* by vertex of the first drawing: the second's that it also is; or
                           ICCP_NO_EDGE */
     uint32_t *face[2]; /* by vertex of each drawing that is not the other's: the other's face that
                           it is in */
     size_t n_faces;
-    uint32_t *begin;  /* n_faces + 1: where the corners of each face begin */
-    uint32_t *corner; /* nodes, counter-clockwise; at most ICCP_OVERLAY_CORNERS a face */
+    uint32_t *begin;     /* n_faces + 1: where the corners of each face begin */
+    uint32_t *corner;    /* nodes, counter-clockwise; at most ICCP_OVERLAY_CORNERS a face */
     uint32_t *within[2]; /* n_faces: the face of each drawing that a face is a part of */
 } iccp_sphere_overlay;
 

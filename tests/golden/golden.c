@@ -604,6 +604,22 @@ static void try_match(digest *d, size_t which)
     icc_domain_free(target);
 }
 
+/* Two surfaces, which are cut by one another and made coarse together. */
+static void try_match_surfaces(digest *d, size_t which)
+{
+    icc_domain *source = domain_star(0), *target = domain_star(1);
+    icc_match *match;
+    icc_error err = {.size = sizeof err};
+    (void)which;
+    must(icc_match_create(&match, source, target, 0, NULL, NULL, NULL, &err), "icc_match_create",
+         &err);
+    digest_domain(d, icc_match_source(match));
+    digest_domain(d, icc_match_target(match));
+    icc_match_free(match);
+    icc_domain_free(source);
+    icc_domain_free(target);
+}
+
 /* A square with random points, a third of them on a lattice, where four and more lie on a
  * circle. */
 static void try_triangulation(digest *d, size_t which)
@@ -674,7 +690,7 @@ static const struct {
                {"defects", try_defects, 0},         {"triangulation", try_triangulation, 0},
                {"mask-repair", try_mask_repair, 0}, {"mesh-repair2", try_mesh, 0},
                {"mesh-repair3", try_mesh, 1},       {"match", try_match, 0},
-               {"match-landmarks", try_match, 1}};
+               {"match-landmarks", try_match, 1},   {"match-surfaces", try_match_surfaces, 0}};
 enum { N_RESULTS = sizeof RESULTS / sizeof *RESULTS };
 
 static void show_result(const char *name, void (*run)(digest *d, size_t which), size_t which)

@@ -166,7 +166,8 @@ static const command commands[] = {
          "help. Outlines without features, as discs, are paired by arc length where --match arc "
          "says so.\n"
          "map, warp, check and the others take --match as well, and need no files between.\n"
-         "Surfaces in space (-o A.obj --target-output B.obj) get common triangles, within 1/1000 of the "
+         "Surfaces in space (-o A.obj --target-output B.obj) get common triangles, within 1/1000 "
+         "of the "
          "diagonal; the\n"
          "less the 'energy' is over 4 the less they are stretched.\n"},
     {.name = "weights",

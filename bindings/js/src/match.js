@@ -7,7 +7,7 @@ const ADDED = 0xffffffff;
 /** The class Match of an instance. */
 export function matchOf(core, Domain) {
   return class Match extends Handle {
-    /** source, target: Domains of the plane, or outlines; landmarks: rows of a point of the source and one of the
+    /** source, target: Domains of the plane, or outlines, or surfaces (without landmarks); landmarks: rows of a point of the source and one of the
      *  target; options as in icc_match_options. new Map(match.source, match.target) maps them. */
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);

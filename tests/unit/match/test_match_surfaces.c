@@ -23,8 +23,7 @@ static icc_status match_both(icc_match **match, double tolerance, const icc_env 
 {
     icc_domain *source = domain_of(&one), *target = domain_of(&two);
     const icc_match_options options = {.size = sizeof options, .tolerance = tolerance};
-    const icc_status status =
-        icc_match_create(match, source, target, 0, NULL, &options, env, err);
+    const icc_status status = icc_match_create(match, source, target, 0, NULL, &options, env, err);
     icc_domain_free(source);
     icc_domain_free(target);
     return status;
