@@ -480,12 +480,14 @@ enum {
     ICC_FUNCTION_DISTANCE = 2,  /**< minus the distance in the tree (L1 distance) */
     ICC_FUNCTION_LAPLACE = 3,   /**< discretely harmonic: 1 at the maximum, 0 outside */
     ICC_FUNCTION_BILAPLACE = 4, /**< discretely biharmonic, simply supported (Navier) */
-    ICC_FUNCTION_CLAMPED = 5    /**< discretely biharmonic, clamped: changes its sign unless
+    ICC_FUNCTION_CLAMPED = 5,   /**< discretely biharmonic, clamped: changes its sign unless
                                      constrained */
+    ICC_FUNCTION_HARMONIC = 6   /**< as Laplace, but 0 on the boundary itself, where the grid's
+                                     edges cross it: follows the shape, not a staircase */
 };
 
-/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace
- *  and bi-Laplace; decay and distance satisfy it anyway). */
+/** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside
+ *  (Laplace, harmonic and bi-Laplace; decay and distance satisfy it anyway). */
 enum {
     ICC_CONSTRAINTS_NEEDED = 1, /**< only if the function without them has critical points other
                                      than one maximum at the root (and, in 2-D, the saddles of

@@ -205,10 +205,10 @@ typedef struct icc_function_options {
     size_t size;         /**< set by the caller: `sizeof(icc_function_options)` */
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
-    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped
-                              and constrained bi-Laplace are always factorised; Laplace is solved
-                              iteratively where a factorisation would lose small values, as in long
-                              thin rings */
+    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped,
+                              harmonic and constrained bi-Laplace are always factorised; Laplace is
+                              solved iteratively where a factorisation would lose small values, as
+                              in long thin rings */
     double min_fall;     /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
     double leaf_min;     /**< constrained bi-Laplace: least value at vertices without children, in
                               (0, 0.01]; 0: 1e-9 */
@@ -279,12 +279,18 @@ enum {
  * bilaplace: the function with the least sum of squared Laplacians over the vertices inside, which
  * is f = c L^-2 e_root (simply supported, Navier).
  *
+ * harmonic: as laplace, but 0 where the grid's edges cross the boundary of the domain that the grid
+ * was made from, by weights for the edges that it cuts (F. Gibou, R. P. Fedkiw, L.-T. Cheng,
+ * M. Kang, 2002); values at the vertices outside go on from there. The staircase of laplace's zeros
+ * leaves as much of the area uncovered at any resolution; with these the share falls with the grid.
+ * In a mask's grid, whose boundary consists of vertices, both are the same.
+ *
  * clamped: the same, over the adjacent vertices outside, too.
  *
- * Laplace and bilaplace are positive inside, however far from the root; clamped changes its sign
- * unless it is constrained. With constraints: the function of least energy among those that fall by
- * `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min`
- * at the leaves.
+ * Laplace, harmonic and bilaplace are positive inside, however far from the root; clamped changes
+ * its sign unless it is constrained. With constraints: the function of least energy among those
+ * that fall by `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least
+ * `leaf_min` at the leaves.
  *
  * Bilaplace and clamped are shapes of a plate that is loaded at the root, and an off-centre load
  * does not make a plate highest right under the load: without constraints the maximum may be
@@ -301,8 +307,10 @@ enum {
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
  *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as
- *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2; ::ICC_ERR_RESOLUTION
- *         when the root is the only vertex inside (laplace, bilaplace, clamped);
+ *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2, and for harmonic where
+ *         laplace would be solved iteratively; ::ICC_ERR_RESOLUTION
+ *         when the root is the only vertex inside (laplace, bilaplace, clamped, harmonic);
+ *         ::ICC_ERR_UNSUPPORTED for harmonic on a grid that was not made from a domain, or refined;
  *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,

@@ -42,7 +42,7 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
                                icc_error *err)
 {
     icc_status status =
-        check_choice(options->function, ICC_FUNCTION_CLAMPED, name, "function", err);
+        check_choice(options->function, ICC_FUNCTION_HARMONIC, name, "function", err);
     if (status == ICC_OK)
         status = check_choice(options->constraints, ICC_CONSTRAINTS_ALL, name, "constraints", err);
     if (status == ICC_OK)

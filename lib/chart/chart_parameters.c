@@ -23,7 +23,7 @@ static void visit(iccp_blob *b, iccp_chart_parameters *parameters, int32_t dim, 
 {
     icc_chart_options *o = &parameters->options;
     int32_t has_maximum = parameters->has_maximum;
-    iccp_blob_i32(b, ICCP_U32, ICC_FUNCTION_DECAY, ICC_FUNCTION_CLAMPED, &o->function);
+    iccp_blob_i32(b, ICCP_U32, ICC_FUNCTION_DECAY, ICC_FUNCTION_HARMONIC, &o->function);
     iccp_blob_i32(b, ICCP_U32, ICC_TREE_THESIS, ICC_TREE_PAPER, &o->tree);
     iccp_blob_i32(b, ICCP_U32, 0, ICCP_MAX_CELLS, &o->cells);
     iccp_blob_i32(b, ICCP_U32, 0, ICC_CONSTRAINTS_ALL, &o->constraints);

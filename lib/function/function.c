@@ -1,6 +1,7 @@
 #include "function/function.h"
 
 #include "base/minmax.h"
+#include "function/beyond.h"
 #include "math/elementary.h"
 
 #include <stdbool.h>
@@ -86,46 +87,6 @@ static icc_status assign_exponents(icc_function *function, const iccp_unknowns *
     return ICC_OK;
 }
 
-/* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the
- * inside. */
-static uint32_t highest_behind(const icc_function *function, uint32_t v)
-{
-    const icc_grid *grid = function->tree->grid;
-    uint32_t best = ICCP_NONE;
-    for (int32_t i = 0; i < 2 * grid->dim; ++i) {
-        const uint32_t outside = iccp_grid_neighbour(grid, v, i / 2, i % 2 * 2 - 1);
-        if (outside == ICCP_NONE)
-            continue;
-        if (grid->inside[outside])
-            return ICCP_NONE;
-        for (int32_t j = 0; j < 2 * grid->dim; ++j) {
-            const uint32_t u = iccp_grid_neighbour(grid, outside, j / 2, j % 2 * 2 - 1);
-            if (u != ICCP_NONE && grid->inside[u] && !isnan(function->values[u]) &&
-                (best == ICCP_NONE || iccp_function_compare(function, u, best) > 0))
-                best = u;
-        }
-    }
-    return best;
-}
-
-/* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that
- * cuts the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less
- * area uncovered, fewer boundary points where the gradient does not point inward). */
-static void mirror(icc_function *function)
-{
-    const icc_tree *tree = function->tree;
-    for (size_t i = tree->n_inside; i < tree->n_reached; ++i) {
-        const uint32_t v = tree->order[i], behind = highest_behind(function, v);
-        if (behind == ICCP_NONE)
-            continue;
-        function->values[v] = -function->values[behind];
-        if (function->exponent != NULL)
-            function->exponent[v] = function->exponent[behind];
-        if (function->plain != NULL)
-            function->plain[v] = -function->plain[behind];
-    }
-}
-
 /* What an earlier assignment has left. */
 static void forget(icc_function *function)
 {
@@ -162,9 +123,7 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
     icc_status status = ICC_OK;
     if (positive && least < LEAST_EXPONENT)
         status = assign_exponents(function, unknowns, f);
-    if (status == ICC_OK)
-        mirror(function);
-    return status;
+    return status == ICC_OK ? iccp_function_go_beyond(function, unknowns) : status;
 }
 
 void iccp_function_release(icc_function *function)

@@ -49,7 +49,8 @@ static double predict_work(const icc_tree *tree)
 
 static int32_t choose_solver(const job *j)
 {
-    if (j->options->function == ICC_FUNCTION_CLAMPED)
+    if (j->options->function == ICC_FUNCTION_CLAMPED ||
+        j->options->function == ICC_FUNCTION_HARMONIC)
         return ICC_SOLVER_DIRECT;
     if (j->options->solver != 0)
         return j->options->solver;
@@ -63,6 +64,8 @@ static int32_t choose_solver(const job *j)
 static icc_status begin_job(job *j, const iccp_env *env)
 {
     icc_status status = iccp_unknowns_create(&j->unknowns, j->function->tree, env);
+    if (status == ICC_OK && j->options->function == ICC_FUNCTION_HARMONIC)
+        status = iccp_unknowns_reach_boundary(&j->unknowns, env);
     if (status != ICC_OK)
         return status;
     const size_t n = j->unknowns.n;
@@ -98,7 +101,7 @@ static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties 
                                  const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
     const icc_status status = iccp_tied_direct(unknowns, ties, f, info, env);
-    if (status != ICC_ERR_SOLVER)
+    if (status != ICC_ERR_SOLVER || unknowns->reach != NULL)
         return status;
     iccp_log(env, "the factorisation loses values far from the maximum: iterating instead");
     info->solver = ICC_SOLVER_ITERATIVE;
@@ -110,6 +113,12 @@ static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties 
 static iccp_tied_solver tied_solver(const job *j)
 {
     return j->function->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_tied_iterative;
+}
+
+/* With zeros on the boundary itself it is the same equation with another diagonal. */
+static bool is_laplace(int32_t function)
+{
+    return function == ICC_FUNCTION_LAPLACE || function == ICC_FUNCTION_HARMONIC;
 }
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
@@ -130,10 +139,9 @@ static icc_status solve(job *j, const iccp_env *env)
 {
     icc_function_info *info = &j->function->info;
     const int32_t function = j->options->function;
-    const icc_status status =
-        function == ICC_FUNCTION_LAPLACE
-            ? solve_laplace(j, env)
-            : iccp_bilaplace(&j->unknowns, function, info->solver, &j->f, info, env);
+    const icc_status status = is_laplace(function) ? solve_laplace(j, env)
+                                                   : iccp_bilaplace(&j->unknowns, function,
+                                                                    info->solver, &j->f, info, env);
     if (status != ICC_OK)
         return status;
     const double clock = iccp_seconds();
@@ -148,7 +156,7 @@ static icc_status constrain(job *j, const iccp_env *env)
     const int32_t function = j->options->function;
     const double eta = j->options->min_fall;
     info->constrained = 1;
-    if (function == ICC_FUNCTION_LAPLACE)
+    if (is_laplace(function))
         return iccp_active_set_laplace(&j->unknowns, eta, tied_solver(j), j->order, &j->f, info,
                                        env);
     info->solver = ICC_SOLVER_DIRECT;
@@ -192,6 +200,9 @@ icc_status iccp_laplace(icc_function *function, const icc_function_options *opti
             "the grid is too coarse: vertex %lu is the only one inside that the tree "
             "reaches",
             (unsigned long)tree->root);
+    if (options->function == ICC_FUNCTION_HARMONIC && tree->grid->domain == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "the grid was not made from a domain, so there is no boundary");
     function->info.n_unknowns = tree->n_inside - 1;
     function->info.solver = choose_solver(&j);
     const icc_status status = find_function(&j, env);

@@ -90,6 +90,7 @@ icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_
     part->frame = grid->frame;
     part->spacing = grid->spacing;
     part->cells = grid->cells;
+    part->domain = grid->domain != NULL ? iccp_domain_retain(grid->domain) : NULL;
     for (int32_t k = 0; k < grid->dim; ++k)
         part->origin[k] = grid->origin[k];
     for (size_t v = 0; v < grid->n_vertices; ++v) {
@@ -118,6 +119,7 @@ void iccp_grid_release(icc_grid *grid)
     if (grid == NULL || atomic_fetch_sub(&grid->references, 1) != 1)
         return;
     const iccp_memory memory = grid->memory;
+    iccp_domain_release(grid->domain);
     iccp_free(&memory, grid->inside);
     iccp_free(&memory, grid);
 }

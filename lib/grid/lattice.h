@@ -28,6 +28,7 @@ struct icc_grid {
     double spacing;             /* local */
     iccp_frame frame;           /* of the domain, or the identity for masks */
     int32_t cells;              /* along the longest side of a domain; 0 for masks of vertices */
+    icc_domain *domain;         /* whose inside the vertices inside lie in, or NULL */
     size_t n_vertices, n_inside;
     size_t n_stray;  /* vertices that were inside and have been taken out */
     uint8_t *inside; /* 1 or 0 */

@@ -153,6 +153,7 @@ icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t ce
                            "no grid vertex lies inside: use more than %d cells", (int)cells);
     if (status == ICC_OK) {
         (*out)->frame = domain->frame;
+        (*out)->domain = iccp_domain_retain(domain);
     } else {
         iccp_grid_release(*out);
         *out = NULL;

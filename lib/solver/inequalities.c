@@ -52,7 +52,8 @@ double iccp_laplacian_row(const iccp_unknowns *unknowns, const iccp_scaled *f, s
     const uint32_t *neighbour = unknowns->neighbour + k * (size_t)unknowns->n_neighbours;
     double sum = 0;
     for (int32_t d = 0; d < unknowns->n_neighbours; ++d)
-        sum += neighbour[d] == ICCP_NONE ? own : own - iccp_scaled_get(f, neighbour[d], exponent);
+        sum += neighbour[d] == ICCP_NONE ? own * iccp_unknowns_slope(unknowns, k, d)
+                                         : own - iccp_scaled_get(f, neighbour[d], exponent);
     return sum;
 }
 

@@ -101,18 +101,18 @@ static void subtract(assembly *a, size_t u, uint32_t v, double x, size_t *end)
 /* Row u of P'LP, which begins at first[u]. */
 static void assemble_row(assembly *a, size_t u)
 {
-    const size_t degree = (size_t)a->unknowns->n_neighbours;
+    const int32_t degree = a->unknowns->n_neighbours;
     const double *share = a->ties->share;
     size_t end = a->first[u];
     for (uint32_t k = a->last[u]; k != ICCP_NONE; k = a->previous[k])
-        for (size_t d = 0; d < degree; ++d) {
-            const uint32_t j = a->unknowns->neighbour[k * degree + d];
+        for (int32_t d = 0; d < degree; ++d) {
+            const uint32_t j = a->unknowns->neighbour[k * (size_t)degree + (size_t)d];
             if (j != ICCP_NONE && a->cluster[j] == u) {
                 const double step = share[k] - share[j];
                 a->diagonal[u] += 0.5 * step * step; /* met from either end */
                 continue;
             }
-            a->diagonal[u] += share[k] * share[k];
+            a->diagonal[u] += share[k] * share[k] * iccp_unknowns_slope(a->unknowns, k, d);
             if (j == ICCP_NONE)
                 continue;
             if (a->cluster[j] == ICCP_NONE)

@@ -86,7 +86,7 @@ START_TEST(charts_refuse_bad_arguments)
     NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
     static const double NOT_FINITE[2] = {0.5, NAN}, INSIDE[2] = {0.5, 0.5};
     const icc_chart_options bad[] = {
-        {.size = sizeof *bad, .function = 6},
+        {.size = sizeof *bad, .function = 7},
         {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .tree = 3},
         {.size = sizeof *bad, .tree = -1},
@@ -372,7 +372,7 @@ START_TEST(stages_refuse_bad_arguments)
     EXPLAINED(icc_function_create(NULL, o.tree, NULL, NULL, &err));
     NOT_MADE(f, icc_function_create(&f, NULL, NULL, NULL, &err));
     const icc_function_options bad[] = {
-        {.size = sizeof *bad, .function = 6},        {.size = sizeof *bad, .function = -1},
+        {.size = sizeof *bad, .function = 7},        {.size = sizeof *bad, .function = -1},
         {.size = sizeof *bad, .constraints = 4},     {.size = sizeof *bad, .constraints = -1},
         {.size = sizeof *bad, .solver = 3},          {.size = sizeof *bad, .solver = -1},
         {.size = sizeof *bad, .min_fall = -1e-6},    {.size = sizeof *bad, .min_fall = 0.0100001},

@@ -43,6 +43,7 @@ static const chart_case CHARTS[] = {
      ICC_CONSTRAINTS_NONE, 0},
     {"chart-clamped", domain_l, ICC_METHOD_GRADIENT, 20, ICC_FUNCTION_CLAMPED, 0,
      ICC_CONSTRAINTS_ALL, 0},
+    {"chart-harmonic", domain_comb, ICC_METHOD_GRADIENT, 30, ICC_FUNCTION_HARMONIC, 0, 0, 0},
     {"chart-laplace3", domain_star, ICC_METHOD_GRADIENT, 12, ICC_FUNCTION_LAPLACE, 0, 0,
      ICC_SOLVER_ITERATIVE},
     {"chart-cells2", domain_cells2, ICC_METHOD_FIELD, 0, 0, 0, 0, 0},

@@ -177,11 +177,11 @@ for pair in "--constrained " "--unconstrained " "--min-fall 1e-3" "--solver iter
     for function in decay distance; do
         # shellcheck disable=SC2086
         run 2 info -s source.txt -m gradient --function $function $pair
-        says "${pair% *} needs --function laplace, bilaplace or clamped"
+        says "${pair% *} needs --function laplace, bilaplace, clamped or harmonic"
     done
     # shellcheck disable=SC2086
     run 2 info -s source.txt -m gradient $pair
-    says "${pair% *} needs --function laplace, bilaplace or clamped"
+    says "${pair% *} needs --function laplace, bilaplace, clamped or harmonic"
 done
 run 2 info -s source.txt -m gradient -f laplace --constrained --unconstrained
 says "--constrained and --unconstrained exclude each other"

@@ -48,7 +48,8 @@ static int check_functions(const args *a, const command *c)
     for (size_t i = 0; i < a->n_functions; i++)
         solves = solves || function_solves(a->functions[i].function);
     if (solved_only != NULL && !solves)
-        return misused(c->name, "--%s needs --function laplace, bilaplace or clamped", solved_only);
+        return misused(c->name, "--%s needs --function laplace, bilaplace, clamped or harmonic",
+                       solved_only);
     if (a->constrained && a->unconstrained)
         return misused(c->name, "--constrained and --unconstrained exclude each other");
     if (a->n_functions > 1 && !(c->bit & FOR_PLOT))

@@ -20,7 +20,7 @@ static int32_t choice_value(const choice *choices, const char *text, size_t n)
 bool function_solves(int32_t function)
 {
     return function == ICC_FUNCTION_LAPLACE || function == ICC_FUNCTION_BILAPLACE ||
-           function == ICC_FUNCTION_CLAMPED;
+           function == ICC_FUNCTION_CLAMPED || function == ICC_FUNCTION_HARMONIC;
 }
 
 /* One function, text[0..n). */
@@ -31,15 +31,15 @@ static bool parse_one(function_choice *out, const char *text, size_t n, problem 
     if (out->function == 0)
         return spoilt(wrong, 0,
                       "--function '%.*s' is unknown; it may be: decay, distance, laplace, "
-                      "bilaplace, clamped",
+                      "bilaplace, clamped, harmonic",
                       (int)(name < 40 ? name : 40), text);
     if (name == n)
         return true;
     out->constraints = choice_value(constraints, text + name + 1, n - name - 1);
     if (out->constraints == 0 || !function_solves(out->function))
         return spoilt(wrong, 0,
-                      "--function '%.*s': behind the colon of laplace, bilaplace or clamped "
-                      "stands constrained or unconstrained",
+                      "--function '%.*s': behind the colon of laplace, bilaplace, clamped or "
+                      "harmonic stands constrained or unconstrained",
                       (int)(n < 40 ? n : 40), text);
     return true;
 }

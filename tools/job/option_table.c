@@ -8,10 +8,13 @@ const choice methods[] = {{"foliation", ICC_METHOD_FOLIATION},
                           {"field", ICC_METHOD_FIELD},
                           {NULL, 0}};
 const choice maps[] = {{"mesh", ICC_MAP_MESH}, {"curves", ICC_MAP_CURVES}, {NULL, 0}};
-const choice functions[] = {
-    {"decay", ICC_FUNCTION_DECAY},     {"distance", ICC_FUNCTION_DISTANCE},
-    {"laplace", ICC_FUNCTION_LAPLACE}, {"bilaplace", ICC_FUNCTION_BILAPLACE},
-    {"clamped", ICC_FUNCTION_CLAMPED}, {NULL, 0}};
+const choice functions[] = {{"decay", ICC_FUNCTION_DECAY},
+                            {"distance", ICC_FUNCTION_DISTANCE},
+                            {"laplace", ICC_FUNCTION_LAPLACE},
+                            {"bilaplace", ICC_FUNCTION_BILAPLACE},
+                            {"clamped", ICC_FUNCTION_CLAMPED},
+                            {"harmonic", ICC_FUNCTION_HARMONIC},
+                            {NULL, 0}};
 const choice solvers[] = {
     {"direct", ICC_SOLVER_DIRECT}, {"iterative", ICC_SOLVER_ITERATIVE}, {NULL, 0}};
 const choice meshers[] = {{"libicc", MESHER_OWN}, {"tetgen", MESHER_TETGEN}, {NULL, 0}};
@@ -477,13 +480,14 @@ const option options[] = {
      .kind = OPTION_FUNCTIONS,
      .commands = FOR_CHARTS,
      .value = "NAME",
-     .help = "gradient: decay (default), distance, laplace, bilaplace or clamped"},
+     .help = "gradient: decay (default), distance, laplace, bilaplace, clamped or\n"
+             "harmonic (laplace with zeros on the boundary itself)"},
     {.name = "constrained",
      .papers = true,
      .kind = OPTION_FLAG,
      .commands = FOR_CHARTS,
      .offset = AT(constrained),
-     .help = "laplace, bilaplace, clamped: impose the tree's inequalities"},
+     .help = "those that solve an equation: impose the tree's inequalities"},
     {.name = "unconstrained",
      .papers = true,
      .kind = OPTION_FLAG,

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
 METHODS = {"gradient": 1, "foliation": 2, "field": 3, "disc": 4}
-FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5}
+FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5, "harmonic": 6}
 CONSTRAINTS = {"needed": 1, "none": 2, "all": 3}
 SOLVERS = {"direct": 1, "iterative": 2}
 TREES = {"thesis": 1, "paper": 2}
@@ -62,7 +62,7 @@ class Chart(Saved):
         method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best available
         cells: grid or mesh cells along the longest side; None: as many as suit
         maximum: where the curves are to end, (dim,), or None
-        function: for the method gradient: "decay", "distance", "laplace", "bilaplace" or "clamped"
+        function: for the method gradient: "decay", "distance", "laplace", "bilaplace", "clamped" or "harmonic"
         constraints: whether it is made to fall along the tree: "needed", "none" or "all"
         solver: "direct" or "iterative"
         tree: "thesis" or "paper"

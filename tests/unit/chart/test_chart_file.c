@@ -109,7 +109,7 @@ START_TEST(all_options)
     static const double MAXIMUM[2] = {0.6, 2.2};
     const shape s = shape_l();
     icc_domain *domain = polygon(&s);
-    for (int32_t function = 1; function <= ICC_FUNCTION_CLAMPED; ++function)
+    for (int32_t function = 1; function <= ICC_FUNCTION_HARMONIC; ++function)
         for (int32_t tree = 1; tree <= ICC_TREE_PAPER; ++tree) {
             const icc_chart_options o = {.size = sizeof o,
                                          .method = ICC_METHOD_GRADIENT,

@@ -592,7 +592,7 @@ START_TEST(wrong_arguments)
     ck_assert_int_eq(icc_function_create(NULL, tree, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_function_create(&field, NULL, NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_ptr_null(field);
-    icc_function_options options = {.size = sizeof options, .function = 6};
+    icc_function_options options = {.size = sizeof options, .function = 7};
     ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);
     options = (icc_function_options){.size = 0};
     ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_ERR_ARGUMENT);

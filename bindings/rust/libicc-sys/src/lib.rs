@@ -419,6 +419,8 @@ pub const ICC_FUNCTION_LAPLACE: i32 = 3;
 pub const ICC_FUNCTION_BILAPLACE: i32 = 4;
 /// discretely biharmonic, clamped: changes its sign unless constrained
 pub const ICC_FUNCTION_CLAMPED: i32 = 5;
+/// as Laplace, but 0 on the boundary itself
+pub const ICC_FUNCTION_HARMONIC: i32 = 6;
 
 // Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
 // decay and distance fulfil it anyway).

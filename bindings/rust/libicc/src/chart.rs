@@ -62,6 +62,8 @@ pub enum FunctionKind {
     Bilaplace = sys::ICC_FUNCTION_BILAPLACE,
     /// discretely biharmonic, clamped
     Clamped = sys::ICC_FUNCTION_CLAMPED,
+    /// discretely harmonic, 0 on the boundary itself
+    Harmonic = sys::ICC_FUNCTION_HARMONIC,
 }
 
 /// Whether a function is made to fall along the tree.
