@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev libcjson-dev
+need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev libcjson-dev python3-numpy
 
 build=build/examples
 stage=$PWD/$build/stage
@@ -47,3 +47,7 @@ echo "kernel_pose:"
 
 echo "kernel.sh:"
 LIBICC=$stage/bin/libicc sh examples/kernel.sh "$out"
+
+echo "compare/compare.py:"
+PYTHONPATH=bindings/python LIBICC_LIBRARY=$(ls "$stage"/lib*/libicc.so.0 "$stage"/lib/*/libicc.so.0 2>/dev/null) \
+    /usr/bin/python3 -B examples/compare/compare.py --cells 8 --steps 80 "$out/compare.svg"
