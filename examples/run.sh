@@ -48,6 +48,12 @@ echo "kernel_pose:"
 echo "kernel.sh:"
 LIBICC=$stage/bin/libicc sh examples/kernel.sh "$out"
 
+PYTHONPATH=$PWD/bindings/python
+LIBICC_LIBRARY=$(find "$stage" -name libicc.so.0)
+export PYTHONPATH LIBICC_LIBRARY
 echo "compare/compare.py:"
-PYTHONPATH=bindings/python LIBICC_LIBRARY=$(ls "$stage"/lib*/libicc.so.0 "$stage"/lib/*/libicc.so.0 2>/dev/null) \
-    /usr/bin/python3 -B examples/compare/compare.py --cells 8 --steps 80 "$out/compare.svg"
+/usr/bin/python3 -B examples/compare/compare.py --cells 8 --steps 80 "$out/compare.svg"
+echo "compare/bounded_biharmonic.py:"
+/usr/bin/python3 -B examples/compare/bounded_biharmonic.py --cells 16
+echo "compare/outlines.py:"
+/usr/bin/python3 -B examples/compare/outlines.py --cells 25
