@@ -7,9 +7,9 @@
 
 #include <string.h>
 
-/* Times that each corner is moved to make room for a tetrahedron; Newton's steps for it, and for
- * the apex in the beginning. */
-enum { ROUNDS = 3, STEPS = 8, APEX_STEPS = 100 };
+/* Times that each corner is moved to make room for a tetrahedron; Newton's steps for the apex in the
+ * beginning. */
+enum { ROUNDS = 3, APEX_STEPS = 100 };
 
 void iccp_cone_smooth(iccp_cone *cone, uint32_t point, size_t steps)
 {
@@ -50,7 +50,7 @@ static bool enter(iccp_cone *cone, uint32_t point)
     if (point < cone->n_fixed || !iccp_cone_find_room(cone, point))
         return false;
     memcpy(x, iccp_cone_image(cone, point), sizeof x);
-    const bool entered = iccp_halfspaces_enter(&cone->room, STEPS, x);
+    const bool entered = iccp_halfspaces_enter(&cone->room, x);
     iccp_cone_put(cone, point, x);
     return entered;
 }
@@ -111,8 +111,7 @@ static void find_centroid(iccp_cone *cone)
 bool iccp_cone_find_apex(iccp_cone *cone)
 {
     find_centroid(cone);
-    if (!iccp_cone_find_apex_room(cone) ||
-        !iccp_halfspaces_enter(&cone->room, APEX_STEPS, cone->apex))
+    if (!iccp_cone_find_apex_room(cone) || !iccp_halfspaces_enter(&cone->room, cone->apex))
         return false;
     iccp_halfspaces_centre(&cone->room, APEX_STEPS, cone->apex);
     return iccp_cone_is_apex_good(cone);

@@ -1,5 +1,6 @@
-/* Method of centres: P. Huard, Resolution of mathematical programming with nonlinear constraints by
- * the method of centres, 1967; steps of Newton's method damped as in Y. Nesterov, A. Nemirovskii,
+/* Inside at all: the place whose least distance is greatest, by gradient projection: J. Rosen, The
+ * gradient projection method for nonlinear programming, part I, 1960. In the middle: steps of
+ * Newton's method for the product of distances, damped as in Y. Nesterov, A. Nemirovskii,
  * Interior-Point Polynomial Algorithms in Convex Programming, 1994, which never leave the
  * half-spaces. */
 #include "map/halfspaces.h"
@@ -10,15 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the decrement: where Newton's method counts as at the centre, and on the way to
- * others. */
-static const double AT_CENTRE = 0.1, NEAR_CENTRE = 0.3;
+/* In units of the decrement: where Newton's method counts as at the centre. */
+static const double AT_CENTRE = 0.1;
 
-/* Of the way to the nearest violated half-space that these move on from a centre; where that is
- * less than LEAST of how far they are moved back, there is nothing in common. */
-static const double SHARE = 0.7, LEAST = 0.02;
+/* Of unit vectors: what is left of one that depends on others, but for rounding. */
+static const double DEPENDENT = 1e-13;
 
-enum { MOST_CENTRES = 30, LAST_STEPS = 3 };
+enum { MOST_TURNS = 100, LAST_STEPS = 3 };
 
 void iccp_halfspaces_free(iccp_halfspaces *h)
 {
@@ -52,7 +51,6 @@ bool iccp_halfspaces_add(iccp_halfspaces *h, const double *a, const double *b, c
     for (size_t k = 0; k < 3; ++k)
         half->normal[k] /= length;
     half->offset = iccp_vec_dot(3, half->normal, a);
-    half->violated = false;
     ++h->n;
     return true;
 }
@@ -74,14 +72,14 @@ static bool solve(double h[3][3], const double *g, double *s)
     return det > 0;
 }
 
-/* One step towards the greatest product of distances, where those that are violated begin so much
- * lower. `decrement`: how far from there it was. False when there is none. */
-static bool step(const iccp_halfspaces *h, double lower, double *x, double *decrement)
+/* One step towards the greatest product of distances. `decrement`: how far from there it was. False
+ * when there is none. */
+static bool step(const iccp_halfspaces *h, double *x, double *decrement)
 {
     double g[3] = {0}, hessian[3][3] = {{0}}, s[3];
     for (size_t i = 0; i < h->n; ++i) {
         const iccp_halfspace *half = &h->item[i];
-        const double d = distance(half, x) + (half->violated ? lower : 0);
+        const double d = distance(half, x);
         if (!(d > 0))
             return false;
         for (size_t k = 0; k < 3; ++k) {
@@ -104,43 +102,124 @@ static bool step(const iccp_halfspaces *h, double lower, double *x, double *decr
 void iccp_halfspaces_centre(const iccp_halfspaces *h, size_t steps, double x[3])
 {
     double decrement = 1;
-    for (size_t k = 0; k < steps && decrement >= AT_CENTRE && step(h, 0, x, &decrement); ++k)
+    for (size_t k = 0; k < steps && decrement >= AT_CENTRE && step(h, x, &decrement); ++k)
         continue;
 }
 
-/* The smallest distance from one that was violated. */
-static double worst(const iccp_halfspaces *h, const double *x)
+/* ---- where the least distance is greatest: a linear program for the place and that distance t,
+ * four numbers z, with normal x - t >= offset ---- */
+
+/* The half-spaces that are as far off as the nearest, and an orthonormal basis of what their rows
+ * (normal, -1) span. */
+typedef struct active_set {
+    size_t n, index[4];
+    double basis[4][4], product[4][4]; /* of the basis and the rows: row j is the sum of
+                                          product[i][j] basis[i] over i <= j */
+} active_set;
+
+static void row_of(const iccp_halfspace *half, double *row)
 {
-    double least = HUGE_VAL;
-    for (size_t i = 0; i < h->n; ++i)
-        if (h->item[i].violated)
-            least = iccp_min(least, distance(&h->item[i], x));
-    return least;
+    memcpy(row, half->normal, sizeof half->normal);
+    row[3] = -1;
 }
 
-/* From centre to centre, with violated half-spaces that come ever nearer to where they are. */
-bool iccp_halfspaces_enter(iccp_halfspaces *h, size_t steps, double x[3])
+/* Takes what lies in the basis out of a vector; twice, which leaves nothing but rounding. */
+static double reduce(const active_set *set, size_t n, double *v, double *product)
 {
-    bool any = false;
+    for (size_t k = 0; k < n; ++k)
+        product[k] = 0;
+    for (int again = 0; again < 2; ++again)
+        for (size_t k = 0; k < n; ++k) {
+            const double dot = iccp_vec_dot(4, set->basis[k], v);
+            product[k] += dot;
+            for (size_t i = 0; i < 4; ++i)
+                v[i] -= dot * set->basis[k][i];
+        }
+    return iccp_vec_norm(4, v);
+}
+
+/* Row j belongs to set->index[j]; those before are there. */
+static bool add_row(active_set *set, const iccp_halfspaces *h, size_t j)
+{
+    double product[4], *b = set->basis[j];
+    row_of(&h->item[set->index[j]], b);
+    const double length = reduce(set, j, b, product);
+    for (size_t i = 0; i < j; ++i)
+        set->product[i][j] = product[i];
+    set->product[j][j] = length;
+    for (size_t i = 0; i < 4; ++i)
+        b[i] /= length;
+    return length > DEPENDENT;
+}
+
+/* Takes the one out that keeps t low; false if none does. up: products of the basis with that by
+ * which t grows. */
+static bool drop_row(active_set *set, const iccp_halfspaces *h, const double *up)
+{
+    double share[4];
+    size_t most = 0;
+    for (size_t j = set->n; j-- > 0;) {
+        share[j] = up[j];
+        for (size_t k = j + 1; k < set->n; ++k)
+            share[j] -= set->product[j][k] * share[k];
+        share[j] /= set->product[j][j];
+        most = j + 1 == set->n || share[j] > share[most] ? j : most;
+    }
+    if (set->n == 0 || !(share[most] > 0))
+        return false;
+    --set->n;
+    for (size_t j = most; j < set->n; ++j) {
+        set->index[j] = set->index[j + 1];
+        (void)add_row(set, h, j);
+    }
+    return true;
+}
+
+/* Goes as far as the half-spaces allow, and adds the one that ends the way; false if none does. */
+static bool advance(active_set *set, const iccp_halfspaces *h, const double *way, double *z)
+{
+    double least = HUGE_VAL;
+    size_t next = h->n;
     for (size_t i = 0; i < h->n; ++i) {
-        h->item[i].violated = !(distance(&h->item[i], x) > 0);
-        any |= h->item[i].violated;
+        const double rate = iccp_vec_dot(3, h->item[i].normal, way) - way[3];
+        const double room = iccp_max(0, distance(&h->item[i], z) - z[3]);
+        if (rate < -DEPENDENT && room < least * -rate) {
+            least = room / -rate;
+            next = i;
+        }
     }
-    if (!any)
+    if (next == h->n)
+        return false;
+    for (size_t i = 0; i < 4; ++i)
+        z[i] += least * way[i];
+    set->index[set->n++] = next;
+    return add_row(set, h, set->n - 1);
+}
+
+/* Up along what the active half-spaces leave free, until another one ends the way; where they leave
+ * nothing, the one that keeps t low is given up, or this is the greatest. */
+bool iccp_halfspaces_enter(const iccp_halfspaces *h, double x[3])
+{
+    double z[4] = {x[0], x[1], x[2], HUGE_VAL};
+    active_set set = {0};
+    for (size_t i = 0; i < h->n; ++i)
+        z[3] = iccp_min(z[3], distance(&h->item[i], x));
+    if (z[3] > 0)
         return true;
-    double least = worst(h, x), lower = -1.5 * least, decrement;
-    for (size_t k = 0; k < MOST_CENTRES && least <= 0 && lower > 0; ++k) {
-        decrement = 1;
-        for (size_t i = 0; i < steps && decrement >= NEAR_CENTRE; ++i)
-            if (!step(h, lower, x, &decrement))
-                return false;
-        least = worst(h, x);
-        const double gain = SHARE * (least + lower);
-        if (least <= 0 && gain < LEAST * lower)
-            return false;
-        lower -= gain;
+    for (size_t k = 0; k < MOST_TURNS; ++k) {
+        double way[4] = {0, 0, 0, 1}, product[4];
+        const double length = reduce(&set, set.n, way, product);
+        if (length > DEPENDENT) {
+            for (size_t i = 0; i < 4; ++i)
+                way[i] /= length;
+            if (!advance(&set, h, way, z))
+                break;
+        } else if (!drop_row(&set, h, product)) {
+            break;
+        }
     }
-    if (least > 0)
+    memcpy(x, z, 3 * sizeof *x);
+    if (z[3] > 0)
         iccp_halfspaces_centre(h, LAST_STEPS, x);
-    return least > 0;
+    return z[3] > 0;
 }

@@ -7,7 +7,6 @@
 
 typedef struct iccp_halfspace {
     double normal[3], offset; /* the points x with normal x > offset; the normal has length 1 */
-    bool violated;            /* see iccp_halfspaces_enter() */
 } iccp_halfspace;
 
 typedef struct iccp_halfspaces {
@@ -29,8 +28,10 @@ bool iccp_halfspaces_add(iccp_halfspaces *h, const double *a, const double *b, c
  * greatest; what they have in common is bounded. It may end outside by rounding. O(n). */
 void iccp_halfspaces_centre(const iccp_halfspaces *h, size_t steps, double x[3]);
 
-/* Moves a point that is not in all of them towards those that it is not in, and out of none of the
- * others. Whether it has come to be in all, but for rounding. O(n). */
-bool iccp_halfspaces_enter(iccp_halfspaces *h, size_t steps, double x[3]);
+/* Moves a point that is not in all of them to where the least distance from one is greatest, and on
+ * towards the centre if that is inside; what they have in common, or would if all were moved
+ * outwards, is bounded. Whether it has come to be in all, but for rounding. O(n) a turn, of which
+ * there are some ten. */
+bool iccp_halfspaces_enter(const iccp_halfspaces *h, double x[3]);
 
 #endif
