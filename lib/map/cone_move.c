@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Times that each corner is moved to make room for a tetrahedron; Newton's steps for the apex in the
- * beginning. */
+/* Times that each corner is moved to make room for a tetrahedron; Newton's steps for the apex in
+ * the beginning. */
 enum { ROUNDS = 3, APEX_STEPS = 100 };
 
 void iccp_cone_smooth(iccp_cone *cone, uint32_t point, size_t steps)
