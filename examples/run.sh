@@ -57,3 +57,5 @@ echo "compare/bounded_biharmonic.py:"
 /usr/bin/python3 -B examples/compare/bounded_biharmonic.py --cells 16
 echo "compare/outlines.py:"
 /usr/bin/python3 -B examples/compare/outlines.py --cells 25
+echo "compare/reparent.py:"
+/usr/bin/python3 -B examples/compare/reparent.py --cells 16

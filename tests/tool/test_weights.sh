@@ -70,6 +70,16 @@ paste -d ' ' first out | awk 'NR == 1 { for (j = 2; j <= 6; j++) { a[j] = $j; b[
      END { for (j = 2; j <= 6; j++) { d = ($j - a[j]) - 2 * ($(j + 6) - b[j]); if (d * d > 1e-12) exit 1 } }' ||
     complain "a line does not stay parallel"
 
+# Weights that are linear along edges on the boundary, up to what lies between samples, where the others are not.
+printf '1 1\n9 1\n9 4\n4 9\n1 9\n' >linear.txt
+for linear in false true; do
+    echo "{\"handles\": $handles, \"edges\": [[0, 1], [1, 2]], \"linear_edges\": $linear}" >linear.json
+    run 0 weights -s linear.txt -a linear.json --weights equality --initial heat --spacing 0.2 --along 1,1,9,1
+    awk '{ d = $2 - (1 - $1); d = d < 0 ? -d : d; if (d > most) most = d } END { print most }' out >"off.$linear"
+done
+paste off.false off.true | awk '{ exit !($1 > 0.1 && $2 < 0.03) }' ||
+    complain "linear edges: off by $(cat off.false) without, by $(cat off.true) with"
+
 # Further regions and curves; a stick figure has no source. A rigid part has less energy than before.
 cat >stick.json <<'END'
 {"handles": [[0, 0], [0, 4], [-3, 3], [3, 3], [-2, -4], [2, -4]],
@@ -171,6 +181,9 @@ wrong '{"handles": [[1, 1], [2, 3, 4]]}' 'handles[1] is not a list of 2 finite n
 wrong '{"handels": [[1, 1]]}' "the file has a member 'handels'; it may have: handles,"
 wrong "{\"handles\": $handles, \"edges\": [[0, 1], [1, 5]]}" 'edges[1] must be a handle, a whole number from 0 to 4'
 wrong "{\"handles\": $handles, \"edges\": [[0, 1, 2]]}" 'edges[0] is not a pair'
+wrong "{\"handles\": $handles, \"linear_edges\": 1}" 'linear_edges must be true or false'
+wrong "{\"handles\": $handles, \"linear_edges\": true}" 'linear_edges needs edges'
+wrong "{\"handles\": [[2, 2], [7, 3], [3, 5]], \"edges\": [[0, 1]], \"linear_edges\": true}" 'linear_edges: no sample lies on an edge'
 wrong "{\"handles\": $handles, \"lines\": [{\"from\": [1, 2]}]}" 'lines[0].to is not a list of 2'
 wrong "{\"handles\": $handles, \"lines\": [{\"from\": [1, 2], \"to\": [2, 2], \"parallel\": 0}]}" \
     'lines[0].parallel must be a line before it, but there is none'

@@ -184,10 +184,18 @@ static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
     return true;
 }
 
+static bool read_linear_edges(handle_set *set, const cJSON *item, problem *wrong)
+{
+    if (item != NULL && !cJSON_IsBool(item))
+        return spoilt(wrong, 0, "linear_edges must be true or false");
+    set->linear_edges = cJSON_IsTrue(item);
+    return !set->linear_edges || set->n_edges > 0 || spoilt(wrong, 0, "linear_edges needs edges");
+}
+
 bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong)
 {
-    static const char *const members[] = {"handles", "edges", "lines", "regions",
-                                          "curves",  "paint", "rigid", NULL};
+    static const char *const members[] = {"handles", "edges", "lines",        "regions", "curves",
+                                          "paint",   "rigid", "linear_edges", NULL};
     *out = (handle_set){0};
     cJSON *file = json_parse(text, n, wrong);
     if (file == NULL)
@@ -196,6 +204,7 @@ bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong
                 read_handles(out, json_get(file, "handles"), wrong) &&
                 json_pairs(json_get(file, "edges"), "edges", "handle", out->n_handles,
                            &out->n_edges, &out->edges, wrong) &&
+                read_linear_edges(out, json_get(file, "linear_edges"), wrong) &&
                 read_lines(out, json_get(file, "lines"), wrong) &&
                 read_regions(out, json_get(file, "regions"), wrong) &&
                 read_curves(out, json_get(file, "curves"), wrong) &&

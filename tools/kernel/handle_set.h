@@ -30,7 +30,8 @@ typedef struct handle_set {
     size_t n_handles;
     double *handles; /* n_handles * dim */
     size_t n_edges;
-    uint32_t *edges; /* n_edges * 2 */
+    uint32_t *edges;   /* n_edges * 2 */
+    bool linear_edges; /* weights are linear along the edges */
     size_t n_lines;
     icc_line *lines;
     size_t n_regions;

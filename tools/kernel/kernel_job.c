@@ -1,6 +1,7 @@
 #include "kernel/kernel_job.h"
 
 #include "base/allocate.h"
+#include "kernel/linear_edges.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -141,6 +142,19 @@ static int make_weights(kernel_job *k)
     return status == ICC_OK ? DONE : failed_set(k, "", &err);
 }
 
+static int make_edges_linear(kernel_job *k)
+{
+    icc_weights *linear;
+    icc_error err = {.size = sizeof err, .index = -1};
+    if (linear_edges_make(&linear, k->weights, &k->set, &k->job.env, &err) != ICC_OK)
+        return failed_set(k, "linear_edges", &err);
+    if (linear == NULL)
+        return failed(k->job.args->handles, 0, "linear_edges: no sample lies on an edge");
+    icc_weights_free(k->weights);
+    k->weights = linear;
+    return DONE;
+}
+
 /* Whether a node lies in a ball. */
 static bool in_ball(const kernel_job *k, const double *node, const double *centre, double radius)
 {
@@ -275,6 +289,8 @@ int kernel_job_make(kernel_job *k)
     int result = make_samples(k);
     if (result == DONE)
         result = make_weights(k);
+    if (result == DONE && k->set.linear_edges)
+        result = make_edges_linear(k);
     if (result == DONE)
         result = paint(k);
     if (result == DONE && k->set.n_rigid > 0)

@@ -1,0 +1,12 @@
+/* Weights that are linear along the edges between handles (Sakaridis, equation 4.3). */
+#ifndef LINEAR_EDGES_H
+#define LINEAR_EDGES_H
+
+#include "kernel/handle_set.h"
+
+/* Replaces the weights by some that are linear from one end to the other at all nodes on edges; of
+ * several edges the first counts. The caller frees the old ones. NULL if no node is on an edge. */
+icc_status linear_edges_make(icc_weights **out, const icc_weights *weights, const handle_set *set,
+                             const icc_env *env, icc_error *err);
+
+#endif
