@@ -20,6 +20,11 @@
  * is not handed out. */
 static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
 
+/* Residual at which smoothing has found most of what is active. On letters C of 57,000 to 117,000
+ * unknowns that takes little more than half of the iterations to ENOUGH, and five steps of the
+ * active set find the rest; with 468,000 they do not. */
+static const double EARLY = 1e-10;
+
 /* Means of slack * multiplier where the active set is tried. The last one is never reached. */
 static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 
@@ -28,7 +33,7 @@ static const double EQUAL = 1e-12;
 
 /* Unknowns from which on coarser grids pay, the most of the coarsest one, and steps of the active
  * set afterwards. */
-enum { LARGE = 50000, COARSEST = 3000, STEPS = 8 };
+enum { LARGE = 50000, COARSEST = 3000, STEPS = 6 };
 
 /* Runs the interior point method to one target after the other and tries the active set that each
  * iterate suggests: where the multiplier exceeds the slack. Ends with a residual that is good
@@ -49,36 +54,72 @@ static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_can
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         const iccp_env polishing = iccp_round(&part, ip.n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
         if (status == ICC_OK)
-            status = iccp_polish(qp, active, ENOUGH, ICCP_POLISH_MOST, candidate, info, &polishing);
+            status = iccp_polish(qp, active, false, ENOUGH, ICCP_POLISH_MOST, candidate, info,
+                                 &polishing);
     }
     info->n_iterations += ip.n_iterations;
     iccp_interior_point_free(&ip);
     return status;
 }
 
-/* From coarse to fine; then a few steps of the active set, which give the same function with those
- * inequalities as equations that are active. When they lead elsewhere, the function stays as it
- * is. */
-static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *active,
-                               iccp_candidate *candidate, icc_function_info *info,
-                               const iccp_env *env)
+/* A few steps of the active set give the same function with those inequalities as equations that
+ * are active. When they lead elsewhere, the candidate stays as it is. */
+static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted, bool *is_exact,
+                             iccp_candidate *candidate, icc_function_info *info,
+                             const iccp_env *env)
 {
     const size_t n = qp->unknowns->n;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){9, 1}, env);
-    icc_status status =
-        iccp_nested(qp, function, COARSEST, ENOUGH, candidate, active, info, &part[0]);
-    if (status != ICC_OK || candidate->residual > GOOD)
-        return status;
     iccp_candidate exact = {iccp_alloc(&env->memory, n, sizeof *exact.f), HUGE_VAL};
-    status = exact.f != NULL ? iccp_polish(qp, active, ENOUGH, STEPS, &exact, info, &part[1])
-                             : ICC_ERR_MEMORY;
-    if (status == ICC_OK && exact.residual <= GOOD) {
+    const icc_status status = exact.f != NULL
+                                  ? iccp_polish(qp, active, true, ENOUGH, STEPS, &exact, info, env)
+                                  : ICC_ERR_MEMORY;
+    *is_exact = status == ICC_OK && exact.residual <= accepted;
+    if (*is_exact) {
         memcpy(candidate->f, exact.f, n * sizeof *exact.f);
         candidate->residual = exact.residual;
     }
     iccp_free(&env->memory, exact.f);
     return status;
+}
+
+/* Smoothing tells early what is active but for the last few inequalities; where the active set
+ * does not find those, it goes on. */
+static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *active,
+                             iccp_candidate *candidate, icc_function_info *info,
+                             const iccp_env *env)
+{
+    const double residual[] = {EARLY, ENOUGH}, needed[] = {EARLY, GOOD},
+                 accepted[] = {ENOUGH, GOOD};
+    iccp_env part[4];
+    icc_status status = ICC_OK;
+    bool is_exact = false;
+    iccp_split(part, 4, (const double[]){6, 1, 4, 1}, env);
+    for (size_t k = 0; k < 2 && status == ICC_OK && !is_exact; ++k) {
+        status = iccp_smoothing_run(&nested->smoothing, residual[k], candidate, active, info,
+                                    &part[2 * k]);
+        if (status == ICC_OK && candidate->residual <= needed[k])
+            status =
+                make_exact(qp, active, accepted[k], &is_exact, candidate, info, &part[2 * k + 1]);
+    }
+    return status;
+}
+
+/* From coarse to fine. */
+static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *active,
+                               iccp_candidate *candidate, icc_function_info *info,
+                               const iccp_env *env)
+{
+    iccp_nested nested;
+    iccp_env part[2];
+    bool useful;
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status =
+        iccp_nested_create(&nested, &useful, qp, function, COARSEST, info, &part[0]);
+    if (status == ICC_OK && useful) {
+        status = run_nested(qp, &nested, active, candidate, info, &part[1]);
+        iccp_nested_free(&nested);
+    }
+    return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
 /* Large problems from coarse to fine first; where that is not enough, and for small ones, the
@@ -97,7 +138,8 @@ static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *
     if (is_large)
         status = start_coarse(qp, function, active, candidate, info, &part[0]);
     if (status == ICC_OK && candidate->residual > GOOD)
-        status = iccp_polish(qp, active, ENOUGH, ICCP_POLISH_MOST, candidate, info, &part[1]);
+        status =
+            iccp_polish(qp, active, false, ENOUGH, ICCP_POLISH_MOST, candidate, info, &part[1]);
     if (status == ICC_OK && candidate->residual > GOOD)
         status = alternate_methods(qp, active, candidate, info, &part[2]);
     iccp_free(&env->memory, active);

@@ -4,7 +4,6 @@
 
 #include "solver/coarse_qp.h"
 #include "solver/interior_point.h"
-#include "solver/smoothing.h"
 
 #include <math.h>
 #include <string.h>
@@ -34,15 +33,14 @@ static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplie
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
                         double *multiplier, icc_function_info *info, const iccp_env *env);
 
-/* The guess for qp from the next coarser grid. ICC_ERR_SOLVER: there is none. */
-static icc_status guess(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
-                        double *multiplier, icc_function_info *info, const iccp_env *env)
+/* The guess for qp from the next coarser grid, where there is one. */
+static icc_status guess(const iccp_qp *qp, bool *useful, int32_t function, size_t coarsest,
+                        double *f, double *multiplier, icc_function_info *info, const iccp_env *env)
 {
     iccp_coarse_qp coarse;
-    bool useful;
-    icc_status status = iccp_coarse_qp_create(&coarse, &useful, qp, function, env);
-    if (status != ICC_OK || !useful)
-        return status != ICC_OK ? status : ICC_ERR_SOLVER;
+    icc_status status = iccp_coarse_qp_create(&coarse, useful, qp, function, env);
+    if (status != ICC_OK || !*useful)
+        return status;
     double *coarse_f = iccp_alloc(&env->memory, coarse.unknowns.n, sizeof *coarse_f);
     double *coarse_multiplier =
         iccp_alloc(&env->memory, iccp_qp_inequalities(&coarse.qp), sizeof *coarse_multiplier);
@@ -57,33 +55,61 @@ static icc_status guess(const iccp_qp *qp, int32_t function, size_t coarsest, do
     return status;
 }
 
-/* From the guess of the coarser grids to a candidate; f and multiplier, of the last iterate, may be
- * NULL. */
-static icc_status improve(const iccp_qp *qp, int32_t function, size_t coarsest, double enough,
-                          iccp_candidate *candidate, uint8_t *active, double *f, double *multiplier,
-                          icc_function_info *info, const iccp_env *env)
+/* start: f, then the multipliers. */
+static icc_status begin(iccp_nested *p, const iccp_qp *qp, const double *start,
+                        icc_function_info *info, const iccp_env *env)
+{
+    const size_t n = qp->unknowns->n;
+    const icc_status status = iccp_newton_qp_create(&p->newton, qp, info, env);
+    if (status != ICC_OK)
+        return status;
+    memcpy(p->newton.f, start, n * sizeof *p->newton.f);
+    memcpy(p->newton.multiplier, start + n,
+           iccp_qp_inequalities(qp) * sizeof *p->newton.multiplier);
+    const icc_status created = iccp_smoothing_create(&p->smoothing, &p->newton, env);
+    if (created != ICC_OK)
+        iccp_newton_qp_free(&p->newton);
+    return created;
+}
+
+icc_status iccp_nested_create(iccp_nested *nested, bool *useful, const iccp_qp *qp,
+                              int32_t function, size_t coarsest, icc_function_info *info,
+                              const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, m = iccp_qp_inequalities(qp);
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){1, 1, 4}, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    *useful = false;
     double *start = iccp_alloc(&env->memory, n + m, sizeof *start);
     if (start == NULL)
         return ICC_ERR_MEMORY;
-    iccp_newton_qp newton;
-    icc_status status = guess(qp, function, coarsest, start, start + n, info, &part[0]);
-    if (status == ICC_OK)
-        status = iccp_newton_qp_create(&newton, qp, info, &part[1]);
-    if (status == ICC_OK) {
-        memcpy(newton.f, start, n * sizeof *newton.f);
-        memcpy(newton.multiplier, start + n, m * sizeof *newton.multiplier);
-        status = iccp_smoothing(&newton, enough, candidate, active, info, &part[2]);
-        if (f != NULL) {
-            memcpy(f, newton.f, n * sizeof *f);
-            memcpy(multiplier, newton.multiplier, m * sizeof *multiplier);
-        }
-        iccp_newton_qp_free(&newton);
-    }
+    icc_status status = guess(qp, useful, function, coarsest, start, start + n, info, &part[0]);
+    if (status == ICC_OK && *useful)
+        status = begin(nested, qp, start, info, &part[1]);
     iccp_free(&env->memory, start);
+    return status;
+}
+
+void iccp_nested_free(iccp_nested *nested)
+{
+    iccp_smoothing_free(&nested->smoothing);
+    iccp_newton_qp_free(&nested->newton);
+}
+
+/* From the guess of coarser grids to a last iterate. */
+static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier,
+                                 icc_function_info *info, const iccp_env *env)
+{
+    const size_t n = p->smoothing.n, m = p->smoothing.m;
+    iccp_candidate candidate = {iccp_alloc(&env->memory, n, sizeof *candidate.f), HUGE_VAL};
+    uint8_t *active = iccp_alloc(&env->memory, m, sizeof *active);
+    icc_status status = candidate.f != NULL && active != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_smoothing_run(&p->smoothing, COARSE_ENOUGH, &candidate, active, info, env);
+    memcpy(f, p->newton.f, n * sizeof *f);
+    memcpy(multiplier, p->newton.multiplier, m * sizeof *multiplier);
+    iccp_free(&env->memory, candidate.f);
+    iccp_free(&env->memory, active);
     return status;
 }
 
@@ -92,25 +118,19 @@ static icc_status improve(const iccp_qp *qp, int32_t function, size_t coarsest, 
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
                         double *multiplier, icc_function_info *info, const iccp_env *env)
 {
-    const size_t n = qp->unknowns->n;
-    if (n <= coarsest)
+    if (qp->unknowns->n <= coarsest)
         return solve_coarsest(qp, f, multiplier, info, env);
-    iccp_candidate candidate = {iccp_alloc(&env->memory, n, sizeof *candidate.f), HUGE_VAL};
-    uint8_t *active = iccp_alloc(&env->memory, iccp_qp_inequalities(qp), sizeof *active);
-    icc_status status = candidate.f != NULL && active != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK)
-        status = improve(qp, function, coarsest, COARSE_ENOUGH, &candidate, active, f, multiplier,
-                         info, env);
-    iccp_free(&env->memory, candidate.f);
-    iccp_free(&env->memory, active);
-    return status == ICC_ERR_SOLVER ? solve_coarsest(qp, f, multiplier, info, env) : status;
-}
-
-icc_status iccp_nested(const iccp_qp *qp, int32_t function, size_t coarsest, double enough,
-                       iccp_candidate *candidate, uint8_t *active, icc_function_info *info,
-                       const iccp_env *env)
-{
-    const icc_status status =
-        improve(qp, function, coarsest, enough, candidate, active, NULL, NULL, info, env);
-    return status == ICC_ERR_SOLVER ? ICC_OK : status;
+    iccp_nested nested;
+    bool useful;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status =
+        iccp_nested_create(&nested, &useful, qp, function, coarsest, info, &part[0]);
+    if (status == ICC_OK && useful) {
+        status = solve_by_guess(&nested, f, multiplier, info, &part[1]);
+        iccp_nested_free(&nested);
+    }
+    return status == ICC_ERR_SOLVER || (status == ICC_OK && !useful)
+               ? solve_coarsest(qp, f, multiplier, info, env)
+               : status;
 }

@@ -2,15 +2,22 @@
 #ifndef ICCP_NESTED_H
 #define ICCP_NESTED_H
 
-#include "solver/polish.h"
+#include "solver/smoothing.h"
 
-/* Solves on coarser grids first, down to one of at most `coarsest` unknowns, each one's solution
- * being the guess for the next, and replaces the candidate by what it finds. `active`: for
- * iccp_polish() to go on from. When the next coarser grid does not hold the shape any more, the
- * candidate stays as it is. Adds to `info` (n_iterations, work, seconds_*). Memory: that of
- * iccp_newton_qp_create(), and a third of all that besides. */
-icc_status iccp_nested(const iccp_qp *qp, int32_t function, size_t coarsest, double enough,
-                       iccp_candidate *candidate, uint8_t *active, icc_function_info *info,
-                       const iccp_env *env);
+/* An iterate on the grid of `qp`. */
+typedef struct iccp_nested {
+    iccp_newton_qp newton;
+    iccp_smoothing smoothing;
+} iccp_nested;
+
+/* Solves on coarser grids, down to one of at most `coarsest` unknowns, each one's solution being
+ * the guess for the next. *useful: false when the next coarser grid does not hold the shape any
+ * more; there is nothing to run or to free then. Adds to `info` (n_iterations, work, seconds_*).
+ * Memory: that of iccp_newton_qp_create(), and a third of all that besides. On failure nothing is
+ * left allocated. */
+icc_status iccp_nested_create(iccp_nested *nested, bool *useful, const iccp_qp *qp,
+                              int32_t function, size_t coarsest, icc_function_info *info,
+                              const iccp_env *env);
+void iccp_nested_free(iccp_nested *nested);
 
 #endif

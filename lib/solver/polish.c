@@ -28,7 +28,7 @@ enum {
  * active. */
 static const double WRONG = 0.1;
 
-enum { LIFTED = 1, RISES = 2, STAYS = 4 };
+enum { LIFTED = 1, RISES = 2, STAYS = 4, TIED = 8, FREED = 16 };
 
 typedef struct state {
     const iccp_qp *qp;
@@ -39,7 +39,8 @@ typedef struct state {
                              downwards */
     uint8_t *mark;        /* LIFTED: such a leaf bears what would be a negative multiplier of the
                              unknown's edge; RISES: the cluster of this top pulls at its leaves;
-                             STAYS: but not here */
+                             STAYS: but not here; TIED, FREED: the unknown's edge has just become
+                             active, or inactive */
     uint32_t *top;        /* per unknown: the top of its cluster */
     uint32_t *variable;   /* of its cluster, or ICCP_NONE if it is held */
     double *share;        /* of the value of the top */
@@ -48,6 +49,7 @@ typedef struct state {
     double *sum;          /* of the multipliers of the children's edges */
     double *work;
     double *room;  /* what the arrays of doubles lie in */
+    bool by_rows;  /* see tie_rows() */
     bool hesitant; /* only every other change is made, by chance */
     uint64_t random;
 } state;
@@ -161,6 +163,7 @@ static size_t correct_edges(state *s)
             const bool violated = s->f[q] - p->sigma * s->f[k] < -s->tolerance;
             s->mark[k] |= rises && decide(s) ? RISES : 0;
             *active = violated && decide(s);
+            s->mark[k] |= *active ? TIED : 0;
             n_wrong += (size_t)rises + violated;
             continue;
         }
@@ -172,10 +175,40 @@ static size_t correct_edges(state *s)
         s->sum[q] += multiplier;
         if (multiplier < -s->tolerance) {
             *active = !decide(s);
+            s->mark[k] |= *active ? 0 : FREED;
             ++n_wrong;
         }
     }
     return n_wrong;
+}
+
+/* Whether an edge follows one next to it that has just become active. */
+static bool follows(const state *s, uint32_t k, uint32_t next)
+{
+    const iccp_qp *p = s->qp;
+    return k > 0 && (s->mark[next] & TIED) && !s->active[k - 1] && !(s->mark[k] & FREED) &&
+           s->f[p->unknowns->parent[k]] - p->sigma * s->f[k] <= s->tolerance;
+}
+
+static void tie(state *s, uint32_t k)
+{
+    s->active[k - 1] = 1;
+    s->mark[k] |= TIED;
+}
+
+/* Where the function is next to nothing, edges that should be active are violated by less than the
+ * tolerance, and would become active one after the other along a row, one a step, each when the one
+ * before it is. So those follow at once that are not slack by more, down the tree and up. From a
+ * set that is far from the right one this is as likely to lead astray. */
+static void tie_rows(state *s)
+{
+    const uint32_t *parent = s->qp->unknowns->parent;
+    for (uint32_t k = 1; k < s->n; ++k)
+        if (follows(s, k, parent[k]))
+            tie(s, k);
+    for (uint32_t k = (uint32_t)s->n; k-- > 1;)
+        if (follows(s, parent[k], k))
+            tie(s, parent[k]);
 }
 
 /* The parts of a rising cluster that are lifted stay, each by itself; the leaves of the rest are
@@ -224,6 +257,8 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_
         }
         s->hesitant = patience <= PATIENCE - TRUST;
         const size_t n_wrong = correct_leaves(s) + correct_edges(s);
+        if (s->by_rows)
+            tie_rows(s);
         let_rise(s);
         if (residual <= s->enough || n_wrong == 0)
             break;
@@ -235,11 +270,11 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_
     return ICC_OK;
 }
 
-icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, double enough, size_t most,
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
                        iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
-    state s = {.qp = qp, .n = n, .active = active};
+    state s = {.qp = qp, .n = n, .active = active, .by_rows = by_rows};
     s.enough = enough;
     s.tolerance = WRONG * enough;
     s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);

@@ -36,16 +36,8 @@ static const double LEAST_WIDTH = 1e-12;
 static const double FEW = 0.1, MANY = 0.25;
 static const double FAST = 0.3, STEADY = 0.5, SLOW = 0.8;
 
-typedef struct state {
-    iccp_newton_qp *newton;
-    size_t n, m;
-    double unit, width;
-    double *size; /* per unknown: of f in the beginning, the bound at least */
-    double *v;    /* per inequality: see above */
-} state;
-
 /* The square of an inequality's width. */
-static double square_width(const state *s, double width, size_t i)
+static double square_width(const iccp_smoothing *s, double width, size_t i)
 {
     const size_t k = i < s->n - 1 ? i + 1 : s->newton->qp->leaf_unknown[i - (s->n - 1)];
     const double own = iccp_max(width * s->size[k], LEAST_WIDTH);
@@ -53,7 +45,7 @@ static double square_width(const state *s, double width, size_t i)
 }
 
 /* The smaller one of slack and multiplier by division, so that it keeps its digits. */
-static void find_pairs(state *s)
+static void find_pairs(iccp_smoothing *s)
 {
     for (size_t i = 0; i < s->m; ++i) {
         const double half = s->v[i] / 2, square = square_width(s, s->width, i);
@@ -63,7 +55,7 @@ static void find_pairs(state *s)
     }
 }
 
-static double find_residual(const state *s)
+static double find_residual(const iccp_smoothing *s)
 {
     const iccp_newton_qp *p = s->newton;
     const iccp_qp *qp = p->qp;
@@ -72,7 +64,7 @@ static double find_residual(const state *s)
     return iccp_inequalities_residual(qp->unknowns, qp->sigma - 1, qp->leaf, &f, &force, p->work);
 }
 
-static double next_width(const state *s)
+static double next_width(const iccp_smoothing *s)
 {
     size_t n_off = 0;
     for (size_t i = 0; i < s->m; ++i) {
@@ -84,7 +76,7 @@ static double next_width(const state *s)
 }
 
 /* One whole step of Newton's method, towards the next width. */
-static icc_status step(state *s, icc_function_info *info, const iccp_env *env)
+static icc_status step(iccp_smoothing *s, icc_function_info *info, const iccp_env *env)
 {
     iccp_newton_qp *p = s->newton;
     const double width = next_width(s);
@@ -111,7 +103,7 @@ static icc_status step(state *s, icc_function_info *info, const iccp_env *env)
 }
 
 /* Keeps the iterate if it is the best so far. */
-static void consider(const state *s, iccp_candidate *candidate, int *patience,
+static void consider(const iccp_smoothing *s, iccp_candidate *candidate, int *patience,
                      icc_function_info *info)
 {
     const double start = iccp_seconds(), residual = find_residual(s);
@@ -124,7 +116,7 @@ static void consider(const state *s, iccp_candidate *candidate, int *patience,
     info->seconds_verify += iccp_seconds() - start;
 }
 
-static icc_status iterate(state *s, double enough, iccp_candidate *candidate,
+static icc_status iterate(iccp_smoothing *s, double enough, iccp_candidate *candidate,
                           icc_function_info *info, const iccp_env *env)
 {
     int patience = PATIENCE;
@@ -145,7 +137,7 @@ static icc_status iterate(state *s, double enough, iccp_candidate *candidate,
     return ICC_OK;
 }
 
-static void begin(state *s)
+static void begin(iccp_smoothing *s)
 {
     iccp_newton_qp *p = s->newton;
     const double dim = p->qp->unknowns->tree->grid->dim;
@@ -159,18 +151,31 @@ static void begin(state *s)
         s->v[i] -= s->unit * p->multiplier[i];
 }
 
-icc_status iccp_smoothing(iccp_newton_qp *newton, double enough, iccp_candidate *candidate,
-                          uint8_t *active, icc_function_info *info, const iccp_env *env)
+icc_status iccp_smoothing_create(iccp_smoothing *smoothing, iccp_newton_qp *newton,
+                                 const iccp_env *env)
 {
     const size_t n = newton->qp->unknowns->n, m = iccp_qp_inequalities(newton->qp);
     double *room = iccp_alloc(&env->memory, n + m, sizeof *room);
+    *smoothing = (iccp_smoothing){.newton = newton, .n = n, .m = m, .size = room};
     if (room == NULL)
         return ICC_ERR_MEMORY;
-    state s = {.newton = newton, .n = n, .m = m, .size = room, .v = room + n};
-    begin(&s);
-    const icc_status status = iterate(&s, enough, candidate, info, env);
-    for (size_t i = 0; i < m; ++i)
-        active[i] = s.v[i] < 0;
-    iccp_free(&env->memory, room);
+    smoothing->v = room + n;
+    begin(smoothing);
+    return ICC_OK;
+}
+
+void iccp_smoothing_free(iccp_smoothing *smoothing)
+{
+    if (smoothing->newton != NULL)
+        iccp_free(&smoothing->newton->memory, smoothing->size);
+    *smoothing = (iccp_smoothing){0};
+}
+
+icc_status iccp_smoothing_run(iccp_smoothing *smoothing, double enough, iccp_candidate *candidate,
+                              uint8_t *active, icc_function_info *info, const iccp_env *env)
+{
+    const icc_status status = iterate(smoothing, enough, candidate, info, env);
+    for (size_t i = 0; i < smoothing->m; ++i)
+        active[i] = smoothing->v[i] < 0;
     return status;
 }

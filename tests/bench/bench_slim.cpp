@@ -213,8 +213,9 @@ static void measure(const char *name, const icc_map *map)
 
 int main(int argc, char **argv)
 {
-    std::printf("steps, energy, ms of ours, of SLIM, by how far its boundary is off, and the ratio: "
-                "to our end + 1 %% | to SLIM's end\n");
+    std::printf(
+        "steps, energy, ms of ours, of SLIM, by how far its boundary is off, and the ratio: "
+        "to our end + 1 %% | to SLIM's end\n");
     for (int k = 1; k + 1 < argc; k += 2) {
         icc_domain *source = read_domain(argv[k]), *target = read_domain(argv[k + 1]);
         icc_map_options options = {};

@@ -463,7 +463,8 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         }
         if (status == ICC_OK)
-            status = iccp_polish(&qp, active, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
+            status =
+                iccp_polish(&qp, active, false, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
         iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
@@ -506,7 +507,13 @@ static icc_status solve_nested(const problem *p, int32_t function, size_t coarse
         return status;
     uint8_t *active = calloc(iccp_qp_inequalities(&qp), 1);
     iccp_candidate candidate = {f, HUGE_VAL};
-    status = iccp_nested(&qp, function, coarsest, 1e-12, &candidate, active, info, env);
+    iccp_nested nested;
+    bool useful;
+    status = iccp_nested_create(&nested, &useful, &qp, function, coarsest, info, env);
+    if (status == ICC_OK && useful) {
+        status = iccp_smoothing_run(&nested.smoothing, 1e-12, &candidate, active, info, env);
+        iccp_nested_free(&nested);
+    }
     *residual = candidate.residual;
     free(active);
     iccp_qp_free(&qp);
