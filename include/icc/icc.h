@@ -276,7 +276,7 @@ typedef struct icc_fill_options {
  * surfaces that were stretched a thousandfold and lie askew is refused all the same. Nor are
  * angles guaranteed: tetrahedra at facets may be very flat.
  *
- * Cost: about 15 us per tetrahedron, six times as much if it fails, and at most 200 bytes.
+ * Cost: about 10 us per tetrahedron, six times as much if it fails, and at most 200 bytes.
  * @param[out] out the filled domain, for the caller to free; NULL on failure
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL
@@ -694,7 +694,7 @@ typedef struct icc_chart_report {
  * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
  *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000. 500
  *   bytes a vertex.
- * - foliation on a domain with a mesh, in 3-D: 12 us a tetrahedron, 20 us from 80,000 on, of which
+ * - foliation on a domain with a mesh, in 3-D: 7 to 9 us a tetrahedron up to 90,000, of which
  *   the certificate takes 2 to 4 %. A point takes 1 to 2 us in each direction at 20,000 tetrahedra,
  *   3 to 4 us at 80,000. 130 bytes a tetrahedron, 1.4 kB while it is made.
  */
@@ -1150,7 +1150,7 @@ typedef struct icc_map_info {
  * W = 300,000 + 300 n, the repair of a start as many steps, and a start without the charts, where
  * theirs cannot be repaired, half as many. That start is the overlay of two triangulations, each of
  * whose crossings counts as four; only they may exceed the budget, being 100,000 + 100 n at most.
- * Most maps take a small part of it: from 4 ms for cages of a few dozen vertices to 0.4 s for
+ * Most maps take a small part of it: from 4 ms for cages of a few dozen vertices to 0.3 s for
  * 15,000; where W is used up, icc_map_improve() goes on. Of all that we have tried (letters,
  * coasts, outlines turned onto themselves, stars, combs, spirals of up to 300 turns onto discs)
  * none takes more than half a second and 15 times as long as kind curves by method disc, but for

@@ -1588,7 +1588,7 @@ extern "C" {
     /// Returns as `icc_chart_create()`, or `ICC_ERR_BOUNDARY`
     ///
     /// Cost of kind mesh: that of two charts, then Newton steps on the mesh: from 4 ms for cages of some tens
-    /// of vertices to 0.4 s for 15,000, and never more than a stated amount of work. Deterministic: work is
+    /// of vertices to 0.3 s for 15,000, and never more than a stated amount of work. Deterministic: work is
     /// counted, clocks are not read.
     pub fn icc_map_create(
         out: *mut *mut icc_map,
