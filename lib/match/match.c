@@ -144,10 +144,9 @@ icc_status iccp_match_create(icc_match **out, const icc_domain *source, const ic
     match->memory = env->memory;
     if (source->dim == 2)
         status = match_outlines(match, source, target, n_landmarks, landmarks, options, env, err);
-    else if (n_landmarks > 0)
-        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "landmarks are for domains of the plane");
     else
-        status = iccp_match_surfaces(match, source, target, options, env, err);
+        status =
+            iccp_match_surfaces(match, source, target, n_landmarks, landmarks, options, env, err);
     if (status == ICC_OK)
         *out = match;
     else

@@ -7,6 +7,8 @@
 #include "base/minmax.h"
 #include "math/elementary.h"
 #include "surface/corner_angle.h"
+#include "surface/landmark_paths.h"
+#include "surface/landmark_sphere.h"
 #include "surface/rotation.h"
 #include "surface/simplify_apart.h"
 #include "surface/sphere.h"
@@ -26,11 +28,16 @@ enum { MOST_CROSSINGS = 200 };
 
 static const double most_energy = 1e8;
 
+/* Of the diagonal: how far a landmark may be from a vertex. */
+static const double farthest_landmark = 0.02;
+
 typedef struct body {
     const icc_domain *domain;
     iccp_half_edges m; /* faces counter-clockwise from outside */
-    const double *x;   /* local coordinates */
+    const double *x;   /* local coordinates, of `split` if that is there */
     double *directions;
+    iccp_split_surface split; /* with landmarks: behind the given vertices there are others */
+    uint32_t *landmarks;      /* vertices */
 } body;
 
 static icc_status make_body(body *b, const icc_domain *domain, const iccp_env *env, icc_error *err)
@@ -39,11 +46,8 @@ static icc_status make_body(body *b, const icc_domain *domain, const iccp_env *e
     uint32_t *const faces = iccp_alloc(&env->memory, n, 3 * sizeof *faces);
     b->domain = domain;
     b->x = domain->vertices;
-    b->directions = iccp_alloc(&env->memory, domain->n_vertices, 3 * sizeof *b->directions);
-    if (faces == NULL || b->directions == NULL) {
-        iccp_free(&env->memory, faces);
+    if (faces == NULL)
         return iccp_fail_memory(err);
-    }
     for (size_t f = 0; f < n; ++f) {
         const uint32_t *const v = domain->facets + 3 * f;
         faces[3 * f] = v[0];
@@ -58,6 +62,8 @@ static icc_status make_body(body *b, const icc_domain *domain, const iccp_env *e
 static void free_body(body *b, const iccp_memory *memory)
 {
     iccp_half_edges_free(&b->m);
+    iccp_split_surface_free(&b->split);
+    iccp_free(memory, b->landmarks);
     iccp_free(memory, b->directions);
 }
 
@@ -90,6 +96,9 @@ static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
     icc_status status = ICC_OK;
     for (int side = 0; side < 2 && status == ICC_OK; ++side) {
         body *const b = &bodies[side];
+        b->directions = iccp_alloc(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
+        if (b->directions == NULL)
+            return iccp_fail_memory(err);
         const iccp_env part = iccp_part(env, NULL, 0.4 * side, 0.4 * side + 0.4);
         status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
                                   &part, err);
@@ -104,6 +113,71 @@ static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
                                 (const double *const[]){bodies[0].x, bodies[1].x}, &energy, &last));
 }
 
+/* The vertices nearest to the landmarks of one side, which are no two of them the same. */
+static icc_status find_landmarks(body *b, size_t n, const double *given, int side,
+                                 const iccp_memory *memory, icc_error *err)
+{
+    const icc_domain *const d = b->domain;
+    const double most = farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
+    b->landmarks = iccp_alloc(memory, n, sizeof *b->landmarks);
+    if (b->landmarks == NULL)
+        return iccp_fail_memory(err);
+    for (size_t k = 0; k < n; ++k) {
+        double p[3], least = HUGE_VAL;
+        iccp_frame_in(&d->frame, 3, given + 6 * k + 3 * side, p);
+        for (uint32_t v = 0; v < d->n_vertices; ++v) {
+            const double distance = iccp_vec_distance2(3, p, d->vertices + 3 * (size_t)v);
+            if (b->m.degree[v] > 0 && distance < least) {
+                least = distance;
+                b->landmarks[k] = v;
+            }
+        }
+        icc_status status = ICC_OK;
+        if (!(least <= most * most))
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
+                                  "landmark %zu is too far from the vertices of the %s", k,
+                                  side == 0 ? "source" : "target");
+        for (size_t i = 0; i < k && status == ICC_OK; ++i)
+            if (b->landmarks[i] == b->landmarks[k])
+                status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
+                                      "landmark %zu is at the same vertex of the %s as landmark "
+                                      "%zu",
+                                      k, side == 0 ? "source" : "target", i);
+        if (status != ICC_OK)
+            return iccp_fail_side(err, status, side + 1);
+    }
+    return ICC_OK;
+}
+
+/* Draws both surfaces with landmarks in the same places; their edges may be halved then. */
+static icc_status draw_by_landmarks(body bodies[2], size_t n, const double *given,
+                                    const iccp_env *env, icc_error *err)
+{
+    iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    double *directions[2] = {NULL, NULL};
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+        status = find_landmarks(&bodies[side], n, given, side, &env->memory, err);
+        if (status == ICC_OK &&
+            !iccp_split_surface_create(&split[side], &bodies[side].m, bodies[side].x, &env->memory))
+            status = iccp_fail_memory(err);
+    }
+    if (status == ICC_OK)
+        status = iccp_landmark_sphere_draw(
+            directions, m, split, n,
+            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, env, err);
+    for (int side = 0; side < 2; ++side) {
+        body *const b = &bodies[side];
+        iccp_half_edges_free(&b->m);
+        b->m = m[side];
+        b->split = split[side];
+        b->x = split[side].x;
+        b->directions = directions[side];
+    }
+    return status;
+}
+
 static icc_status cut(iccp_common_surface *common, const body bodies[2], const iccp_env *env,
                       icc_error *err)
 {
@@ -116,6 +190,11 @@ static icc_status cut(iccp_common_surface *common, const body bodies[2], const i
     if (status == ICC_OK)
         status = iccp_common_surface_create(common, &overlay, m, directions, x, &env->memory, err);
     iccp_sphere_overlay_free(&overlay, &env->memory);
+    /* Vertices in the middle of edges were not given. */
+    for (int side = 0; side < 2; ++side)
+        for (size_t v = 0; v < common->n_vertices; ++v)
+            if (common->origin[side][v] >= bodies[side].domain->n_vertices)
+                common->origin[side][v] = ICCP_NO_EDGE;
     return status;
 }
 
@@ -191,21 +270,31 @@ static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side
 /* ---- from beginning to end ---- */
 
 static icc_status simplify(iccp_common_surface *common, double *off, const body bodies[2],
-                           double tolerance, const iccp_env *env)
+                           size_t n_landmarks, double tolerance, const iccp_env *env)
 {
+    uint8_t *const keep = iccp_alloc_zero(&env->memory, common->n_vertices, sizeof *keep);
+    if (keep == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < common->n_vertices; ++v)
+        for (size_t k = 0; k < n_landmarks && common->origin[1][v] != ICCP_NO_EDGE; ++k)
+            if (common->origin[0][v] == bodies[0].landmarks[k])
+                keep[v] = 1;
     const double diagonal = mean_diagonal(bodies);
     const iccp_simplify_limits limits = {
+        .keep = keep,
         .off = tolerance * diagonal,
         .edge = iccp_max(longest_edge * diagonal, times_given * mean_edge(bodies))};
     const icc_status status = iccp_simplify_apart(
         common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
         (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);
+    iccp_free(&env->memory, keep);
     *off /= diagonal;
     return status;
 }
 
 static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *common,
-                      const icc_match_options *options, const iccp_env *env, icc_error *err)
+                      size_t n_landmarks, const double *landmarks, const icc_match_options *options,
+                      const iccp_env *env, icc_error *err)
 {
     const double tolerance = options->tolerance == 0 ? default_tolerance : options->tolerance;
     iccp_env parts[4];
@@ -213,17 +302,21 @@ static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *com
     for (int k = 0; k < 4; ++k)
         parts[k].stage = "match";
     double off = 0;
-    icc_status status = draw(bodies, &parts[0], err);
+    icc_status status = n_landmarks == 0
+                            ? draw(bodies, &parts[0], err)
+                            : draw_by_landmarks(bodies, n_landmarks, landmarks, &parts[0], err);
     if (status == ICC_OK)
         status = cut(common, bodies, &parts[1], err);
     if (status != ICC_OK)
         return status;
     match->info.n_overlay = common->n_vertices;
     if (tolerance > 0)
-        status = iccp_explain(err, simplify(common, &off, bodies, tolerance, &parts[2]));
+        status =
+            iccp_explain(err, simplify(common, &off, bodies, n_landmarks, tolerance, &parts[2]));
     if (status != ICC_OK)
         return status;
     fill_in(&match->info, common, off);
+    match->info.n_landmarks = n_landmarks;
     match->n = common->n_vertices;
     for (int side = 0; side < 2 && status == ICC_OK; ++side) {
         status = make_domain(&match->domain[side], common, side, &bodies[side], &parts[3], err);
@@ -234,16 +327,23 @@ static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *com
 }
 
 icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const icc_domain *target,
+                               size_t n_landmarks, const double *landmarks,
                                const icc_match_options *options, const iccp_env *env,
                                icc_error *err)
 {
+    if (n_landmarks > 0 && n_landmarks < 4)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "%zu landmarks in space are too few: none, or four and more", n_landmarks);
+    if (n_landmarks > ICCP_MOST_SURFACE_LANDMARKS)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu landmarks in space are too many; at most %d",
+                         n_landmarks, ICCP_MOST_SURFACE_LANDMARKS);
     body bodies[2] = {{0}, {0}};
     iccp_common_surface common = {0};
     icc_status status = make_body(&bodies[0], source, env, err);
     if (status == ICC_OK)
         status = make_body(&bodies[1], target, env, err);
     if (status == ICC_OK)
-        status = run(match, bodies, &common, options, env, err);
+        status = run(match, bodies, &common, n_landmarks, landmarks, options, env, err);
     iccp_common_surface_free(&common, &env->memory);
     for (int side = 0; side < 2; ++side)
         free_body(&bodies[side], &env->memory);

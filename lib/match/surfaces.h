@@ -6,6 +6,7 @@
 
 /* Fills in a match of two domains of dimension 3 without meshes; see icc_match_create(). */
 icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const icc_domain *target,
+                               size_t n_landmarks, const double *landmarks,
                                const icc_match_options *options, const iccp_env *env,
                                icc_error *err);
 

@@ -6,6 +6,7 @@
 #include "base/heap.h"
 #include "base/minmax.h"
 #include "math/vec.h"
+#include "surface/landmark_paths.h"
 
 #include <math.h>
 
@@ -24,8 +25,9 @@ typedef struct decimation {
     iccp_half_edges *m;
     const double *x;
     double (*quadric)[QUADRIC];
-    double area;    /* twice that of the surface */
-    uint32_t most;  /* neighbours */
+    double area;                  /* twice that of the surface */
+    uint32_t most;                /* neighbours */
+    const iccp_decimate_web *web; /* NULL: none */
     iccp_heap heap; /* vertices by their cheapest collapse's cost when they were last looked at */
 } decimation;
 
@@ -99,6 +101,56 @@ static double penalty(const decimation *d, uint32_t h)
     return factor;
 }
 
+/* ---- paths ---- */
+
+static bool is_landmark(uint32_t holder)
+{
+    return holder != ICCP_NO_EDGE && holder >= ICCP_LANDMARK;
+}
+
+/* Whether two vertices are of one path, its ends included. */
+static bool share_path(const iccp_decimate_web *web, uint32_t a, uint32_t b)
+{
+    const uint32_t p = web->holder[a], q = web->holder[b];
+    if (p == ICCP_NO_EDGE || q == ICCP_NO_EDGE)
+        return false;
+    if (is_landmark(p) && is_landmark(q))
+        return web->joined[(p - ICCP_LANDMARK) * web->n_landmarks + (q - ICCP_LANDMARK)] != 0;
+    if (!is_landmark(p) && !is_landmark(q))
+        return p == q;
+    const uint32_t *const ends = web->ends[is_landmark(p) ? q : p];
+    const uint32_t k = (is_landmark(p) ? p : q) - ICCP_LANDMARK;
+    return ends[0] == k || ends[1] == k;
+}
+
+/* A vertex of a path goes along it only, and no edge comes about that joins two vertices of one
+ * path beside it: it could never shrink to that. */
+static bool is_allowed(const decimation *d, uint32_t h)
+{
+    const iccp_half_edges *const m = d->m;
+    if (d->web == NULL)
+        return true;
+    const uint32_t own = d->web->holder[m->origin[h]], end = iccp_edge_end(m, h);
+    if (is_landmark(own) || (own != ICCP_NO_EDGE && d->web->path[h] != own))
+        return false;
+    uint32_t e = iccp_edge_turn(m, iccp_edge_turn(m, h));
+    for (; iccp_edge_turn(m, e) != h; e = iccp_edge_turn(m, e))
+        if ((own == ICCP_NO_EDGE || d->web->path[e] != own) &&
+            share_path(d->web, iccp_edge_end(m, e), end))
+            return false;
+    return true;
+}
+
+/* Of two edges that become one, one may be of a path. */
+static void merge_paths(const iccp_decimate_web *web, const iccp_half_edges *m, uint32_t h)
+{
+    for (int way = 0; way < 2; ++way, h = m->twin[h]) {
+        const uint32_t a = m->twin[iccp_after(h)], b = m->twin[iccp_before(h)];
+        const uint32_t path = web->path[a] != ICCP_NO_EDGE ? web->path[a] : web->path[b];
+        web->path[a] = web->path[b] = path;
+    }
+}
+
 /* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is possible. */
 static uint32_t find_cheapest(const decimation *d, uint32_t vertex, double *cost)
 {
@@ -115,7 +167,8 @@ static uint32_t find_cheapest(const decimation *d, uint32_t vertex, double *cost
                 quadric_at(d->quadric[vertex], p) + quadric_at(d->quadric[end], p);
             const double length = iccp_vec_distance2(3, at(d, vertex), p);
             double sum = iccp_max(change, 0) + length_weight * length * area_round(d, vertex);
-            if (sum < *cost && (sum *= penalty(d, h)) < *cost && iccp_edge_collapsible(m, h)) {
+            if (sum < *cost && (sum *= penalty(d, h)) < *cost && is_allowed(d, h) &&
+                iccp_edge_collapsible(m, h)) {
                 *cost = sum;
                 best = h;
             }
@@ -144,6 +197,8 @@ static void collapse(decimation *d, uint32_t h)
     iccp_half_edges *const m = d->m;
     const uint32_t u = m->origin[h], v = iccp_edge_end(m, h);
     const uint32_t first = iccp_edge_turn(m, h), n = m->degree[u] - 1;
+    if (d->web != NULL)
+        merge_paths(d->web, m, h);
     iccp_edge_collapse(m, h);
     for (int k = 0; k < QUADRIC; ++k)
         d->quadric[v][k] += d->quadric[u][k];
@@ -179,15 +234,18 @@ static icc_status run(decimation *d, size_t n_left, const iccp_env *env)
                 status = iccp_progress(env, "match",
                                        (double)(n_first - m->n_left) / (double)(n_first - n_left));
         }
+        if (m->n_left == n_before && d->most > m->n_vertices)
+            return ICC_ERR_RESOLUTION;
         if (m->n_left == n_before)
             d->most *= 2;
     }
     return status;
 }
 
-icc_status iccp_decimate(iccp_half_edges *m, const double *x, size_t n_left, const iccp_env *env)
+static icc_status decimate(iccp_half_edges *m, const double *x, size_t n_left,
+                           const iccp_decimate_web *web, const iccp_env *env)
 {
-    decimation d = {.m = m, .x = x, .most = MOST_NEIGHBOURS};
+    decimation d = {.m = m, .x = x, .most = MOST_NEIGHBOURS, .web = web};
     icc_status status = ICC_ERR_MEMORY;
     d.quadric = iccp_alloc_zero(&m->memory, m->n_vertices, sizeof *d.quadric);
     if (iccp_heap_create(&d.heap, m->n_vertices, &m->memory) && d.quadric != NULL) {
@@ -197,4 +255,15 @@ icc_status iccp_decimate(iccp_half_edges *m, const double *x, size_t n_left, con
     iccp_heap_free(&d.heap, &m->memory);
     iccp_free(&m->memory, d.quadric);
     return status;
+}
+
+icc_status iccp_decimate(iccp_half_edges *m, const double *x, size_t n_left, const iccp_env *env)
+{
+    return decimate(m, x, n_left, NULL, env);
+}
+
+icc_status iccp_decimate_along(iccp_half_edges *m, const double *x, const iccp_decimate_web *web,
+                               const iccp_env *env)
+{
+    return decimate(m, x, web->n_landmarks, web, env);
 }

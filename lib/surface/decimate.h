@@ -9,4 +9,19 @@
  * without a text. O(n log n) for n vertices with a bounded number of neighbours. */
 icc_status iccp_decimate(iccp_half_edges *m, const double *x, size_t n_left, const iccp_env *env);
 
+/* Paths on a surface: see surface/landmark_paths.h. */
+typedef struct iccp_decimate_web {
+    const uint32_t *holder;
+    uint32_t *path;
+    size_t n_landmarks;
+    const uint32_t (*ends)[2];
+    const uint8_t *joined;
+} iccp_decimate_web;
+
+/* The same until only landmarks are left, whose edges are then the paths: vertices of a path go
+ * along it. ICC_ERR_RESOLUTION, without a text, if no more collapse is possible before. web->path
+ * changes along. */
+icc_status iccp_decimate_along(iccp_half_edges *m, const double *x, const iccp_decimate_web *web,
+                               const iccp_env *env);
+
 #endif

@@ -38,10 +38,11 @@ static const double bad = 90;
 static const double little = 1e-3;
 
 typedef struct drawing {
-    iccp_half_edges m;
+    iccp_half_edges *m;
     const double *x;
     double *directions;
-    double scale; /* area of the surface times its square: that of the sphere */
+    const uint8_t *is_fixed; /* by vertex; or NULL */
+    double scale;            /* area of the surface times its square: that of the sphere */
     iccp_drawn_star star;
     double (*room)[3];
 } drawing;
@@ -53,7 +54,7 @@ static double *direction_of(const drawing *d, uint32_t vertex)
 
 static void gather(drawing *d, uint32_t vertex)
 {
-    iccp_drawn_star_gather(&d->star, &d->m, vertex, d->x, d->scale, d->directions);
+    iccp_drawn_star_gather(&d->star, d->m, vertex, d->x, d->scale, d->directions);
 }
 
 /* ---- moving ---- */
@@ -157,12 +158,17 @@ static double improve(drawing *d, uint32_t vertex, int n_steps, double *gain)
     return energy;
 }
 
+static bool is_fixed(const drawing *d, uint32_t vertex)
+{
+    return d->is_fixed != NULL && d->is_fixed[vertex] != 0;
+}
+
 /* A sweep: the sum of the energies, and what it fell by. */
 static void move_all(drawing *d, double *energy, double *gain)
 {
     *energy = *gain = 0;
-    for (uint32_t v = 0; v < d->m.n_vertices; ++v)
-        if (d->m.degree[v] > 0)
+    for (uint32_t v = 0; v < d->m->n_vertices; ++v)
+        if (d->m->degree[v] > 0 && !is_fixed(d, v))
             *energy += improve(d, v, STEPS, gain);
 }
 
@@ -172,7 +178,7 @@ static void move_all(drawing *d, double *energy, double *gain)
 static void begin(drawing *d)
 {
     static const double corner[4][3] = {{1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, -1}};
-    const iccp_half_edges *const m = &d->m;
+    const iccp_half_edges *const m = d->m;
     uint32_t v = 0;
     while (m->degree[v] == 0)
         ++v;
@@ -185,43 +191,43 @@ static void begin(drawing *d)
 /* Puts the last vertex that was taken away back. */
 static bool grow(drawing *d)
 {
-    const uint32_t u = iccp_edge_restore(&d->m);
+    const uint32_t u = iccp_edge_restore(d->m);
     double gain = 0;
     gather(d, u);
     if (jump(d, u, d->star.ring[0], HUGE_VAL) == HUGE_VAL)
         return false;
     improve(d, u, STEPS_WHEN_NEW, &gain);
-    uint32_t h = d->m.out[u];
+    uint32_t h = d->m->out[u];
     do {
-        const uint32_t v = iccp_edge_end(&d->m, h);
-        if (d->m.degree[v] <= MOST_NEIGHBOURS)
+        const uint32_t v = iccp_edge_end(d->m, h);
+        if (d->m->degree[v] <= MOST_NEIGHBOURS && !is_fixed(d, v))
             improve(d, v, STEPS_WHEN_NEW, &gain);
-        h = iccp_edge_turn(&d->m, h);
-    } while (h != d->m.out[u]);
+        h = iccp_edge_turn(d->m, h);
+    } while (h != d->m->out[u]);
     improve(d, u, STEPS_WHEN_NEW, &gain);
     return true;
 }
 
-static icc_status grow_all(drawing *d, const iccp_env *env, icc_error *err)
+/* Until `until` vertices are there. */
+static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_error *err)
 {
-    const size_t n = d->m.n_left + d->m.n_collapsed;
-    size_t next = 5;
+    size_t next = d->m->n_left + 1;
     double energy, gain;
     icc_status status = ICC_OK;
-    while (d->m.n_collapsed > 0 && status == ICC_OK) {
+    while (d->m->n_left < until && status == ICC_OK) {
         if (!grow(d))
             return iccp_fail(err, ICC_ERR_RESOLUTION,
                              "directions on the sphere, multiples of 2^-51, are too coarse to draw "
                              "the surface: there is no room for vertex %lu",
-                             (unsigned long)d->m.origin[d->m.collapsed[d->m.n_collapsed]]);
-        if (d->m.n_left >= next) {
-            const int n_sweeps = d->m.n_left < FEW ? SWEEPS_OF_FEW : SWEEPS;
+                             (unsigned long)d->m->origin[d->m->collapsed[d->m->n_collapsed]]);
+        if (d->m->n_left >= next) {
+            const int n_sweeps = d->m->n_left < FEW ? SWEEPS_OF_FEW : SWEEPS;
             for (int k = 0; k < n_sweeps; ++k)
                 move_all(d, &energy, &gain);
-            next = (size_t)(level * (double)d->m.n_left) + 1;
+            next = (size_t)(level * (double)d->m->n_left) + 1;
         }
-        if (d->m.n_left % 256 == 0)
-            status = iccp_progress(env, "match", 0.7 * (double)d->m.n_left / (double)n);
+        if (d->m->n_left % 256 == 0)
+            status = iccp_progress(env, "match", 0.7 * (double)d->m->n_left / (double)until);
     }
     for (int k = 0; k < LAST_SWEEPS && status == ICC_OK; ++k) {
         move_all(d, &energy, &gain);
@@ -234,14 +240,13 @@ static icc_status grow_all(drawing *d, const iccp_env *env, icc_error *err)
 
 /* ---- from beginning to end ---- */
 
-/* The factor that makes the surface's area that of the sphere. */
-static double scale_of(const drawing *d)
+double iccp_sphere_scale(const iccp_half_edges *m, const double *x)
 {
     double twice = 0;
-    for (size_t f = 0; f < d->m.n_faces; ++f) {
-        const uint32_t *const v = d->m.origin + 3 * f;
-        const double *const a = d->x + 3 * (size_t)v[0], *const b = d->x + 3 * (size_t)v[1];
-        const double *const c = d->x + 3 * (size_t)v[2];
+    for (size_t f = 0; f < m->n_faces; ++f) {
+        const uint32_t *const v = m->origin + 3 * f;
+        const double *const a = x + 3 * (size_t)v[0], *const b = x + 3 * (size_t)v[1];
+        const double *const c = x + 3 * (size_t)v[2];
         double g[3], h[3], normal[3];
         for (int k = 0; k < 3; ++k) {
             g[k] = b[k] - a[k];
@@ -253,21 +258,24 @@ static double scale_of(const drawing *d)
     return sqrt(8 * 3.14159265358979323846 / twice);
 }
 
-static icc_status draw_all(drawing *d, const iccp_env *env, icc_error *err)
+icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
+                            const uint8_t *is_fixed, size_t until, const iccp_env *env,
+                            icc_error *err)
 {
-    const iccp_env first = iccp_part(env, NULL, 0, 0.25), rest = iccp_part(env, NULL, 0.25, 1);
-    icc_status status = iccp_decimate(&d->m, d->x, 4, &first);
-    if (status != ICC_OK)
-        return iccp_explain(err, status);
-    d->room =
-        iccp_alloc(&d->m.memory, 2 * (ICCP_ROOM_CORNERS + d->m.most_neighbours), sizeof *d->room);
-    if (!iccp_drawn_star_create(&d->star, d->m.most_neighbours, &d->m.memory) || d->room == NULL)
-        return iccp_fail_memory(err);
-    begin(d);
-    status = grow_all(d, &rest, err);
-    if (status != ICC_OK)
+    drawing d = {.m = m, .x = x, .directions = directions, .is_fixed = is_fixed, .scale = scale};
+    icc_status status = ICC_OK;
+    if (m->n_left == 4)
+        begin(&d);
+    d.room = iccp_alloc(&m->memory, 2 * (ICCP_ROOM_CORNERS + m->most_neighbours), sizeof *d.room);
+    if (!iccp_drawn_star_create(&d.star, m->most_neighbours, &m->memory) || d.room == NULL)
+        status = iccp_fail_memory(err);
+    else
+        status = grow_all(&d, until, env, err);
+    iccp_drawn_star_free(&d.star, &m->memory);
+    iccp_free(&m->memory, d.room);
+    if (status != ICC_OK || m->n_collapsed > 0)
         return status;
-    const iccp_sphere_certificate c = iccp_sphere_certify(&d->m, d->directions);
+    const iccp_sphere_certificate c = iccp_sphere_certify(m, directions);
     if (c.n_faces > 0 || c.n_stars > 0)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the drawing on the sphere is not one-to-one: %zu faces are not positive, "
@@ -279,15 +287,17 @@ static icc_status draw_all(drawing *d, const iccp_env *env, icc_error *err)
 icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
                             const uint32_t *faces, const iccp_env *env, icc_error *err)
 {
-    drawing d = {.x = x, .directions = directions};
-    icc_status status = iccp_half_edges_create(&d.m, n_vertices, n_faces, faces, env, err);
+    const iccp_env first = iccp_part(env, NULL, 0, 0.25), rest = iccp_part(env, NULL, 0.25, 1);
+    iccp_half_edges m;
+    icc_status status = iccp_half_edges_create(&m, n_vertices, n_faces, faces, env, err);
     memset(directions, 0, 3 * n_vertices * sizeof *directions);
     if (status == ICC_OK) {
-        d.scale = scale_of(&d);
-        status = draw_all(&d, env, err);
+        const double scale = iccp_sphere_scale(&m, x);
+        const size_t n = m.n_left;
+        status = iccp_explain(err, iccp_decimate(&m, x, 4, &first));
+        if (status == ICC_OK)
+            status = iccp_sphere_grow(directions, &m, x, scale, NULL, n, &rest, err);
     }
-    iccp_drawn_star_free(&d.star, &env->memory);
-    iccp_free(&env->memory, d.room);
-    iccp_half_edges_free(&d.m);
+    iccp_half_edges_free(&m);
     return status;
 }

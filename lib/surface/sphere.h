@@ -3,7 +3,7 @@
 #ifndef ICCP_SPHERE_H
 #define ICCP_SPHERE_H
 
-#include "base/env.h"
+#include "surface/half_edges.h"
 
 /* Directions (surface/direction.h) for the vertices of a closed surface without handles, 3
  * n_vertices numbers each, x of size about 1; vertices without faces get zeros. Faces that are
@@ -15,5 +15,15 @@
  * ICC_ERR_CANCELLED. O(n log n) for a bounded number of neighbours. The same on every machine. */
 icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
                             const uint32_t *faces, const iccp_env *env, icc_error *err);
+
+/* The factor by which a surface, all of it there, gets the area of the sphere. */
+double iccp_sphere_scale(const iccp_half_edges *m, const double *x);
+
+/* The same for a surface that has been made coarse, until so many vertices are there: those that
+ * are have directions, of a drawing that is one-to-one, or are four, which get some. Those that are
+ * fixed, which may be NULL, stay. Certified once all vertices are there. */
+icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
+                            const uint8_t *is_fixed, size_t until, const iccp_env *env,
+                            icc_error *err);
 
 #endif

@@ -140,6 +140,15 @@ run 0 match -s cube.obj -t other.obj -o a.obj --target-output b.obj
 holds out 'energy'
 run 0 check -s a.obj -t b.obj
 holds out 'one-to-one: yes, certified'
+printf '0 0 0 0 0 0\n1 0 0 1 0 0\n0 1 0 0 1 0\n0 0 1 0 0 1\n1 1 1 1 1 1\n' >corners.lm
+run 0 match -s cube.obj -t other.obj --landmarks corners.lm -o a.obj --target-output b.obj
+grep -qx 'v 1 1 1' a.obj || complain 'a landmark is not in the result'
+printf '0 0 0 0 0 0\n' >corners.lm
+run 1 match -s cube.obj -t other.obj --landmarks corners.lm
+says 'too few'
+printf '0 0 0 0\n' >corners.lm
+run 1 match -s cube.obj -t other.obj --landmarks corners.lm
+says "landmarks are \`x y z x' y' z'\`"
 run 0 match -s cube.obj -t other.obj --json
 holds out '"overlay"'
 finish

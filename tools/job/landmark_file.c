@@ -68,16 +68,18 @@ static bool read_rows(table *out, const char *p, size_t line, problem *wrong)
     return true;
 }
 
-int landmarks_read(table *out, const char *name)
+int landmarks_read(table *out, const char *name, size_t dim)
 {
-    static const table_form form = {.columns = 4,
-                                    .what = "landmarks are `x y x' y'`, one pair per line"};
+    const table_form form = {.columns = 2 * dim,
+                             .what = dim == 2
+                                         ? "landmarks are `x y x' y'`, one pair per line"
+                                         : "landmarks are `x y z x' y' z'`, one pair per line"};
     size_t n, line;
     problem wrong;
     char *text = file_read(name, &n);
     if (text == NULL)
         return FAILED;
-    const char *rows = find_rows(text, &line);
+    const char *rows = dim == 2 ? find_rows(text, &line) : NULL;
     bool good = rows != NULL && strlen(text) == n ? read_rows(out, rows, line, &wrong)
                                                   : table_read(out, text, n, &form, &wrong);
     free(text);

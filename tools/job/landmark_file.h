@@ -4,8 +4,8 @@
 
 #include "base/table.h"
 
-/* Reads rows `x y x' y'`, or what the georeferencer of QGIS saves (.points), whose points that are
+/* Reads rows of a point and its partner, of `dim` coordinates each, or, in the plane, what the georeferencer of QGIS saves (.points), whose points that are
  * not enabled are left out. The table is to be freed if it is DONE; else said why. */
-int landmarks_read(table *out, const char *name);
+int landmarks_read(table *out, const char *name, size_t dim);
 
 #endif

@@ -132,7 +132,7 @@ int match_cages(job *j)
 {
     const args *a = j->args;
     table landmarks = {0};
-    if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks) != DONE)
+    if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks, job_dim(j)) != DONE)
         return FAILED;
     icc_match_options options = {.size = sizeof options, .turning = a->turning};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;

@@ -7,12 +7,13 @@ const ADDED = 0xffffffff;
 /** The class Match of an instance. */
 export function matchOf(core, Domain) {
   return class Match extends Handle {
-    /** source, target: Domains of the plane, or outlines, or surfaces (without landmarks); landmarks: rows of a point of the source and one of the
+    /** source, target: Domains of the plane, or outlines, or surfaces; landmarks: rows of a point of the source and one of the
      *  target; options as in icc_match_options. new Map(match.source, match.target) maps them. */
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
+      const dim = source instanceof Domain ? source.info.dim : 2;
       super(core, null, () => withDomains(Domain, { source, target }, (s, t) =>
-        core.call('icc_match_create', s, t, given.length / 4, given, options)), 'icc_match_free');
+        core.call('icc_match_create', s, t, given.length / (2 * dim), given, options)), 'icc_match_free');
     }
 
     get info() { return core.info('icc_match_get_info', this); }

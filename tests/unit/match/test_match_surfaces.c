@@ -5,6 +5,7 @@
 #include "../../surfaces.h"
 
 #include <check.h>
+#include <stdbool.h>
 
 static surface one, two;
 
@@ -183,6 +184,17 @@ START_TEST(what_cannot_be_matched_is_refused)
                      ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(icc_match_create(&match, solid, solid, 1, pair, NULL, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
+    for (int k = 0; k < 2; ++k) { /* one that is too far, two at one vertex */
+        double pairs[24] = {1, 0, 0, 1, 0, 0, -1, 0, 0, -1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+        pairs[23] = k == 0 ? 1.5 : 1;
+        pairs[12] = k == 0 ? 0 : -1;
+        pairs[13] = k == 0 ? 1 : 0;
+        ck_assert_int_eq(icc_match_create(&match, solid, solid, 4, pairs, NULL, NULL, &err),
+                         ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(err.item, ICC_ITEM_POINT);
+        ck_assert_int_eq(err.index, k == 0 ? 3 : 2);
+        ck_assert_int_eq(err.side, k == 0 ? 2 : 1);
+    }
     for (int k = 0; k < 2; ++k) {
         const icc_match_options options = {.size = sizeof options, .tolerance = k ? NAN : .2};
         ck_assert_int_eq(icc_match_create(&match, solid, solid, 0, NULL, &options, NULL, &err),
@@ -192,6 +204,59 @@ START_TEST(what_cannot_be_matched_is_refused)
     ck_assert_ptr_null(match);
     icc_domain_free(solid);
     icc_domain_free(flat);
+}
+END_TEST
+
+/* Any landmarks, however unrelated, go to their partners, and all is one-to-one. */
+START_TEST(landmarks_go_to_their_partners)
+{
+    static const double axes[3] = {1, .7, .5}, others[3] = {1, .9, .6};
+    random_source r = {11};
+    icc_error err = {.size = sizeof err};
+    for (int trial = 0; trial < share_of(12); ++trial) {
+        enum { MOST = 12 };
+        const size_t n = trial == 0 ? MOST : 4 + (size_t)random_below(&r, MOST - 3);
+        uint32_t at[2][MOST];
+        double landmarks[6 * MOST];
+        ellipsoid(&one, 2, axes, 0);
+        ellipsoid(&two, 2, others, .4);
+        const surface *const given[2] = {&one, &two};
+        for (size_t k = 0; k < n; ++k)
+            for (int s = 0; s < 2; ++s) {
+                bool is_new = false;
+                while (!is_new) {
+                    at[s][k] = (uint32_t)random_below(&r, (int)given[s]->n_vertices);
+                    is_new = true;
+                    for (size_t i = 0; i < k; ++i)
+                        is_new = is_new && at[s][i] != at[s][k];
+                }
+                memcpy(landmarks + 6 * k + 3 * s, given[s]->vertices + 3 * (size_t)at[s][k],
+                       3 * sizeof *landmarks);
+            }
+        icc_domain *source = domain_of(&one), *target = domain_of(&two);
+        icc_match *match = NULL;
+        ck_assert_msg(icc_match_create(&match, source, target, n, landmarks, NULL, NULL, &err) ==
+                          ICC_OK,
+                      "%d: %s", trial, err.message);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        ck_assert_uint_eq(info.n_landmarks, n);
+        check_common(match, &info);
+        uint32_t *const origin[2] = {malloc(info.n_vertices * sizeof(uint32_t)),
+                                     malloc(info.n_vertices * sizeof(uint32_t))};
+        ck_assert(origin[0] != NULL && origin[1] != NULL);
+        ck_assert_int_eq(icc_match_get_origins(match, origin[0], origin[1]), ICC_OK);
+        size_t n_found = 0;
+        for (size_t v = 0; v < info.n_vertices; ++v)
+            for (size_t k = 0; k < n; ++k)
+                n_found += origin[0][v] == at[0][k] && origin[1][v] == at[1][k];
+        ck_assert_uint_eq(n_found, n);
+        free(origin[0]);
+        free(origin[1]);
+        icc_match_free(match);
+        icc_domain_free(source);
+        icc_domain_free(target);
+    }
 }
 END_TEST
 
@@ -205,12 +270,32 @@ static icc_status match_once(const icc_env *env, icc_error *err, void *argument)
     return status;
 }
 
+static icc_status match_landmarks_once(const icc_env *env, icc_error *err, void *argument)
+{
+    icc_domain *source = domain_of(&one), *target = domain_of(&two);
+    icc_match *match = NULL;
+    double landmarks[6 * 5];
+    (void)argument;
+    for (size_t k = 0; k < 5; ++k) {
+        memcpy(landmarks + 6 * k, one.vertices + 3 * k, 3 * sizeof *landmarks);
+        memcpy(landmarks + 6 * k + 3, two.vertices + 3 * k, 3 * sizeof *landmarks);
+    }
+    const icc_status status =
+        icc_match_create(&match, source, target, 5, landmarks, NULL, env, err);
+    ck_assert((status == ICC_OK) == (match != NULL));
+    icc_match_free(match);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    return status;
+}
+
 START_TEST(fails_cleanly)
 {
     static const double axes[3] = {1, .7, .5};
     ellipsoid(&one, 1, axes, 0);
     ellipsoid(&two, 0, axes, .4);
     faulty_sweep(match_once, NULL);
+    faulty_sweep(match_landmarks_once, NULL);
 }
 END_TEST
 
@@ -222,6 +307,7 @@ int main(void)
     tcase_add_test(tests, ellipsoids_of_other_triangles);
     tcase_add_test(tests, equal_surfaces);
     tcase_add_test(tests, tolerance_is_kept);
+    tcase_add_test(tests, landmarks_go_to_their_partners);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);

@@ -1,0 +1,17 @@
+/* Two surfaces drawn on the sphere with their landmarks in the same places. */
+#ifndef ICCP_LANDMARK_SPHERE_H
+#define ICCP_LANDMARK_SPHERE_H
+
+#include "surface/split_surface.h"
+
+/* Landmarks, 4 to ICCP_MOST_SURFACE_LANDMARKS, as iccp_landmark_paths() has them; edges of the
+ * surfaces are halved as there. m and directions are made, for all vertices that are there then; to
+ * be freed in any case. Both drawings are certified, and landmarks of both have the same
+ * directions, whatever they are. ICC_ERR_RESOLUTION, ICC_ERR_CERTIFICATE, ICC_ERR_MEMORY,
+ * ICC_ERR_CANCELLED. */
+icc_status iccp_landmark_sphere_draw(double *directions[2], iccp_half_edges m[2],
+                                     iccp_split_surface s[2], size_t n,
+                                     const uint32_t *const vertices[2], const iccp_env *env,
+                                     icc_error *err);
+
+#endif

@@ -1,0 +1,100 @@
+#include "surface/split_surface.h"
+
+#include <string.h>
+
+bool iccp_split_surface_create(iccp_split_surface *s, const iccp_half_edges *m, const double *x,
+                               const iccp_memory *memory)
+{
+    const size_t n = m->n_vertices, n_half = 3 * m->n_faces;
+    *s = (iccp_split_surface){.memory = *memory, .n_vertices = n, .n_faces = m->n_faces};
+    s->n_given = s->room_vertices = n;
+    s->room_faces = m->n_faces;
+    s->x = iccp_alloc(memory, n, 3 * sizeof *s->x);
+    s->origin = iccp_alloc(memory, n_half, sizeof *s->origin);
+    s->twin = iccp_alloc(memory, n_half, sizeof *s->twin);
+    s->path = iccp_alloc(memory, n_half, sizeof *s->path);
+    s->out = iccp_alloc(memory, n, sizeof *s->out);
+    s->holder = iccp_alloc(memory, n, sizeof *s->holder);
+    if (s->x == NULL || s->origin == NULL || s->twin == NULL || s->path == NULL || s->out == NULL ||
+        s->holder == NULL)
+        return false;
+    memcpy(s->x, x, 3 * n * sizeof *s->x);
+    memcpy(s->origin, m->origin, n_half * sizeof *s->origin);
+    memcpy(s->twin, m->twin, n_half * sizeof *s->twin);
+    memcpy(s->out, m->out, n * sizeof *s->out);
+    memset(s->path, 0xff, n_half * sizeof *s->path);
+    memset(s->holder, 0xff, n * sizeof *s->holder);
+    return true;
+}
+
+void iccp_split_surface_free(iccp_split_surface *s)
+{
+    iccp_free(&s->memory, s->x);
+    iccp_free(&s->memory, s->origin);
+    iccp_free(&s->memory, s->twin);
+    iccp_free(&s->memory, s->path);
+    iccp_free(&s->memory, s->out);
+    iccp_free(&s->memory, s->holder);
+    *s = (iccp_split_surface){.memory = s->memory};
+}
+
+static bool enlarge(iccp_split_surface *s)
+{
+    if (s->n_vertices == s->room_vertices) {
+        const size_t n = s->room_vertices, room = n + n / 2 + 64;
+        if (!iccp_enlarge(&s->memory, &s->x, n, room, 3 * sizeof *s->x) ||
+            !iccp_enlarge(&s->memory, &s->out, n, room, sizeof *s->out) ||
+            !iccp_enlarge(&s->memory, &s->holder, n, room, sizeof *s->holder))
+            return false;
+        s->room_vertices = room;
+    }
+    if (s->n_faces + 2 > s->room_faces) {
+        const size_t n = s->room_faces, room = n + n / 2 + 128;
+        if (!iccp_enlarge(&s->memory, &s->origin, n, room, 3 * sizeof *s->origin) ||
+            !iccp_enlarge(&s->memory, &s->twin, n, room, 3 * sizeof *s->twin) ||
+            !iccp_enlarge(&s->memory, &s->path, n, room, 3 * sizeof *s->path))
+            return false;
+        s->room_faces = room;
+    }
+    return true;
+}
+
+static void join(iccp_split_surface *s, uint32_t h, uint32_t g)
+{
+    s->twin[h] = g;
+    s->twin[g] = h;
+}
+
+/* Half-edge h of a face (a, b, c) gets the new vertex m: the face becomes (a, m, c), and (m, b, c)
+ * comes about, whose first half-edge is told. */
+static uint32_t halve_face(iccp_split_surface *s, uint32_t h, uint32_t m)
+{
+    const uint32_t next = iccp_after(h), last = iccp_before(h), p = (uint32_t)(3 * s->n_faces++);
+    s->origin[p] = m;
+    s->origin[p + 1] = s->origin[next];
+    s->origin[p + 2] = s->origin[last];
+    join(s, p + 1, s->twin[next]);
+    join(s, p + 2, next);
+    s->path[p + 1] = s->path[next];
+    s->path[p] = s->path[p + 2] = s->path[next] = ICCP_NO_EDGE;
+    s->out[s->origin[next]] = p + 1;
+    s->origin[next] = m;
+    return p;
+}
+
+bool iccp_split_halve(iccp_split_surface *s, uint32_t h)
+{
+    if (!enlarge(s))
+        return false;
+    const uint32_t g = s->twin[h], m = (uint32_t)s->n_vertices++;
+    for (size_t k = 0; k < 3; ++k)
+        s->x[3 * (size_t)m + k] =
+            0.5 * (s->x[3 * (size_t)s->origin[h] + k] + s->x[3 * (size_t)iccp_split_end(s, h) + k]);
+    /* Both faces keep the half that begins where their half-edge did: (a, m) and (b, m). */
+    const uint32_t p = halve_face(s, h, m), q = halve_face(s, g, m);
+    join(s, h, q);
+    join(s, g, p);
+    s->out[m] = p;
+    s->holder[m] = ICCP_NO_EDGE;
+    return true;
+}
