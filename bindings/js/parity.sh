@@ -1,15 +1,17 @@
 #!/bin/sh
-# Compares what the library gives for the shapes of ../shared/data, here and as WebAssembly under node: meshes, 200,000
+# Compares what the library gives for the shapes of a folder, here and as WebAssembly under node: meshes, 200,000
 # points, pictures, dragged frames, weights, by their hashes; or times it, both in turns, three times: medians.
-# usage: bindings/js/parity.sh hash|time PROGRAM [SHAPE ...]     (after bindings/js/test.sh)
-#   PROGRAM: tests/cages of a native build; SHAPE: d01 t05 ...; left out, all 20 in the plane and three in space
+# usage: bindings/js/parity.sh hash|time FOLDER PROGRAM [SHAPE ...]     (after bindings/js/test.sh; paths are seen
+#   from the folder above bindings)
+#   FOLDER: has pairs 2d/*.src.txt, *.tgt.txt and 3d/*.src.obj, *.tgt.obj; without it nothing is compared
+#   PROGRAM: tests/cages of a native build; SHAPE: d01 t05 ...; left out, all in the plane and three in space
 set -eu
 cd "$(dirname "$0")/../.."
 mode=$1
-program=$2
-shift 2
-data=../shared/data
-if [ ! -d $data ]; then
+data=$2
+program=$3
+shift 3
+if [ ! -d "$data" ]; then
     echo "not compared: $data is missing"
     exit 77
 fi

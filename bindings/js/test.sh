@@ -30,14 +30,15 @@ done
 ICC_PACKAGE=$PWD/build/wasm/package node --test bindings/js/test
 
 # The same bits as those native builds that there are.
+data=../shared/data
 for program in build/*/tests/cages; do
-    if [ ! -x "$program" ] || [ ! -d ../shared/data ]; then
+    if [ ! -x "$program" ] || [ ! -d "$data" ]; then
         continue
     fi
     if [ "$long" = --long ]; then
-        sh bindings/js/parity.sh hash "$program"
+        sh bindings/js/parity.sh hash "$data" "$program"
     else
-        sh bindings/js/parity.sh hash "$program" d01 d02 d11 d18 t08
+        sh bindings/js/parity.sh hash "$data" "$program" d01 d02 d11 d18 t08
     fi
 done
 sh bindings/js/test/user/test.sh "$PWD"/build/wasm/libicc-*.tgz "$PWD/build/wasm/user"

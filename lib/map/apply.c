@@ -1,5 +1,6 @@
 #include "map/apply.h"
 
+#include "base/compiler.h"
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "map/curves.h"
@@ -30,10 +31,9 @@ static icc_status boundary_point(const icc_domain *to, uint32_t facet, const dou
 }
 
 /* A local image, in the caller's coordinates. */
-static void bring_out(const icc_domain *from, const icc_domain *to, const double *local,
-                      double *image, double *jacobian)
+static ICCP_INLINE void bring_out(const icc_domain *from, const icc_domain *to, int32_t dim,
+                                  const double *local, double *image, double *jacobian)
 {
-    const int32_t dim = to->dim;
     iccp_frame_out(&to->frame, dim, local, image);
     for (int32_t k = 0; jacobian != NULL && k < dim * dim; ++k)
         jacobian[k] *=
@@ -68,11 +68,11 @@ static icc_status solid_point(const icc_map *map, bool inverse, const double *po
             ? boundary_point(to, facet, bary, local_image, jacobian)
             : iccp_solid_map_point(map->solid, inverse, local, local_image, jacobian);
     if (status == ICC_OK)
-        bring_out(from, to, local_image, image, jacobian);
+        bring_out(from, to, 3, local_image, image, jacobian);
     return status;
 }
 
-static void give_none(size_t dim, double *image, double *jacobian)
+static ICCP_INLINE void give_none(size_t dim, double *image, double *jacobian)
 {
     for (size_t k = 0; k < dim; ++k)
         image[k] = NAN;
@@ -151,7 +151,7 @@ static icc_status plane_point(const map_loop *loop, const double *point, const d
     else
         status = ICC_ERR_TRACE;
     if (status == ICC_OK)
-        bring_out(from, to, local_image, image, jacobian);
+        bring_out(from, to, 2, local_image, image, jacobian);
     return status;
 }
 

@@ -357,10 +357,12 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
-/* Its own coordinate may be rounded. */
+/* Its own coordinate may be rounded. Most points are settled before the memory is asked. */
 bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
 {
     const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    if ((found->bary[0] > 0) + (found->bary[1] > 0) + (found->bary[2] > 0) > 1)
+        return false;
     for (size_t k = 0; k < 3; ++k)
         if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
             !(found->bary[(k + 2) % 3] > 0)) {

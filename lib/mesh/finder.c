@@ -51,7 +51,7 @@ static inline double most(double a, double b)
 
 static inline size_t cell_of(double x, size_t n)
 {
-    return x > 0 ? (x < (double)n ? (size_t)x : n - 1) : 0;
+    return x > 0 ? (x < (double)n ? (size_t)(ptrdiff_t)x : n - 1) : 0;
 }
 
 /* ---- the cells that an edge or a triangle meets ---- */
@@ -292,8 +292,11 @@ icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
 static const double CERTAIN = 1e-15;
 
 /* The doubtful case: p is next to an edge, or the triangle is flat. */
-static bool holds_exactly(const double *const q[3], const double p[2], double bary[3])
+static bool holds_exactly(const iccp_finder *f, const uint32_t *v, const double p[2],
+                          double bary[3])
 {
+    const double *const q[3] = {f->points + 2 * (size_t)v[0], f->points + 2 * (size_t)v[1],
+                                f->points + 2 * (size_t)v[2]};
     for (int k = 0; k < 3; ++k)
         if (iccp_orient2d(q[(k + 1) % 3], q[(k + 2) % 3], p) < 0)
             return false;
@@ -303,25 +306,27 @@ static bool holds_exactly(const double *const q[3], const double p[2], double ba
 }
 
 /* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All
- * three are computed before anything is decided: one branch that is hard to predict, not three. */
-static inline bool holds(const iccp_finder *f, uint32_t triangle, const double p[2], double bary[3])
+ * three are computed and compared before anything is decided: one branch that is hard to predict,
+ * not three. */
+static ICCP_INLINE bool holds(const iccp_finder *f, uint32_t triangle, const double p[2],
+                              double bary[3])
 {
     const uint32_t *v = f->triangles + 3 * (size_t)triangle;
-    const double *const q[3] = {f->points + 2 * (size_t)v[0], f->points + 2 * (size_t)v[1],
-                                f->points + 2 * (size_t)v[2]};
-    const double ax = q[0][0] - p[0], ay = q[0][1] - p[1], bx = q[1][0] - p[0];
-    const double by = q[1][1] - p[1], cx = q[2][0] - p[0], cy = q[2][1] - p[1];
+    const double *a = f->points + 2 * (size_t)v[0], *b = f->points + 2 * (size_t)v[1];
+    const double *c = f->points + 2 * (size_t)v[2];
+    const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0];
+    const double by = b[1] - p[1], cx = c[0] - p[0], cy = c[1] - p[1];
     const double bc = bx * cy, cb = by * cx, ca = cx * ay, ac = cy * ax, ab = ax * by, ba = ay * bx;
     const double size = fabs(bc) + fabs(cb) + fabs(ca) + fabs(ac) + fabs(ab) + fabs(ba);
-    bary[0] = bc - cb;
-    bary[1] = ca - ac;
-    bary[2] = ab - ba;
-    const double smallest = least(least(bary[0], bary[1]), bary[2]);
-    if (smallest < -CERTAIN * size)
+    const double area[3] = {bc - cb, ca - ac, ab - ba}, limit = CERTAIN * size;
+    if ((area[0] < -limit) | (area[1] < -limit) | (area[2] < -limit))
         return false;
-    if (smallest > CERTAIN * size && bary[0] + bary[1] + bary[2] > FLATTEST * size)
+    for (int k = 0; k < 3; ++k)
+        bary[k] = area[k];
+    if ((area[0] > limit) & (area[1] > limit) & (area[2] > limit) &
+        (area[0] + area[1] + area[2] > FLATTEST * size))
         return true;
-    return holds_exactly(q, p, bary);
+    return holds_exactly(f, v, p, bary);
 }
 
 static inline size_t cell_at(const grid *g, const double p[2])
@@ -332,8 +337,8 @@ static inline size_t cell_at(const grid *g, const double p[2])
            g->size[0] * cell_of((p[1] - g->lower[1]) * g->rate, g->size[1]);
 }
 
-static inline bool find_in(const iccp_finder *f, uint32_t triangle, const double p[2],
-                           iccp_found *found)
+static ICCP_INLINE bool find_in(const iccp_finder *f, uint32_t triangle, const double p[2],
+                                iccp_found *found)
 {
     if (!holds(f, triangle, p, found->bary))
         return false;
@@ -344,8 +349,8 @@ static inline bool find_in(const iccp_finder *f, uint32_t triangle, const double
     return true;
 }
 
-static inline void find_in_cell(const iccp_finder *f, const grid *g, size_t cell, const double p[2],
-                                iccp_found *found)
+static ICCP_INLINE void find_in_cell(const iccp_finder *f, const grid *g, size_t cell,
+                                     const double p[2], iccp_found *found)
 {
     const uint32_t end = g->first[cell + 1] / 2;
     found->is_near = g->first[cell] & 1;

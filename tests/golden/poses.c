@@ -2,19 +2,9 @@
  * its engine, makes the same weights and poses, and prints the poses. The studio's test
  * (examples/studio/test/handles.test.js) writes the session and compares the numbers to the bit.
  *
- * poses < SESSION, with an operation a line:
- *
- * make NUMBER METHOD SPACING GRID outline handles bones lines regions
- *                                              new weights, kept under a number
- * paint NUMBER HANDLE RADIUS AMOUNT RIGID strokes      new ones, of the last ones
- * method NUMBER METHOD regions                         the same
- * recall NUMBER                                        those of a number again
- * bind points                                          what is posed
- * pose transforms changes                              prints transforms, and images
- *
- * A plural is a list: how many numbers, and the numbers. A line has five of them, and a region is a
- * list by itself; a change is a handle, an offset and an angle. Methods are those of C. */
+ * poses < SESSION; what that holds: session.h. */
 #include "fixtures.h"
+#include "session.h"
 
 #include <icc/kernel.h>
 #include <math.h>
@@ -23,54 +13,12 @@
 
 enum { MOST_KEPT = 256 };
 
-typedef struct list {
-    size_t n;
-    double *x;
-} list;
-
 /* The state of the session. */
 static icc_sampling *sampling;
 static icc_weights *kept[MOST_KEPT], *weights;
 static icc_binding *binding;
 static size_t n_handles;
 static list handles, bound;
-
-/* ---- reading ---- */
-
-static double number(void)
-{
-    double x;
-    if (scanf("%lf", &x) != 1) {
-        (void)fprintf(stderr, "a number is missing\n");
-        exit(EXIT_FAILURE);
-    }
-    return x;
-}
-
-static void *room(size_t n, size_t size)
-{
-    void *memory = calloc(n + 1, size);
-    if (memory == NULL)
-        exit(EXIT_FAILURE);
-    return memory;
-}
-
-static list numbers(void)
-{
-    list l = {.n = (size_t)number()};
-    l.x = room(l.n, sizeof *l.x);
-    for (size_t i = 0; i < l.n; ++i)
-        l.x[i] = number();
-    return l;
-}
-
-static uint32_t *indices(const list *l)
-{
-    uint32_t *all = room(l->n, sizeof *all);
-    for (size_t i = 0; i < l->n; ++i)
-        all[i] = (uint32_t)l->x[i];
-    return all;
-}
 
 /* ---- nodes, and where they are ---- */
 
@@ -281,14 +229,6 @@ static void method(void)
          &err);
     become(stiffened_by(made, &regions), which);
     free(regions.x);
-}
-
-static void print(const char *name, size_t n, const double *x)
-{
-    (void)printf("%s", name);
-    for (size_t i = 0; i < n; ++i)
-        (void)printf(" %.17g", x[i]);
-    (void)printf("\n");
 }
 
 static void pose(void)

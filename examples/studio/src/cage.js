@@ -5,6 +5,7 @@ import { CageFiles } from './cage_files.js';
 import { comparisonOf, meetingEdges, reached, reportOf } from './cage_report.js';
 import { Drawing } from './drawing.js';
 import { cageSide } from './cage_side.js';
+import { HINTS, TOOLS } from './cage_tools.js';
 import { History } from './history.js';
 import { foldedOf } from './mesh.js';
 import { Overlay } from './overlay.js';
@@ -14,12 +15,6 @@ import { SAMPLES } from './samples.js';
 import { moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
 
 const FAINT = { light: [0.91, 0.91, 0.89, 0.72], dark: [0.07, 0.075, 0.08, 0.72] };
-const TOOLS = {
-  move: ['Move', 'M5 3l6 16 2.2-6.8L20 10z'], corner: ['Add corner', 'M4 18L12 6l8 12M12 3v6M9 6h6'],
-  hole: ['Hole', 'M12 4a8 8 0 1 0 .01 0M12 9a3 3 0 1 0 .01 0'], line: ['Line', 'M5 19L19 5M5 19h.01M19 5h.01'],
-  point: ['Pin', 'M12 21v-8M8 9a4 4 0 1 0 8 0a4 4 0 1 0-8 0'], remove: ['Remove', 'M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13'],
-  outline: ['New cage', 'M6 4l12 3 2 9-9 4-8-7z'],
-};
 
 export class CageMode {
   view = { look: 'picture', mesh: false, compare: 'mean-value' };
@@ -228,10 +223,7 @@ export class CageMode {
     if (['hole', 'line', 'point', 'outline'].includes(key))
       this.#drawings.forEach((d, k) => d.begin(key, (points) => this.#drawn(key, points, k === 0)));
     if (key === 'corner') this.#drawings.forEach((d, k) => d.begin('point', ([p]) => this.#cornerAt(p, k === 0)));
-    this.#say({ hole: 'Click the corners of the hole; click the first again to close it.',
-      line: 'Click the points of the line; click the last again to end it.', point: 'Click where the pin is to be.',
-      outline: 'Click the corners of the new cage; click the first again to close it.', corner: 'Click beside an edge.',
-      remove: 'Click a corner, a pin or a line to remove it.' }[key] ?? '');
+    this.#say(HINTS[key] ?? '');
   }
 
   async #drawn(kind, points, before) {
