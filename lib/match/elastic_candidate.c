@@ -1,0 +1,115 @@
+/* A candidate of the elastic search is followed with the directions of tangents after its own
+ * rotation (the square-root velocity of A. Srivastava et al., Shape analysis of elastic curves in
+ * Euclidean spaces, 2011): cut open at its surest place, then the best path near by. */
+#include "match/elastic_candidate.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    N = ICCP_MATCH_SAMPLES,
+    N_PASSES = 2,
+    BAND = N / 10, /* how far a pass may leave the one before */
+    MARGIN = 8,    /* columns that steps pass beyond it */
+    HALF = N / 64  /* samples on each side of a place that is to be sure */
+};
+
+/* Its first column in a row, and between in proportion. */
+void iccp_elastic_candidate_place(iccp_elastic_candidate *c)
+{
+    const int32_t *const p = c->path.points;
+    for (int32_t k = 0; k < c->path.n_points; ++k) {
+        if (k > 0 && p[2 * k - 2] == p[2 * k])
+            continue;
+        for (int32_t e = k > 0 ? p[2 * k - 2] + 1 : p[2 * k]; e <= p[2 * k] && e < N; ++e) {
+            const float part =
+                e == p[2 * k] ? 0 : (float)(p[2 * k] - e) / (float)(p[2 * k] - p[2 * k - 2]);
+            const float at =
+                k == 0 ? (float)p[1]
+                       : (float)p[2 * k + 1] - part * (float)(p[2 * k + 1] - p[2 * k - 1]);
+            const int32_t row = (c->i + e) % N;
+            c->place[row] = at + (float)c->j - (float)(c->i + e - row);
+        }
+    }
+}
+
+static void mean_turns(const iccp_descriptor *b, iccp_descriptor *mean)
+{
+    *mean = (iccp_descriptor){{0}, {0}};
+    for (int k = 0; k < N; ++k)
+        for (int m = 0; m < 2 * ICCP_SCALES; ++m)
+            mean->turns[m] += b[k].turns[m] / N;
+}
+
+/* The sample that is told from others best and is matched well: where a path may be cut. */
+static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c)
+{
+    static const double none[2] = {1, 0};
+    iccp_descriptor mean;
+    mean_turns(s->b, &mean);
+    double here[N], best = -HUGE_VAL;
+    for (int k = 0; k < N; ++k) {
+        const int32_t j = (int32_t)floor((double)c->place[k] + .5);
+        here[k] = (double)iccp_descriptor_cost(&s->a[k], &s->b[(j % N + N) % N], c->rotation,
+                                               iccp_tangents);
+    }
+    int32_t found = 0;
+    for (int k = 0; k < N; ++k) {
+        double sum = 0;
+        for (int m = -HALF; m <= HALF; ++m)
+            sum += here[(k + m + N) % N];
+        const double value =
+            (double)iccp_descriptor_cost(&s->a[k], &mean, none, 0) - 2 * sum / (2 * HALF + 1);
+        if (value > best) {
+            best = value;
+            found = k;
+        }
+    }
+    return found;
+}
+
+/* The rotation along a candidate's path. */
+static void rotation_of(const iccp_samples *s, iccp_elastic_candidate *c)
+{
+    double sum[2] = {0, 0};
+    for (int32_t k = 0; k < c->path.n_points; ++k) {
+        const int32_t i = c->path.points[2 * k] + c->i, j = c->path.points[2 * k + 1] + c->j;
+        iccp_descriptor_turn(sum, &s->a[i % N], &s->b[(j % N + N) % N]);
+    }
+    iccp_unit(sum);
+    memcpy(c->rotation, sum, sizeof sum);
+}
+
+/* A better path near the candidate's, with tangents, cut at its surest place. */
+static void follow(iccp_samples *s, iccp_elastic_candidate *c)
+{
+    rotation_of(s, c);
+    const int32_t i = surest(s, c), j = (int32_t)floor((double)c->place[i] + .5);
+    for (int32_t row = 0; row <= N; ++row) {
+        float *const cost = s->cost + (size_t)row * (N + 1);
+        const double place =
+            row == N ? N : (double)c->place[(i + row) % N] + (i + row >= N ? N : 0) - j;
+        const double low = place - BAND, high = place + BAND;
+        s->lattice.low[row] = low > 0 ? (int32_t)low : 0;
+        s->lattice.high[row] = high < N ? (int32_t)high : N;
+        const int32_t from = s->lattice.low[row] - MARGIN, to = s->lattice.high[row] + MARGIN;
+        for (int32_t k = from > 0 ? from : 0; k <= to && k <= N; ++k)
+            cost[k] = iccp_descriptor_cost(&s->a[(i + row) % N], &s->b[((j + k) % N + N) % N],
+                                           c->rotation, iccp_tangents);
+    }
+    iccp_lattice_search(&s->path, &s->lattice, N, s->cost, N + 1, 0);
+    if (s->path.n_points == 0)
+        return;
+    c->i = i;
+    c->j = j;
+    c->path.n_points = s->path.n_points;
+    c->path.cost = s->path.cost;
+    memcpy(c->path.points, s->path.points, 2 * (size_t)s->path.n_points * sizeof *s->path.points);
+    iccp_elastic_candidate_place(c);
+}
+
+void iccp_elastic_candidate_follow(iccp_elastic_candidate *c, iccp_samples *s)
+{
+    for (int pass = 0; pass < N_PASSES; ++pass)
+        follow(s, c);
+}
