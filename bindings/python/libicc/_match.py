@@ -35,7 +35,8 @@ class Match(Handle):
     Args:
         source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too. Or surfaces
             in space, which get common triangles
-        landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target
+        landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target; of surfaces (n, 2, 3),
+            none or four and more, of which the nearest vertices are meant
         turning: without landmarks: "upright" prefers what turns little, "free" does not
         between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the
             outlines, laid on one another unturned, are nearest
@@ -54,7 +55,8 @@ class Match(Handle):
 
     def __init__(self, source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None, *,
                  turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
-                 drop: float = 0, tolerance: Optional[float] = None, progress: Optional[Progress] = None, threads: Optional[int] = None):
+                 drop: float = 0, tolerance: Optional[float] = None, progress: Optional[Progress] = None,
+                 threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         options = new("match_options", turning=choose(turning, TURNING, "turning"),
                       between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop,
