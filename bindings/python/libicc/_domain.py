@@ -59,6 +59,9 @@ class Domain(Handle):
         radii: of points with a size, one for each or the same for all; 0: none. The circle round such a
             point goes along, larger or smaller, but does not turn: it is a line of 16 vertices behind all
             other features.
+        features: instead of holes, lines and points: pairs of "hole", "line" or "point" and vertices, in the
+            order of their numbers, as another domain's `features` are. So a domain can be built again, circles
+            of radii included, whose lines come behind points.
         progress, threads: see `libicc.Progress`; threads default to one per processor, results are
             the same for every number
 
@@ -71,17 +74,22 @@ class Domain(Handle):
     def __init__(self, vertices: ArrayLike, facets: Optional[ArrayLike] = None, *,
                  holes: Iterable[ArrayLike] = (), lines: Iterable[ArrayLike] = (),
                  points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
+                 features: Optional[Iterable[Tuple[str, ArrayLike]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        features = _features([*_holes_of(vertices), *holes], lines, points)
-        n_points = sum(kind == "point" for kind, _ in features)
+        own = _features([*_holes_of(vertices), *holes], lines, points)
+        n_points = sum(kind == "point" for kind, _ in own)
+        if features is not None:
+            if own or radii is not None:
+                raise ValueError("features come instead of holes, lines, points and radii")
+            own = _features_in_order(features)
         try:
             sizes = np.broadcast_to(np.asarray(0.0 if radii is None else radii, dtype=np.float64), n_points)
         except ValueError:
             raise ValueError(f"radii must be a number or one for each of the {n_points} points") from None
-        if features:
+        if own:
             if facets is not None:
                 raise ValueError("facets cannot be given with holes, lines or points")
-            self._take_features(points_of(_outline(vertices, True), 2), features, sizes, progress, threads)
+            self._take_features(points_of(_outline(vertices, True), 2), own, sizes, progress, threads)
             return
         vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
@@ -254,6 +262,16 @@ def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
     if points is not None and not (isinstance(points, (list, tuple)) and len(points) == 0):
         features += [("point", point.reshape(1, 2)) for point in points_of(points, 2)]
     return features
+
+
+def _features_in_order(features: Iterable[Tuple[str, ArrayLike]]) -> List[Tuple[str, Floats]]:
+    """The features that are given as such, with vertices as arrays."""
+    result = []
+    for number, (kind, vertices) in enumerate(features):
+        if kind not in FEATURES:
+            raise ValueError(f"feature {number} must be one of {', '.join(FEATURES)}, not {kind!r}")
+        result.append((kind, points_of(np.reshape(vertices, (1, 2)) if kind == "point" else vertices, 2)))
+    return result
 
 
 def _holes_of(shape: Any) -> List[Any]:

@@ -218,6 +218,15 @@ def test_features():
     assert [kind for kind, _ in sized] == ["line", "point", "point", "line"]
     np.testing.assert_allclose(np.hypot(*(sized[3][1] - [7, 7]).T), np.ones(16), rtol=1e-15)
     assert len(libicc.Domain(square, points=[[2, 7], [7, 7]], radii=1).features) == 4
+    again = libicc.Domain(square, features=sized)
+    assert [(kind, vertices.tolist()) for kind, vertices in again.features] == [
+        (kind, vertices.tolist()) for kind, vertices in sized]
+    assert libicc.Domain(square, features=[("point", [3, 4])]).features[0][1].tolist() == [[3, 4]]
+    with pytest.raises(ValueError, match="feature 1 must be one of hole, line, point, not 'circle'"):
+        libicc.Domain(square, features=[("line", bone), ("circle", bone)])
+    for other in ({"holes": [hole]}, {"points": [[2, 8]]}, {"radii": 1}):
+        with pytest.raises(ValueError, match="features come instead of"):
+            libicc.Domain(square, features=[("line", bone)], **other)
     with pytest.raises(ValueError, match="each of the 2 points"):
         libicc.Domain(square, points=[[2, 7], [7, 7]], radii=[1, 1, 1])
     with pytest.raises(libicc.ArgumentError, match="feature 0: the radius"):

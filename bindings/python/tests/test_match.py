@@ -28,6 +28,18 @@ def test_maps_match_for_themselves():
         libicc.Map(HOOK, turned, match="best")
 
 
+def test_a_matched_domain_is_built_again():
+    square = np.array([[0, 0], [9, 0], [9, 9], [0, 9]], float)
+    match = libicc.Match(libicc.Domain(square, points=[[2, 6]], radii=1),
+                         libicc.Domain(np.roll(square, 1, axis=0) * 1.5, points=[[3, 9]], radii=1.5))
+    mapping = libicc.Map(match.source, match.target)
+    n_outer = len(match.target.vertices) - sum(len(vertices) for _, vertices in match.target.features)
+    again = libicc.Domain(match.target.vertices[:n_outer] + 1,
+                          features=[(kind, vertices + 1) for kind, vertices in match.target.features])
+    assert np.array_equal(again.facets, match.target.facets)
+    assert np.allclose(mapping.retarget(again)([[2, 6], [2, 7]]), [[4, 10], [4, 11.5]])
+
+
 def test_discs_go_by_arc_length():
     turns = [np.linspace(0, 2 * np.pi, n, endpoint=False) for n in (40, 37)]
     disc, larger = np.column_stack([np.cos(turns[0]), np.sin(turns[0])]), 2 * np.column_stack(
