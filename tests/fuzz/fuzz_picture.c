@@ -3,6 +3,7 @@
  * the checksums of its chunks put right, behind which most of the reader lies. */
 #include "plot/picture_file.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,12 +43,14 @@ static void put_checksums(char *bytes, size_t n)
     }
 }
 
-/* Whether a PNG is large, or a JPEG, as one of its segments for a frame says. */
+/* Whether a PNG is large, or a JPEG, as one of its segments for a frame says. Others hold all their
+ * pixels. */
 static bool is_large(const char *bytes, size_t n)
 {
-    if (picture_told(bytes, n) != PICTURE_JPEG)
+    picture_format format = picture_told(bytes, n);
+    if (format == PICTURE_PNG)
         return n >= 24 && (uint64_t)big_endian(bytes + 16) * big_endian(bytes + 20) > MOST_PIXELS;
-    for (size_t i = 2; i + 9 <= n; i++) {
+    for (size_t i = 2; i + 9 <= n && format == PICTURE_JPEG; i++) {
         uint32_t size = big_endian(bytes + i + 5);
         if ((unsigned char)bytes[i] == 0xff && ((unsigned char)bytes[i + 1] >> 4) == 0xc &&
             (uint64_t)(size >> 16) * (size & 0xffff) > MOST_PIXELS)
@@ -59,7 +62,7 @@ static bool is_large(const char *bytes, size_t n)
 static void require_written(const picture *p, picture_format format)
 {
     problem wrong;
-    size_t n;
+    size_t n, n_numbers = p->width * p->height * p->channels;
     unsigned char *bytes =
         picture_encode(p, &(picture_style){.format = format, .notes = &p->notes}, &n, &wrong);
     require(bytes != NULL);
@@ -71,10 +74,11 @@ static void require_written(const picture *p, picture_format format)
     picture back;
     require(picture_decode(&back, exact, n, &wrong));
     require(back.width == p->width && back.height == p->height && back.channels == p->channels);
-    require(format == PICTURE_JPEG ||
-            (back.depth == p->depth &&
-             memcmp(back.samples, p->samples,
-                    p->width * p->height * p->channels * sizeof *p->samples) == 0));
+    require(format == PICTURE_JPEG || back.depth == p->depth);
+    for (size_t i = 0; i < n_numbers && format != PICTURE_JPEG; i++)
+        require(p->values == NULL ? back.samples[i] == p->samples[i]
+                                  : back.values[i] == p->values[i] ||
+                                        (isnan(back.values[i]) && isnan(p->values[i])));
     picture_free(&back);
     free(exact);
     free(bytes);
@@ -85,14 +89,21 @@ static void try_picture(const char *bytes, size_t n)
     picture p;
     problem wrong = {.text = ""};
     if (!picture_decode(&p, bytes, n, &wrong)) {
-        require(p.samples == NULL && wrong.text[0] != '\0');
+        require(p.samples == NULL && p.values == NULL && wrong.text[0] != '\0');
         require(strlen(wrong.text) < sizeof wrong.text);
         return;
     }
-    require(p.width > 0 && p.height > 0 && p.channels >= 1 && p.channels <= 4);
-    require(p.depth == 8 || p.depth == 16);
-    for (size_t i = 0; i < p.width * p.height * p.channels; i++)
+    require(p.width > 0 && p.height > 0 && p.channels >= 1);
+    require(p.channels <= (p.format == PICTURE_NPY ? PICTURE_MOST_CHANNELS : 4));
+    require((p.values != NULL) == (p.depth == 32 || p.depth == 64));
+    require((p.samples != NULL) == (p.depth == 8 || p.depth == 16));
+    for (size_t i = 0; i < p.width * p.height * p.channels && p.samples != NULL; i++)
         require(p.samples[i] >> p.depth == 0);
+    require_written(&p, PICTURE_NPY);
+    if (!picture_is_plain(&p)) {
+        picture_free(&p);
+        return;
+    }
     require_written(&p, PICTURE_PNG);
     require_written(&p, PICTURE_PAM);
     if (p.channels % 2 == 1 && p.width <= UINT16_MAX - 36 && p.height <= UINT16_MAX - 36)

@@ -38,6 +38,8 @@ mkdir 'with.dot'
 run 0 animate -s before.txt --json=report.json fish.png with.dot/f before.txt half.txt after.txt
 [ "$(ls with.dot)" = "$(printf 'f-0000\nf-0001\nf-0002\n')" ] || complain "the frames are $(ls with.dot)"
 holds report.json '"without_image": 0'
+[ "$(grep -c '"certified": true' report.json)" = 3 ] || complain "not each frame is reported as certified"
+holds report.json '"file": "with.dot/f-0002"'
 # One cage is a single picture, as warp makes it.
 run 0 animate -s before.txt fish.png one.png after.txt
 run 0 warp -s before.txt -t after.txt fish.png warped.png

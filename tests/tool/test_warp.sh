@@ -124,7 +124,7 @@ holds out '"without_image": 0'
 printf 'no picture\n' >bad.png
 echo old >out.png
 run 1 warp -s cage.txt -t cage.txt bad.png out.png
-says 'libicc: bad.png: this is no PNG, JPEG or PNM picture'
+says 'libicc: bad.png: this is no PNG, JPEG, PNM or .npy picture'
 for size in 20 60 100; do
     head -c "$size" in.png >bad.png
     run 1 warp -s cage.txt -t cage.txt bad.png out.png

@@ -2,6 +2,7 @@
 #include "cage/cage_read.h"
 
 #include "base/foreign.h"
+#include "base/npy.h"
 #include "cage/cage_features.h"
 #include "cage/cage_readers.h"
 #include "mesh/mesh_file.h"
@@ -94,7 +95,7 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
     if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
         is_word(first, "OFF") || is_obj(first))
         return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
-    if (n >= 6 && memcmp(text, "\x93NUMPY", 6) == 0)
+    if (npy_told(text, n))
         return cage_read_npy(out, text, n, wrong);
     out->dim = 2;
     if (is_json(p))

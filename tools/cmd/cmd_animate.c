@@ -10,6 +10,7 @@
 #include "plot/coverage.h"
 #include "plot/picture_file.h"
 #include "plot/picture_warp.h"
+#include "report/reason.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,15 +18,21 @@
 /* Making the first map, beside a frame. */
 static const double FIRST = 0.3;
 
+/* What the report says of a frame. */
+typedef struct frame_facts {
+    icc_map_info map;
+    size_t n_failed; /* pixels without an image */
+} frame_facts;
+
 typedef struct animation {
     const args *args;
     size_t n_keys;
     job *keys; /* from the source to each cage of the path; the first one has map and progress */
-    picture from;
+    picture from, empty; /* and what each frame is drawn on */
     picture_style style;
     icc_map *map; /* to the cage of the present frame; not the first */
     size_t frame, n_frames;
-    size_t n_failed; /* pixels without an image, in all frames */
+    frame_facts *frames; /* n_frames, those before `frame` known */
     double began;
 } animation;
 
@@ -48,21 +55,12 @@ static int read_keys(animation *x)
     return result;
 }
 
-static picture canvas(animation *x)
-{
-    return picture_canvas(&x->from, x->args->has_background ? x->args->background : NULL);
-}
-
 static int read_picture(animation *x)
 {
     const args *a = x->args;
     int result = picture_read(&x->from, a->operands[0]);
-    if (result != DONE)
-        return result;
-    picture to = canvas(x);
-    result = picture_choose(&x->style, &to, &x->from, a->quality, a->command, a->operands[1]);
-    picture_free(&to);
-    return result;
+    return result == DONE ? picture_begin(&x->empty, &x->style, &x->from, a, a->operands[1])
+                          : result;
 }
 
 /* OUT with the number of the frame before its extension; free() it. */
@@ -86,10 +84,10 @@ static int write_frame(animation *x, const icc_map *map)
 {
     job *j = &x->keys[0];
     icc_error err = {.size = sizeof err, .index = -1};
-    picture to = canvas(x);
-    size_t n_failed = 0;
+    picture to = picture_copy(&x->empty);
+    frame_facts *facts = &x->frames[x->frame];
     expect_frame(x);
-    icc_status status = picture_warp(map, &x->from, &to, &n_failed, &j->env, &err);
+    icc_status status = picture_warp(map, &x->from, &to, &facts->n_failed, &j->env, &err);
     int result = DONE;
     if (status == ICC_OK) {
         char *name = frame_name(x);
@@ -99,7 +97,8 @@ static int write_frame(animation *x, const icc_map *map)
         result = job_failed(j, &err);
     }
     picture_free(&to);
-    x->n_failed += n_failed;
+    facts->map = (icc_map_info){.size = sizeof facts->map};
+    icc_map_get_info(map, &facts->map);
     x->frame++;
     return result;
 }
@@ -149,14 +148,51 @@ static int write_frames(animation *x)
     return result;
 }
 
+/* One object a frame: its file, and what is proved of its map. */
+static void report_frames(animation *x, json *j)
+{
+    json_open(j, "frames", '[');
+    for (x->frame = 0; x->frame < x->n_frames; x->frame++) {
+        const frame_facts *facts = &x->frames[x->frame];
+        char reason[REASON_LENGTH], *name = frame_name(x);
+        json_open(j, NULL, '{');
+        json_text(j, "file", name);
+        json_flag(j, "certified", facts->map.certified != 0);
+        if (!facts->map.certified)
+            json_text(j, "not_certified_because", reason_of_map(reason, &facts->map));
+        json_count(j, "without_image", facts->n_failed);
+        json_close(j, '}');
+        free(name);
+    }
+    json_close(j, ']');
+}
+
+static int write_report(animation *x, size_t n, size_t n_failed)
+{
+    const job *j = &x->keys[0];
+    double seconds = seconds_now() - x->began;
+    report r;
+    if (!j->args->json)
+        return DONE;
+    if (!report_open(&r, j))
+        return FAILED;
+    json_count(&r.json, "points", n);
+    json_count(&r.json, "without_image", n_failed);
+    report_frames(x, &r.json);
+    report_times(&r, j, seconds);
+    return report_close(&r) ? DONE : FAILED;
+}
+
 static int finish(animation *x)
 {
     progress_end(&x->keys[0].bar);
-    size_t n = x->n_frames * x->from.width * x->from.height;
-    int result = report_points(&x->keys[0], n, x->n_failed, seconds_now() - x->began);
-    if (result != DONE || x->n_failed == 0)
+    size_t n = x->n_frames * x->from.width * x->from.height, n_failed = 0;
+    for (size_t i = 0; i < x->n_frames; i++)
+        n_failed += x->frames[i].n_failed;
+    int result = write_report(x, n, n_failed);
+    if (result != DONE || n_failed == 0)
         return result;
-    note("%zu of %zu pixels have no image in the source", x->n_failed, n);
+    note("%zu of %zu pixels have no image in the source", n_failed, n);
     return PARTIAL;
 }
 
@@ -165,6 +201,7 @@ int run_animate(const args *a)
     animation x = {.args = a, .n_keys = a->n_operands - 2};
     x.n_frames = (x.n_keys - 1) * n_steps(a) + 1;
     x.keys = need(x.n_keys, sizeof *x.keys);
+    x.frames = need(x.n_frames, sizeof *x.frames);
     int result = read_keys(&x);
     if (result == DONE)
         result = read_picture(&x);
@@ -180,8 +217,10 @@ int run_animate(const args *a)
         result = finish(&x);
     icc_map_free(x.map);
     picture_free(&x.from);
+    picture_free(&x.empty);
     for (size_t k = 0; k < x.n_keys; k++)
         job_end(&x.keys[k]);
     free(x.keys);
+    free(x.frames);
     return result;
 }

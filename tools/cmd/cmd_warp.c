@@ -16,12 +16,8 @@ typedef struct warp {
 static int read_picture(warp *w)
 {
     const args *a = w->job.args;
-    bool clears = a->has_background || a->outside == OUTSIDE_NULL;
     int result = picture_read(&w->from, a->operands[0]);
-    if (result != DONE)
-        return result;
-    w->to = picture_canvas(&w->from, clears ? a->background : NULL);
-    return picture_choose(&w->style, &w->to, &w->from, a->quality, "warp", a->operands[1]);
+    return result == DONE ? picture_begin(&w->to, &w->style, &w->from, a, a->operands[1]) : result;
 }
 
 /* Each polygon of the target has its own pixels. */

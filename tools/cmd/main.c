@@ -67,7 +67,7 @@ static const command commands[] = {
          "j+1]. A pixel\n"
          "whose centre lies in the target cage gets the colour that the map brings there; "
          "all others\n"
-         "stay as they are. PNG, JPEG and PNM (PBM, PGM, PPM, PAM) go in; OUT has the format "
+         "stay as they are. PNG, JPEG, PNM (PBM, PGM, PPM, PAM) and .npy go in; OUT has the format "
          "that its\n"
          "name says, or else that of IN: grey or RGB, with or without alpha (PNG, PAM), 8 "
          "or 16 bits\n"

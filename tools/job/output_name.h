@@ -5,7 +5,7 @@
 #include "job/args.h"
 
 /* The formats of pictures, for output_fits(). */
-#define PICTURES "PNG, JPEG, PNM, PGM, PPM, PAM"
+#define PICTURES "PNG, JPEG, PNM, PGM, PPM, PAM, NumPy"
 #define SURFACES "OBJ, OFF, PLY, STL"
 
 /* The format that the extension of a file's name stands for; NULL: none, or none that is known. */

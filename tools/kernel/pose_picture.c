@@ -6,6 +6,7 @@
 #include "base/allocate.h"
 #include "base/orientation.h"
 #include "plot/picture_file.h"
+#include "plot/picture_sample.h"
 
 #include <icc/stages.h>
 #include <math.h>
@@ -147,32 +148,6 @@ static int make_patches(drawing *d)
     return result;
 }
 
-/* ------------------------------------------------------------------ colours */
-
-/* Bilinear, each colour by its alpha. `at` is in the picture. */
-static void mix(const picture *p, const double at[2], uint16_t *to)
-{
-    double x = fmin(fmax(at[0] - 0.5, 0), (double)p->width - 1),
-           y = fmin(fmax(at[1] - 0.5, 0), (double)p->height - 1);
-    size_t left = (size_t)x, top = (size_t)y;
-    unsigned n_colours = p->channels >= 3 ? 3 : 1;
-    double sums[4] = {0, 0, 0, 0}, alphas = 0, u = x - (double)left, v = y - (double)top;
-    for (size_t k = 0; k < 4; k++) {
-        size_t column = left + (k % 2 == 1 && left + 1 < p->width),
-               row = top + (k / 2 == 1 && top + 1 < p->height);
-        const uint16_t *sample = p->samples + p->channels * (row * p->width + column);
-        double share = (k % 2 == 1 ? u : 1 - u) * (k / 2 == 1 ? v : 1 - v);
-        double alpha = p->channels > n_colours ? share * sample[n_colours] : share;
-        for (unsigned c = 0; c < n_colours; c++)
-            sums[c] += alpha * sample[c];
-        alphas += alpha;
-    }
-    for (unsigned c = 0; c < n_colours; c++)
-        to[c] = alphas > 0 ? (uint16_t)(sums[c] / alphas + 0.5) : 0;
-    if (p->channels > n_colours)
-        to[n_colours] = (uint16_t)(alphas + 0.5);
-}
-
 /* ------------------------------------------------------------------ drawing */
 
 /* Pixels from `low` to `high` whose centres may lie between a and b. */
@@ -220,7 +195,7 @@ static void draw_triangle(drawing *d, const patch *p, const uint32_t *corners)
             double source[2];
             if (find_source(p, corners, (double)x + 0.5, (double)y + 0.5, source) &&
                 is_in_picture(&d->from, source))
-                mix(&d->from, source, d->to.samples + d->to.channels * (y * d->to.width + x));
+                picture_sample(&d->from, source, &d->to, y * d->to.width + x);
         }
 }
 
@@ -316,10 +291,8 @@ int pose_picture(pose *p, const char *bytes, size_t n)
     if (p->kernel.job.domains[0] == NULL && p->kernel.set.n_regions == 0)
         return failed(a->operands[0], 0, "a picture needs a shape with a region, not only curves");
     int result = picture_take(&d.from, a->operands[0], bytes, n);
-    if (result == DONE) {
-        d.to = picture_canvas(&d.from, a->has_background ? a->background : NULL);
-        result = picture_choose(&d.style, &d.to, &d.from, a->quality, "pose", pose_output(p));
-    }
+    if (result == DONE)
+        result = picture_begin(&d.to, &d.style, &d.from, a, pose_output(p));
     if (result == DONE)
         result = draw(&d);
     picture_free(&d.from);

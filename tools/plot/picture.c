@@ -2,33 +2,52 @@
 
 #include "base/allocate.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 picture picture_make(size_t width, size_t height, unsigned channels, unsigned depth)
 {
     picture p = {.width = width, .height = height, .channels = channels, .depth = depth};
-    p.samples = need(width * height, channels * sizeof *p.samples);
+    if (depth > 16)
+        p.values = need(width * height, channels * sizeof *p.values);
+    else
+        p.samples = need(width * height, channels * sizeof *p.samples);
     return p;
 }
 
 void picture_free(picture *p)
 {
     free(p->samples);
+    free(p->values);
     free(p->notes.profile);
     *p = (picture){0};
+}
+
+bool picture_is_plain(const picture *p)
+{
+    return p->values == NULL && p->channels <= 4;
+}
+
+bool picture_has_alpha(const picture *p)
+{
+    return picture_is_plain(p) && p->channels % 2 == 0;
 }
 
 picture picture_copy(const picture *p)
 {
     picture copy = picture_make(p->width, p->height, p->channels, p->depth);
-    memcpy(copy.samples, p->samples, p->width * p->height * p->channels * sizeof *p->samples);
+    size_t n = p->width * p->height * p->channels;
+    if (p->values != NULL)
+        memcpy(copy.values, p->values, n * sizeof *p->values);
+    else
+        memcpy(copy.samples, p->samples, n * sizeof *p->samples);
     return copy;
 }
 
 void picture_widen(picture *p, bool colour, bool alpha)
 {
-    bool has_colour = p->channels >= 3, has_alpha = p->channels % 2 == 0;
+    bool has_colour = p->channels >= 3, has_alpha = picture_has_alpha(p);
     unsigned n_colours = colour || has_colour ? 3 : 1;
     unsigned channels = n_colours + (alpha || has_alpha);
     if (channels == p->channels)
@@ -78,12 +97,16 @@ void picture_turn(picture *p, unsigned orientation)
 
 picture picture_canvas(picture *from, const unsigned char *background)
 {
-    if (background != NULL)
+    if (background != NULL && from->values == NULL)
         picture_widen(from, background[0] != background[1] || background[0] != background[2],
                       background[3] < 255);
     picture canvas = picture_copy(from);
     for (size_t i = 0; background != NULL && i < canvas.width * canvas.height; i++)
-        picture_set(&canvas, i, background);
+        if (canvas.values == NULL)
+            picture_set(&canvas, i, background);
+        else
+            for (size_t c = 0; c < canvas.channels; c++)
+                canvas.values[i * canvas.channels + c] = NAN;
     return canvas;
 }
 

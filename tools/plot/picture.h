@@ -1,4 +1,5 @@
-/* Pictures: grey, grey + alpha, RGB or RGBA, 8 or 16 bits a sample, rows from the top. */
+/* Pictures: grey, grey + alpha, RGB or RGBA, 8 or 16 bits a sample, rows from the top; and arrays
+ * that are no plain pictures: of floats, or with more channels. These have no alpha. */
 #ifndef PICTURE_H
 #define PICTURE_H
 
@@ -8,10 +9,13 @@
 #include <stdint.h>
 #include <stdio.h>
 
+enum { PICTURE_MOST_CHANNELS = 64 };
+
 typedef enum picture_format {
     PICTURE_NONE,
     PICTURE_PNG,
     PICTURE_JPEG,
+    PICTURE_NPY,
     PICTURE_PGM,
     PICTURE_PPM,
     PICTURE_PNM, /* PGM or PPM, whichever fits */
@@ -29,13 +33,15 @@ typedef struct picture_notes {
     size_t n_profile;
     uint32_t density[2]; /* pixels along x and y; 0, 0: not said */
     bool per_metre;      /* else only the ratio of the two means something */
+    bool has_axis;       /* of an array: one for channels, even if there is only one */
 } picture_notes;
 
 typedef struct picture {
     size_t width, height;
-    unsigned channels; /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA */
-    unsigned depth;    /* 8 or 16 */
-    uint16_t *samples; /* height * width * channels, each below 2^depth */
+    unsigned channels; /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA; else what they are */
+    unsigned depth;    /* 8 or 16; of floats 32 or 64 */
+    uint16_t *samples; /* height * width * channels, each below 2^depth; of floats NULL */
+    double *values;    /* floats, as many; NaN: missing; else NULL */
     picture_format format;
     picture_notes notes;
 } picture;
@@ -51,21 +57,25 @@ typedef struct picture_style {
 picture picture_make(size_t width, size_t height, unsigned channels, unsigned depth);
 void picture_free(picture *p);
 
+/* Whether it is what picture files hold: no floats, at most four channels. */
+bool picture_is_plain(const picture *p);
+bool picture_has_alpha(const picture *p);
+
 /* A copy without notes. */
 picture picture_copy(const picture *p);
 
-/* Adds colour or an opaque alpha where the picture has none. */
+/* Adds colour or an opaque alpha where the plain picture has none. */
 void picture_widen(picture *p, bool colour, bool alpha);
 
 /* Turns and mirrors a picture as it is to be looked at, which Exif says by a number: 1 (as it is)
  * to 8. */
 void picture_turn(picture *p, unsigned orientation);
 
-/* Sets a pixel to 8-bit RGBA. The picture must have room for what the colour needs. */
+/* Sets a pixel to 8-bit RGBA. The picture is plain and has room for what the colour needs. */
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
 
-/* What is drawn on: a copy, or all background if that is not NULL. `from` is widened as that needs
- * it. */
+/* What is drawn on: a copy, or all background if that is not NULL, of floats missing. `from` is
+ * widened as that needs it; it is plain or of floats where there is a background. */
 picture picture_canvas(picture *from, const unsigned char *background);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "base/foreign.h"
+#include "base/npy.h"
 #include "job/output_name.h"
 
 #include <stdlib.h>
@@ -17,6 +18,7 @@ static const struct {
 } formats[] = {
     [PICTURE_PNG] = {"PNG", png_encode, true, true},
     [PICTURE_JPEG] = {"JPEG", jpeg_encode, true, false},
+    [PICTURE_NPY] = {"NumPy", npy_encode, true, true},
     [PICTURE_PGM] = {"PGM", pnm_encode, false, false},
     [PICTURE_PPM] = {"PPM", pnm_encode, true, false},
     [PICTURE_PNM] = {"PNM", pnm_encode, true, false},
@@ -36,6 +38,8 @@ picture_format picture_told(const char *bytes, size_t n)
         return PICTURE_PNG;
     if (n >= 3 && memcmp(bytes, "\xff\xd8\xff", 3) == 0)
         return PICTURE_JPEG;
+    if (npy_told(bytes, n))
+        return PICTURE_NPY;
     if (n >= 3 && bytes[0] == 'P' && bytes[1] >= '1' && bytes[1] <= '7' &&
         (is_blank(bytes[2]) || bytes[2] == '#'))
         return portable[bytes[1] - '1'];
@@ -48,9 +52,11 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     picture_format format = picture_told(bytes, n);
     if (format == PICTURE_NONE)
         return !foreign_told(bytes, n, wrong) &&
-               spoilt(wrong, 0, "this is no PNG, JPEG or PNM picture; convert it to PNG first");
+               spoilt(wrong, 0,
+                      "this is no PNG, JPEG, PNM or .npy picture; convert it to PNG first");
     if (!(format == PICTURE_PNG    ? png_decode(out, bytes, n, wrong)
           : format == PICTURE_JPEG ? jpeg_decode(out, bytes, n, wrong)
+          : format == PICTURE_NPY  ? npy_decode(out, bytes, n, wrong)
                                    : pnm_decode(out, bytes, n, wrong)))
         return false;
     out->format = format;
@@ -93,26 +99,47 @@ static picture_format like(const picture *p, picture_format format)
 {
     if (format < PICTURE_PGM)
         return format;
-    return p->channels % 2 == 0 ? PICTURE_PAM : format == PICTURE_PAM ? format : PICTURE_PNM;
+    return picture_has_alpha(p) ? PICTURE_PAM : format == PICTURE_PAM ? format : PICTURE_PNM;
 }
 
-int picture_choose(picture_style *style, const picture *p, const picture *from, int32_t quality,
-                   const char *of, const char *name)
+/* Chooses how `p` is written to a file: in the format that its name says, else in that of `from`,
+ * with the notes of `from`. */
+static int choose(picture_style *style, const picture *p, const picture *from, const args *a,
+                  const char *name)
 {
+    int32_t quality = a->quality;
     picture_format format = named(name);
     if (format == PICTURE_NONE)
         format = like(p, from->format);
     *style = (picture_style){.format = format, .notes = &from->notes, .quality = quality};
     if (quality > 0 && format != PICTURE_JPEG)
-        return misused(of, "--quality is for JPEG, and '%.200s' will be %s", name,
+        return misused(a->command, "--quality is for JPEG, and '%.200s' will be %s", name,
                        formats[format].name);
-    if (p->channels % 2 == 0 && !formats[format].has_alpha)
-        return failed(name, 0, "the picture has an alpha, which %s cannot hold; PNG and PAM can",
+    if (!picture_is_plain(p) && format != PICTURE_NPY)
+        return failed(name, 0, "the picture has %s, which %s cannot hold; .npy can",
+                      p->values != NULL ? "floats" : "more than four channels",
+                      formats[format].name);
+    if (picture_has_alpha(p) && !formats[format].has_alpha)
+        return failed(name, 0,
+                      "the picture has an alpha, which %s cannot hold; PNG, PAM and .npy can",
                       formats[format].name);
     if (p->channels >= 3 && !formats[format].has_colours)
         return failed(name, 0, "the picture has colours, which %s cannot hold; PPM can",
                       formats[format].name);
     return DONE;
+}
+
+int picture_begin(picture *to, picture_style *style, picture *from, const args *a, const char *name)
+{
+    bool clears = a->has_background || a->outside == OUTSIDE_NULL;
+    if (a->has_background && !picture_is_plain(from))
+        return misused(a->command, "--background is a colour, and the picture is an array of %s",
+                       from->values != NULL ? "floats" : "more than four channels");
+    if (clears && from->values == NULL && !picture_is_plain(from))
+        return misused(a->command, "whole numbers of more than four channels have no value for "
+                                   "what has no image");
+    *to = picture_canvas(from, clears ? a->background : NULL);
+    return choose(style, to, from, a, name);
 }
 
 int picture_save(const picture *p, const picture_style *style, const char *name)
