@@ -46,7 +46,7 @@ export class CageMode {
     for (const side of ['before', 'after']) this.#watch(side);
     this.side = cageSide(this, this.#files);
     this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
-      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
+      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': String(key === 'move') }));
     const tools = make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Tools' },
       ...this.#buttons.slice(0, 2), make('hr'), ...this.#buttons.slice(2, 5), make('hr'), ...this.#buttons.slice(5));
     this.element = make('div', { class: 'mode cage' }, tools, make('div', { class: 'panels' },

@@ -40,7 +40,7 @@ export class HandleMode {
     this.brush = new Brush(this.rest, this.overlays.rest, { stroke: (at) => this.#preview(at), done: (strokes) => this.#paint(strokes) });
     this.side = handleSide(this, new HandleFiles(this, remote, say));
     this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
-      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': key === 'move' }));
+      button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': String(key === 'move') }));
     this.element = make('div', { class: 'mode handles' },
       make('div', { class: 'tools', role: 'toolbar', 'aria-label': 'Tools' }, ...this.#buttons),
       make('div', { class: 'panels two' }, this.pose.element, this.rest.element), this.side.element);
