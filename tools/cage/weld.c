@@ -59,17 +59,23 @@ static bool is_near(const cubes *x, size_t i, size_t j)
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= 1;
 }
 
+/* The chain of the cube that lies `step` cubes from that of vertex i. */
+static int64_t *chain_beside(const cubes *x, size_t i, const int step[3])
+{
+    double cube[3];
+    for (int k = 0; k < 3; k++)
+        cube[k] = cube_of(x, x->points[3 * i + (size_t)k]) + step[k] + 0.0;
+    return chain(x, cube);
+}
+
 /* The first vertex kept that is near vertex i, or NONE: in its cube or one beside. */
 static int64_t find_near(const cubes *x, size_t i)
 {
     int64_t found = NONE;
     int reach = x->width > 0 ? 1 : 0, n = 2 * reach + 1;
     for (int s = 0; s < n * n * n; s++) {
-        const int step[3] = {s % n, s / n % n, s / n / n};
-        double cube[3];
-        for (int k = 0; k < 3; k++)
-            cube[k] = cube_of(x, x->points[3 * i + (size_t)k]) + (step[k] - reach) + 0.0;
-        for (int64_t j = *chain(x, cube); j != NONE; j = x->next[j])
+        const int step[3] = {s % n - reach, s / n % n - reach, s / n / n - reach};
+        for (int64_t j = *chain_beside(x, i, step); j != NONE; j = x->next[j])
             if (is_near(x, i, (size_t)j) && (found == NONE || j < found))
                 found = j;
     }
@@ -78,10 +84,7 @@ static int64_t find_near(const cubes *x, size_t i)
 
 static void keep(cubes *x, size_t i)
 {
-    double cube[3];
-    for (int k = 0; k < 3; k++)
-        cube[k] = cube_of(x, x->points[3 * i + (size_t)k]) + 0.0;
-    int64_t *first = chain(x, cube);
+    int64_t *first = chain_beside(x, i, (const int[3]){0, 0, 0});
     x->next[i] = *first;
     *first = (int64_t)i;
 }
