@@ -14,6 +14,9 @@
 /* Edges are not stretched by more for a join. */
 static const double limit = 1e3;
 
+/* Rounds in which joins are undone one by one. */
+enum { SINGLE_ROUNDS = 8 };
+
 /* Knots keep away from joined vertices by so much of the perimeter. */
 static const double clear = 1e-7;
 
@@ -138,8 +141,40 @@ static double slope(const iccp_weave *w, size_t k)
     return (q->at[1] + turn - p->at[1]) / (q->at[0] + turn - p->at[0]);
 }
 
-/* Takes joins apart at edges that they stretch too much; whether there were any. */
-static bool relent(iccp_weave *w)
+/* Forgets the knots at joins that are undone, which would hold their vertices together. */
+static void forget(iccp_weave *w)
+{
+    size_t n = 1, knot = 1;
+    for (size_t k = 0; k < w->n_events; ++k) {
+        const iccp_event *const at = &w->event[k];
+        if (at->d < HUGE_VAL)
+            continue;
+        for (; knot + 1 < w->n_knots && w->knot[2 * knot] <= at->at[0] + clear; ++knot) {
+            const double *const p = w->knot + 2 * knot;
+            if (fabs(p[0] - at->at[0]) > clear || fabs(p[1] - at->at[1]) > clear)
+                memmove(w->knot + 2 * n++, p, 2 * sizeof *p);
+        }
+    }
+    memmove(w->knot + 2 * n, w->knot + 2 * knot, 2 * (w->n_knots - knot) * sizeof *w->knot);
+    w->n_knots -= knot - n;
+}
+
+/* Marks the joins within `reach` events of event k as undone; whether there were any. */
+static bool undo_around(iccp_weave *w, size_t k, size_t reach)
+{
+    bool has_any = false;
+    const size_t n = 2 * reach + 2 < w->n_events ? 2 * reach + 2 : w->n_events;
+    for (size_t m = 0; m < n; ++m) {
+        iccp_event *const at = &w->event[(k + w->n_events + m - reach % w->n_events) % w->n_events];
+        has_any = has_any || (!at->is_fixed && at->d < HUGE_VAL);
+        at->d = at->is_fixed ? at->d : HUGE_VAL;
+    }
+    return has_any;
+}
+
+/* Takes joins apart at edges that they stretch too much: the worse of the two at such an edge, or
+ * all within `reach` events of it; whether there were any. */
+static bool relent(iccp_weave *w, size_t reach)
 {
     bool has_any = false;
     for (size_t k = 0; k < w->n_events; ++k) {
@@ -148,7 +183,9 @@ static bool relent(iccp_weave *w)
             continue;
         iccp_event *const a = &w->event[k], *const b = &w->event[(k + 1) % w->n_events];
         iccp_event *const worse = b->is_fixed || (!a->is_fixed && a->d >= b->d) ? a : b;
-        if (!worse->is_fixed) {
+        if (reach > 0) {
+            has_any = undo_around(w, k, reach) || has_any;
+        } else if (!worse->is_fixed) {
             worse->d = HUGE_VAL;
             has_any = true;
         }
@@ -160,7 +197,21 @@ static bool relent(iccp_weave *w)
         if (is_pair && at->d < HUGE_VAL)
             w->join[w->n_joins++] = *at;
     }
+    forget(w);
     return has_any;
+}
+
+/* Joins, and takes them apart again until no edge is stretched too much for them: first one by one,
+ * then more and more round such an edge, so that the rounds are as few as binary digits. */
+static void weave(iccp_weave *w)
+{
+    bend(w);
+    line_up(w);
+    for (size_t round = 0, reach = 0; relent(w, reach); ++round) {
+        reach = round < SINGLE_ROUNDS ? 0 : 2 * reach + 1;
+        bend(w);
+        line_up(w);
+    }
 }
 
 static icc_status finish(iccp_common *common, const iccp_weave *w, const iccp_memory *memory)
@@ -193,10 +244,7 @@ icc_status iccp_common_create(iccp_common *common, const iccp_pairing_knots *kno
     if (status == ICC_OK) {
         open(&w, knots);
         iccp_weave_join(&w, n_landmarks, landmarks, drop);
-        do {
-            bend(&w);
-            line_up(&w);
-        } while (relent(&w));
+        weave(&w);
         status = finish(common, &w, memory);
     }
     release(&w, memory);

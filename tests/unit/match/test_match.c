@@ -231,6 +231,28 @@ START_TEST(passes_through_landmarks)
 }
 END_TEST
 
+/* A corner beside a landmark, which is far from it in the other outline: that they are paired would
+ * stretch the edge between too much, and apart they must not lie in one place. */
+START_TEST(takes_apart_what_stretches_too_much)
+{
+    const double other[] = {2, 0, 2, 1, 2, 2, 0, 2, 0, 0};
+    for (int way = 0; way < 2; ++way) {
+        const double near = 1 - 4e-6, far = 2 - 2 * .017;
+        const double landmarks[] = {
+            0, 0, 0, 0, way == 0 ? near : far / 2, 0, way == 0 ? far : 2 * near, 0};
+        icc_match *match = NULL;
+        icc_error err = {.size = sizeof err};
+        const icc_status status = match_of(&match, 4, square, 5, other, 2, landmarks, NULL, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        ck_assert_uint_eq(info.n_joined, 3);
+        check_exact(match, 4, square, 5, other);
+        icc_match_free(match);
+    }
+}
+END_TEST
+
 /* Landmarks out of order, off an outline, or twice are refused by their numbers. */
 START_TEST(names_bad_landmarks)
 {
@@ -332,6 +354,7 @@ int main(void)
     tcase_add_test(tests, refuses_what_is_ambiguous);
     tcase_add_test(tests, pairs_discs_by_arc_length);
     tcase_add_test(tests, passes_through_landmarks);
+    tcase_add_test(tests, takes_apart_what_stretches_too_much);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, pairs_vertices_with_vertices);
     tcase_add_test(tests, fails_cleanly);
