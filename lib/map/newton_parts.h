@@ -1,0 +1,40 @@
+/* What the files of Newton's method share: map/newton.h. */
+#ifndef ICCP_NEWTON_PARTS_H
+#define ICCP_NEWTON_PARTS_H
+
+#include "base/compiler.h"
+#include "base/threads.h"
+#include "map/newton.h"
+
+#include <stdatomic.h>
+
+struct iccp_newton_plan {
+    iccp_memory memory;
+    atomic_size_t references;
+    iccp_assembly assembly; /* without sums */
+    iccp_ldlt factor;       /* without numbers */
+    size_t n_points, n_simplices;
+    uint32_t *corners; /* the mesh that it is for */
+};
+
+/* Elements that a thread takes at once. */
+enum { ICCP_NEWTON_GRAIN = 1024 };
+
+/* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
+static inline void iccp_newton_run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk,
+                                   void *argument)
+{
+    (void)iccp_for_chunks(&s->threads, "improve", n, grain, chunk, argument);
+}
+
+static ICCP_INLINE const double *iccp_newton_images(size_t dim, const iccp_newton *s, size_t e,
+                                                    const double **image)
+{
+    iccp_simplicial_images(dim, &s->map, s->assembly.simplex[e], image);
+    return s->element + ICCP_ELEMENT(dim) * e;
+}
+
+/* The order of elimination, and the parts in which the matrix is summed. */
+icc_status iccp_newton_analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env);
+
+#endif
