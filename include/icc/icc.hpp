@@ -479,6 +479,7 @@ public:
 
     std::vector<std::byte> save() const { return bytes(icc_chart_save); } /**< with the domain */
     icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, maximum, .. */
+    bool certified() const { return info().certified == 1; }              /**< else info() says why */
     /** What only charts of one method have; nothing for charts of others. */
     std::optional<icc_gradient_info> gradient_info() const { return own(icc_chart_get_gradient_info); }
     /** Likewise. */
@@ -685,6 +686,7 @@ public:
 
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
+    bool certified() const { return info().certified == 1; }            /**< else info() says why */
 
     /** Which way round one another features go: icc_map_get_tie(). None without features. */
     std::vector<tie> ties() const
