@@ -36,6 +36,7 @@ typedef struct objects {
     icc_grid *grid, *mask;
     icc_tree *tree;
     icc_tree *bent; /* on an L, where the inequalities of functions matter */
+    icc_tree *cut;  /* in a grid whose edges the source's boundary cuts */
     icc_function *field;
     icc_shape *shape; /* the source, and a curve */
     icc_sampling *sampling;
@@ -67,6 +68,18 @@ static inline icc_tree *make_bent_tree(void)
         inside[v] =
             v % 17 > 1 && v % 17 < 15 && v / 17 > 1 && v / 17 < 15 && (v % 17 < 7 || v / 17 < 7);
     ck_assert_int_eq(icc_grid_create_mask(&grid, 2, SHAPE, inside, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+    icc_grid_free(grid);
+    return tree;
+}
+
+static inline icc_tree *make_cut_tree(const icc_domain *source)
+{
+    icc_grid *grid;
+    icc_tree *tree;
+    uint32_t root;
+    ck_assert_int_eq(icc_grid_create(&grid, source, 11, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_grid_find_maximum(grid, &root, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
     icc_grid_free(grid);
@@ -130,6 +143,7 @@ static inline void objects_init(objects *o, int32_t method)
     ck_assert_int_eq(icc_grid_create_mask(&o->mask, 3, SHAPE, inside, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_tree_create(&o->tree, o->mask, 62, NULL, NULL, NULL), ICC_OK);
     o->bent = make_bent_tree();
+    o->cut = make_cut_tree(o->source);
     ck_assert_int_eq(icc_function_create(&o->field, o->tree, NULL, NULL, NULL), ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
         const double a = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
@@ -152,6 +166,7 @@ static inline void objects_clear(objects *o)
     icc_function_free(o->field);
     icc_tree_free(o->tree);
     icc_tree_free(o->bent);
+    icc_tree_free(o->cut);
     icc_grid_free(o->mask);
     icc_grid_free(o->grid);
     icc_map_free(o->map);
@@ -472,22 +487,25 @@ static inline icc_status call_field_create(const objects *o, outcome *out, const
 }
 
 /* Everything that is known about a field but the seconds, which differ. */
-static inline icc_status make_function(const objects *o, int32_t function, int32_t constraints,
+static inline icc_status make_function(const icc_tree *tree, int32_t function, int32_t constraints,
                                        int32_t solver, outcome *out, const icc_env *env,
                                        icc_error *err)
 {
     icc_function *field = (icc_function *)&field;
     const icc_function_options options = {
         .size = sizeof options, .function = function, .constraints = constraints, .solver = solver};
-    const icc_status status = icc_function_create(&field, o->bent, &options, env, err);
+    const icc_status status = icc_function_create(&field, tree, &options, env, err);
     HANDED_OVER(status, field);
     icc_function_info info = {.size = sizeof info};
     if (status == ICC_OK) {
+        icc_grid_info grid = {.size = sizeof grid};
         ck_assert_int_eq(icc_function_get_info(field, &info), ICC_OK);
-        memcpy(out->numbers, icc_function_values(field), 17 * 17 * sizeof *out->numbers);
+        ck_assert_int_eq(icc_grid_get_info(icc_tree_grid(tree), &grid), ICC_OK);
+        ck_assert_uint_le(2 * grid.n_vertices, 4 * N_POINTS);
+        memcpy(out->numbers, icc_function_values(field), grid.n_vertices * sizeof *out->numbers);
         if (icc_function_logs(field) != NULL)
-            memcpy(out->numbers + 17 * 17, icc_function_logs(field),
-                   17 * 17 * sizeof *out->numbers);
+            memcpy(out->numbers + grid.n_vertices, icc_function_logs(field),
+                   grid.n_vertices * sizeof *out->numbers);
     }
     memcpy(out->indices, &info, offsetof(icc_function_info, seconds_setup));
     icc_function_free(field);
@@ -497,36 +515,50 @@ static inline icc_status make_function(const objects *o, int32_t function, int32
 static inline icc_status call_laplace(const objects *o, outcome *out, const icc_env *env,
                                       icc_error *err)
 {
-    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NEEDED, ICC_SOLVER_DIRECT, out,
-                         env, err);
+    return make_function(o->bent, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NEEDED, ICC_SOLVER_DIRECT,
+                         out, env, err);
 }
 
 static inline icc_status call_laplace_constrained(const objects *o, outcome *out,
                                                   const icc_env *env, icc_error *err)
 {
-    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out, env,
-                         err);
+    return make_function(o->bent, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out,
+                         env, err);
 }
 
 static inline icc_status call_laplace_iterative(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
-    return make_function(o, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_ITERATIVE, out,
-                         env, err);
+    return make_function(o->bent, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_ITERATIVE,
+                         out, env, err);
 }
 
 static inline icc_status call_bilaplace(const objects *o, outcome *out, const icc_env *env,
                                         icc_error *err)
 {
-    return make_function(o, ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out,
-                         env, err);
+    return make_function(o->bent, ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT,
+                         out, env, err);
 }
 
 static inline icc_status call_clamped(const objects *o, outcome *out, const icc_env *env,
                                       icc_error *err)
 {
-    return make_function(o, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out, env,
-                         err);
+    return make_function(o->bent, ICC_FUNCTION_CLAMPED, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out,
+                         env, err);
+}
+
+static inline icc_status call_harmonic(const objects *o, outcome *out, const icc_env *env,
+                                       icc_error *err)
+{
+    return make_function(o->cut, ICC_FUNCTION_HARMONIC, ICC_CONSTRAINTS_NEEDED, ICC_SOLVER_DIRECT,
+                         out, env, err);
+}
+
+static inline icc_status call_harmonic_constrained(const objects *o, outcome *out,
+                                                   const icc_env *env, icc_error *err)
+{
+    return make_function(o->cut, ICC_FUNCTION_HARMONIC, ICC_CONSTRAINTS_ALL, ICC_SOLVER_DIRECT, out,
+                         env, err);
 }
 
 static inline icc_status call_field_verify(const objects *o, outcome *out, const icc_env *env,
@@ -853,6 +885,8 @@ static const call CALLS[] = {
     {"icc_function_create: Laplace, iterative", call_laplace_iterative},
     {"icc_function_create: bi-Laplace", call_bilaplace},
     {"icc_function_create: clamped", call_clamped},
+    {"icc_function_create: harmonic", call_harmonic},
+    {"icc_function_create: harmonic, constrained", call_harmonic_constrained},
     {"icc_function_get_report", call_field_verify},
     {"icc_triangulate", call_triangulate},
 };

@@ -103,13 +103,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     icc_domain *domain;
     if (icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL) != ICC_OK)
         return 0;
-    const icc_chart_options options = {.size = sizeof options,
-                                       .method = pick_method(data[1] >> 6),
-                                       .function = 1 + (kind >> 2 & 1),
-                                       .tree = 1 + (kind >> 3 & 1),
-                                       .cells = 2 + data[1] % 64,
-                                       .maximum =
-                                           (kind & 64) && data[1] >> 6 != 2 ? points + 4 : NULL};
+    const icc_chart_options options = {
+        .size = sizeof options,
+        .method = pick_method(data[1] >> 6),
+        .function = kind & 128 ? ICC_FUNCTION_HARMONIC : ICC_FUNCTION_DECAY + (kind >> 2 & 1),
+        .tree = 1 + (kind >> 3 & 1),
+        .cells = 2 + data[1] % 64,
+        .maximum = (kind & 64) && data[1] >> 6 != 2 ? points + 4 : NULL};
     icc_chart *chart;
     const icc_status status = icc_chart_create(&chart, domain, &options, NULL, NULL);
     require(status == ICC_OK || status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE ||

@@ -119,12 +119,13 @@ static icc_function_options read_options(reader *in)
 {
     static const double ETAS[4] = {0, 1e-12, 1e-3, 1e-2}, LEAVES[4] = {0, 1e-15, 1e-4, 1e-2};
     const unsigned what = next_byte(in), sizes = next_byte(in);
-    return (icc_function_options){.size = sizeof(icc_function_options),
-                                  .function = ICC_FUNCTION_LAPLACE + (int32_t)(what % 3),
-                                  .constraints = (int32_t)(what / 3 % 4),
-                                  .solver = (int32_t)(what / 12 % 3),
-                                  .min_fall = ETAS[sizes % 4],
-                                  .leaf_min = LEAVES[sizes / 4 % 4]};
+    return (icc_function_options){
+        .size = sizeof(icc_function_options),
+        .function = what < 216 ? ICC_FUNCTION_LAPLACE + (int32_t)(what % 3) : ICC_FUNCTION_HARMONIC,
+        .constraints = (int32_t)(what / 3 % 4),
+        .solver = (int32_t)(what / 12 % 3),
+        .min_fall = ETAS[sizes % 4],
+        .leaf_min = LEAVES[sizes / 4 % 4]};
 }
 
 /* Whether the tree is so deep that falls and bounds cannot both be kept. */
@@ -180,6 +181,8 @@ static void check_solution(const icc_tree *tree, const shape *s,
     const icc_status status = icc_function_create(&field, tree, options, NULL, NULL);
     if (report.n_inside == 1)
         require(status == ICC_ERR_RESOLUTION);
+    else if (options->function == ICC_FUNCTION_HARMONIC) /* a mask by itself has no boundary */
+        require(status == ICC_ERR_UNSUPPORTED);
     else if (is_infeasible(tree, s, options))
         require(status != ICC_OK || options->constraints != ICC_CONSTRAINTS_ALL);
     else
