@@ -371,8 +371,10 @@ ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights 
  *         not positive); ::ICC_ERR_SOLVER (not solved after 10,000 steps); ::ICC_ERR_MEMORY,
  *         ::ICC_ERR_CANCELLED
  *
- * Cost: some hundred steps, more for longer parts, each two solves with the part of the factor that
- * these nodes need. Memory: ten numbers for each of their weights, two for each of all weights.
+ * Cost: some hundred steps, more for longer parts, each a product with a matrix of these nodes or,
+ * where that is large, two solves with the part of the factor that they need. Memory: nine numbers
+ * for each of their weights, two for each of all weights; for the matrix at most sixteen for each
+ * pair of nodes within the kernel's reach.
  */
 ICC_API icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, size_t n,
                                        const uint32_t *nodes, const double *rigidity,

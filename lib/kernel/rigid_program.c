@@ -50,14 +50,15 @@ static void count_places(iccp_rigid *r, const double *rigidity)
         r->count[k] = k >= r->n_part ? SURROUNDINGS : rigidity != NULL ? rigidity[k] / r->mean : 1;
 }
 
-/* All arrays of numbers: of weights the first six, of derivatives the next four. */
-enum { N_ARRAYS = 12 };
+/* All arrays of numbers: those of free weights first. */
+enum { N_ARRAYS = 12, N_WEIGHTS = 9 };
 
 static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
 {
-    double **const list[N_ARRAYS] = {
-        &r->x.weights, &r->next.weights, &r->ahead.weights, &r->before, &r->gradient, &r->change,
-        &r->x.slopes,  &r->next.slopes,  &r->ahead.slopes,  &r->forces, &r->scratch,  &r->count};
+    double **const list[N_ARRAYS] = {&r->x.weights,  &r->next.weights,  &r->ahead.weights,
+                                     &r->x.gradient, &r->next.gradient, &r->ahead.gradient,
+                                     &r->before,     &r->change,        &r->bent,
+                                     &r->slopes,     &r->scratch,       &r->count};
     memcpy(arrays, list, sizeof list);
 }
 
@@ -69,10 +70,11 @@ static icc_status allocate(iccp_rigid *r, const iccp_env *env)
     icc_status status = ICC_OK;
     list_arrays(r, arrays);
     for (size_t k = 0; k < N_ARRAYS; ++k) {
-        const size_t length = k < 6    ? iccp_rigid_weights(r)
-                              : k < 10 ? iccp_rigid_derivatives(r)
-                              : k < 11 ? iccp_optimise_work(r->handles) + (dim + 1) * m
-                                       : r->n_places;
+        const size_t length = k < N_WEIGHTS             ? iccp_rigid_weights(r)
+                              : arrays[k] == &r->slopes ? iccp_rigid_derivatives(r)
+                              : arrays[k] == &r->count
+                                  ? r->n_places
+                                  : iccp_optimise_work(r->handles) + (dim + 1) * m;
         *arrays[k] = iccp_alloc(&env->memory, length, sizeof **arrays[k]);
         if (*arrays[k] == NULL)
             status = ICC_ERR_MEMORY;
@@ -92,13 +94,14 @@ static icc_status create(iccp_rigid *r, const uint32_t *part, const double *rigi
     if (r->places != NULL && r->free != NULL && r->signs != NULL)
         status = find_places(r, part, held, env);
     if (status == ICC_OK)
-        status = iccp_slopes_create(&r->map, r->nodes, r->collocation, r->n_places, r->places,
-                                    r->n_free, r->free, env);
-    if (status == ICC_OK)
         status = allocate(r, env);
     if (status != ICC_OK)
         return status;
     count_places(r, rigidity);
+    status = iccp_hessian_create(&r->hessian, r->nodes, r->collocation, r->n_places, r->places,
+                                 r->count, r->n_free, r->free, env);
+    if (status != ICC_OK)
+        return status;
     for (size_t i = 0; i < r->n_free; ++i) {
         const double *w = weights + m * r->free[i];
         memcpy(r->before + m * i, w, m * sizeof *w);
@@ -113,12 +116,14 @@ icc_status iccp_rigid_create(iccp_rigid *rigid, const iccp_nodes *nodes,
                              const bool *held, bool positive, const double *weights,
                              const iccp_env *env)
 {
-    *rigid = (iccp_rigid){.memory = env->memory,
-                          .nodes = nodes,
-                          .handles = handles,
-                          .collocation = collocation,
-                          .n_part = n_part,
-                          .map = {.memory = env->memory, .kernel = {.memory = env->memory}}};
+    *rigid = (iccp_rigid){
+        .memory = env->memory,
+        .nodes = nodes,
+        .handles = handles,
+        .collocation = collocation,
+        .n_part = n_part,
+        .hessian = {.memory = env->memory,
+                    .map = {.memory = env->memory, .kernel = {.memory = env->memory}}}};
     const icc_status status = create(rigid, part, rigidity, held, positive, weights, env);
     if (status != ICC_OK)
         iccp_rigid_free(rigid);
@@ -131,7 +136,7 @@ void iccp_rigid_free(iccp_rigid *rigid)
     list_arrays(rigid, arrays);
     for (size_t k = 0; k < N_ARRAYS; ++k)
         iccp_free(&rigid->memory, *arrays[k]);
-    iccp_slopes_free(&rigid->map);
+    iccp_hessian_free(&rigid->hessian);
     iccp_free(&rigid->memory, rigid->places);
     iccp_free(&rigid->memory, rigid->free);
     iccp_free(&rigid->memory, rigid->signs);

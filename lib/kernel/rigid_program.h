@@ -2,12 +2,11 @@
 #ifndef ICCP_RIGID_PROGRAM_H
 #define ICCP_RIGID_PROGRAM_H
 
-#include "kernel/rigid_slopes.h"
+#include "kernel/rigid_hessian.h"
 
-/* Of weights and of derivatives: m numbers a row. */
+/* Weights of the free nodes, m numbers each, and the energy's derivatives by them. */
 typedef struct iccp_rigid_state {
-    double *weights;
-    double *slopes; /* E weights - c */
+    double *weights, *gradient;
 } iccp_rigid_state;
 
 typedef struct iccp_rigid {
@@ -21,13 +20,13 @@ typedef struct iccp_rigid {
     bool *signs;      /* of each free node: no weight may become negative */
     double *count;    /* of each place: how much its derivatives count, over `mean` */
     double mean;      /* rigidity of the part's nodes */
-    iccp_slopes map;  /* E */
+    iccp_hessian hessian;
     iccp_rigid_state x, next, ahead;
-    double *before;   /* free weights, as they were */
-    double *gradient; /* of free weights */
-    double *change;   /* the same: what a step adds */
-    double *forces;   /* of derivatives */
-    double *scratch;  /* for iccp_optimise(), and for dim rows of derivatives */
+    double *before;  /* free weights, as they were */
+    double *change;  /* the same: what a step adds */
+    double *bent;    /* the Hessian's product with it */
+    double *slopes;  /* dim rows of derivatives for each place */
+    double *scratch; /* for iccp_optimise(), and for dim rows of derivatives */
 } iccp_rigid;
 
 /* The states have room; nothing is in them yet. held[i] for nodes i that keep their weights;
