@@ -192,17 +192,16 @@ static void write_vtk(const char *name, const mesh *volume, const double *images
     printf("the result is %s\n", name);
 }
 
-static void report(const icc_chart *chart, const char *name)
+static void report(const icc_map *map)
 {
-    icc_chart_info info = {.size = sizeof info};
-    icc_field_info own = {.size = sizeof own};
-    check(icc_chart_get_info(chart, &info), NULL);
-    check(icc_chart_get_field_info(chart, &own), NULL);
-    printf("%s: grid of %zu vertices inside, %zu without a vector, %zu given up; curves enter at "
-           "all but "
-           "%zu of %zu contacts with the boundary: %scertified\n",
-           name, own.n_inside, own.n_infeasible, own.n_stray, own.n_not_inward, own.n_contacts,
-           info.certified ? "" : "not ");
+    icc_map_info info = {.size = sizeof info};
+    check(icc_map_get_info(map, &info), NULL);
+    printf("the map is %scertified; ", info.certified ? "" : "not ");
+    if (info.kind == ICC_MAP_MESH)
+        printf("%zu tetrahedra of its own, mean energy %.2f (6 for an isometry)\n",
+               info.n_simplices, info.energy);
+    else
+        printf("it follows curves\n");
 }
 
 int main(int argc, char **argv)
@@ -220,8 +219,7 @@ int main(int argc, char **argv)
     icc_error err = {.size = sizeof err};
     icc_map *map;
     check(icc_map_create(&map, source, target, NULL, &env, &err), &err);
-    report(icc_map_source_chart(map), "standing");
-    report(icc_map_target_chart(map), "walking");
+    report(map);
 
     mesh volume = fill(source);
     double *images = need(volume.n_vertices, 3 * sizeof *images);

@@ -117,6 +117,27 @@ paste -d ' ' plain.out once.out |
     awk 'NR == 2 { for (j = 1; j <= 5; j++) { d = $j - $(j + 5); if (d * d > 1e-6) exit 1 } }' ||
     complain "painted weights change far away"
 
+# Or start from given weights: then those come out that are nearest to them.
+printf '3 3\n9 3\n' >middle.txt
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p middle.txt -o plain.out
+for given in "0, 0, 0.5, 0.5, 0" "1, 1, 0, 0, 1"; do
+    echo "{\"handles\": $handles, \"paint\": [{\"centre\": [3, 3], \"radius\": 1, \"weights\": [$given]}]}" >from.json
+    run 0 weights -s cage.txt -a from.json --spacing 0.2 -p middle.txt -o "from${given%%,*}.out"
+    run 0 weights -s cage.txt -a from.json --spacing 0.2 -p inside.txt -o w
+    below "$(sums inside.txt w)" 1e-9 "sums where weights start from $given"
+done
+paste -d ' ' from1.out from0.out | awk 'NR == 1 { exit !($2 > $7 + 0.1 && $5 > $10 + 0.1 && $8 > $3 + 0.1 && $9 > $4 + 0.1) }' ||
+    complain "weights do not start where they should"
+paste -d ' ' plain.out from1.out |
+    awk 'NR == 2 { for (j = 1; j <= 5; j++) { d = $j - $(j + 5); if (d * d > 1e-6) exit 1 } }' ||
+    complain "weights that start anew change far away"
+echo '{"handles": [[0, 0]], "paint": [{"handle": 0, "centre": [1, 1], "radius": 1, "weights": [1]}]}' >both.json
+run 1 weights -s cage.txt -a both.json
+says 'libicc: both.json: paint[0] must have either "weights" or "handle" and "amount"'
+echo '{"handles": [[0, 0]], "paint": [{"centre": [1, 1], "radius": 1, "weights": [1, 2]}]}' >many.json
+run 1 weights -s cage.txt -a many.json
+says 'libicc: many.json: paint[0].weights is not a list of 1 finite numbers'
+
 # In space.
 make_cubes
 echo '{"handles": [[0.1, 0.1, 0.1], [0.9, 0.1, 0.1], [0.1, 0.9, 0.1], [0.1, 0.1, 0.9], [0.9, 0.9, 0.9]]}' >cube.json

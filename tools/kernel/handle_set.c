@@ -114,15 +114,24 @@ static bool read_ball(double *centre, double *radius, const cJSON *item, const c
 static bool read_stroke(const handle_set *set, stroke *out, const cJSON *item, const char *where,
                         problem *wrong)
 {
-    static const char *const members[] = {"handle", "centre", "radius", "amount", NULL};
-    char handle[64], amount[64];
+    static const char *const members[] = {"handle", "centre", "radius", "amount", "weights", NULL};
+    char handle[64], amount[64], weights[64];
     snprintf(handle, sizeof handle, "%s.handle", where);
     snprintf(amount, sizeof amount, "%s.amount", where);
-    return json_is_object(item, where, members, wrong) &&
-           json_index(json_get(item, "handle"), handle, "handle", set->n_handles, &out->handle,
-                      wrong) &&
-           read_ball(out->centre, &out->radius, item, where, set->dim, wrong) &&
-           json_real(json_get(item, "amount"), amount, &out->amount, wrong);
+    snprintf(weights, sizeof weights, "%s.weights", where);
+    if (!json_is_object(item, where, members, wrong))
+        return false;
+    if (json_get(item, "weights") == NULL)
+        return json_index(json_get(item, "handle"), handle, "handle", set->n_handles, &out->handle,
+                          wrong) &&
+               read_ball(out->centre, &out->radius, item, where, set->dim, wrong) &&
+               json_real(json_get(item, "amount"), amount, &out->amount, wrong);
+    if (json_get(item, "handle") != NULL || json_get(item, "amount") != NULL)
+        return spoilt(wrong, 0, "%s must have either \"weights\" or \"handle\" and \"amount\"",
+                      where);
+    out->weights = need(set->n_handles, sizeof *out->weights);
+    return read_ball(out->centre, &out->radius, item, where, set->dim, wrong) &&
+           json_reals(json_get(item, "weights"), weights, set->n_handles, out->weights, wrong);
 }
 
 static bool read_paint(handle_set *set, const cJSON *list, problem *wrong)
@@ -228,6 +237,8 @@ void handle_set_free(handle_set *set)
     free(set->regions);
     free(set->vertices);
     free(set->segments);
+    for (size_t i = 0; set->strokes != NULL && i < set->n_strokes; i++)
+        free(set->strokes[i].weights);
     free(set->strokes);
     free(set->rigid);
     *set = (handle_set){0};

@@ -19,10 +19,11 @@ typedef struct rigid_part {
     double centre[3], radius, rigidity;
 } rigid_part;
 
-/* More weight for a handle, less and less towards the radius. */
+/* More weight for a handle, less and less towards the radius; or all within it starts anew. */
 typedef struct stroke {
     uint32_t handle;
     double centre[3], radius, amount;
+    double *weights; /* n_handles, which are optimised; NULL: handle and amount count */
 } stroke;
 
 typedef struct handle_set {

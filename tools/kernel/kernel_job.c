@@ -164,27 +164,44 @@ static bool in_ball(const kernel_job *k, const double *node, const double *centr
     return squared <= radius * radius;
 }
 
+/* All nodes within a stroke start from its weights, and are optimised again. */
+static icc_status repaint(icc_weights **out, kernel_job *k, const stroke *by, size_t n,
+                          const uint32_t *nodes, icc_error *err)
+{
+    const size_t m = k->set.n_handles;
+    double *values = need(n, m * sizeof *values);
+    for (size_t i = 0; i < n; i++)
+        memcpy(values + m * i, by->weights, m * sizeof *values);
+    icc_status status = icc_weights_repaint(out, k->weights, n, nodes, values, &k->job.env, err);
+    free(values);
+    return status;
+}
+
 /* Replaces the weights by painted ones, one stroke after the other. */
 static int paint(kernel_job *k)
 {
     icc_weights_info info = {.size = sizeof info};
     icc_weights_get_info(k->weights, &info);
     double *nodes = need(info.n_nodes, k->set.dim * sizeof *nodes);
+    uint32_t *inside = need(info.n_nodes, sizeof *inside);
     icc_weights_get_nodes(k->weights, nodes, NULL, NULL, NULL);
     int result = DONE;
     for (size_t s = 0; s < k->set.n_strokes && result == DONE; s++) {
         const stroke *by = &k->set.strokes[s];
-        icc_weights *painted;
+        icc_weights *painted = NULL;
         icc_error err = {.size = sizeof err, .index = -1};
-        size_t n_inside = 0;
+        size_t n = 0;
         char what[48];
         snprintf(what, sizeof what, "paint[%zu]", s);
         for (size_t i = 0; i < info.n_nodes; i++)
-            n_inside += in_ball(k, nodes + k->set.dim * i, by->centre, by->radius);
-        if (n_inside == 0)
+            if (in_ball(k, nodes + k->set.dim * i, by->centre, by->radius))
+                inside[n++] = (uint32_t)i;
+        if (n == 0)
             result = failed(k->job.args->handles, 0, "%s holds no sample", what);
-        else if (icc_weights_paint(&painted, k->weights, by->handle, by->centre, by->radius,
-                                   by->amount, &k->job.env, &err) != ICC_OK)
+        else if ((by->weights != NULL
+                      ? repaint(&painted, k, by, n, inside, &err)
+                      : icc_weights_paint(&painted, k->weights, by->handle, by->centre, by->radius,
+                                          by->amount, &k->job.env, &err)) != ICC_OK)
             result = failed_set(k, what, &err);
         if (result != DONE)
             break;
@@ -192,6 +209,7 @@ static int paint(kernel_job *k)
         k->weights = painted;
     }
     free(nodes);
+    free(inside);
     return result;
 }
 
