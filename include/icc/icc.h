@@ -882,9 +882,9 @@ typedef struct icc_match_options {
                             one pair and the two added points are dropped; at most 0.01; 0: only
                             where they lie within 0.3 of the shorter edge at them */
     double tolerance;  /**< in space, how far the common surfaces may be off those that were given,
-                            as a share of the diagonal of the bounding box (the mean of both): at
-                            most 0.1; 0: 1e-3; < 0: not at all, which takes four to six times as
-                            many vertices as both have together, and many thin triangles */
+                            as a share of the diagonal of each one's bounding box: at most 0.1; 0:
+                            1e-3; < 0: not at all, which takes four to six times as many vertices as
+                            both have together, and many thin triangles */
 } icc_match_options;
 
 /** What icc_match_get_info() reports. */
@@ -1016,6 +1016,49 @@ ICC_API icc_status icc_match_get_info(const icc_match *match, icc_match_info *in
  */
 ICC_API icc_status icc_match_get_origins(const icc_match *match, uint32_t *source,
                                          uint32_t *target);
+
+/**
+ * Takes points of the source's boundary to the target's: each to the nearest point of the boundary
+ * of icc_match_source(), and from there to the same place of the same facet of icc_match_target().
+ * Common vertices, landmarks among them, go to their partners bit by bit; between them the facets
+ * are mapped one-to-one. Points of a surface that was given are at most icc_match_info::off away
+ * from the common one. In the plane, the boundary is the outer ring and the holes; points of lines
+ * go to the ring that is nearest.
+ *
+ * What is known at the corners of the facets that were given, as places in a texture: take the
+ * vertices of icc_match_source(), or any points, to icc_domain_locate() on the domain that was
+ * given, which tells of each the facet and the weights of its corners.
+ *
+ * @param match        the match
+ * @param n            number of points
+ * @param points       n * dim coordinates
+ * @param[out] images  n * dim coordinates; NaN for a point that is not finite. May be the same
+ *                     array as `points`.
+ * @param[out] off     how far each point was from the boundary of icc_match_source(); NaN for one
+ *                     that is not finite. May be NULL
+ * @param env          may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
+ *
+ * Cost: as icc_domain_locate() takes to find the nearest facet.
+ */
+ICC_API icc_status icc_match_apply(const icc_match *match, size_t n, const double *points,
+                                   double *images, double *off, const icc_env *env);
+
+/** Target -> source; otherwise as icc_match_apply(). */
+ICC_API icc_status icc_match_apply_inverse(const icc_match *match, size_t n, const double *points,
+                                           double *images, double *off, const icc_env *env);
+
+/** Writes a match as bytes, as icc_chart_save() does a chart: with both domains. */
+ICC_API icc_status icc_match_save(const icc_match *match, size_t capacity, void *data,
+                                  size_t *n_bytes);
+
+/**
+ * Reads a match back, as icc_chart_load() does a chart: its domains are checked as they were when
+ * they were made, and have to correspond. What icc_match_info and icc_match_get_origins() say is
+ * taken from the bytes.
+ */
+ICC_API icc_status icc_match_load(icc_match **out, size_t n_bytes, const void *data,
+                                  const icc_env *env, icc_error *err);
 
 /* --------------------------------------------------------------------- map */
 

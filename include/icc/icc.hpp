@@ -638,6 +638,17 @@ public:
                                       rest...);
           }) {}
 
+    /** Of what save() has made. */
+    explicit match(view<const std::byte> saved, const env &e = {})
+        : handle(e, [&](auto out, auto... rest) {
+              return icc_match_load(out, saved.size(), saved.data(), rest...);
+          }) {}
+
+    /** The same by its name. */
+    static match load(view<const std::byte> saved, const env &e = {}) { return match(saved, e); }
+
+    std::vector<std::byte> save() const { return bytes(icc_match_save); } /**< with both domains */
+
     icc_match_info info() const { return tell(icc_match_get_info); } /**< cost, turn, common vertices, .. */
     /** The domains with common vertices, for calls of the C interface; borrowed. */
     const icc_domain *get_source() const noexcept { return icc_match_source(get()); }
@@ -653,6 +664,33 @@ public:
             return icc_match_get_origins(get(), result.first.data(), result.second.data());
         });
         return result;
+    }
+
+    /** Points of the source's boundary on the target's; `off`, if it is not empty, gets how far they were from the
+     *  common boundary: icc_match_apply(). */
+    std::vector<double> apply(view<const double> points, view<double> off = {}, const env &e = {}) const
+    {
+        return follow(icc_match_apply, points, off, e);
+    }
+
+    /** Target to source, as apply(). */
+    std::vector<double> apply_inverse(view<const double> points, view<double> off = {}, const env &e = {}) const
+    {
+        return follow(icc_match_apply_inverse, points, off, e);
+    }
+
+private:
+    template <class Function>
+    std::vector<double> follow(Function function, view<const double> points, view<double> off, const env &e) const
+    {
+        const std::size_t n = count(points, info().dim);
+        std::vector<double> images(points.size());
+        if (off.size() > 0)
+            expect(off, n);
+        call(e, [&](const icc_env *c_env, auto...) {
+            return function(get(), n, points.data(), images.data(), off.data(), c_env);
+        });
+        return images;
     }
 };
 

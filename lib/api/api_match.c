@@ -2,7 +2,8 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "match/landmarks.h"
-#include "match/match.h"
+#include "match/match_apply.h"
+#include "match/match_file.h"
 
 #include <math.h>
 #include <string.h>
@@ -93,4 +94,49 @@ icc_status icc_match_get_origins(const icc_match *match, uint32_t *source, uint3
     if (target != NULL)
         memcpy(target, match->origin[1], match->n * sizeof *target);
     return ICC_OK;
+}
+
+static icc_status follow(const icc_match *match, int side, size_t n, const double *points,
+                         double *images, double *off, const icc_env *env)
+{
+    iccp_env full;
+    if (match == NULL || (n > 0 && (points == NULL || images == NULL)))
+        return ICC_ERR_ARGUMENT;
+    const icc_status status = iccp_env_read(&full, env, NULL);
+    return status == ICC_OK
+               ? iccp_finish(&full, iccp_match_apply(match, side, n, points, images, off, &full))
+               : status;
+}
+
+icc_status icc_match_apply(const icc_match *match, size_t n, const double *points, double *images,
+                           double *off, const icc_env *env)
+{
+    return follow(match, 0, n, points, images, off, env);
+}
+
+icc_status icc_match_apply_inverse(const icc_match *match, size_t n, const double *points,
+                                   double *images, double *off, const icc_env *env)
+{
+    return follow(match, 1, n, points, images, off, env);
+}
+
+icc_status icc_match_save(const icc_match *match, size_t capacity, void *data, size_t *n_bytes)
+{
+    if (match == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
+        return ICC_ERR_ARGUMENT;
+    iccp_match_save(match, capacity, data, n_bytes);
+    return ICC_OK;
+}
+
+icc_status icc_match_load(icc_match **out, size_t n_bytes, const void *data, const icc_env *env,
+                          icc_error *err)
+{
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
+    iccp_env full;
+    const icc_status status = iccp_begin(&full, env, missing, err);
+    return status == ICC_OK
+               ? iccp_end_match(iccp_match_load(out, n_bytes, data, &full, err), out, &full, err)
+               : status;
 }

@@ -16,11 +16,11 @@
 
 #include <string.h>
 
-/* Of the mean diagonal. */
+/* Of the diagonal. */
 static const double default_tolerance = 1e-3;
 
-/* Edges that come about are at most this part of the mean diagonal, or so many times as long as
- * those that were given are on average: the map between the surfaces bends at vertices only. */
+/* Edges that come about are at most this part of the diagonal, or so many times as long as those
+ * that were given are on average: the map between the surfaces bends at vertices only. */
 static const double longest_edge = 0.05, times_given = 2;
 
 /* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
@@ -67,26 +67,19 @@ static void free_body(body *b, const iccp_memory *memory)
     iccp_free(memory, b->directions);
 }
 
-static double mean_diagonal(const body bodies[2])
+static double diagonal_of(const body *b)
 {
-    double sum = 0;
-    for (int side = 0; side < 2; ++side)
-        sum += iccp_vec_distance(3, bodies[side].domain->lower, bodies[side].domain->upper);
-    return 0.5 * sum;
+    return iccp_vec_distance(3, b->domain->lower, b->domain->upper);
 }
 
-/* Of the edges of both. */
-static double mean_edge(const body bodies[2])
+static double mean_edge(const body *b)
 {
+    const iccp_half_edges *const m = &b->m;
     double sum = 0;
-    for (int side = 0; side < 2; ++side) {
-        const iccp_half_edges *const m = &bodies[side].m;
-        const double *const x = bodies[side].x;
-        for (uint32_t h = 0; h < 3 * m->n_faces; ++h)
-            sum += iccp_vec_distance(3, x + 3 * (size_t)m->origin[h],
-                                     x + 3 * (size_t)iccp_edge_end(m, h));
-    }
-    return sum / (3 * (double)(bodies[0].m.n_faces + bodies[1].m.n_faces));
+    for (uint32_t h = 0; h < 3 * m->n_faces; ++h)
+        sum += iccp_vec_distance(3, b->x + 3 * (size_t)m->origin[h],
+                                 b->x + 3 * (size_t)iccp_edge_end(m, h));
+    return sum / (3 * (double)m->n_faces);
 }
 
 /* ---- on the sphere ---- */
@@ -279,16 +272,18 @@ static icc_status simplify(iccp_common_surface *common, double *off, const body 
         for (size_t k = 0; k < n_landmarks && common->origin[1][v] != ICCP_NO_EDGE; ++k)
             if (common->origin[0][v] == bodies[0].landmarks[k])
                 keep[v] = 1;
-    const double diagonal = mean_diagonal(bodies);
-    const iccp_simplify_limits limits = {
-        .keep = keep,
-        .off = tolerance * diagonal,
-        .edge = iccp_max(longest_edge * diagonal, times_given * mean_edge(bodies))};
+    iccp_simplify_limits limits = {.keep = keep};
+    for (int side = 0; side < 2; ++side) {
+        const double diagonal = diagonal_of(&bodies[side]);
+        limits.off[side] = tolerance * diagonal;
+        limits.edge[side] =
+            iccp_max(longest_edge * diagonal, times_given * mean_edge(&bodies[side]));
+    }
     const icc_status status = iccp_simplify_apart(
         common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
         (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);
     iccp_free(&env->memory, keep);
-    *off /= diagonal;
+    *off *= tolerance;
     return status;
 }
 

@@ -147,7 +147,6 @@ static double thinnest_after(const simplification *s, uint32_t h)
 {
     const iccp_half_edges *const m = &s->m;
     const uint32_t u = m->origin[h], v = iccp_edge_end(m, h);
-    const double longest = s->limits->edge * s->limits->edge;
     double least = HUGE_VAL;
     uint32_t e = iccp_edge_turn(m, h);
     for (uint32_t next = iccp_edge_turn(m, e); next != h; e = next, next = iccp_edge_turn(m, e)) {
@@ -155,6 +154,7 @@ static double thinnest_after(const simplification *s, uint32_t h)
         for (int side = 0; side < 2; ++side) {
             const double *const p = at(s, side, v), *const q = at(s, side, a);
             const double *const r = at(s, side, b);
+            const double longest = s->limits->edge[side] * s->limits->edge[side];
             if (iccp_vec_distance2(3, p, q) > longest || iccp_vec_distance2(3, p, r) > longest)
                 return -1;
             const double after = facing(s, side, e / 3, p, q, r);
@@ -181,13 +181,14 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
         double sum = 0, off = 0;
         if (m->degree[u] + m->degree[v] - 4 > MOST_NEIGHBOURS)
             continue;
-        for (int side = 0; side < 2 && off <= s->limits->off; ++side) {
-            sum += iccp_vec_distance(3, at(s, side, u), at(s, side, v)) / s->limits->edge;
-            off = sum * factor < *cost ? distance_off(s, side, u, v) : HUGE_VAL;
-            sum += off / s->limits->off;
+        for (int side = 0; side < 2 && off <= 1; ++side) {
+            sum += iccp_vec_distance(3, at(s, side, u), at(s, side, v)) / s->limits->edge[side];
+            off = sum * factor < *cost ? distance_off(s, side, u, v) / s->limits->off[side]
+                                       : HUGE_VAL;
+            sum += off;
         }
         sum *= factor;
-        if (off > s->limits->off || sum >= *cost)
+        if (off > 1 || sum >= *cost)
             continue;
         const double after = thinnest_after(s, h);
         if (after < iccp_min(fair_sine, not_much_worse * thin))

@@ -5,9 +5,9 @@
 #include "surface/common_surface.h"
 
 typedef struct iccp_simplify_limits {
-    double off;          /* how far a vertex that goes may leave the planes of the given surfaces
-                              that it stood for, on either side; > 0 */
-    double edge;         /* longest edge that comes about, on either side */
+    double off[2];       /* on either side: how far a vertex that goes may leave the planes of the
+                              given surface that it stood for; > 0 */
+    double edge[2];      /* on either side: longest edge that comes about */
     const uint8_t *keep; /* by vertex: not 0: it stays */
 } iccp_simplify_limits;
 

@@ -98,13 +98,13 @@ static bool look_for_meeting(rounds *r, const iccp_common_surface *c, const iccp
 /* ---- what is far off ---- */
 
 /* Whether a point is too far from the surface of a tree. */
-static bool is_far(rounds *r, const iccp_facet_tree *tree, const double *p)
+static bool is_far(rounds *r, int side, const iccp_facet_tree *tree, const double *p)
 {
     double bary[3], distance2;
     (void)iccp_facet_tree_nearest(tree, p, bary, &distance2);
-    const double distance = sqrt(distance2);
-    r->off = iccp_max(r->off, distance);
-    return distance > r->limits.off;
+    const double share = sqrt(distance2) / r->limits.off[side];
+    r->off = iccp_max(r->off, share);
+    return share > 1;
 }
 
 /* The middles of the triangles and of their sides. */
@@ -124,7 +124,7 @@ static void look_at_middles(rounds *r, const iccp_facet_tree *given, const iccp_
             middle[3][k] = (p[0] + p[1] + p[2]) / 3;
         }
         for (int i = 0; i < 4; ++i)
-            far_off = is_far(r, given, middle[i]) || far_off;
+            far_off = is_far(r, side, given, middle[i]) || far_off;
         for (int i = 0; i < 3 && far_off; ++i)
             r->is_bad[v[i]] = 1;
         r->any = r->any || far_off;
@@ -145,7 +145,7 @@ static bool measure(rounds *r, const iccp_common_surface *c, const iccp_memory *
         if (has_memory) {
             look_at_middles(r, &given, c, side);
             for (size_t v = 0; v < r->whole->n_vertices; ++v)
-                if (is_far(r, &now, r->whole->x[side] + 3 * v))
+                if (is_far(r, side, &now, r->whole->x[side] + 3 * v))
                     r->keep[v] = r->any = 1;
         }
         iccp_facet_tree_free(&given, memory);

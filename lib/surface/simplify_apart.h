@@ -6,10 +6,10 @@
 
 /* Does what iccp_simplify() does. Where triangles of a surface then meet that should not, or are
  * too far off the surface that was given, all that went there stays and it is done once more; at
- * last nothing goes. limits->off is the most allowed, and *off what has come about, as measured
- * both ways: from all vertices of `common`, and from the middles of what is left and of its sides.
- * ICC_ERR_MEMORY, ICC_ERR_CANCELLED without a text. What meets is told exactly; nothing is promised
- * where `common` meets itself as it is given. */
+ * last nothing goes. limits->off is the most allowed, and *off the share of it that has come about,
+ * as measured both ways: from all vertices of `common`, and from the middles of what is left and of
+ * its sides. ICC_ERR_MEMORY, ICC_ERR_CANCELLED without a text. What meets is told exactly; nothing
+ * is promised where `common` meets itself as it is given. */
 icc_status iccp_simplify_apart(iccp_common_surface *common, double *off,
                                const iccp_half_edges *const given[2], const double *const x[2],
                                const iccp_simplify_limits *limits, const iccp_env *env);

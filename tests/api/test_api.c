@@ -211,6 +211,8 @@ START_TEST(maps_refuse_bad_arguments)
     REFUSED(icc_map_save(o.map, 0, NULL, NULL));
     REFUSED(icc_map_save(o.map, 1, NULL, &n));
     EXPLAINED(icc_map_load(NULL, 1, p, NULL, &err));
+    REFUSED(icc_match_save(NULL, 0, NULL, &n));
+    EXPLAINED(icc_match_load(NULL, 1, p, NULL, &err));
     NOT_MADE(m, icc_map_load(&m, 1, NULL, NULL, &err));
     REFUSED(icc_map_apply(NULL, 1, p, p, NULL, NULL, NULL));
     REFUSED(icc_map_apply(o.map, 1, NULL, p, NULL, NULL, NULL));
@@ -577,6 +579,7 @@ START_TEST(what_is_missing_is_named)
     icc_error err;
     icc_chart *c;
     icc_map *m;
+    icc_match *match;
     icc_weights *w;
     icc_binding *b;
     icc_tree *t;
@@ -599,6 +602,7 @@ START_TEST(what_is_missing_is_named)
             icc_map_repair(o.map, 3, o.points, 1, FACETS, NULL, &certificate, NULL, &err));
     MISSING("certificate", icc_map_repair(o.map, 3, o.points, 1, FACETS, image, NULL, NULL, &err));
     MISSING("data", icc_map_load(&m, 1, NULL, NULL, &err));
+    MISSING("data", icc_match_load(&match, 1, NULL, NULL, &err));
     MISSING("target", icc_map_warp(o.map, &picture, NULL, &n, NULL, &err));
     MISSING("out", icc_tree_create(NULL, o.grid, 0, NULL, NULL, &err));
     MISSING("grid", icc_tree_create(&t, NULL, 0, NULL, NULL, &err));

@@ -1,4 +1,4 @@
-/* Any bytes as a saved chart or map. The first byte says which; with its lowest bit the header is
+/* Any bytes as a saved chart, map or match. The first byte says which; with its lowest bit the header is
  * put right, so that the content is looked at. What is accepted answers, and saved again it is the
  * same. There is little memory and patience: made-up options of a chart on a grid cost what they
  * cost when it is made. */
@@ -125,6 +125,26 @@ static void check_map(const uint8_t *bytes, size_t size, const icc_env *env)
     icc_map_free(map);
 }
 
+static void check_match(const uint8_t *bytes, size_t size, const icc_env *env)
+{
+    icc_match *match;
+    double points[N_POINTS * 3];
+    size_t n;
+    const icc_status status = icc_match_load(&match, size, bytes, env, NULL);
+    check_status(status, match);
+    if (match == NULL)
+        return;
+    uint8_t *again = malloc(size);
+    require(again != NULL);
+    require(icc_match_save(match, size, again, &n) == ICC_OK);
+    require(n == size && memcmp(again, bytes, size) == 0);
+    find_points(icc_match_source(match), points);
+    require(icc_match_apply(match, N_POINTS, points, points, NULL, NULL) == ICC_OK);
+    require(icc_match_apply_inverse(match, N_POINTS, points, points, NULL, NULL) == ICC_OK);
+    free(again);
+    icc_match_free(match);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static uint8_t bytes[LARGEST];
@@ -136,13 +156,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                          .progress = lose_patience};
     if (size < 1 + HEADER || size - 1 > LARGEST)
         return 0;
-    const int is_map = data[0] & 2;
+    const int which = data[0] >> 1 & 3; /* 0, 1, else */
     memcpy(bytes, data + 1, size - 1);
     if (data[0] & 1)
-        put_right(bytes, size - 1, is_map ? "MAP_" : "CHRT");
-    if (is_map)
+        put_right(bytes, size - 1, which == 0 ? "CHRT" : which == 1 ? "MAP_" : "MTCH");
+    if (which == 0)
+        check_chart(bytes, size - 1, &env);
+    else if (which == 1)
         check_map(bytes, size - 1, &env);
     else
-        check_chart(bytes, size - 1, &env);
+        check_match(bytes, size - 1, &env);
     return 0;
 }

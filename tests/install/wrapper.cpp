@@ -271,6 +271,11 @@ void makes_maps_of_maps()
           "a mesh that is carried along");
     const std::vector<std::array<std::uint32_t, 3>> one{{0, 1, 2}};
     check(next.repair({1, 1, 2, 1, 1, 2}, one).certificate.certified == 1, "and repaired");
+    const icc::match pair(source, icc::domain::polygon({8, 0, 8, 6, 0, 6, 0, 0, 4, 0}));
+    std::vector<double> off(2);
+    check(is_times(pair.apply({0, 0, 4, 3}, off), 2, {0, 0, 4, 3}) && off[1] == 0, "along a match");
+    check(is_times(icc::match::load(pair.save()).apply_inverse({0, 0, 8, 6}), 0.5, {0, 0, 8, 6}),
+          "and back, when it is loaded");
     check(icc::map::load(next.save()).apply({1, 1}) == next.apply({1, 1}), "saved and loaded");
 
     std::vector<std::uint8_t> from(8 * 6, 9);

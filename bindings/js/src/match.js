@@ -1,5 +1,5 @@
 // Outlines that do not correspond. See icc_match_create().
-import { Handle, flat } from './core.js';
+import { Handle, flat, room } from './core.js';
 import { withDomains } from './domain.js';
 
 const ADDED = 0xffffffff;
@@ -16,6 +16,9 @@ export function matchOf(core, Domain) {
         core.call('icc_match_create', s, t, given.length / (2 * dim), given, options)), 'icc_match_free');
     }
 
+    static load(bytes) { return new Match(core.made('icc_match_load', bytes.length, bytes)); }
+    save() { return core.save('icc_match_save', this); }
+
     get info() { return core.info('icc_match_get_info', this); }
 
     /** The domains with common vertices. */
@@ -29,6 +32,18 @@ export function matchOf(core, Domain) {
       core.call('icc_match_get_origins', this, source, target);
       const numbers = (given) => Int32Array.from(given, (vertex) => (vertex === ADDED ? -1 : vertex));
       return { source: numbers(source), target: numbers(target) };
+    }
+
+    /** Points of the source's boundary on the target's. `out` takes them, `off` how far each was from the common boundary. */
+    apply(points, { out, off = null } = {}) { return this.#follow('icc_match_apply', points, out, off); }
+
+    /** Target to source. */
+    inverse(points, { out, off = null } = {}) { return this.#follow('icc_match_apply_inverse', points, out, off); }
+
+    #follow(name, points, out, off) {
+      const p = flat(points), result = room(out, p.length);
+      core.call(name, this, p.length / this.info.dim, p, result, off);
+      return result;
     }
   };
 }

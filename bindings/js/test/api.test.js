@@ -70,6 +70,11 @@ test('outlines that do not correspond are matched', () => {
   assert.deepEqual([...target].sort(), [0, 1, 2, 3, 4]);
   assert.deepEqual([...source].sort(), [-1, 0, 1, 2, 3]);
   near(new icc.Map(match.source, match.target).apply([[1, 1]]), [2, 6]);
+  const off = new Float64Array(2), around = match.apply([[0, 1], [4, 4.5]], { off });
+  near(around, [1, 6, 5, 9]);
+  near(off, [0, 0.5]);
+  near(match.inverse(around), [0, 1, 4, 4]);
+  assert.deepEqual(icc.Match.load(match.save()).apply([[0, 1], [4, 4.5]]), around);
   assert.throws(() => new icc.Match(SQUARE, SQUARE, [], { turning: 'free' }), { code: 'AMBIGUOUS' });
 });
 

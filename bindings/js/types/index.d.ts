@@ -57,9 +57,13 @@ export interface Match extends Handle {
   readonly source: Domain;
   readonly target: Domain;
   origins(): { source: Int32Array; target: Int32Array };
+  apply(points: Points, options?: { out?: Float64Array; off?: Float64Array | null }): Float64Array;
+  inverse(points: Points, options?: { out?: Float64Array; off?: Float64Array | null }): Float64Array;
+  save(): Uint8Array;
 }
 export interface MatchClass {
   new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: Options | null): Match;
+  load(bytes: Uint8Array): Match;
 }
 export interface ChartClass { new (domain: ShapeLike, options?: Options | null): Chart; load(bytes: Uint8Array): Chart }
 

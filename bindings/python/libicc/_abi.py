@@ -92,6 +92,10 @@ domain*:match_source match*
 domain*:match_target match*
 match_get_info match* match_info*
 match_get_origins match* u32* u32*
+match_apply match* size f64* f64* f64* env*
+match_apply_inverse match* size f64* f64* f64* env*
+match_save match* size void* size*
+match_load match** size void* env* error*
 map_create map** domain* domain* map_options* env* error*
 map_create_polygons map** size f64* f64* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Optional, Tuple, Union
 import numpy as np
 
 from ._abi import lib, new
-from ._core import Handle, Progress, address, choose, create, fields, floats
+from ._core import Progress, Saved, address, bulk, choose, create, dimension, fields, floats, grid_of
 from ._domain import Domain, as_domain
 from ._errors import ArgumentError, check
 
@@ -20,7 +20,7 @@ TURNING = {"upright": 1, "free": 2}
 BETWEEN = {"elastic": 1, "arc": 2}
 
 
-class Match(Handle):
+class Match(Saved):
     """Two domains of the same shapes as those given, with common vertices: ``Map(match.source, match.target)``.
 
     >>> ell, other = [[0, 0], [9, 0], [9, 3], [4, 3], [4, 8], [0, 8]], [[4, 4], [4, 9], [0, 9], [0, 0], [5, 0], [10, 0], [10, 4]]
@@ -52,6 +52,8 @@ class Match(Handle):
     """
 
     _free = "match_free"
+    _name = "match"
+    dim = dimension("match_get_info", "match_info")
 
     def __init__(self, source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None, *,
                  turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
@@ -90,6 +92,33 @@ class Match(Handle):
         check(lib.match_get_origins(self, address(given[0]), address(given[1])))
         source, target = given.astype(np.int32)
         return source, target
+
+    def _follow(self, function: Any, points: ArrayLike, progress: Optional[Progress],
+                threads: Optional[int]) -> Tuple[Floats, Floats]:
+        points, shape = grid_of(points, self.dim)
+        images, off = np.empty((*shape, self.dim)), np.empty(shape)
+        env, done = bulk(len(points), progress, threads)
+        done(function(self, len(points), address(points), address(images), address(off), env))
+        return images, off
+
+    def apply(self, points: ArrayLike, *, progress: Optional[Progress] = None,
+              threads: Optional[int] = None) -> Tuple[Floats, Floats]:
+        """Points of the source's boundary -> points of the target's, and how far each was from the common boundary.
+
+        Each is taken to the nearest point of `source`'s boundary, and from there to the same place of the same facet of
+        `target`. Common vertices go to their partners bit by bit. NaN for points that are not finite.
+
+        >>> square, other = [[0, 0], [4, 0], [4, 2], [0, 2]], [[4, 0], [8, 0], [8, 4], [0, 4], [0, 0]]
+        >>> images, off = libicc.Match(square, other).apply([[1, 0], [4, 2.5]])
+        >>> images.tolist(), off.tolist()
+        ([[2.0, 0.0], [8.0, 4.0]], [0.0, 0.5])
+        """
+        return self._follow(lib.match_apply, points, progress, threads)
+
+    def apply_inverse(self, points: ArrayLike, *, progress: Optional[Progress] = None,
+                      threads: Optional[int] = None) -> Tuple[Floats, Floats]:
+        """Target -> source; otherwise as `apply`."""
+        return self._follow(lib.match_apply_inverse, points, progress, threads)
 
 
 def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None,

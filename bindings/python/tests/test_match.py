@@ -1,3 +1,5 @@
+import pickle
+
 import libicc
 import numpy as np
 import pytest
@@ -13,6 +15,12 @@ def test_outlines_that_do_not_correspond():
     assert sorted(source[source >= 0]) == list(range(8)) and sorted(target) == list(range(9))
     mapping = libicc.Map(match.source, match.target)
     assert mapping.certified and np.allclose(mapping(HOOK), HOOK * 2 + 5)
+    images, off = match.apply([[[6, 0], [3, 0]], [[-1, 2], [np.nan, 0]]])
+    assert np.allclose(images[0], [[17, 5], [11, 5]]) and np.allclose(images[1, 0], [5, 9])
+    assert np.allclose(off, [[0, 0], [1, np.nan]], equal_nan=True) and np.isnan(images[1, 1]).all()
+    again = pickle.loads(pickle.dumps(match))
+    assert again.dim == 2 and np.array_equal(again.apply_inverse(images)[0], match.apply_inverse(images)[0], equal_nan=True)
+    assert again.to_bytes() == match.to_bytes() and vars(again.info) == vars(match.info)
 
 
 def test_maps_match_for_themselves():

@@ -1570,6 +1570,47 @@ extern "C" {
         target: *mut u32,
     ) -> icc_status;
 
+    /// Takes points of the source's boundary to the target's: each to the nearest point of the boundary of
+    /// `icc_match_source()`, and from there to the same place of the same facet of `icc_match_target()`. `images`:
+    /// n * dim coordinates, NaN for a point that is not finite; may be `points`. `off`: how far each point was from
+    /// that boundary, or NULL.
+    pub fn icc_match_apply(
+        r#match: *const icc_match,
+        n: usize,
+        points: *const f64,
+        images: *mut f64,
+        off: *mut f64,
+        env: *const icc_env,
+    ) -> icc_status;
+
+    /// Target -> source; otherwise as `icc_match_apply()`.
+    pub fn icc_match_apply_inverse(
+        r#match: *const icc_match,
+        n: usize,
+        points: *const f64,
+        images: *mut f64,
+        off: *mut f64,
+        env: *const icc_env,
+    ) -> icc_status;
+
+    /// Writes a match as bytes, as `icc_chart_save()` does a chart: with both domains.
+    pub fn icc_match_save(
+        r#match: *const icc_match,
+        capacity: usize,
+        data: *mut c_void,
+        n_bytes: *mut usize,
+    ) -> icc_status;
+
+    /// Reads a match back, as `icc_chart_load()` does a chart: its domains are checked as they were when they were
+    /// made, and have to correspond.
+    pub fn icc_match_load(
+        out: *mut *mut icc_match,
+        n_bytes: usize,
+        data: *const c_void,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
     /// same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
     /// alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as

@@ -2,7 +2,7 @@
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::Result;
-use crate::object::{object, Borrowed};
+use crate::object::{object, saved, to_bytes, Borrowed};
 use crate::slices::count;
 use crate::sys;
 
@@ -23,6 +23,9 @@ object!(
     /// let pair = Match::new(&corner, &other, &[], &MatchOptions::default(), env)?;
     /// let (_, origins) = pair.origins();
     /// assert_eq!(origins[0], Some(4));
+    /// let (images, off) = pair.apply(&[1.0, 1.0, 4.0, 0.0], env)?;
+    /// assert_eq!((images, off), (vec![1.0, 1.0, 4.0, 0.0], vec![0.0, 0.0]));
+    /// assert_eq!(Match::from_bytes(&pair.to_bytes()?, env)?.origins().1, origins);
     /// let map = Map::new(&pair.source(), &pair.target(), &MapOptions::default(), env)?;
     /// assert_eq!(map.info().certified, 1);
     /// # Ok::<(), libicc::Error>(())
@@ -33,6 +36,15 @@ object!(
     icc_match,
     icc_match_free
 );
+
+type Follow = unsafe extern "C" fn(
+    *const sys::icc_match,
+    usize,
+    *const f64,
+    *mut f64,
+    *mut f64,
+    *const sys::icc_env,
+) -> sys::icc_status;
 
 /// Which rotations [`Match::new`] prefers without landmarks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -147,4 +159,56 @@ impl Match {
         let given = |v: Vec<u32>| v.into_iter().map(|v| (v != u32::MAX).then_some(v)).collect();
         (given(source), given(target))
     }
+
+    /// Takes points of the source's boundary, n * dim coordinates, to the target's: their images, and how far each
+    /// was from the common boundary. Both are NaN for points that are not finite.
+    ///
+    /// # Errors
+    /// [`Status::CANCELLED`](crate::Status::CANCELLED)
+    pub fn apply(&self, points: &[f64], env: &mut Env<'_>) -> Result<(Vec<f64>, Vec<f64>)> {
+        self.follow(sys::icc_match_apply, points, env)
+    }
+
+    /// Target to source; otherwise as [`apply`](Self::apply).
+    ///
+    /// # Errors
+    /// [`Status::CANCELLED`](crate::Status::CANCELLED)
+    pub fn apply_inverse(&self, points: &[f64], env: &mut Env<'_>) -> Result<(Vec<f64>, Vec<f64>)> {
+        self.follow(sys::icc_match_apply_inverse, points, env)
+    }
+
+    fn follow(&self, function: Follow, points: &[f64], env: &mut Env<'_>) -> Result<(Vec<f64>, Vec<f64>)> {
+        let n = count(points, self.source().dim(), "points")?;
+        let (mut images, mut off) = (vec![0.0; points.len()], vec![0.0; n]);
+        env.call(|env, _| {
+            // SAFETY: the slices have n points, and n numbers.
+            unsafe { function(self.as_ptr(), n, points.as_ptr(), images.as_mut_ptr(), off.as_mut_ptr(), env) }
+        })?;
+        Ok((images, off))
+    }
+
+    /// The match as bytes, with both domains, the same on every machine.
+    ///
+    /// # Errors
+    /// None that can be expected.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        to_bytes(|capacity, data, n| {
+            // SAFETY: there is room for `capacity` bytes.
+            unsafe { sys::icc_match_save(self.as_ptr(), capacity, data, n) }
+        })
+    }
+
+    /// Reads a match back; its domains are checked as they were when they were made.
+    ///
+    /// # Errors
+    /// [`Status::FORMAT`](crate::Status::FORMAT); [`Status::VERSION`](crate::Status::VERSION) for what a later
+    /// version wrote.
+    pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Match> {
+        Match::make(env, |out, env, err| {
+            // SAFETY: as many bytes.
+            unsafe { sys::icc_match_load(out, data.len(), data.as_ptr().cast(), env, err) }
+        })
+    }
 }
+
+saved!(Match);

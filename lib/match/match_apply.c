@@ -1,0 +1,56 @@
+#include "match/match_apply.h"
+
+#include "base/threads.h"
+#include "math/vec.h"
+
+enum { AT_ONCE = 1024 };
+
+typedef struct follow {
+    const icc_domain *from, *to;
+    const double *points;
+    double *images, *off;
+} follow;
+
+/* The place of a facet, in the caller's coordinates; at a vertex, as that was given. */
+static void place_of(const icc_domain *domain, uint32_t facet, const double *bary, double *out)
+{
+    const size_t dim = (size_t)domain->dim;
+    double local[3];
+    for (size_t i = 0; i < dim; ++i)
+        if (bary[i] == 1) {
+            iccp_domain_given(domain, domain->facets[dim * facet + i], out);
+            return;
+        }
+    iccp_domain_facet_point(domain, facet, bary, local);
+    iccp_frame_out(&domain->frame, domain->dim, local, out);
+}
+
+static icc_status follow_chunk(void *argument, size_t begin, size_t end)
+{
+    const follow *const f = argument;
+    const size_t dim = (size_t)f->from->dim;
+    for (size_t i = begin; i < end; ++i) {
+        const double *const p = f->points + dim * i;
+        double local[3], bary[3], nearest[3], image[3] = {NAN, NAN, NAN}, distance = NAN;
+        uint32_t facet;
+        if (iccp_all_finite(dim, p)) {
+            iccp_frame_in(&f->from->frame, f->from->dim, p, local);
+            (void)iccp_domain_locate(f->from, local, false, &facet, bary);
+            place_of(f->from, facet, bary, nearest);
+            place_of(f->to, facet, bary, image);
+            distance = iccp_vec_distance(dim, p, nearest);
+        }
+        if (f->off != NULL)
+            f->off[i] = distance;
+        for (size_t k = 0; k < dim; ++k)
+            f->images[dim * i + k] = image[k];
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_match_apply(const icc_match *match, int side, size_t n, const double *points,
+                            double *images, double *off, const iccp_env *env)
+{
+    follow f = {match->domain[side], match->domain[1 - side], points, images, off};
+    return iccp_for_chunks(env, "trace", n, AT_ONCE, follow_chunk, &f);
+}
