@@ -12,7 +12,7 @@ export function matchOf(core, Domain) {
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
       const dim = source instanceof Domain ? source.info.dim : 2;
-      super(core, null, () => withDomains(Domain, { source, target }, (s, t) =>
+      super(core, source, () => withDomains(Domain, { source, target }, (s, t) =>
         core.call('icc_match_create', s, t, given.length / (2 * dim), given, options)), 'icc_match_free');
     }
 
