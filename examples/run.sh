@@ -59,3 +59,5 @@ echo "compare/outlines.py:"
 /usr/bin/python3 -B examples/compare/outlines.py --cells 25
 echo "compare/reparent.py:"
 /usr/bin/python3 -B examples/compare/reparent.py --cells 16
+echo "compare/open_questions.py:"
+/usr/bin/python3 -B examples/compare/open_questions.py --cells 16
