@@ -944,17 +944,18 @@ typedef struct icc_match_info {
  * Checked on each result: neither surface meets itself, and the distance in
  * icc_match_info::off. That like parts lie on one another is neither: surfaces that are nearly the
  * same up to a motion, or bend moderately, do well; bodies with limbs in other poses do not, and
- * icc_match_info::energy shows it. With four landmarks or more, each at a vertex, paths between
- * them triangulate both surfaces alike; both are shrunk to that, and grow on the sphere with their
- * landmarks in the same places. These then are common vertices, whatever places they are in;
- * between them each drawing only keeps its own surface's shape. Vertices that are left have the
- * bits they were given with; facets are listed as seen from outside.
+ * icc_match_info::energy shows it. With landmarks, each at a vertex, paths between them triangulate
+ * both surfaces alike; both are shrunk to that, and grow on the sphere with their landmarks in the
+ * same places. Beside fewer than four, others are chosen first: where they go if the drawings are
+ * turned so that landmarks come near their partners. Landmarks then are common vertices, whatever
+ * places they are in; between them each drawing only keeps its own surface's shape. Vertices that
+ * are left have the bits they were given with; facets are listed as seen from outside.
  *
  * @param[out] out    the match; owned by the caller, see icc_match_free()
  * @param source      a domain of the plane, which may have features, or of space; without a mesh
  * @param target      likewise, of the same dimension, with as many holes, lines and points, and
  *                    points with a radius
- * @param n_landmarks how many pairs of points are known, at most 1000; in space none, or 4 to 128
+ * @param n_landmarks how many pairs of points are known, at most 1000; in space 128
  * @param landmarks   n_landmarks * 2 dim coordinates: a point of the source, then one of the
  *                    target. The nearest vertex within 0.5 % of the shape's diameter is taken, or
  *                    else the nearest boundary point; a point on the boundary is taken as it is.
@@ -969,8 +970,7 @@ typedef struct icc_match_info {
  *         `index` is one of the source's, could change places: give a landmark on one of them);
  *         ::ICC_ERR_ARGUMENT (a landmark is more than 2 % of the diameter off an outline, or lies
  *         where another one does, or does not follow it round both outlines alike, or pairs what
- *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, a mesh, or one to three
- *         landmarks in space);
+ *         cannot go together); ::ICC_ERR_UNSUPPORTED (another dimension, a mesh);
  *         ::ICC_ERR_BOUNDARY (other numbers of features of a kind; or the common vertices, which
  *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_RESOLUTION (surfaces whose
  *         triangles are too different in size to be drawn on the sphere in doubles, or landmarks

@@ -7,6 +7,7 @@
 #include "base/minmax.h"
 #include "math/elementary.h"
 #include "surface/corner_angle.h"
+#include "surface/helpers.h"
 #include "surface/landmark_paths.h"
 #include "surface/landmark_sphere.h"
 #include "surface/rotation.h"
@@ -30,6 +31,9 @@ static const double most_energy = 1e8;
 
 /* Of the diagonal: how far a landmark may be from a vertex. */
 static const double farthest_landmark = 0.02;
+
+/* Paths need so many pairs. */
+enum { LEAST_PAIRS = 4 };
 
 typedef struct body {
     const icc_domain *domain;
@@ -103,7 +107,8 @@ static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
     return iccp_explain(
         err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
                                 (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
-                                (const double *const[]){bodies[0].x, bodies[1].x}, &energy, &last));
+                                (const double *const[]){bodies[0].x, bodies[1].x}, 0,
+                                (const uint32_t *const[]){NULL, NULL}, &energy, &last));
 }
 
 /* The vertices nearest to the landmarks of one side, which are no two of them the same. */
@@ -112,7 +117,7 @@ static icc_status find_landmarks(body *b, size_t n, const double *given, int sid
 {
     const icc_domain *const d = b->domain;
     const double most = farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
-    b->landmarks = iccp_alloc(memory, n, sizeof *b->landmarks);
+    b->landmarks = iccp_alloc(memory, n + LEAST_PAIRS, sizeof *b->landmarks);
     if (b->landmarks == NULL)
         return iccp_fail_memory(err);
     for (size_t k = 0; k < n; ++k) {
@@ -142,10 +147,14 @@ static icc_status find_landmarks(body *b, size_t n, const double *given, int sid
     return ICC_OK;
 }
 
-/* Draws both surfaces with landmarks in the same places; their edges may be halved then. */
+/* Draws both surfaces with landmarks in the same places; their edges may be halved then. Where
+ * landmarks are few others are found beside them, of which nothing more is asked. */
 static icc_status draw_by_landmarks(body bodies[2], size_t n, const double *given,
                                     const iccp_env *env, icc_error *err)
 {
+    const size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){n < n_all ? 1 : 0, 2}, env);
     iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
     iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
     double *directions[2] = {NULL, NULL};
@@ -156,10 +165,15 @@ static icc_status draw_by_landmarks(body bodies[2], size_t n, const double *give
             !iccp_split_surface_create(&split[side], &bodies[side].m, bodies[side].x, &env->memory))
             status = iccp_fail_memory(err);
     }
+    if (status == ICC_OK && n < n_all)
+        status =
+            iccp_helpers_find((uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n,
+                              n_all, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                              (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
     if (status == ICC_OK)
         status = iccp_landmark_sphere_draw(
-            directions, m, split, n,
-            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, env, err);
+            directions, m, split, n_all,
+            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[1], err);
     for (int side = 0; side < 2; ++side) {
         body *const b = &bodies[side];
         iccp_half_edges_free(&b->m);
@@ -326,9 +340,6 @@ icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const
                                const icc_match_options *options, const iccp_env *env,
                                icc_error *err)
 {
-    if (n_landmarks > 0 && n_landmarks < 4)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "%zu landmarks in space are too few: none, or four and more", n_landmarks);
     if (n_landmarks > ICCP_MOST_SURFACE_LANDMARKS)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu landmarks in space are too many; at most %d",
                          n_landmarks, ICCP_MOST_SURFACE_LANDMARKS);

@@ -23,9 +23,14 @@ static const double first_turn = 0.2, last_turn = 1e-3;
 /* Triangles that are stretched more count no more: they say nothing. */
 static const double most = 1000;
 
+/* What a pair of directions costs at the distance 1. */
+static const double apart = 1e4;
+
 typedef struct search {
     iccp_half_edges coarse; /* of the first surface */
-    const double *first, *x[2];
+    const double *first, *second, *x[2];
+    size_t n_pairs;
+    const uint32_t *pairs[2];
     double scale[2]; /* makes both areas 1 */
     const iccp_half_edges *m;
     iccp_drawn_finder finder; /* of the second */
@@ -78,7 +83,19 @@ static void find_image(const search *s, const double p[3], double image[3])
     }
 }
 
-/* The mean energy over the faces that are left of the first surface. */
+/* The squared distance of pairs of vertices, mean. */
+static double distance_of_pairs(const search *s, const double q[4])
+{
+    double sum = 0;
+    for (size_t k = 0; k < s->n_pairs; ++k) {
+        double p[3];
+        rotate(p, q, s->first + 3 * (size_t)s->pairs[0][k]);
+        sum += iccp_vec_distance2(3, p, s->second + 3 * (size_t)s->pairs[1][k]);
+    }
+    return s->n_pairs > 0 ? sum / (double)s->n_pairs : 0;
+}
+
+/* The mean energy over the faces that are left of the first surface, and what pairs cost. */
 static double energy_of(const search *s, const double q[4])
 {
     double sum = 0, weights = 0;
@@ -111,7 +128,7 @@ static double energy_of(const search *s, const double q[4])
             weights += areas;
         }
     }
-    return sum / weights;
+    return sum / weights + apart * distance_of_pairs(s, q);
 }
 
 /* Keeps the best ones, in order. */
@@ -211,10 +228,16 @@ static icc_status find(search *s, double *first, double *turned, const iccp_half
 
 icc_status iccp_rotation_find(double *first, const double *second,
                               const iccp_half_edges *const m[2], const double *const x[2],
-                              double *energy, const iccp_env *env)
+                              size_t n_pairs, const uint32_t *const pairs[2], double *energy,
+                              const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
-    search s = {.first = first, .x = {x[0], x[1]}, .m = m[1]};
+    search s = {.first = first,
+                .second = second,
+                .x = {x[0], x[1]},
+                .n_pairs = n_pairs,
+                .pairs = {pairs[0], pairs[1]},
+                .m = m[1]};
     double *const turned = iccp_alloc(memory, m[0]->n_vertices, 3 * sizeof *turned);
     s.image = iccp_alloc(memory, m[0]->n_vertices, sizeof *s.image);
     for (int side = 0; side < 2; ++side)

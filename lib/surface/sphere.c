@@ -264,7 +264,7 @@ icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double
 {
     drawing d = {.m = m, .x = x, .directions = directions, .is_fixed = is_fixed, .scale = scale};
     icc_status status = ICC_OK;
-    if (m->n_left == 4)
+    if (m->n_left == 4 && is_fixed == NULL)
         begin(&d);
     d.room = iccp_alloc(&m->memory, 2 * (ICCP_ROOM_CORNERS + m->most_neighbours), sizeof *d.room);
     if (!iccp_drawn_star_create(&d.star, m->most_neighbours, &m->memory) || d.room == NULL)

@@ -20,8 +20,9 @@ icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double 
 double iccp_sphere_scale(const iccp_half_edges *m, const double *x);
 
 /* The same for a surface that has been made coarse, until so many vertices are there: those that
- * are have directions, of a drawing that is one-to-one, or are four, which get some. Those that are
- * fixed, which may be NULL, stay. Certified once all vertices are there. */
+ * are have directions, of a drawing that is one-to-one; or they are four, and none is fixed: these
+ * get some. Those that are fixed, by vertex, stay; NULL: none is. Certified once all vertices are
+ * there. */
 icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
                             const uint8_t *is_fixed, size_t until, const iccp_env *env,
                             icc_error *err);

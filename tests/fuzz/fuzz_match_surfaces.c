@@ -1,8 +1,8 @@
 /* Any bytes as two surfaces, as for fuzz_surface: where both are domains, they get common triangles, with
  * the bits of every vertex that is left, or that is refused for a reason.
  *
- * Byte 0 chooses the tolerance (bits 0, 1) and how many landmarks there are (bits 2, 3: none, or
- * four and more; with bit 7 in other orders on both sides); byte 1, what part of the rest is the
+ * Byte 0 chooses the tolerance (bits 0, 1) and how many landmarks there are (bits 2, 3: none, one,
+ * three, six; with bit 7 in other orders on both sides); byte 1, what part of the rest is the
  * source's. */
 #include "bodies.h"
 #include "icc/icc.h"
@@ -73,7 +73,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size < 4)
         return 0;
     const size_t rest = size - 2, first = rest * data[1] / 255;
-    const size_t n_landmarks = data[0] & 12 ? (data[0] >> 2 & 3) + 3 : 0;
+    static const size_t counts[4] = {0, 1, 3, 6};
+    const size_t n_landmarks = counts[data[0] >> 2 & 3];
     domain[0] = read_body(&given[0], data + 2, first);
     domain[1] = read_body(&given[1], data + 2 + first, rest - first);
     if (domain[0] != NULL && domain[1] != NULL) {

@@ -143,9 +143,10 @@ holds out 'one-to-one: yes, certified'
 printf '0 0 0 0 0 0\n1 0 0 1 0 0\n0 1 0 0 1 0\n0 0 1 0 0 1\n1 1 1 1 1 1\n' >corners.lm
 run 0 match -s cube.obj -t other.obj --landmarks corners.lm -o a.obj --target-output b.obj
 grep -qx 'v 1 1 1' a.obj || complain 'a landmark is not in the result'
-printf '0 0 0 0 0 0\n' >corners.lm
-run 1 match -s cube.obj -t other.obj --landmarks corners.lm
-says 'too few'
+printf '1 1 1 0 0 1\n' >corners.lm
+run 0 match -s cube.obj -t other.obj --landmarks corners.lm -o a.obj --target-output b.obj
+[ "$(grep '^v' a.obj | grep -nx 'v 1 1 1')" = "$(grep '^v' b.obj | grep -nx 'v 0 0 1' | sed 's/0 0 1/1 1 1/')" ] ||
+    complain 'the one landmark is not at its partner'
 printf '0 0 0 0\n' >corners.lm
 run 1 match -s cube.obj -t other.obj --landmarks corners.lm
 says "landmarks are \`x y z x' y' z'\`"

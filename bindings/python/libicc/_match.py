@@ -36,7 +36,7 @@ class Match(Saved):
         source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too. Or surfaces
             in space, which get common triangles
         landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target; of surfaces (n, 2, 3),
-            none or four and more, of which the nearest vertices are meant
+            of which the nearest vertices are meant
         turning: without landmarks: "upright" prefers what turns little, "free" does not
         between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the
             outlines, laid on one another unturned, are nearest
