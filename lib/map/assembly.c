@@ -12,9 +12,10 @@ static const uint32_t NONE = UINT32_MAX;
  * may be singular. */
 static const double SHIFT = 1e-10;
 
-/* Elements that a thread takes at once; and the most parts of the points that look for their
- * neighbours at the same time: each goes through all elements. */
-enum { GRAIN = 1024, MOST_SEARCHES = 4 };
+/* Elements that a thread takes at once; the most parts of the points that look for their neighbours
+ * at the same time, each of which goes through all elements; and the stretches in which elements
+ * are listed. */
+enum { GRAIN = 1024, MOST_SEARCHES = 4, STRETCHES = 16 };
 
 /* ---- pattern ---- */
 
@@ -269,25 +270,64 @@ static ICCP_INLINE size_t parts_of(size_t dim, const iccp_assembly *s, size_t el
     return n;
 }
 
-/* Two passes: the first counts the elements of each part, the second fills them in. */
-static icc_status list_elements(iccp_assembly *s)
+/* Elements are listed in stretches, each by one thread. */
+typedef struct listing {
+    iccp_assembly *s;
+    size_t stretch; /* elements of each */
+    size_t *place;  /* by stretch and part: how many elements it has there, then where they go */
+} listing;
+
+static icc_status count_elements(void *argument, size_t begin, size_t end)
 {
+    const listing *l = argument;
+    size_t *own = l->place + begin / l->stretch * l->s->n_parts;
     uint32_t part[4];
-    s->first_element = iccp_alloc_zero(&s->memory, s->n_parts + 1, sizeof *s->first_element);
-    if (s->first_element == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t e = 0; e < s->n_elements; ++e)
-        for (size_t k = parts_of(s->dim, s, e, part); k-- > 0;)
-            ++s->first_element[part[k]];
-    for (size_t p = 1; p <= s->n_parts; ++p)
-        s->first_element[p] += s->first_element[p - 1];
-    s->element = iccp_alloc(&s->memory, s->first_element[s->n_parts], sizeof *s->element);
-    if (s->element == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t e = s->n_elements; e-- > 0;)
-        for (size_t k = parts_of(s->dim, s, e, part); k-- > 0;)
-            s->element[--s->first_element[part[k]]] = (uint32_t)e;
+    for (size_t e = begin; e < end; ++e)
+        for (size_t k = parts_of(l->s->dim, l->s, e, part); k-- > 0;)
+            ++own[part[k]];
     return ICC_OK;
+}
+
+static icc_status place_elements(void *argument, size_t begin, size_t end)
+{
+    const listing *l = argument;
+    size_t *own = l->place + begin / l->stretch * l->s->n_parts;
+    uint32_t part[4];
+    for (size_t e = begin; e < end; ++e)
+        for (size_t k = parts_of(l->s->dim, l->s, e, part); k-- > 0;)
+            l->s->element[own[part[k]]++] = (uint32_t)e;
+    return ICC_OK;
+}
+
+/* Two passes: the first counts the elements of each part, the second fills them in, in order. */
+static icc_status list_elements(iccp_assembly *s, const iccp_env *env)
+{
+    const size_t stretch = s->n_elements / STRETCHES + 1;
+    const size_t n = s->n_elements / stretch + 1;
+    const listing l = {s, stretch, iccp_alloc_zero(&s->memory, n, s->n_parts * sizeof(size_t))};
+    size_t total = 0;
+    icc_status status = ICC_ERR_MEMORY;
+    s->first_element = iccp_alloc(&s->memory, s->n_parts + 1, sizeof *s->first_element);
+    if (l.place != NULL && s->first_element != NULL)
+        status =
+            iccp_for_chunks(env, "improve", s->n_elements, stretch, count_elements, (void *)&l);
+    for (size_t p = 0; status == ICC_OK && p < s->n_parts; ++p) {
+        s->first_element[p] = total;
+        for (size_t k = 0; k < n; ++k) {
+            const size_t own = l.place[k * s->n_parts + p];
+            l.place[k * s->n_parts + p] = total;
+            total += own;
+        }
+    }
+    if (status == ICC_OK) {
+        s->first_element[s->n_parts] = total;
+        s->element = iccp_alloc(&s->memory, total, sizeof *s->element);
+        status = s->element == NULL ? ICC_ERR_MEMORY
+                                    : iccp_for_chunks(env, "improve", s->n_elements, stretch,
+                                                      place_elements, (void *)&l);
+    }
+    iccp_free(&s->memory, l.place);
+    return status;
 }
 
 icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *position, size_t n_parts,
@@ -307,17 +347,19 @@ icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *positio
         return ICC_ERR_MEMORY;
     for (size_t i = 0; i < s->n_free; ++i)
         s->part[i] = (uint32_t)((uint64_t)position[s->dim * i] * n_parts / n_rows);
-    return list_elements(s);
+    return list_elements(s, &quiet);
 }
 
 /* ---- sums ---- */
 
-void iccp_assembly_begin(iccp_assembly *assembly)
+void iccp_assembly_begin(iccp_assembly *assembly, size_t begin, size_t end)
 {
-    const size_t n = assembly->dim * assembly->n_free;
-    memset(assembly->gradient, 0, n * sizeof *assembly->gradient);
-    memset(assembly->diagonal, 0, n * sizeof *assembly->diagonal);
-    memset(assembly->value, 0, assembly->first[n] * sizeof *assembly->value);
+    iccp_assembly *s = assembly;
+    const size_t row = s->dim * begin, n = s->dim * (end - begin);
+    const size_t n_values = s->first[row + n] - s->first[row];
+    memset(s->gradient + row, 0, n * sizeof *s->gradient);
+    memset(s->diagonal + row, 0, n * sizeof *s->diagonal);
+    memset(s->value + s->first[row], 0, n_values * sizeof *s->value);
 }
 
 /* First each corner's gradient and own block, then the blocks of each pair of corners. */

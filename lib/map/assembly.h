@@ -51,9 +51,10 @@ icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *positio
 /* Instead of a part: all rows. */
 #define ICCP_ALL_PARTS SIZE_MAX
 
-/* Begins a sum; adds an element to the rows of a part, in which it has a corner; and adds to the
- * diagonal what keeps a Hessian without its negative curvature regular. */
-void iccp_assembly_begin(iccp_assembly *assembly);
+/* Begins the sums of free points [begin, end); adds an element to the rows of a part, in which it
+ * has a corner; and adds to the diagonal what keeps a Hessian without its negative curvature
+ * regular. */
+void iccp_assembly_begin(iccp_assembly *assembly, size_t begin, size_t end);
 void iccp_assembly_add(iccp_assembly *assembly, size_t part, size_t element,
                        const iccp_local *local);
 void iccp_assembly_end(iccp_assembly *assembly);

@@ -127,7 +127,7 @@ static icc_status advance(carry *c, double *share, double *limit, const iccp_env
     const iccp_simplicial_map map = c->as->see(c->map);
     iccp_newton newton;
     *share = *limit = 0;
-    icc_status status = iccp_newton_create(&newton, &map, NULL, env);
+    icc_status status = iccp_newton_create(&newton, &map, NULL, NULL, env);
     if (status != ICC_OK)
         return status;
     status = iccp_newton_answer(&newton, c->motion, c->rest, env);

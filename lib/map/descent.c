@@ -28,11 +28,12 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
     if (!iccp_work_fits(work, map->n_simplices))
         return ICC_OK;
     iccp_newton newton;
+    const iccp_energy first = descent->majorised > 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
     uint8_t *movable;
     icc_status status = iccp_movable_create(&movable, map, env);
     if (status == ICC_OK)
-        status = iccp_newton_create(&newton, map, movable, &part);
+        status = iccp_newton_create(&newton, map, movable, &first, &part);
     iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;

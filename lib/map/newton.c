@@ -19,74 +19,8 @@ static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3, SHARE = 0.5;
  * these. */
 enum { WAITING = 1024, FEW = 64 };
 
-/* ---- set-up ---- */
-
-static icc_status find_elements(void *argument, size_t begin, size_t end)
-{
-    const iccp_newton *s = argument;
-    const size_t size = ICCP_ELEMENT(s->map.dim);
-    for (size_t e = begin; e < end; ++e)
-        iccp_simplicial_element(&s->map, s->assembly.simplex[e], s->element + size * e);
-    return ICC_OK;
-}
-
-icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
-                              const uint8_t *movable, const iccp_env *env)
-{
-    iccp_newton *s = newton;
-    *s = (iccp_newton){.map = *map, .threads = *env};
-    s->threads.progress = NULL;
-    const iccp_newton_plan *plan = map->plan;
-    if (plan != NULL && (movable != NULL || !iccp_newton_plan_fits(plan, map)))
-        plan = NULL;
-    icc_status status = plan != NULL
-                            ? iccp_assembly_share(&s->assembly, &plan->assembly, map, &env->memory)
-                            : iccp_assembly_create(&s->assembly, map, movable, env);
-    if (status != ICC_OK)
-        return status;
-    const iccp_memory *memory = &s->assembly.memory;
-    const size_t n = map->dim * s->assembly.n_free, size = ICCP_ELEMENT(map->dim);
-    const size_t n_work = map->dim == 2 ? 1 : ICCP_TRUNCATED_CG_WORK;
-    s->factor.memory = env->memory;
-    s->element = iccp_alloc(memory, s->assembly.n_elements, size * sizeof *s->element);
-    s->step = iccp_alloc(memory, n, sizeof *s->step);
-    s->saved = iccp_alloc(memory, n, sizeof *s->saved);
-    s->work = iccp_alloc(memory, n, n_work * sizeof *s->work);
-    const bool has_terms = map->dim == 3 || iccp_has_threads(env);
-    const bool has_locals = map->dim == 3 && iccp_has_threads(env);
-    if (has_terms)
-        s->term = iccp_alloc(memory, s->assembly.n_elements, sizeof *s->term);
-    if (has_locals)
-        s->local = iccp_alloc(memory, WAITING, sizeof *s->local);
-    if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
-        (has_terms && s->term == NULL) || (has_locals && s->local == NULL))
-        status = ICC_ERR_MEMORY;
-    if (status == ICC_OK)
-        status = iccp_for_chunks(&s->threads, "improve", s->assembly.n_elements, ICCP_NEWTON_GRAIN,
-                                 find_elements, s);
-    if (status == ICC_OK && plan != NULL)
-        iccp_ldlt_share(&s->factor, &plan->factor, &env->memory);
-    else if (status == ICC_OK && map->dim == 2)
-        status = iccp_newton_analyse(&s->assembly, &s->factor, env);
-    if (status != ICC_OK)
-        iccp_newton_free(s);
-    return status;
-}
-
-void iccp_newton_free(iccp_newton *newton)
-{
-    iccp_newton *s = newton;
-    const iccp_memory memory = s->assembly.memory;
-    iccp_free(&memory, s->element);
-    iccp_free(&memory, s->step);
-    iccp_free(&memory, s->saved);
-    iccp_free(&memory, s->work);
-    iccp_free(&memory, s->term);
-    iccp_free(&memory, s->local);
-    iccp_ldlt_free(&s->factor);
-    iccp_assembly_free(&s->assembly);
-    *s = (iccp_newton){.assembly.memory = memory};
-}
+/* Points whose sums a thread begins at once. */
+enum { POINTS = 256 };
 
 /* ---- sums over the elements ---- */
 
@@ -197,6 +131,13 @@ static void add_elements(const loop *l, size_t part, const uint32_t *list, size_
     }
 }
 
+static icc_status begin_sums(void *argument, size_t begin, size_t end)
+{
+    const loop *l = argument;
+    iccp_assembly_begin(&l->s->assembly, begin, end);
+    return ICC_OK;
+}
+
 static icc_status assemble_parts(void *argument, size_t begin, size_t end)
 {
     const loop *l = argument;
@@ -224,10 +165,24 @@ static void assemble_some(loop *l)
         iccp_assembly_add(&l->s->assembly, ICCP_ALL_PARTS, l->first + k, &l->s->local[k]);
 }
 
+/* By one thread. */
+static void assemble_in_turn(iccp_newton *s, iccp_energy energy, double epsilon)
+{
+    const loop l = {s, energy, epsilon, 0};
+    iccp_assembly_begin(&s->assembly, 0, s->assembly.n_free);
+    add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
+    iccp_assembly_end(&s->assembly);
+}
+
+/* Unless that has been done ahead. */
 static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
 {
     loop l = {s, energy, epsilon, 0};
-    iccp_assembly_begin(&s->assembly);
+    const bool is_done = s->is_ahead && s->ahead == energy;
+    s->is_ahead = false;
+    if (is_done)
+        return;
+    iccp_newton_run(s, s->assembly.n_free, POINTS, begin_sums, &l);
     if (s->local != NULL)
         for (; l.first < s->assembly.n_elements; l.first += WAITING)
             assemble_some(&l);
@@ -236,6 +191,106 @@ static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
     else
         add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
     iccp_assembly_end(&s->assembly);
+}
+
+/* ---- set-up ---- */
+
+static icc_status find_elements(void *argument, size_t begin, size_t end)
+{
+    const iccp_newton *s = argument;
+    const size_t size = ICCP_ELEMENT(s->map.dim);
+    for (size_t e = begin; e < end; ++e)
+        iccp_simplicial_element(&s->map, s->assembly.simplex[e], s->element + size * e);
+    return ICC_OK;
+}
+
+/* What is done side by side: nothing but the pattern is common to both. */
+static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    iccp_newton *s = argument;
+    (void)err;
+    if (k == 0)
+        return iccp_newton_order(&s->assembly, &s->factor, env);
+    (void)find_elements(s, 0, s->assembly.n_elements);
+    assemble_in_turn(s, s->ahead, 0);
+    return ICC_OK;
+}
+
+/* In the plane the order of elimination takes one thread longer than the first Hessian: others make
+ * that meanwhile, if it is known of which energy. */
+static icc_status begin(iccp_newton *s, const iccp_energy *first, bool has_order,
+                        const iccp_env *env)
+{
+    const size_t n = s->assembly.n_elements;
+    s->is_ahead = first != NULL && !has_order && s->map.dim == 2 && n > ICCP_NEWTON_GRAIN &&
+                  iccp_has_threads(env);
+    icc_status status = ICC_OK;
+    if (s->is_ahead) {
+        s->ahead = *first;
+        status = iccp_side_by_side(env, 2, begin_side, s, NULL);
+    } else {
+        status = iccp_for_chunks(&s->threads, "improve", n, ICCP_NEWTON_GRAIN, find_elements, s);
+        if (status == ICC_OK && !has_order && s->map.dim == 2)
+            status = iccp_newton_order(&s->assembly, &s->factor, env);
+    }
+    return status == ICC_OK && !has_order && s->map.dim == 2
+               ? iccp_newton_divide(&s->assembly, &s->factor, env)
+               : status;
+}
+
+icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
+                              const uint8_t *movable, const iccp_energy *first, const iccp_env *env)
+{
+    iccp_newton *s = newton;
+    *s = (iccp_newton){.map = *map, .threads = *env};
+    s->threads.progress = NULL;
+    const iccp_newton_plan *plan = map->plan;
+    if (plan != NULL && (movable != NULL || !iccp_newton_plan_fits(plan, map)))
+        plan = NULL;
+    icc_status status = plan != NULL
+                            ? iccp_assembly_share(&s->assembly, &plan->assembly, map, &env->memory)
+                            : iccp_assembly_create(&s->assembly, map, movable, env);
+    if (status != ICC_OK)
+        return status;
+    const iccp_memory *memory = &s->assembly.memory;
+    const size_t n = map->dim * s->assembly.n_free, size = ICCP_ELEMENT(map->dim);
+    const size_t n_work = map->dim == 2 ? 1 : ICCP_TRUNCATED_CG_WORK;
+    s->factor.memory = env->memory;
+    s->element = iccp_alloc(memory, s->assembly.n_elements, size * sizeof *s->element);
+    s->step = iccp_alloc(memory, n, sizeof *s->step);
+    s->saved = iccp_alloc(memory, n, sizeof *s->saved);
+    s->work = iccp_alloc(memory, n, n_work * sizeof *s->work);
+    const bool has_terms = map->dim == 3 || iccp_has_threads(env);
+    const bool has_locals = map->dim == 3 && iccp_has_threads(env);
+    if (has_terms)
+        s->term = iccp_alloc(memory, s->assembly.n_elements, sizeof *s->term);
+    if (has_locals)
+        s->local = iccp_alloc(memory, WAITING, sizeof *s->local);
+    if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
+        (has_terms && s->term == NULL) || (has_locals && s->local == NULL))
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK && plan != NULL)
+        iccp_ldlt_share(&s->factor, &plan->factor, &env->memory);
+    if (status == ICC_OK)
+        status = begin(s, first, plan != NULL, env);
+    if (status != ICC_OK)
+        iccp_newton_free(s);
+    return status;
+}
+
+void iccp_newton_free(iccp_newton *newton)
+{
+    iccp_newton *s = newton;
+    const iccp_memory memory = s->assembly.memory;
+    iccp_free(&memory, s->element);
+    iccp_free(&memory, s->step);
+    iccp_free(&memory, s->saved);
+    iccp_free(&memory, s->work);
+    iccp_free(&memory, s->term);
+    iccp_free(&memory, s->local);
+    iccp_ldlt_free(&s->factor);
+    iccp_assembly_free(&s->assembly);
+    *s = (iccp_newton){.assembly.memory = memory};
 }
 
 /* ---- the step ---- */

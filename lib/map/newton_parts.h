@@ -18,7 +18,7 @@ struct iccp_newton_plan {
 };
 
 /* Elements that a thread takes at once. */
-enum { ICCP_NEWTON_GRAIN = 1024 };
+enum { ICCP_NEWTON_GRAIN = 512 };
 
 /* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
 static inline void iccp_newton_run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk,
@@ -34,7 +34,9 @@ static ICCP_INLINE const double *iccp_newton_images(size_t dim, const iccp_newto
     return s->element + ICCP_ELEMENT(dim) * e;
 }
 
-/* The order of elimination, and the parts in which the matrix is summed. */
-icc_status iccp_newton_analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env);
+/* The order of elimination; and the parts in which the matrix is summed from then on. */
+icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env);
+icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor,
+                              const iccp_env *env);
 
 #endif

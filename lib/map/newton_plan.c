@@ -6,14 +6,19 @@
 /* Rows of a part of the assembly. */
 enum { PART_ROWS = 1024 };
 
-/* Without threads parts would only cost. */
-icc_status iccp_newton_analyse(iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
+icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
 {
     const iccp_symmetric hessian = iccp_assembly_hessian(assembly);
-    const size_t n_parts = iccp_has_threads(env) ? hessian.n / PART_ROWS + 1 : 1;
-    const icc_status status = iccp_ldlt_analyse(factor, &hessian, 2, env);
-    return status == ICC_OK ? iccp_assembly_divide(assembly, factor->position, n_parts, env)
-                            : status;
+    return iccp_ldlt_analyse(factor, &hessian, 2, env);
+}
+
+/* Without threads parts would only cost. */
+icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor, const iccp_env *env)
+{
+    const size_t n_threads = env->threads > 1 ? (size_t)env->threads : 1;
+    const size_t n_parts =
+        iccp_has_threads(env) ? n_threads * (factor->n / (PART_ROWS * n_threads) + 1) : 1;
+    return iccp_assembly_divide(assembly, factor->position, n_parts, env);
 }
 
 icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial_map *map,
@@ -23,6 +28,8 @@ icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial
     if (plan == NULL)
         return ICC_ERR_MEMORY;
     const size_t n_corners = 3 * map->n_simplices;
+    iccp_env alone = *env; /* others have something else to do: searches would be in turn */
+    alone.threads = 1;
     plan->memory = plan->assembly.memory = plan->factor.memory = env->memory;
     atomic_init(&plan->references, 1);
     plan->n_points = map->n_points;
@@ -31,12 +38,14 @@ icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial
     icc_status status = plan->corners != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         memcpy(plan->corners, map->corners, n_corners * sizeof *plan->corners);
-        status = iccp_assembly_create(&plan->assembly, map, NULL, env);
+        status = iccp_assembly_create(&plan->assembly, map, NULL, &alone);
     }
     if (status == ICC_OK) {
         iccp_assembly_drop_sums(&plan->assembly);
-        status = iccp_newton_analyse(&plan->assembly, &plan->factor, env);
+        status = iccp_newton_order(&plan->assembly, &plan->factor, env);
     }
+    if (status == ICC_OK)
+        status = iccp_newton_divide(&plan->assembly, &plan->factor, env);
     if (status != ICC_OK) {
         iccp_newton_plan_release(plan);
         *out = NULL;

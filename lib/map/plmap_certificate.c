@@ -3,10 +3,17 @@
 #include "map/plmap_certificate.h"
 
 #include "base/error.h"
+#include "base/threads.h"
 #include "domain/polygon_check.h"
 #include "domain/sweep.h"
 
+#include <stdatomic.h>
 #include <string.h>
+
+/* Triangles that a thread looks at at once. */
+enum { GRAIN = 512 };
+
+/* ---- outlines ---- */
 
 /* The vertex after each one of the boundary, UINT32_MAX elsewhere. False when a vertex is followed
  * by two. */
@@ -40,9 +47,12 @@ static size_t take_ring(uint32_t *next, uint32_t first, uint32_t *ring)
 /* The boundary's vertices ring by ring. */
 typedef struct outlines {
     size_t n;
-    iccp_chain *ring; /* room for n_vertices / 3 + 1 */
-    uint32_t *vertex; /* of all rings, each with its first vertex once more */
-    double *points;   /* and their places */
+    iccp_chain *ring;        /* room for n_vertices / 3 + 1 */
+    uint32_t *vertex;        /* of all rings, each with its first vertex once more */
+    double *points;          /* and their places, on either side; `room` on each */
+    iccp_chain_place *place; /* as many as rings, on either side */
+    size_t room, ring_room;
+    const double *all[2]; /* the places of all vertices */
 } outlines;
 
 /* False when the half-edges without twins do not form rings. */
@@ -66,9 +76,13 @@ static bool list_rings(outlines *o, const iccp_plmap *map, uint32_t *next)
 
 /* ICC_ERR_BOUNDARY unless the rings are simple, apart from each other, and one, with the inside on
  * its left, is round the others, which have it on their left, too. */
-static icc_status check_rings(outlines *o, iccp_chain_place *place, const double *points,
-                              const iccp_env *env)
+static icc_status check_rings(void *argument, size_t side, const iccp_env *env, icc_error *err)
 {
+    const outlines *o = argument;
+    iccp_chain_place *place = o->place + side * o->ring_room;
+    double *own = o->points + 2 * side * o->room;
+    const double *points = o->all[side];
+    (void)err;
     const iccp_chain *last = &o->ring[o->n - 1];
     const size_t n = last->first + last->n + 1;
     iccp_defect found;
@@ -77,8 +91,8 @@ static icc_status check_rings(outlines *o, iccp_chain_place *place, const double
         return iccp_polygon_check_points(last->n, points, o->vertex, &iccp_frame_identity, env,
                                          NULL);
     for (size_t k = 0; k < n; ++k)
-        memcpy(o->points + 2 * k, points + 2 * (size_t)o->vertex[k], 2 * sizeof *points);
-    const iccp_chains chains = {n, o->points, o->n, o->ring};
+        memcpy(own + 2 * k, points + 2 * (size_t)o->vertex[k], 2 * sizeof *points);
+    const iccp_chains chains = {n, own, o->n, o->ring};
     icc_status status = iccp_sweep_chains(&found, place, &chains, env);
     if (status == ICC_OK && found.kind != 0)
         status = ICC_ERR_BOUNDARY;
@@ -95,35 +109,43 @@ static icc_status check_rings(outlines *o, iccp_chain_place *place, const double
 static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    const size_t n = map->n_vertices, room = n + n / 3 + 1;
+    const size_t n = map->n_vertices;
     uint32_t *next = iccp_alloc(memory, n, sizeof *next);
-    iccp_chain_place *place = iccp_alloc(memory, n / 3 + 1, sizeof *place);
-    outlines o = {.ring = iccp_alloc(memory, n / 3 + 1, sizeof *o.ring),
-                  .vertex = iccp_alloc(memory, room, sizeof *o.vertex),
-                  .points = iccp_alloc(memory, room, 2 * sizeof *o.points)};
+    outlines o = {.room = n + n / 3 + 1, .ring_room = n / 3 + 1, .all = {map->points, map->images}};
+    o.ring = iccp_alloc(memory, o.ring_room, sizeof *o.ring);
+    o.place = iccp_alloc(memory, o.ring_room, 2 * sizeof *o.place);
+    o.vertex = iccp_alloc(memory, o.room, sizeof *o.vertex);
+    o.points = iccp_alloc(memory, o.room, 4 * sizeof *o.points);
     icc_status status = ICC_ERR_MEMORY;
-    if (next != NULL && place != NULL && o.ring != NULL && o.vertex != NULL && o.points != NULL)
+    if (next != NULL && o.place != NULL && o.ring != NULL && o.vertex != NULL && o.points != NULL)
         status = list_rings(&o, map, next) ? ICC_OK : ICC_ERR_BOUNDARY;
     if (status == ICC_OK)
-        status = check_rings(&o, place, map->points, env);
-    if (status == ICC_OK)
-        status = check_rings(&o, place, map->images, env);
+        status = iccp_side_by_side(env, 2, check_rings, &o, NULL);
     *n_rings = o.n;
     iccp_free(memory, next);
-    iccp_free(memory, place);
+    iccp_free(memory, o.place);
     iccp_free(memory, o.ring);
     iccp_free(memory, o.vertex);
     iccp_free(memory, o.points);
     return status;
 }
 
-icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_error *err)
+/* ---- triangles ---- */
+
+typedef struct count {
+    const iccp_plmap *map;
+    atomic_size_t n_faults, n_open;
+} count;
+
+/* Triangles that are not positive, edges whose two sides disagree, and edges with one side. */
+static icc_status count_some(void *argument, size_t begin, size_t end)
 {
+    count *all = argument;
+    const iccp_plmap *map = all->map;
     size_t n_faults = 0, n_open = 0;
-    const size_t n_triangles = map->corners.n_triangles;
-    for (uint32_t t = 0; t < n_triangles; ++t)
+    for (uint32_t t = (uint32_t)begin; t < end; ++t)
         n_faults += !iccp_plmap_positive_point(map, t) || !iccp_plmap_positive_image(map, t);
-    for (uint32_t c = 0; c < 3 * n_triangles; ++c) {
+    for (uint32_t c = 3 * (uint32_t)begin; c < 3 * end; ++c) {
         const uint32_t twin = map->corners.twin[c];
         n_open += twin == ICCP_NO_NEIGHBOUR;
         if (twin != ICCP_NO_NEIGHBOUR)
@@ -132,6 +154,19 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
                 map->corners.vertex[iccp_after(twin)] != map->corners.vertex[iccp_before(c)] ||
                 map->corners.vertex[iccp_before(twin)] != map->corners.vertex[iccp_after(c)];
     }
+    atomic_fetch_add(&all->n_faults, n_faults);
+    atomic_fetch_add(&all->n_open, n_open);
+    return ICC_OK;
+}
+
+icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_error *err)
+{
+    const size_t n_triangles = map->corners.n_triangles;
+    iccp_env quiet = *env;
+    count all = {.map = map};
+    quiet.progress = NULL;
+    (void)iccp_for_chunks(&quiet, "check", n_triangles, GRAIN, count_some, &all);
+    const size_t n_faults = atomic_load(&all.n_faults), n_open = atomic_load(&all.n_open);
     if (n_faults > 0)
         return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
                          n_faults);

@@ -112,7 +112,7 @@ icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, u
     iccp_newton newton;
     if (p->rings > 0)
         iccp_untangle_mark(map, p->rings, marks);
-    icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, env);
+    icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, NULL, env);
     if (status != ICC_OK)
         return status;
     status = descend(&newton, p, trial, work, env);

@@ -150,7 +150,7 @@ START_TEST(steps_go_down)
         double slope;
         shake(&map, 3, 0.05);
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
-        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, NULL, &env), ICC_OK);
+        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, NULL, NULL, &env), ICC_OK);
         ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env), ICC_OK);
         ck_assert_double_lt(slope, 0);
         double energy[2];
@@ -164,6 +164,42 @@ START_TEST(steps_go_down)
         iccp_newton_free(&newton);
         iccp_plmap_free(&map);
     }
+}
+END_TEST
+
+/* A first Hessian that others make while the order is found is the same, and is not taken for that of
+ * another energy. */
+START_TEST(steps_begun_ahead_are_the_same)
+{
+    const shape s = shape_star(5, 0.4, 0.1);
+    const iccp_env alone = default_env();
+    iccp_env env = alone;
+    env.threads = 2;
+    for (int kind = ICCP_DIRICHLET; kind <= ICCP_DIRICHLET_MAJORISED; ++kind)
+        for (int first = ICCP_DIRICHLET; first <= ICCP_DIRICHLET_MAJORISED; ++first) {
+            iccp_plmap map = map_of(&s, 40, wave, 1);
+            const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
+            const iccp_energy ahead = (iccp_energy)first;
+            iccp_newton newton[2];
+            double slope[2][2];
+            ck_assert_int_eq(iccp_newton_create(&newton[0], &simplicial, NULL, NULL, &alone),
+                             ICC_OK);
+            ck_assert_int_eq(iccp_newton_create(&newton[1], &simplicial, NULL, &ahead, &env),
+                             ICC_OK);
+            ck_assert(newton[1].is_ahead && !newton[0].is_ahead);
+            for (int step = 0; step < 2; ++step)
+                for (int k = 0; k < 2; ++k)
+                    ck_assert_int_eq(iccp_newton_solve(&newton[k], (iccp_energy)kind, 0,
+                                                       &slope[step][k], k == 0 ? &alone : &env),
+                                     ICC_OK);
+            const size_t n = 2 * newton[0].assembly.n_free;
+            ck_assert_mem_eq(newton[0].step, newton[1].step, n * sizeof(double));
+            for (int step = 0; step < 2; ++step)
+                ck_assert_mem_eq(&slope[step][0], &slope[step][1], sizeof(double));
+            for (int k = 0; k < 2; ++k)
+                iccp_newton_free(&newton[k]);
+            iccp_plmap_free(&map);
+        }
 }
 END_TEST
 
@@ -183,8 +219,8 @@ START_TEST(every_step_is_monotone_and_positive)
             movable[v] = v % 5 != 0;
         iccp_newton newton;
         const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
-        ck_assert_int_eq(iccp_newton_create(&newton, &simplicial, k % 2 ? movable : NULL, &env),
-                         ICC_OK);
+        ck_assert_int_eq(
+            iccp_newton_create(&newton, &simplicial, k % 2 ? movable : NULL, NULL, &env), ICC_OK);
         double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
         for (int step = 0; step < 25 && newton.assembly.n_free > 0; ++step) {
             const iccp_energy model = step % 3 == 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
@@ -572,6 +608,7 @@ int main(void)
     tcase_add_test(tests, edges_that_rounding_would_spoil_stay);
     tcase_add_test(tests, energies_of_simple_maps);
     tcase_add_test(tests, steps_go_down);
+    tcase_add_test(tests, steps_begun_ahead_are_the_same);
     tcase_add_test(tests, every_step_is_monotone_and_positive);
     tcase_add_test(tests, broken_maps_are_repaired_or_counted);
     tcase_add_test(tests, what_cannot_be_repaired_is_counted);

@@ -231,7 +231,7 @@ START_TEST(steps_go_down)
             for (size_t v = 0; v < c.mesh->n_points; ++v)
                 bend(c.mesh->dim, c.mesh->points + c.mesh->dim * v, c.images + c.mesh->dim * v);
             ck_assert_uint_eq(count_inverted(&c), 0);
-            ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, &env), ICC_OK);
+            ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, NULL, &env), ICC_OK);
             ck_assert_uint_eq(newton.assembly.n_free, c.mesh->n_points - c.mesh->n_boundary);
             ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env),
                              ICC_OK);
