@@ -399,6 +399,27 @@ ICC_API icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, co
                                         double *values, double *gradients, icc_status *status,
                                         size_t *n_failed, const icc_env *env);
 
+/**
+ * The dual function of a node (3.2): the interpolant that is 1 there and 0 at all other nodes.
+ * Weights are the sum of these functions, each times the weights at its node. With the affine tail
+ * they sum to 1 and reproduce points.
+ *
+ * @param weights     any weights on the nodes: only nodes, kernel and tail count
+ * @param node        which, as in icc_weights_get_nodes()
+ * @param n           number of points
+ * @param points      n * dim coordinates
+ * @param[out] values n numbers
+ * @param env         may be NULL
+ * @param err         may be NULL
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT (no such node, a point that is not finite);
+ *         ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED
+ *
+ * Cost: one solution with the existing factor, and an evaluation for each point.
+ */
+ICC_API icc_status icc_weights_get_dual(const icc_weights *weights, size_t node, size_t n,
+                                        const double *points, double *values, const icc_env *env,
+                                        icc_error *err);
+
 /** How good weights are, measured at caller-supplied points. */
 typedef struct icc_weights_report {
     size_t size;              /**< set by the caller: `sizeof(icc_weights_report)` */

@@ -234,6 +234,29 @@ icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, const doub
                : read;
 }
 
+icc_status icc_weights_get_dual(const icc_weights *weights, size_t node, size_t n,
+                                const double *points, double *values, const icc_env *env,
+                                icc_error *err)
+{
+    iccp_env full_env;
+    const char *missing = weights == NULL           ? "weights"
+                          : n > 0 && points == NULL ? "points"
+                          : n > 0 && values == NULL ? "values"
+                                                    : NULL;
+    const icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    if (node >= weights->nodes->n)
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)node,
+                            "node %zu does not exist", node);
+    const size_t i = first_infinite(n, weights->nodes->dim, points);
+    if (i < n)
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                            "point %zu is not finite", i);
+    return iccp_explain(err, iccp_finish(&full_env, iccp_weights_dual(weights, node, n, points,
+                                                                      values, &full_env)));
+}
+
 icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const double *points,
                                   icc_weights_report *report, const icc_env *env, icc_error *err)
 {

@@ -57,10 +57,12 @@ icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *weights, s
 void iccp_weights_at(const icc_weights *weights, const double *point, double *values,
                      double *gradients);
 
-/* See icc_weights_evaluate() and icc_weights_get_report(). */
+/* See icc_weights_evaluate(), icc_weights_get_dual() and icc_weights_get_report(). */
 icc_status iccp_weights_evaluate(const icc_weights *weights, size_t n, const double *points,
                                  double *values, double *gradients, icc_status *status,
                                  size_t *n_failed, const iccp_env *env);
+icc_status iccp_weights_dual(const icc_weights *weights, size_t node, size_t n,
+                             const double *points, double *values, const iccp_env *env);
 icc_status iccp_weights_measure(const icc_weights *weights, size_t n, const double *points,
                                 icc_weights_report *report, const iccp_env *env);
 

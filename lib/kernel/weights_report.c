@@ -76,6 +76,46 @@ icc_status iccp_weights_evaluate(const icc_weights *weights, size_t n, const dou
     return iccp_for_chunks(env, "check", n, GRAIN, evaluate_some, &e);
 }
 
+/* ---- dual functions ---- */
+
+typedef struct dual {
+    const iccp_node_set *set;
+    const double *coefficients, *points;
+    double *values;
+} dual;
+
+static icc_status evaluate_dual(void *argument, size_t begin, size_t end)
+{
+    const dual *d = argument;
+    double local[ICC_MAX_DIM];
+    for (size_t i = begin; i < end; ++i) {
+        iccp_frame_in(&d->set->sampling->shape->frame, (int32_t)d->set->dim,
+                      d->points + d->set->dim * i, local);
+        iccp_collocation_evaluate(d->set->collocation, 1, d->coefficients, local, d->values + i,
+                                  NULL);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_weights_dual(const icc_weights *weights, size_t node, size_t n,
+                             const double *points, double *values, const iccp_env *env)
+{
+    const iccp_node_set *set = weights->nodes;
+    double *unit = iccp_alloc_zero(&env->memory, set->n, sizeof *unit);
+    double *coefficients = iccp_alloc(&env->memory, set->n + set->dim + 1, sizeof *coefficients);
+    icc_status status = ICC_ERR_MEMORY;
+    if (unit != NULL && coefficients != NULL) {
+        dual d = {set, coefficients, points, values};
+        unit[node] = 1;
+        status = iccp_collocation_solve(set->collocation, 1, unit, coefficients, env);
+        if (status == ICC_OK)
+            status = iccp_for_chunks(env, "check", n, GRAIN, evaluate_dual, &d);
+    }
+    iccp_free(&env->memory, unit);
+    iccp_free(&env->memory, coefficients);
+    return status;
+}
+
 /* ---- report ---- */
 
 /* What is measured at one point. */

@@ -765,6 +765,12 @@ static inline icc_status call_kernel_weights(const objects *o, outcome *out, con
                                 &out->count, env);
 }
 
+static inline icc_status call_kernel_get_dual(const objects *o, outcome *out, const icc_env *env,
+                                              icc_error *err)
+{
+    return icc_weights_get_dual(o->kernel, 7, N_POINTS, o->points, out->numbers, env, err);
+}
+
 static inline icc_status call_kernel_get_report(const objects *o, outcome *out, const icc_env *env,
                                                 icc_error *err)
 {
@@ -844,6 +850,7 @@ static const call CALLS[] = {
     {"icc_weights_with_method", call_kernel_set_method},
     {"icc_weights_stiffen", call_kernel_stiffen},
     {"icc_weights_evaluate", call_kernel_weights},
+    {"icc_weights_get_dual", call_kernel_get_dual},
     {"icc_weights_get_report", call_kernel_get_report},
     {"icc_binding_create", call_binding_create},
     {"icc_binding_pose", call_binding_pose},

@@ -534,6 +534,8 @@ START_TEST(kernels_refuse_bad_arguments)
     EXPLAINED(icc_weights_with_method(NULL, o.kernel, ICC_WEIGHTS_QP, NULL, &err));
     EXPLAINED(icc_weights_with_method(&kernel, o.kernel, 0, NULL, &err));
     EXPLAINED(icc_weights_stiffen(&kernel, o.kernel, 1, NULL, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_weights_get_dual(NULL, 0, 1, HANDLES, weights, NULL, &err));
+    EXPLAINED(icc_weights_get_dual(o.kernel, 1u << 30, 1, HANDLES, weights, NULL, &err));
     EXPLAINED(icc_weights_get_report(o.kernel, 1, NULL, &report, NULL, &err));
     EXPLAINED(icc_weights_get_report(o.kernel, 0, NULL, NULL, NULL, &err));
     REFUSED(icc_weights_get_info(NULL, &info));
@@ -608,6 +610,8 @@ START_TEST(what_is_missing_is_named)
     MISSING("grid", icc_tree_create(&t, NULL, 0, NULL, NULL, &err));
     MISSING("handles", icc_weights_create(&w, o.sampling, 1, NULL, NULL, NULL, &err));
     MISSING("points", icc_weights_get_report(o.kernel, 1, NULL, &report, NULL, &err));
+    MISSING("points", icc_weights_get_dual(o.kernel, 0, 1, NULL, image, NULL, &err));
+    MISSING("values", icc_weights_get_dual(o.kernel, 0, 1, o.points, NULL, NULL, &err));
     MISSING("centre", icc_weights_paint(&w, o.kernel, 0, NULL, 1, 1, NULL, &err));
     MISSING("values", icc_weights_repaint(&w, o.kernel, 1, FACETS, NULL, NULL, &err));
     MISSING("weights", icc_weights_with_method(&w, NULL, 1, NULL, &err));

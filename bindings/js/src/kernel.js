@@ -69,6 +69,14 @@ export function kernelOf(core) {
       return values;
     }
 
+    /** The function that is 1 at a node, 0 at all others and interpolated as weights are, at points. */
+    dual(node, points, { out } = {}) {
+      const p = flat(points), n = p.length / this.info.dim;
+      const values = room(out, n);
+      core.call('icc_weights_get_dual', this, node, n, p, values);
+      return values;
+    }
+
     report(points) {
       const p = flat(points);
       return core.info('icc_weights_get_report', this, p.length / this.dim, p);

@@ -145,6 +145,7 @@ test('kernel coordinates: weights, poses, painting', () => {
   for (const handle of [0, 1, 2]) pose.move(handle, [1, 0]);
   near(binding.pose(pose), [3, 2], 1e-9);
   assert.notDeepEqual(weights.paint(0, [2, 2], 1, 0.5).evaluate([[2, 2]]), values);
+  assert.ok(Math.abs(weights.dual(1, weights.nodes().points.slice(2, 4))[0] - 1) < 1e-9);
   assert.equal(weights.withMethod('equality').info.method, 'equality');
   assert.deepEqual(icc.Sampling.load(sampling.save()).points(), sampling.points());
 });

@@ -100,6 +100,7 @@ export interface Weights extends Handle {
   readonly dim: number;
   nodes(): { points: Float64Array; initial: Float64Array; values: Float64Array; status: Int32Array };
   evaluate(points: Points, results?: { out?: Float64Array; gradients?: Float64Array }): Float64Array;
+  dual(node: number, points: Points, results?: { out?: Float64Array }): Float64Array;
   report(points: Points): Info;
   paint(handle: number, centre: Points, radius: number, amount: number): Weights;
   repaint(nodes: Uint32Array, values: Points): Weights;

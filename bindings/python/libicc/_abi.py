@@ -161,6 +161,7 @@ weights_repaint weights** weights* size u32* f64* env* error*
 weights_with_method weights** weights* i32 env* error*
 weights_stiffen weights** weights* size u32* f64* f64* env* error*
 weights_evaluate weights* size f64* f64* f64* i32* size* env*
+weights_get_dual weights* size size f64* f64* env* error*
 weights_get_report weights* size f64* weights_report* env* error*
 binding_create binding** weights* size f64* i32 env* error*
 void:binding_free binding*

@@ -263,6 +263,16 @@ class Weights(Handle):
                                 None, None, env))
         return (weights, slopes) if gradients else weights
 
+    def dual(self, node: int, points: ArrayLike, *, progress: Optional[Progress] = None,
+             threads: Optional[int] = None) -> Floats:
+        """The function that is 1 at a node, 0 at all others and interpolated as weights are: (n,) values at points
+        (n, dim)."""
+        points = points_of(points, self._info("weights_get_info", "weights_info").dim)
+        call, values = Call(progress, threads), np.empty(len(points))
+        call.check(lib.weights_get_dual(self, int(node), len(points), address(points), address(values),
+                                       call.env, call.err))
+        return values
+
     def report(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> SimpleNamespace:
         """How good the weights are, measured at points; see ``icc_weights_report``."""

@@ -55,6 +55,8 @@ def test_painting(weights):
     before, after = weights.weights([[3.0, 3.0]]), painted.weights([[3.0, 3.0]])
     assert after[0, 4] > before[0, 4]
     node = np.flatnonzero(weights.nodes().status == 0)[-1]
+    dual = weights.dual(node, weights.nodes().points)
+    assert abs(dual - (np.arange(len(dual)) == node)).max() < 1e-9
     same = weights.repaint([node], weights.nodes().weights[[node]])
     assert np.abs(same.nodes().weights - weights.nodes().weights).max() < 1e-12
     assert weights.with_method("equality").info.method == "equality"

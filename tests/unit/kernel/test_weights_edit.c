@@ -4,6 +4,47 @@
 #include <math.h>
 #include <string.h>
 
+/* Dual functions are 1 and 0 at the nodes, and add up to 1 and to the weights. */
+START_TEST(weights_are_sums_of_dual_functions)
+{
+    enum { N = 40 };
+    icc_sampling *sampling = sample_square(0.2);
+    icc_weights *weights = make(sampling, 5, HANDLES, NULL);
+    icc_sampling_free(sampling);
+    const size_t n = info_of(weights).n_nodes;
+    double *nodes = nodes_of(weights), *at_nodes = weights_of(weights);
+    double *values = malloc(n * sizeof *values), points[2 * N], direct[5 * N], one[N];
+    double sums[6 * N] = {0};
+    ck_assert_ptr_nonnull(values);
+    for (size_t i = 0; i < N; ++i) {
+        points[2 * i] = fmod(0.5 + 0.7548776662466927 * (double)i, 1);
+        points[2 * i + 1] = fmod(0.5 + 0.5698402909980532 * (double)i, 1);
+    }
+    for (size_t k = 0; k < n; ++k) {
+        ck_assert_int_eq(icc_weights_get_dual(weights, k, n, nodes, values, NULL, NULL), ICC_OK);
+        for (size_t i = 0; i < n; ++i)
+            ck_assert_double_eq_tol(values[i], i == k, 1e-10);
+        ck_assert_int_eq(icc_weights_get_dual(weights, k, N, points, one, NULL, NULL), ICC_OK);
+        for (size_t i = 0; i < N; ++i) {
+            for (size_t j = 0; j < 5; ++j)
+                sums[6 * i + j] += one[i] * at_nodes[5 * k + j];
+            sums[6 * i + 5] += one[i];
+        }
+    }
+    ck_assert_int_eq(icc_weights_evaluate(weights, N, points, direct, NULL, NULL, NULL, NULL),
+                     ICC_OK);
+    for (size_t i = 0; i < N; ++i) {
+        for (size_t j = 0; j < 5; ++j)
+            ck_assert_double_eq_tol(sums[6 * i + j], direct[5 * i + j], 1e-10);
+        ck_assert_double_eq_tol(sums[6 * i + 5], 1, 1e-10);
+    }
+    free(nodes);
+    free(at_nodes);
+    free(values);
+    icc_weights_free(weights);
+}
+END_TEST
+
 static icc_weights *paint(const icc_weights *weights, size_t handle, double x, double y,
                           double radius, double amount)
 {
@@ -203,6 +244,7 @@ int main(void)
 {
     Suite *suite = suite_create("weights_edit");
     TCase *tests = tcase_create("weights_edit");
+    tcase_add_test(tests, weights_are_sums_of_dual_functions);
     tcase_add_test(tests, paint_changes_what_is_under_the_brush);
     tcase_add_test(tests, repainting_takes_wishes);
     tcase_add_test(tests, another_method_starts_afresh);

@@ -2949,6 +2949,27 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
+    /// The dual function of a node (3.2): the interpolant that is 1 there and 0 at all other nodes. Weights are the
+    /// sum of these functions, each times the weights at its node. With the affine tail they sum to 1 and reproduce
+    /// points.
+    ///
+    /// - `weights`: any weights on the nodes: only nodes, kernel and tail count
+    /// - `node`: which, as in `icc_weights_get_nodes`
+    /// - `n`: number of points
+    /// - `points`: n * dim coordinates
+    /// - `values` (out): n numbers
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL
+    pub fn icc_weights_get_dual(
+        weights: *const icc_weights,
+        node: usize,
+        n: usize,
+        points: *const f64,
+        values: *mut f64,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Measures the weights at n points (n * dim coordinates). The report's `size` is set by the caller.
     pub fn icc_weights_get_report(
         weights: *const icc_weights,

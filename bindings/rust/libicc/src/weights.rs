@@ -288,6 +288,17 @@ impl Weights {
         Ok(weights)
     }
 
+    /// The function that is 1 at a node, 0 at all others and interpolated as weights are, at points, n * dim coordinates.
+    pub fn dual(&self, node: usize, points: &[f64], env: &mut Env<'_>) -> Result<Vec<f64>> {
+        let n = count(points, self.info().dim as usize, "points")?;
+        let mut values = vec![0.0; n];
+        env.call(|env, err| {
+            // SAFETY: n points, and room for n values.
+            unsafe { sys::icc_weights_get_dual(self.as_ptr(), node, n, points.as_ptr(), values.as_mut_ptr(), env, err) }
+        })?;
+        Ok(values)
+    }
+
     /// Measures the weights at points, n * dim coordinates.
     pub fn report(&self, points: &[f64], env: &mut Env<'_>) -> Result<WeightsReport> {
         let n = count(points, self.info().dim as usize, "points")?;

@@ -83,6 +83,8 @@ fn kernels_are_changed_into_others() {
         .filter(|&k| k >= 4 && nodes.points[2 * k..2 * k + 2].iter().all(|x| (x - 5.0).abs() < 1.5))
         .map(|k| k as u32)
         .collect();
+    let dual = first.dual(4, &nodes.points, env).unwrap();
+    assert!((dual[4] - 1.0).abs() < 1e-9 && dual[5].abs() < 1e-9);
     let (_, energy) = first.stiffen(&inner, None, env).unwrap();
     assert!(energy[1] < energy[0]);
     let wish: Vec<f64> = inner.iter().flat_map(|_| [1.0, 0.0, 0.0, 0.0]).collect();
