@@ -81,7 +81,7 @@ icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim
 /* --------------------------------------------------------------- flatness */
 
 /* A facet has an area if one of its shadows along the axes has. */
-static bool has_area(const iccp_facet_tree *tree, uint32_t facet)
+bool iccp_simplicial_has_area(const iccp_facet_tree *tree, uint32_t facet)
 {
     const size_t dim = tree->dim;
     const double *corners[MAX], *at[MAX];
@@ -104,7 +104,7 @@ icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *er
     const size_t dim = tree->dim;
     const double *points[MAX + 1];
     for (uint32_t f = 0; f < tree->n; ++f)
-        if (!has_area(tree, f))
+        if (!iccp_simplicial_has_area(tree, f))
             return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, f,
                                 dim == 3 ? "face %lu has area 0: its corners lie on one line"
                                          : "facet %lu is flat: its corners do not span it",

@@ -15,6 +15,9 @@ icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim
                                     const iccp_complex *c, const double *vertices,
                                     const iccp_env *env, icc_error *err);
 
+/* Whether the corners of a facet span it. Exact. */
+bool iccp_simplicial_has_area(const iccp_facet_tree *tree, uint32_t facet);
+
 /* ICC_ERR_BOUNDARY for a facet without area, or if all vertices lie in one hyperplane. */
 icc_status iccp_simplicial_check_flat(const iccp_facet_tree *tree, icc_error *err);
 

@@ -197,11 +197,20 @@ static icc_status cut(iccp_common_surface *common, const body bodies[2], const i
     if (status == ICC_OK)
         status = iccp_common_surface_create(common, &overlay, m, directions, x, &env->memory, err);
     iccp_sphere_overlay_free(&overlay, &env->memory);
-    /* Vertices in the middle of edges were not given. */
     for (int side = 0; side < 2; ++side)
-        for (size_t v = 0; v < common->n_vertices; ++v)
+        for (size_t v = 0; v < common->n_vertices; ++v) {
+            const iccp_frame *const frame = &bodies[side].domain->frame;
+            double *const p = common->x[side] + 3 * v;
+            /* Vertices in the middle of edges were not given. */
             if (common->origin[side][v] >= bodies[side].domain->n_vertices)
                 common->origin[side][v] = ICCP_NO_EDGE;
+            /* What was not given is rounded as the caller will see it: what meets there has to be
+             * seen to meet here. */
+            if (common->origin[side][v] == ICCP_NO_EDGE) {
+                iccp_frame_out(frame, 3, p, p);
+                iccp_frame_in(frame, 3, p, p);
+            }
+        }
     return status;
 }
 

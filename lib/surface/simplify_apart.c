@@ -2,8 +2,8 @@
 
 #include "base/minmax.h"
 #include "domain/facet_tree.h"
+#include "domain/simplicial.h"
 #include "domain/triangles.h"
-#include "surface/corner_angle.h"
 
 #include <string.h>
 
@@ -48,11 +48,6 @@ static icc_status copy(iccp_common_surface *to, const iccp_common_surface *c,
 
 /* ---- what meets ---- */
 
-static bool has_area(const double *x, const uint32_t *f)
-{
-    return iccp_least_sine(x + 3 * (size_t)f[0], x + 3 * (size_t)f[1], x + 3 * (size_t)f[2]) > 0;
-}
-
 /* Marks the corners of triangles that meet others, or have no area; whether there are any. */
 static bool mark_meeting(const iccp_facet_tree *tree, uint8_t *is_bad)
 {
@@ -62,7 +57,7 @@ static bool mark_meeting(const iccp_facet_tree *tree, uint8_t *is_bad)
         const uint32_t *const s = tree->facets + 3 * (size_t)f;
         iccp_facet_query query;
         uint32_t g = f;
-        if (!has_area(tree->vertices, s)) {
+        if (!iccp_simplicial_has_area(tree, f)) {
             any = true;
             is_bad[s[0]] = is_bad[s[1]] = is_bad[s[2]] = 1;
             continue;
@@ -70,7 +65,7 @@ static bool mark_meeting(const iccp_facet_tree *tree, uint8_t *is_bad)
         iccp_facet_query_start_after(&query, tree, place);
         while (iccp_facet_query_next(&query, &g)) {
             const uint32_t *const t = tree->facets + 3 * (size_t)g;
-            if (!has_area(tree->vertices, t) || !iccp_triangles_meet(tree->vertices, s, t))
+            if (!iccp_simplicial_has_area(tree, g) || !iccp_triangles_meet(tree->vertices, s, t))
                 continue;
             any = true;
             for (int i = 0; i < 3; ++i)
