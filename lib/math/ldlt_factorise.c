@@ -22,8 +22,9 @@ static const double PER_PANEL = 2000;
 static const double LEAST_FOR_THREADS = 5e4;
 
 /* Of the whole: what subtrees take that are done first, many at the same time, and those that have
- * such subtrees in them. */
-static const double SMALL = 1.0 / 16, LARGE = 1.0 / 3;
+ * such subtrees in them. Two threads have enough to do with fewer. */
+static const double SMALL = 1.0 / 16, LARGE = 1.0 / 3, SMALL_OF_TWO = 1.0 / 12,
+                    LARGE_OF_TWO = 1.0 / 2.2;
 
 /* Panels in a row, in the order in which they came. */
 typedef struct queue {
@@ -330,11 +331,13 @@ static icc_status find_subtrees(iccp_ldlt *l, const iccp_env *env)
 {
     iccp_env own = *env;
     own.memory = l->memory;
+    const double large = env->threads == 2 ? LARGE_OF_TWO : LARGE;
+    const double small = env->threads == 2 ? SMALL_OF_TWO : SMALL;
     icc_status status = ICC_OK;
     if (l->large.run == NULL)
-        status = iccp_subtrees_create(&l->large, &l->nodes, LARGE, NULL, labour_of, &own);
+        status = iccp_subtrees_create(&l->large, &l->nodes, large, NULL, labour_of, &own);
     if (status == ICC_OK && l->small.run == NULL)
-        status = iccp_subtrees_create(&l->small, &l->nodes, SMALL, &l->large, labour_of, &own);
+        status = iccp_subtrees_create(&l->small, &l->nodes, small, &l->large, labour_of, &own);
     return status;
 }
 
