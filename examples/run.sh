@@ -13,7 +13,7 @@ out=$build/out
 mkdir -p "$build" "$out"
 
 echo "building and installing the library"
-quietly "$build/configure.log" cmake -S . -B "$build/library" -DCMAKE_BUILD_TYPE=Release
+quietly "$build/configure.log" cmake -S . -B "$build/library" -DCMAKE_BUILD_TYPE=Release -DICC_BUILD_BENCHMARKS=OFF
 quietly "$build/build.log" cmake --build "$build/library" --parallel "$(nproc)"
 quietly "$build/install.log" cmake --install "$build/library" --prefix "$stage"
 
