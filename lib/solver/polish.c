@@ -211,8 +211,9 @@ static void tie_rows(state *s)
             tie(s, parent[k]);
 }
 
-/* The parts of a rising cluster that are lifted stay, each by itself; the leaves of the rest are
- * inactive from now on. */
+/* The parts of a rising cluster that are lifted stay, each by itself and in one piece, whatever is
+ * lifted further down in it: edges that were untied there would be violated at once, and be tied
+ * again one by one. The leaves of the rest are inactive from now on. */
 static void let_rise(state *s)
 {
     const iccp_qp *p = s->qp;
@@ -220,11 +221,12 @@ static void let_rise(state *s)
         const uint32_t t = s->top[k];
         if (t == k || !(s->mark[t] & RISES))
             continue;
-        if (s->mark[k] & LIFTED) {
+        if (s->mark[p->unknowns->parent[k]] & STAYS) {
+            s->mark[k] |= STAYS;
+        } else if (s->mark[k] & LIFTED) {
             s->mark[k] |= STAYS;
             s->active[k - 1] = 0;
-        } else
-            s->mark[k] |= s->mark[p->unknowns->parent[k]] & STAYS;
+        }
     }
     for (size_t j = 0; j < p->n_leaves; ++j) {
         const uint32_t k = p->leaf_unknown[j];
