@@ -13,9 +13,9 @@ enum { WINDOWS = 256 }; /* of the perimeter: one corner in each at most */
 static const double least_corner = 25.0 / 360, alike = 60.0 / 360,
                     near_corner = 3.0 / ICCP_MATCH_SAMPLES;
 
-/* Share of arc length that is blended in between pins: no slope is less. Distance that pins keep.
- */
-static const double arc_share = .01, apart = 1e-9;
+/* Share of arc length that is blended in between pins, and the least slope that steps along one
+ * outline alone get by it. Distance that pins keep. */
+static const double arc_share = .01, least_slope = 1.25e-3, apart = 1e-9;
 
 typedef struct corner {
     double share, angle;
@@ -165,12 +165,21 @@ static size_t thin_out(pin *pins, size_t n)
     return kept;
 }
 
+/* How much of arc length is blended in between pins that are w apart on both sides: where these are
+ * very unlike, more, as half of it goes along each side. */
+static double share_of_arc(const double *w)
+{
+    const double ratio = w[0] < w[1] ? w[0] / w[1] : w[1] / w[0];
+    const double least = 2 * least_slope / ratio;
+    return least < arc_share ? arc_share : least < 1 ? least : 1;
+}
+
 /* Knots between two pins, which keep away from them, with arc length blended in. */
 static void blend(iccp_pairing_knots *out, const iccp_pairing_knots *from, const double *p,
                   const double *q)
 {
     const double margin = 1.5 / ICCP_MATCH_SAMPLES;
-    const double w[2] = {q[0] - p[0], q[1] - p[1]};
+    const double w[2] = {q[0] - p[0], q[1] - p[1]}, arc = share_of_arc(w);
     double room[2];
     for (int e = 0; e < 2; ++e)
         room[e] = margin < .3 * w[e] ? margin : .3 * w[e];
@@ -183,8 +192,8 @@ static void blend(iccp_pairing_knots *out, const iccp_pairing_knots *from, const
                   y < q[1] - room[1]))
                 continue;
             const double u = ((x - p[0]) / w[0] + (y - p[1]) / w[1]) / 2;
-            const double knot[2] = {(1 - arc_share) * x + arc_share * (p[0] + u * w[0]),
-                                    (1 - arc_share) * y + arc_share * (p[1] + u * w[1])};
+            const double knot[2] = {(1 - arc) * x + arc * (p[0] + u * w[0]),
+                                    (1 - arc) * y + arc * (p[1] + u * w[1])};
             if (!(knot[0] > last[0] && knot[1] > last[1]))
                 continue;
             last = out->knot + 2 * out->n++;

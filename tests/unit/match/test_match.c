@@ -253,6 +253,26 @@ START_TEST(takes_apart_what_stretches_too_much)
 }
 END_TEST
 
+/* Landmarks close together on one side and far apart on the other: where shapes alone would follow
+ * one outline while the other stands still, edges keep within the limit all the same. */
+START_TEST(unlike_pieces_keep_the_limit)
+{
+    static const double a[] = {.8,   .1,  0,    .8,  -.2, .5,  -.9, .9,  -.5, .3,
+                               -1.2, .5,  -1.4, .6,  -.5, 0,   -.8, -.4, -.5, -.4,
+                               -.2,  -.9, 0,    -.8, .1,  -.6, .2,  -.6, .5,  -.4};
+    static const double b[] = {1.5, .1,  .2,  .9,  -.4, 1,  -1.3, .1,   -1.3, -.3, -.7, -.4,
+                               -.5, -.5, -.2, -.6, -.1, -1, 0,    -1.3, .1,   -.7, .5,  -.3};
+    static const double landmarks[] = {-.57, .72, 1.12, .28, -.67, .55, -.71, -.39};
+    icc_match *match = NULL;
+    const icc_match_options options = {.size = sizeof options, .least_sure = 1};
+    icc_error err = {.size = sizeof err};
+    const icc_status status = match_of(&match, 15, a, 12, b, 2, landmarks, &options, &err);
+    ck_assert_msg(status == ICC_OK, "%s", err.message);
+    check_exact(match, 15, a, 12, b);
+    icc_match_free(match);
+}
+END_TEST
+
 /* Landmarks out of order, off an outline, or twice are refused by their numbers. */
 START_TEST(names_bad_landmarks)
 {
@@ -355,6 +375,7 @@ int main(void)
     tcase_add_test(tests, pairs_discs_by_arc_length);
     tcase_add_test(tests, passes_through_landmarks);
     tcase_add_test(tests, takes_apart_what_stretches_too_much);
+    tcase_add_test(tests, unlike_pieces_keep_the_limit);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, pairs_vertices_with_vertices);
     tcase_add_test(tests, fails_cleanly);
