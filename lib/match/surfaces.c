@@ -1,6 +1,7 @@
 /* Both surfaces are drawn on the sphere (surface/sphere.h), one drawing is turned to lie on the
- * other (surface/rotation.h), and both are cut by one another (surface/sphere_overlay.h), so that
- * they have the same triangles, which are then made fewer (surface/simplify_apart.h). */
+ * other (surface/rotation.h), each is moved on the other (surface/relax.h), and both are cut by one
+ * another (surface/sphere_overlay.h), so that they have the same triangles, which are then made
+ * fewer (surface/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"
@@ -10,6 +11,7 @@
 #include "surface/helpers.h"
 #include "surface/landmark_paths.h"
 #include "surface/landmark_sphere.h"
+#include "surface/relax.h"
 #include "surface/rotation.h"
 #include "surface/simplify_apart.h"
 #include "surface/sphere.h"
@@ -26,6 +28,9 @@ static const double longest_edge = 0.05, times_given = 2;
 
 /* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
 enum { MOST_CROSSINGS = 200 };
+
+/* In which drawings are moved on one another where there are no landmarks. */
+enum { ROUNDS = 30 };
 
 static const double most_energy = 1e8;
 
@@ -88,6 +93,26 @@ static double mean_edge(const body *b)
 
 /* ---- on the sphere ---- */
 
+/* Moves each drawing on the other. */
+static icc_status relax(body bodies[2], const iccp_env *env, icc_error *err)
+{
+    iccp_drawn_surface side[2];
+    for (int s = 0; s < 2; ++s) {
+        const body *const b = &bodies[s];
+        side[s] = (iccp_drawn_surface){&b->m, b->x, b->directions, iccp_sphere_scale(&b->m, b->x)};
+    }
+    iccp_relaxation r;
+    icc_status status =
+        iccp_relaxation_create(&r, side, (const uint8_t *const[]){NULL, NULL}, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_relax(&r, ROUNDS, env);
+    iccp_relaxation_free(&r, &env->memory);
+    status = iccp_explain(err, status);
+    for (int s = 0; s < 2 && status == ICC_OK; ++s)
+        status = iccp_sphere_check(&bodies[s].m, bodies[s].directions, err);
+    return status;
+}
+
 static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
 {
     icc_status status = ICC_OK;
@@ -96,19 +121,20 @@ static icc_status draw(body bodies[2], const iccp_env *env, icc_error *err)
         b->directions = iccp_alloc(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
         if (b->directions == NULL)
             return iccp_fail_memory(err);
-        const iccp_env part = iccp_part(env, NULL, 0.4 * side, 0.4 * side + 0.4);
+        const iccp_env part = iccp_part(env, NULL, 0.25 * side, 0.25 * side + 0.25);
         status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
                                   &part, err);
         if (status != ICC_OK)
             return iccp_fail_side(err, status, side + 1);
     }
-    const iccp_env last = iccp_part(env, NULL, 0.8, 1);
+    const iccp_env turning = iccp_part(env, NULL, 0.5, 0.7), last = iccp_part(env, NULL, 0.7, 1);
     double energy;
-    return iccp_explain(
+    status = iccp_explain(
         err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
                                 (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
                                 (const double *const[]){bodies[0].x, bodies[1].x}, 0,
-                                (const uint32_t *const[]){NULL, NULL}, &energy, &last));
+                                (const uint32_t *const[]){NULL, NULL}, &energy, &turning));
+    return status == ICC_OK ? relax(bodies, &last, err) : status;
 }
 
 /* The vertices nearest to the landmarks of one side, which are no two of them the same. */
@@ -161,9 +187,6 @@ static icc_status draw_by_landmarks(body bodies[2], size_t n, const double *give
     icc_status status = ICC_OK;
     for (int side = 0; side < 2 && status == ICC_OK; ++side) {
         status = find_landmarks(&bodies[side], n, given, side, &env->memory, err);
-        if (status == ICC_OK &&
-            !iccp_split_surface_create(&split[side], &bodies[side].m, bodies[side].x, &env->memory))
-            status = iccp_fail_memory(err);
     }
     if (status == ICC_OK && n < n_all)
         status =
@@ -172,7 +195,8 @@ static icc_status draw_by_landmarks(body bodies[2], size_t n, const double *give
                               (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
     if (status == ICC_OK)
         status = iccp_landmark_sphere_draw(
-            directions, m, split, n_all,
+            directions, m, split, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+            (const double *const[]){bodies[0].x, bodies[1].x}, n_all,
             (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[1], err);
     for (int side = 0; side < 2; ++side) {
         body *const b = &bodies[side];

@@ -108,8 +108,7 @@ static bool is_landmark(uint32_t holder)
     return holder != ICCP_NO_EDGE && holder >= ICCP_LANDMARK;
 }
 
-/* Whether two vertices are of one path, its ends included. */
-static bool share_path(const iccp_decimate_web *web, uint32_t a, uint32_t b)
+bool iccp_share_path(const iccp_decimate_web *web, uint32_t a, uint32_t b)
 {
     const uint32_t p = web->holder[a], q = web->holder[b];
     if (p == ICCP_NO_EDGE || q == ICCP_NO_EDGE)
@@ -136,7 +135,7 @@ static bool is_allowed(const decimation *d, uint32_t h)
     uint32_t e = iccp_edge_turn(m, iccp_edge_turn(m, h));
     for (; iccp_edge_turn(m, e) != h; e = iccp_edge_turn(m, e))
         if ((own == ICCP_NO_EDGE || d->web->path[e] != own) &&
-            share_path(d->web, iccp_edge_end(m, e), end))
+            iccp_share_path(d->web, iccp_edge_end(m, e), end))
             return false;
     return true;
 }

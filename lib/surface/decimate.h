@@ -18,6 +18,9 @@ typedef struct iccp_decimate_web {
     const uint8_t *joined;
 } iccp_decimate_web;
 
+/* Whether two vertices are of one path, its ends included. */
+bool iccp_share_path(const iccp_decimate_web *web, uint32_t a, uint32_t b);
+
 /* The same until only landmarks are left, whose edges are then the paths: vertices of a path go
  * along it. ICC_ERR_RESOLUTION, without a text, if no more collapse is possible before. web->path
  * changes along. */

@@ -8,20 +8,15 @@
 
 enum { LEAST_CELLS = 2, MOST_CELLS = 128 };
 
-/* How far p is on the left of half-edge h. */
-static double side_of(const iccp_drawn_finder *f, uint32_t h, const double p[3])
-{
-    return iccp_direction_det(p, f->directions + 3 * (size_t)f->m->origin[h],
-                              f->directions + 3 * (size_t)iccp_edge_end(f->m, h));
-}
-
 /* The half-edge of a face that p is farthest to the right of; ICCP_NO_EDGE if of none. */
-static uint32_t exit_of(const iccp_drawn_finder *f, uint32_t face, const double p[3], double *how)
+static uint32_t exit_of(const iccp_half_edges *m, const double *directions, uint32_t face,
+                        const double p[3], double *how)
 {
     uint32_t exit = ICCP_NO_EDGE;
     *how = 0;
     for (uint32_t h = 3 * face; h < 3 * face + 3; ++h) {
-        const double s = side_of(f, h, p);
+        const double s = iccp_direction_det(p, directions + 3 * (size_t)m->origin[h],
+                                            directions + 3 * (size_t)iccp_edge_end(m, h));
         if (s < *how) {
             *how = s;
             exit = h;
@@ -31,23 +26,26 @@ static uint32_t exit_of(const iccp_drawn_finder *f, uint32_t face, const double 
 }
 
 /* Walks that go round in circles, which are rare, and those that come to the other side of the
- * sphere end with a look at all faces. */
-static uint32_t walk(const iccp_drawn_finder *f, uint32_t face, const double p[3])
+ * sphere end with a look at all faces that are there. */
+uint32_t iccp_drawn_walk(const iccp_half_edges *m, const double *directions, uint32_t face,
+                         const double p[3])
 {
     double how;
-    for (size_t n = 0; n < f->m->n_faces / 2; ++n) {
-        const uint32_t exit = exit_of(f, face, p, &how);
+    for (size_t n = 0; n < m->n_left; ++n) {
+        const uint32_t exit = exit_of(m, directions, face, p, &how);
         if (exit == ICCP_NO_EDGE)
             return face;
-        face = f->m->twin[exit] / 3;
+        face = m->twin[exit] / 3;
     }
     double best = -HUGE_VAL;
-    for (uint32_t other = 0; other < f->m->n_faces; ++other) {
-        (void)exit_of(f, other, p, &how);
-        if (how > best &&
-            iccp_vec_dot(3, p, f->directions + 3 * (size_t)f->m->origin[3 * other]) > 0) {
-            best = how;
-            face = other;
+    for (size_t v = 0; v < m->n_vertices; ++v) {
+        uint32_t h = m->out[v];
+        for (uint32_t k = 0; k < m->degree[v]; ++k, h = iccp_edge_turn(m, h)) {
+            (void)exit_of(m, directions, h / 3, p, &how);
+            if (how > best && iccp_vec_dot(3, p, directions + 3 * v) > 0) {
+                best = how;
+                face = h / 3;
+            }
         }
     }
     return face;
@@ -95,7 +93,7 @@ icc_status iccp_drawn_finder_create(iccp_drawn_finder *f, const iccp_half_edges 
     for (size_t cell = 0; cell < 6 * f->n * f->n; ++cell) {
         double p[3];
         middle_of(f, cell, p);
-        f->near[cell] = face = walk(f, face, p);
+        f->near[cell] = face = iccp_drawn_walk(m, directions, face, p);
     }
     return ICC_OK;
 }
@@ -108,5 +106,5 @@ void iccp_drawn_finder_free(iccp_drawn_finder *f, const iccp_memory *memory)
 
 uint32_t iccp_drawn_find(const iccp_drawn_finder *f, const double p[3])
 {
-    return walk(f, f->near[cell_of(f, p)], p);
+    return iccp_drawn_walk(f->m, f->directions, f->near[cell_of(f, p)], p);
 }

@@ -19,4 +19,8 @@ void iccp_drawn_finder_free(iccp_drawn_finder *finder, const iccp_memory *memory
 /* A face that has p, to rounding. A few steps where faces are of like size. */
 uint32_t iccp_drawn_find(const iccp_drawn_finder *finder, const double p[3]);
 
+/* The same by a walk from a face, on a surface some of whose vertices may have been taken away. */
+uint32_t iccp_drawn_walk(const iccp_half_edges *m, const double *directions, uint32_t face,
+                         const double p[3]);
+
 #endif

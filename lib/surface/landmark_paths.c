@@ -4,6 +4,7 @@
 #include "surface/landmark_paths.h"
 
 #include "base/heap.h"
+#include "base/minmax.h"
 #include "math/vec.h"
 
 #include <string.h>
@@ -16,11 +17,14 @@ typedef struct web {
     iccp_split_surface *s; /* 2 */
     size_t n, n_paths, most_paths, n_sectors, most_vertices[2];
     const uint32_t *const *vertices;
-    uint32_t (*ends)[2]; /* landmarks, by path */
-    uint8_t *joined;     /* n * n */
-    bool *is_in;         /* by landmark: it has a path */
-    bool *is_stale;      /* by sector: its costs have changed */
-    double *cost;        /* n_sectors^2: of a path from one to another, both lengths */
+    uint32_t (*ends)[2];      /* landmarks, by path */
+    uint8_t *joined;          /* n * n */
+    bool *is_in;              /* by landmark: it has a path */
+    bool *is_stale;           /* by sector: its costs have changed */
+    double *cost;             /* n_sectors^2: of a path from one to another, both lengths */
+    uint32_t root;            /* landmark */
+    const double *scale;      /* of lengths, by side */
+    double worst, most_ratio; /* of a path's lengths */
     /* Of the search on one side. */
     iccp_heap heap;
     size_t room;
@@ -149,7 +153,7 @@ static void find_costs(web *w, uint32_t from)
     for (int side = 0; side < 2; ++side) {
         search(w, side, from);
         for (size_t k = 0; k < w->n_sectors; ++k)
-            row[k] += w->arrival[k];
+            row[k] += w->scale[side] * w->arrival[k];
     }
     for (size_t k = 0; k < w->n_sectors; ++k)
         w->cost[w->n_sectors * k + from] = row[k];
@@ -157,12 +161,13 @@ static void find_costs(web *w, uint32_t from)
 
 /* ---- one path ---- */
 
-/* Lays the next path on one side. */
-static bool lay(web *w, int side, uint32_t from, uint32_t to)
+/* Lays the next path on one side; its length there. */
+static bool lay(web *w, int side, uint32_t from, uint32_t to, double *length)
 {
     iccp_split_surface *const s = &w->s[side];
     const uint32_t path = (uint32_t)w->n_paths;
     search(w, side, from);
+    *length = w->scale[side] * w->arrival[to];
     const uint32_t start = w->vertices[side][landmark_of(w, from)];
     for (uint32_t h = w->entered[to];; h = w->via[s->origin[h]]) {
         s->path[h] = s->path[s->twin[h]] = path;
@@ -188,8 +193,9 @@ static bool lay(web *w, int side, uint32_t from, uint32_t to)
 static icc_status add_path(web *w, uint32_t from, uint32_t to, const iccp_env *env)
 {
     const uint32_t a = landmark_of(w, from), b = landmark_of(w, to);
+    double length[2];
     for (int side = 0; side < 2; ++side) {
-        if (!lay(w, side, from, to))
+        if (!lay(w, side, from, to, &length[side]))
             return ICC_ERR_MEMORY;
         if (w->s[side].n_vertices > w->most_vertices[side])
             return ICC_ERR_RESOLUTION;
@@ -201,6 +207,9 @@ static icc_status add_path(web *w, uint32_t from, uint32_t to, const iccp_env *e
     w->is_in[a] = w->is_in[b] = true;
     w->joined[a * w->n + b] = w->joined[b * w->n + a] = 1;
     ++w->n_paths;
+    w->worst = iccp_max(w->worst, iccp_max(length[0] / length[1], length[1] / length[0]));
+    if (w->worst > w->most_ratio)
+        return ICC_ERR_RESOLUTION;
     return iccp_progress(env, "match", (double)w->n_paths / (double)w->most_paths);
 }
 
@@ -214,12 +223,12 @@ static icc_status make_tree(web *w, const iccp_env *env)
         const uint32_t lonely = (uint32_t)(2 * w->most_paths);
         uint32_t best[2] = {0, 0};
         double least = HUGE_VAL;
-        for (uint32_t k = 1; k < w->n; ++k) {
-            if (w->is_in[k])
+        for (uint32_t k = 0; k < w->n; ++k) {
+            if (w->is_in[k] || k == w->root)
                 continue;
             find_costs(w, lonely + k);
             for (uint32_t to = 0; to < w->n_sectors; ++to) {
-                const bool is_in_tree = n == 1 ? to == lonely : to < 2 * w->n_paths;
+                const bool is_in_tree = n == 1 ? to == lonely + w->root : to < 2 * w->n_paths;
                 if (is_in_tree && w->cost[w->n_sectors * (lonely + k) + to] < least) {
                     least = w->cost[w->n_sectors * (lonely + k) + to];
                     best[0] = lonely + k;
@@ -286,13 +295,19 @@ static icc_status run(web *w, const iccp_env *env)
 }
 
 icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t *const vertices[2],
-                               uint32_t (*ends)[2], uint8_t *joined, const iccp_env *env)
+                               const double scale[2], uint32_t root, double most_ratio,
+                               uint32_t (*ends)[2], uint8_t *joined, double *worst,
+                               const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
     web w = {.s = s,
              .n = n,
              .most_paths = 3 * n - 6,
              .vertices = vertices,
+             .root = root,
+             .scale = scale,
+             .worst = 1,
+             .most_ratio = most_ratio,
              .ends = ends,
              .joined = joined};
     icc_status status = ICC_ERR_MEMORY;
@@ -308,6 +323,7 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
     if (w.is_in != NULL && w.is_stale != NULL && w.cost != NULL && w.arrival != NULL &&
         w.entered != NULL)
         status = run(&w, env);
+    *worst = w.worst;
     iccp_heap_free(&w.heap, memory);
     iccp_free(memory, w.is_in);
     iccp_free(memory, w.is_stale);

@@ -4,13 +4,15 @@
 
 #include "surface/split_surface.h"
 
-/* Landmarks, 4 to ICCP_MOST_SURFACE_LANDMARKS, as iccp_landmark_paths() has them; edges of the
- * surfaces are halved as there. m and directions are made, for all vertices that are there then; to
- * be freed in any case. Both drawings are certified, and landmarks of both have the same
- * directions, whatever they are. ICC_ERR_RESOLUTION, ICC_ERR_CERTIFICATE, ICC_ERR_MEMORY,
- * ICC_ERR_CANCELLED. */
+/* Surfaces that are given, x by vertex, and landmarks, 4 to ICCP_MOST_SURFACE_LANDMARKS, as
+ * iccp_landmark_paths() has them; edges of the surfaces are halved as there. s, m and directions
+ * are made, for all vertices that are there then; to be freed in any case. Both drawings are
+ * certified, landmarks of both have the same directions, whatever they are, and each drawing has
+ * been moved on the other: see surface/relax.h. ICC_ERR_RESOLUTION, ICC_ERR_CERTIFICATE,
+ * ICC_ERR_MEMORY, ICC_ERR_CANCELLED. */
 icc_status iccp_landmark_sphere_draw(double *directions[2], iccp_half_edges m[2],
-                                     iccp_split_surface s[2], size_t n,
+                                     iccp_split_surface s[2], const iccp_half_edges *const given[2],
+                                     const double *const x[2], size_t n,
                                      const uint32_t *const vertices[2], const iccp_env *env,
                                      icc_error *err);
 

@@ -11,6 +11,7 @@
 #include "surface/direction.h"
 #include "surface/drawn_star.h"
 #include "surface/kernel_room.h"
+#include "surface/newton_step.h"
 #include "surface/sphere_certificate.h"
 
 #include <math.h>
@@ -42,6 +43,7 @@ typedef struct drawing {
     const double *x;
     double *directions;
     const uint8_t *is_fixed; /* by vertex; or NULL */
+    bool is_quiet;           /* only new vertices move */
     double scale;            /* area of the surface times its square: that of the sphere */
     iccp_drawn_star star;
     double (*room)[3];
@@ -59,24 +61,6 @@ static void gather(drawing *d, uint32_t vertex)
 
 /* ---- moving ---- */
 
-/* Newton's step, with a multiple of the identity added to the Hessian where it is not clearly
- * positive; no longer than the way to the farthest neighbour. */
-static void find_step(double step[2], const iccp_drawn_star_jet *jet, double farthest)
-{
-    const double mean = 0.5 * (jet->hessian[0] + jet->hessian[2]);
-    const double half = 0.5 * (jet->hessian[0] - jet->hessian[2]);
-    const double radius = sqrt(half * half + jet->hessian[1] * jet->hessian[1]);
-    const double more = iccp_max(0, 0.05 * (fabs(mean) + radius) - (mean - radius));
-    const double a = jet->hessian[0] + more, b = jet->hessian[1], c = jet->hessian[2] + more;
-    const double det = a * c - b * b;
-    step[0] = -(c * jet->gradient[0] - b * jet->gradient[1]) / det;
-    step[1] = -(a * jet->gradient[1] - b * jet->gradient[0]) / det;
-    const double length = iccp_vec_norm(2, step);
-    if (length > farthest)
-        for (int k = 0; k < 2; ++k)
-            step[k] *= farthest / length;
-}
-
 /* Moves a vertex whose star has been gathered by a step of Newton's method, shortened until the
  * star holds it and its energy falls. The energy then; what it fell by is added to *gain. */
 static double move(drawing *d, uint32_t vertex, double *gain)
@@ -87,7 +71,7 @@ static double move(drawing *d, uint32_t vertex, double *gain)
     for (size_t i = 0; i < d->star.n; ++i)
         farthest = iccp_max(farthest, iccp_vec_distance(3, p, d->star.ring[i]));
     iccp_drawn_star_expand(&jet, &d->star, p);
-    find_step(step, &jet, farthest);
+    iccp_newton_step(step, jet.gradient, jet.hessian, farthest);
     for (int n = 0; n < HALVINGS; ++n) {
         double q[3];
         for (int k = 0; k < 3; ++k)
@@ -200,7 +184,7 @@ static bool grow(drawing *d)
     uint32_t h = d->m->out[u];
     do {
         const uint32_t v = iccp_edge_end(d->m, h);
-        if (d->m->degree[v] <= MOST_NEIGHBOURS && !is_fixed(d, v))
+        if (d->m->degree[v] <= MOST_NEIGHBOURS && !is_fixed(d, v) && !d->is_quiet)
             improve(d, v, STEPS_WHEN_NEW, &gain);
         h = iccp_edge_turn(d->m, h);
     } while (h != d->m->out[u]);
@@ -220,7 +204,7 @@ static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_er
                              "directions on the sphere, multiples of 2^-51, are too coarse to draw "
                              "the surface: there is no room for vertex %lu",
                              (unsigned long)d->m->origin[d->m->collapsed[d->m->n_collapsed]]);
-        if (d->m->n_left >= next) {
+        if (d->m->n_left >= next && !d->is_quiet) {
             const int n_sweeps = d->m->n_left < FEW ? SWEEPS_OF_FEW : SWEEPS;
             for (int k = 0; k < n_sweeps; ++k)
                 move_all(d, &energy, &gain);
@@ -229,7 +213,7 @@ static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_er
         if (d->m->n_left % 256 == 0)
             status = iccp_progress(env, "match", 0.7 * (double)d->m->n_left / (double)until);
     }
-    for (int k = 0; k < LAST_SWEEPS && status == ICC_OK; ++k) {
+    for (int k = 0; k < LAST_SWEEPS && status == ICC_OK && !d->is_quiet; ++k) {
         move_all(d, &energy, &gain);
         if (gain < little * energy)
             break;
@@ -258,11 +242,27 @@ double iccp_sphere_scale(const iccp_half_edges *m, const double *x)
     return sqrt(8 * 3.14159265358979323846 / twice);
 }
 
-icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
-                            const uint8_t *is_fixed, size_t until, const iccp_env *env,
-                            icc_error *err)
+icc_status iccp_sphere_check(const iccp_half_edges *m, const double *directions, icc_error *err)
 {
-    drawing d = {.m = m, .x = x, .directions = directions, .is_fixed = is_fixed, .scale = scale};
+    const iccp_sphere_certificate c = iccp_sphere_certify(m, directions);
+    if (c.n_faces > 0 || c.n_stars > 0)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the drawing on the sphere is not one-to-one: %zu faces are not positive, "
+                         "round %zu vertices the faces do not go once",
+                         c.n_faces, c.n_stars);
+    return ICC_OK;
+}
+
+icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
+                            const uint8_t *is_fixed, bool is_quiet, size_t until,
+                            const iccp_env *env, icc_error *err)
+{
+    drawing d = {.m = m,
+                 .x = x,
+                 .directions = directions,
+                 .is_fixed = is_fixed,
+                 .is_quiet = is_quiet,
+                 .scale = scale};
     icc_status status = ICC_OK;
     if (m->n_left == 4 && is_fixed == NULL)
         begin(&d);
@@ -273,15 +273,7 @@ icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double
         status = grow_all(&d, until, env, err);
     iccp_drawn_star_free(&d.star, &m->memory);
     iccp_free(&m->memory, d.room);
-    if (status != ICC_OK || m->n_collapsed > 0)
-        return status;
-    const iccp_sphere_certificate c = iccp_sphere_certify(m, directions);
-    if (c.n_faces > 0 || c.n_stars > 0)
-        return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                         "the drawing on the sphere is not one-to-one: %zu faces are not positive, "
-                         "round %zu vertices the faces do not go once",
-                         c.n_faces, c.n_stars);
-    return ICC_OK;
+    return status != ICC_OK || m->n_collapsed > 0 ? status : iccp_sphere_check(m, directions, err);
 }
 
 icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double *x, size_t n_faces,
@@ -296,7 +288,7 @@ icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double 
         const size_t n = m.n_left;
         status = iccp_explain(err, iccp_decimate(&m, x, 4, &first));
         if (status == ICC_OK)
-            status = iccp_sphere_grow(directions, &m, x, scale, NULL, n, &rest, err);
+            status = iccp_sphere_grow(directions, &m, x, scale, NULL, false, n, &rest, err);
     }
     iccp_half_edges_free(&m);
     return status;

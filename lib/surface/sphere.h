@@ -19,12 +19,15 @@ icc_status iccp_sphere_draw(double *directions, size_t n_vertices, const double 
 /* The factor by which a surface, all of it there, gets the area of the sphere. */
 double iccp_sphere_scale(const iccp_half_edges *m, const double *x);
 
-/* The same for a surface that has been made coarse, until so many vertices are there: those that
- * are have directions, of a drawing that is one-to-one; or they are four, and none is fixed: these
- * get some. Those that are fixed, by vertex, stay; NULL: none is. Certified once all vertices are
- * there. */
+/* Whether a drawing, all of it there, is one-to-one: ICC_ERR_CERTIFICATE where it is not. */
+icc_status iccp_sphere_check(const iccp_half_edges *m, const double *directions, icc_error *err);
+
+/* As iccp_sphere_draw() for a surface that has been made coarse, until so many vertices are there:
+ * those that are have directions, of a drawing that is one-to-one; or they are four, and none is
+ * fixed: these get some. Those that are fixed, by vertex, stay; NULL: none is. `is_quiet`: so do
+ * all that were there before. Certified once all vertices are there. */
 icc_status iccp_sphere_grow(double *directions, iccp_half_edges *m, const double *x, double scale,
-                            const uint8_t *is_fixed, size_t until, const iccp_env *env,
-                            icc_error *err);
+                            const uint8_t *is_fixed, bool is_quiet, size_t until,
+                            const iccp_env *env, icc_error *err);
 
 #endif

@@ -15,8 +15,9 @@ bool iccp_split_surface_create(iccp_split_surface *s, const iccp_half_edges *m, 
     s->path = iccp_alloc(memory, n_half, sizeof *s->path);
     s->out = iccp_alloc(memory, n, sizeof *s->out);
     s->holder = iccp_alloc(memory, n, sizeof *s->holder);
+    s->halves = iccp_alloc(memory, n, sizeof *s->halves);
     if (s->x == NULL || s->origin == NULL || s->twin == NULL || s->path == NULL || s->out == NULL ||
-        s->holder == NULL)
+        s->holder == NULL || s->halves == NULL)
         return false;
     memcpy(s->x, x, 3 * n * sizeof *s->x);
     memcpy(s->origin, m->origin, n_half * sizeof *s->origin);
@@ -35,6 +36,7 @@ void iccp_split_surface_free(iccp_split_surface *s)
     iccp_free(&s->memory, s->path);
     iccp_free(&s->memory, s->out);
     iccp_free(&s->memory, s->holder);
+    iccp_free(&s->memory, s->halves);
     *s = (iccp_split_surface){.memory = s->memory};
 }
 
@@ -44,7 +46,8 @@ static bool enlarge(iccp_split_surface *s)
         const size_t n = s->room_vertices, room = n + n / 2 + 64;
         if (!iccp_enlarge(&s->memory, &s->x, n, room, 3 * sizeof *s->x) ||
             !iccp_enlarge(&s->memory, &s->out, n, room, sizeof *s->out) ||
-            !iccp_enlarge(&s->memory, &s->holder, n, room, sizeof *s->holder))
+            !iccp_enlarge(&s->memory, &s->holder, n, room, sizeof *s->holder) ||
+            !iccp_enlarge(&s->memory, &s->halves, n, room, sizeof *s->halves))
             return false;
         s->room_vertices = room;
     }
@@ -96,5 +99,61 @@ bool iccp_split_halve(iccp_split_surface *s, uint32_t h)
     join(s, g, p);
     s->out[m] = p;
     s->holder[m] = ICCP_NO_EDGE;
+    s->halves[m][0] = s->origin[h];
+    s->halves[m][1] = s->origin[g];
+    return true;
+}
+
+/* The last face gets the number of one that is taken away. */
+static void remove_face(iccp_split_surface *s, uint32_t face)
+{
+    const uint32_t last = (uint32_t)--s->n_faces;
+    for (uint32_t i = 0; i < 3 && face != last; ++i) {
+        const uint32_t h = 3 * last + i, to = 3 * face + i;
+        s->origin[to] = s->origin[h];
+        s->path[to] = s->path[h];
+        join(s, to, s->twin[h]);
+        s->out[s->origin[to]] = to;
+    }
+}
+
+static bool are_joined(const iccp_split_surface *s, uint32_t a, uint32_t b)
+{
+    const uint32_t first = s->out[a];
+    uint32_t h = first;
+    do {
+        if (iccp_split_end(s, h) == b)
+            return true;
+        h = iccp_split_turn(s, h);
+    } while (h != first);
+    return false;
+}
+
+/* Of the four faces at m, (m, a, c), (m, c, b), (m, b, d), (m, d, a), the second one becomes (a, c,
+ * b) and the last one (b, d, a). */
+bool iccp_split_unite(iccp_split_surface *s, uint32_t m)
+{
+    const uint32_t a = s->halves[m][0], b = s->halves[m][1];
+    uint32_t h[4] = {s->out[m], 0, 0, 0};
+    for (int i = 0; i < 4 && iccp_split_end(s, h[0]) != a; ++i)
+        h[0] = iccp_split_turn(s, h[0]);
+    for (int i = 1; i < 4; ++i)
+        h[i] = iccp_split_turn(s, h[i - 1]);
+    if (iccp_split_end(s, h[0]) != a || iccp_split_end(s, h[2]) != b ||
+        iccp_split_turn(s, h[3]) != h[0] || are_joined(s, a, b))
+        return false;
+    for (int i = 0; i < 4; i += 2) {
+        const uint32_t side = iccp_after(h[i]), kept = h[i + 1];
+        s->origin[kept] = i == 0 ? a : b;
+        s->path[kept] = s->path[side];
+        join(s, kept, s->twin[side]);
+        s->out[s->origin[kept]] = kept;
+        s->out[iccp_split_end(s, kept)] = iccp_after(kept);
+    }
+    join(s, iccp_before(h[1]), iccp_before(h[3]));
+    s->out[m] = ICCP_NO_EDGE;
+    const uint32_t f = h[0] / 3, g = h[2] / 3;
+    remove_face(s, f > g ? f : g);
+    remove_face(s, f > g ? g : f);
     return true;
 }

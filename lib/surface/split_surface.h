@@ -15,6 +15,7 @@ typedef struct iccp_split_surface {
     uint32_t *path;   /* 3 n_faces: of an edge, both ways: what it is a part of; or ICCP_NO_EDGE */
     uint32_t *out;    /* n_vertices: a half-edge from it; ICCP_NO_EDGE: it has no faces */
     uint32_t *holder; /* n_vertices: what it belongs to; or ICCP_NO_EDGE */
+    uint32_t (*halves)[2]; /* n_vertices: of those in the middle of an edge, its ends */
 } iccp_split_surface;
 
 static inline uint32_t iccp_split_end(const iccp_split_surface *s, uint32_t h)
@@ -42,5 +43,10 @@ void iccp_split_surface_free(iccp_split_surface *s);
 /* Puts a vertex in the middle of an edge, which is not a part of a path. False if there is no
  * memory. */
 bool iccp_split_halve(iccp_split_surface *s, uint32_t h);
+
+/* Takes a vertex in the middle of an edge away again, which belongs to nothing; the others keep
+ * their numbers, half-edges do not. False if that is not possible: there are more edges at it by
+ * now, or its neighbours are joined by another edge. */
+bool iccp_split_unite(iccp_split_surface *s, uint32_t vertex);
 
 #endif
