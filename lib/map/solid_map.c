@@ -70,12 +70,14 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
     return status;
 }
 
-/* The steps that every new map takes. */
-static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
-                              icc_map_info *info, const iccp_env *env)
+/* The steps that every new map takes; once more on a finer mesh where it was unfolded, since that
+ * leaves few points where there are the most folds. */
+static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, bool unfolded,
+                              int32_t iterations, icc_map_info *info, const iccp_env *env)
 {
-    const icc_improve_options options = {
-        .iterations = iterations == 0 ? ITERATIONS_OF_NEW : iterations, .levels = -1};
+    const icc_improve_options options = {.iterations =
+                                             iterations == 0 ? ITERATIONS_OF_NEW : iterations,
+                                         .levels = unfolded ? 1 : -1};
     return iccp_solid_map_relax(map, source, &options, info, env);
 }
 
@@ -96,9 +98,10 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_solid_start(map, source, target, info, &part[0]);
+    bool unfolded;
+    icc_status status = iccp_solid_start(map, source, target, &unfolded, info, &part[0]);
     if (status == ICC_OK && info->n_unrepaired == 0)
-        status = improve_new(map, source->domain, iterations, info, &part[1]);
+        status = improve_new(map, source->domain, unfolded, iterations, info, &part[1]);
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = iccp_solid_map_finish(map, info, env);
     if (status != ICC_OK || info->n_unrepaired > 0) {

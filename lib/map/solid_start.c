@@ -188,12 +188,12 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
     return ICC_OK;
 }
 
-/* Fits, then mends, then unfolds, by turns on the source's mesh and on the target's, until one
+/* Fits, then unfolds, then mends, by turns on the source's mesh and on the target's, until one
  * leads to a map; what else is told is of the last one. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                            icc_map_info *info, const iccp_env *env)
+                            bool *unfolded, icc_map_info *info, const iccp_env *env)
 {
-    enum { FIT, MEND, MEND_ANEW, UNFOLD, STAGES };
+    enum { FIT, UNFOLD, MEND, MEND_ANEW, STAGES };
     static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1, 1, 1};
     const direction ways[2] = {{source, target}, {target, source}};
     iccp_solid_map other = {.memory = env->memory, .mesh = target->domain->mesh};
@@ -202,6 +202,7 @@ icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const 
     iccp_env part[2 * STAGES];
     iccp_split(part, 2 * STAGES, COST, env);
     icc_status status = ICC_OK;
+    *unfolded = false;
     map->mesh = source->domain->mesh;
     other.stretch = 1 / map->stretch;
     for (size_t k = 0; status == ICC_OK && fewest > 0 && k < 2 * STAGES; ++k) {
@@ -210,6 +211,7 @@ icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const 
         status = stage == FIT      ? fit(m, ways[side], info, &part[k])
                  : stage == UNFOLD ? unfold(m, ways[side], info, &part[k])
                                    : mend(m, ways[side], stage == MEND_ANEW, info, &part[k]);
+        *unfolded = status == ICC_OK && info->n_unrepaired == 0 && stage == UNFOLD;
         if (status == ICC_OK && info->n_unrepaired > 0 && stage != UNFOLD)
             iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
                      side == 0 ? "source" : "target");

@@ -135,12 +135,12 @@ static void check_points(const icc_map *map)
     free(saved.data);
 }
 
-static void check_pair(const icc_domain *const d[2], const char *name)
+static void check_pair(const icc_domain *const d[2], const char *name, const icc_env *env)
 {
     icc_error err = {.size = sizeof err};
     icc_map_info info = {.size = sizeof info};
     icc_map *map;
-    ck_assert_msg(icc_map_create(&map, d[0], d[1], NULL, NULL, &err) == ICC_OK, "%s: %s", name,
+    ck_assert_msg(icc_map_create(&map, d[0], d[1], NULL, env, &err) == ICC_OK, "%s: %s", name,
                   err.message);
     ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
     ck_assert_msg(info.kind == ICC_MAP_MESH && info.certified == 1 && info.n_unrepaired == 0,
@@ -157,7 +157,7 @@ static void check_both_ways(int splits, const test_shape *a, const test_shape *b
     (void)snprintf(name, sizeof name, "%d splits, shapes %d (%g, %g) and %d (%g, %g)", splits,
                    (int)a->kind, a->length, a->twist, (int)b->kind, b->length, b->twist);
     for (int k = 0; k < 2; ++k)
-        check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, name);
+        check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, name, NULL);
     icc_domain_free(d[0]);
     icc_domain_free(d[1]);
 }
@@ -182,6 +182,30 @@ START_TEST(points_are_added)
 {
     for (size_t k = 0; k < sizeof STUCK / sizeof *STUCK; ++k)
         check_both_ways(2, &STUCK[k][0], &STUCK[k][1]);
+}
+END_TEST
+
+/* Whether all tetrahedra of some map came in place one by one. */
+static void note_unfolded(void *unfolded, const char *message)
+{
+    static const char WHAT[] = "tetrahedra came in place";
+    size_t n, all;
+    if (strstr(message, WHAT) != NULL && sscanf(message, "%zu of %zu", &n, &all) == 2)
+        *(bool *)unfolded |= n == all;
+}
+
+/* Where charts are of no use but one point sees all of a surface: a ball's, from either side. */
+START_TEST(unfolded)
+{
+    icc_domain *const d[2] = {domain_of(2, &STUCK[1][0]), domain_of(2, &STUCK[1][1])};
+    for (int k = 0; k < 2; ++k) {
+        bool is_unfolded = false;
+        const icc_env env = {.size = sizeof env, .log = note_unfolded, .user = &is_unfolded};
+        check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, "ball", &env);
+        ck_assert(is_unfolded);
+    }
+    icc_domain_free(d[0]);
+    icc_domain_free(d[1]);
 }
 END_TEST
 
@@ -236,6 +260,7 @@ int main(void)
     tcase_set_timeout(tcase, 3600);
     tcase_add_test(tcase, bodies_spheres_cubes);
     tcase_add_test(tcase, points_are_added);
+    tcase_add_test(tcase, unfolded);
     tcase_add_test(tcase, random_pairs);
     tcase_add_test(tcase, failures);
     suite_add_tcase(suite, tcase);
