@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "match/arc.h"
+#include "match/one_to_one.h"
 #include "match/pins.h"
 #include "match/vertices.h"
 
@@ -35,7 +36,7 @@ static icc_status refuse(const iccp_elastic_report *report, double sure, icc_err
 }
 
 /* The common vertices of two outlines with a pairing; an elastic one has corners and vertices that
- * are still to be paired with one another. */
+ * are still to be paired with one another, unless they turn out to correspond as they are. */
 static icc_status finish(iccp_common *common, iccp_pairing_knots *knots, bool is_elastic,
                          const iccp_outline *source, const iccp_outline *target, size_t n,
                          const double *landmarks, const icc_match_options *options,
@@ -49,6 +50,8 @@ static icc_status finish(iccp_common *common, iccp_pairing_knots *knots, bool is
     if (status == ICC_OK)
         status = iccp_common_create(common, knots, source, target, n, landmarks, options->drop,
                                     &env->memory);
+    if (is_elastic && status == ICC_OK)
+        iccp_one_to_one(common, source, target, n, landmarks);
     return status;
 }
 

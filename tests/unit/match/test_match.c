@@ -341,6 +341,37 @@ START_TEST(pairs_vertices_with_vertices)
 }
 END_TEST
 
+/* What a match gave comes out of another match as it went in. */
+START_TEST(matched_outlines_stay)
+{
+    enum { N = 400 };
+    static double a[2 * N], b[2 * N], before[2][4 * N], after[2][4 * N];
+    const size_t n = coast(a, N, 0, 0), m = coast(b, N, .3, 3);
+    icc_match *match = NULL, *again = NULL;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(match_of(&match, n, a, m, b, 0, NULL, NULL, &err) == ICC_OK, "%s", err.message);
+    ck_assert_msg(icc_match_create(&again, icc_match_source(match), icc_match_target(match), 0,
+                                   NULL, NULL, NULL, &err) == ICC_OK,
+                  "%s", err.message);
+    icc_match_info info[2] = {{.size = sizeof info[0]}, {.size = sizeof info[0]}};
+    ck_assert_int_eq(icc_match_get_info(match, &info[0]), ICC_OK);
+    ck_assert_int_eq(icc_match_get_info(again, &info[1]), ICC_OK);
+    ck_assert_uint_lt(info[0].n_joined, info[0].n_vertices);
+    ck_assert_uint_eq(info[1].n_vertices, info[0].n_vertices);
+    ck_assert_uint_eq(info[1].n_joined, info[0].n_vertices);
+    const size_t size = 2 * info[0].n_vertices * sizeof(double);
+    ck_assert_uint_le(size, sizeof before[0]);
+    ck_assert_int_eq(icc_domain_get_boundary(icc_match_source(match), before[0], NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_boundary(icc_match_target(match), before[1], NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_boundary(icc_match_source(again), after[0], NULL), ICC_OK);
+    ck_assert_int_eq(icc_domain_get_boundary(icc_match_target(again), after[1], NULL), ICC_OK);
+    for (int e = 0; e < 2; ++e)
+        ck_assert_mem_eq(after[e], before[e], size);
+    icc_match_free(again);
+    icc_match_free(match);
+}
+END_TEST
+
 static icc_status make_one(const icc_env *env, icc_error *err, void *argument)
 {
     double a[2 * N_CUT];
@@ -378,6 +409,7 @@ int main(void)
     tcase_add_test(tests, unlike_pieces_keep_the_limit);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, pairs_vertices_with_vertices);
+    tcase_add_test(tests, matched_outlines_stay);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
