@@ -92,15 +92,21 @@ TARGET static ICCP_INLINE void set_gradient(triangles *t)
     pull_back(t, by_j, &t->element[0], t->gradient);
 }
 
-/* iccp_add_mode() */
-TARGET static ICCP_INLINE void add_mode(triangles *t, const reals mode[4], const reals *weight)
+/* iccp_add_mode() of each mode in turn, entry by entry: the sum of one stays in a register. */
+TARGET static ICCP_INLINE void add_modes(triangles *t, reals mode[4][4], const reals weight[4])
 {
     const reals one = (reals){0} + 1;
-    reals q[6];
-    pull_back(t, mode, &one, q);
-    for (size_t r = 0; r < 6; ++r)
+    reals q[4][6];
+    for (size_t k = 0; k < 4; ++k)
+        pull_back(t, mode[k], &one, q[k]);
+    for (size_t r = 0; r < 6; ++r) {
+        reals by_row[4];
+        for (size_t k = 0; k < 4; ++k)
+            by_row[k] = weight[k] * q[k][r];
         for (size_t c = 0; c < 6; ++c)
-            t->hessian[6 * r + c] += *weight * q[r] * q[c];
+            for (size_t k = 0; k < 4; ++k)
+                t->hessian[6 * r + c] += by_row[k] * q[k][c];
+    }
 }
 
 /* A twist of negative curvature gets the weight 0. */
@@ -125,8 +131,7 @@ TARGET static ICCP_INLINE void add_newton_modes(triangles *t)
         modes[2][i] = there + back;
         modes[3][i] = there - back;
     }
-    for (size_t k = 0; k < 4; ++k)
-        add_mode(t, modes[k], &weight[k]);
+    add_modes(t, modes, weight);
 }
 
 TARGET static ICCP_INLINE void add_majorant(triangles *t)

@@ -5,6 +5,8 @@
 
 #include "base/compiler.h"
 
+#include <string.h>
+
 enum { STRIP = 4 };
 
 /* With a constant width the loops over rows and columns are unrolled and run in vector
@@ -70,6 +72,115 @@ static void spread_portable(double *x, size_t width, const double *a, const doub
             x[s] -= (a[0] * y[s] + a[1] * y1[s]) + (a[2] * y2[s] + a[3] * y3[s]);
 }
 
+/* ---- four rows at once: what AVX2 has a register for, and WebAssembly two ---- */
+
+#if defined(ICCP_HAS_SIMD)
+#define TARGET ICCP_AVX2
+#elif defined(ICCP_HAS_WASM_SIMD)
+#define TARGET
+#endif
+
+#ifdef TARGET
+
+typedef double four __attribute__((vector_size(32)));
+typedef double two __attribute__((vector_size(16)));
+
+TARGET static ICCP_INLINE void load(const double *from, four *x)
+{
+    memcpy(x, from, sizeof *x);
+}
+
+TARGET static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
+                                            const double *scaled)
+{
+    four column[ICCP_SQUARE];
+    for (size_t c = 0; c < width; ++c) {
+        load(strip + STRIP * c, &column[c]);
+        for (size_t k = 0; k < c; ++k)
+            column[c] -= column[k] * scaled[ICCP_SQUARE * k + c];
+        column[c] /= pivot[c];
+        memcpy(strip + STRIP * c, &column[c], sizeof column[c]);
+    }
+}
+
+TARGET static void divide_fours(double *strip, size_t n_strips, size_t stride, size_t width,
+                                const double *pivot, const double *scaled)
+{
+    for (size_t t = 0; t < n_strips; ++t, strip += stride)
+        if (width == ICCP_SQUARE)
+            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
+        else
+            divide_strip(strip, width, pivot, scaled);
+}
+
+TARGET static ICCP_INLINE void subtract_four(double *to, const double *from)
+{
+    four x, y;
+    load(to, &x);
+    load(from, &y);
+    x -= y;
+    memcpy(to, &x, sizeof x);
+}
+
+TARGET static ICCP_INLINE void subtract_two(double *to, const double *from)
+{
+    two x, y;
+    memcpy(&x, to, sizeof x);
+    memcpy(&y, from, sizeof y);
+    x -= y;
+    memcpy(to, &x, sizeof x);
+}
+
+/* Only the rows that are meant are written: others may be another thread's. */
+TARGET static void subtract_fours(double *value, size_t low, size_t stride, const uint32_t *column,
+                                  size_t width, const double *tile)
+{
+    for (size_t c = 0; c < width; ++c, tile += STRIP) {
+        double *here = value + STRIP * column[c], *next = here + stride;
+        if (low == 0) {
+            subtract_four(here, tile);
+        } else if (low == 1) {
+            here[1] -= tile[0];
+            subtract_two(here + 2, tile + 1);
+            next[0] -= tile[3];
+        } else if (low == 2) {
+            subtract_two(here + 2, tile);
+            subtract_two(next, tile + 2);
+        } else {
+            here[3] -= tile[0];
+            subtract_two(next, tile + 1);
+            next[2] -= tile[3];
+        }
+    }
+}
+
+TARGET static void spread_four(double *x, const double *a, const double *y, size_t depth)
+{
+    four row[STRIP], term[STRIP], sum;
+    for (size_t r = 0; r < STRIP; ++r)
+        load(y + 4 * r, &row[r]);
+    for (size_t k = 0; k < depth; ++k, a += STRIP, x += 4) {
+        for (size_t r = 0; r < STRIP; ++r)
+            term[r] = a[r] * row[r];
+        load(x, &sum);
+        sum -= (term[0] + term[1]) + (term[2] + term[3]);
+        memcpy(x, &sum, sizeof sum);
+    }
+}
+
+static void spread_one(double *x, const double *a, const double *y, size_t depth);
+
+TARGET static void spread_fours(double *x, size_t width, const double *a, const double *y,
+                                size_t depth)
+{
+    if (width == 4)
+        spread_four(x, a, y, depth);
+    else
+        spread_one(x, a, y, depth);
+}
+
+#endif
+
 #ifdef ICCP_HAS_SIMD
 
 #include <immintrin.h>
@@ -120,64 +231,6 @@ ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width,
         multiply_width(tile, 1, width, a, stride, b, depth);
 }
 
-ICCP_AVX2 static ICCP_INLINE void divide_strip(double *strip, size_t width, const double *pivot,
-                                               const double *scaled)
-{
-    __m256d column[ICCP_SQUARE];
-    for (size_t c = 0; c < width; ++c) {
-        column[c] = _mm256_loadu_pd(strip + STRIP * c);
-        for (size_t k = 0; k < c; ++k) {
-            const __m256d entry = _mm256_broadcast_sd(scaled + ICCP_SQUARE * k + c);
-            column[c] = _mm256_sub_pd(column[c], _mm256_mul_pd(column[k], entry));
-        }
-        column[c] = _mm256_div_pd(column[c], _mm256_broadcast_sd(pivot + c));
-        _mm256_storeu_pd(strip + STRIP * c, column[c]);
-    }
-}
-
-ICCP_AVX2 static void divide_avx2(double *strip, size_t n_strips, size_t stride, size_t width,
-                                  const double *pivot, const double *scaled)
-{
-    for (size_t t = 0; t < n_strips; ++t, strip += stride)
-        if (width == ICCP_SQUARE)
-            divide_strip(strip, ICCP_SQUARE, pivot, scaled);
-        else
-            divide_strip(strip, width, pivot, scaled);
-}
-
-ICCP_AVX2 static ICCP_INLINE void subtract_four(double *to, const double *from)
-{
-    _mm256_storeu_pd(to, _mm256_sub_pd(_mm256_loadu_pd(to), _mm256_loadu_pd(from)));
-}
-
-ICCP_AVX2 static ICCP_INLINE void subtract_two(double *to, const double *from)
-{
-    _mm_storeu_pd(to, _mm_sub_pd(_mm_loadu_pd(to), _mm_loadu_pd(from)));
-}
-
-/* Only the rows that are meant are written: others may be another thread's. */
-ICCP_AVX2 static void subtract_avx2(double *value, size_t low, size_t stride,
-                                    const uint32_t *column, size_t width, const double *tile)
-{
-    for (size_t c = 0; c < width; ++c, tile += STRIP) {
-        double *here = value + STRIP * column[c], *next = here + stride;
-        if (low == 0) {
-            subtract_four(here, tile);
-        } else if (low == 1) {
-            here[1] -= tile[0];
-            subtract_two(here + 2, tile + 1);
-            next[0] -= tile[3];
-        } else if (low == 2) {
-            subtract_two(here + 2, tile);
-            subtract_two(next, tile + 2);
-        } else {
-            here[3] -= tile[0];
-            subtract_two(next, tile + 1);
-            next[2] -= tile[3];
-        }
-    }
-}
-
 /* Four columns at a time; the products of each are added within pairs of lanes. */
 ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, size_t depth)
 {
@@ -197,27 +250,30 @@ ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, si
         x[k] -= (a[0] * y[0] + a[1] * y[1]) + (a[2] * y[2] + a[3] * y[3]);
 }
 
-ICCP_AVX2 static void spread_four(double *x, const double *a, const double *y, size_t depth)
-{
-    __m256d row[STRIP], term[STRIP];
-    for (size_t r = 0; r < STRIP; ++r)
-        row[r] = _mm256_loadu_pd(y + 4 * r);
-    for (size_t k = 0; k < depth; ++k, a += STRIP, x += 4) {
-        for (size_t r = 0; r < STRIP; ++r)
-            term[r] = _mm256_mul_pd(_mm256_broadcast_sd(a + r), row[r]);
-        const __m256d sum =
-            _mm256_add_pd(_mm256_add_pd(term[0], term[1]), _mm256_add_pd(term[2], term[3]));
-        _mm256_storeu_pd(x, _mm256_sub_pd(_mm256_loadu_pd(x), sum));
-    }
-}
+#endif
 
-ICCP_AVX2 static void spread_avx2(double *x, size_t width, const double *a, const double *y,
-                                  size_t depth)
+#ifdef ICCP_HAS_WASM_SIMD
+
+#include <wasm_simd128.h>
+
+/* Two columns at a time. */
+static void spread_one(double *x, const double *a, const double *y, size_t depth)
 {
-    if (width == 4)
-        spread_four(x, a, y, depth);
-    else
-        spread_one(x, a, y, depth);
+    const v128_t y01 = wasm_v128_load(y), y23 = wasm_v128_load(y + 2);
+    size_t k = 0;
+    for (; k + 2 <= depth; k += 2, a += 2 * STRIP) {
+        const v128_t p01 = wasm_f64x2_mul(wasm_v128_load(a), y01);
+        const v128_t p23 = wasm_f64x2_mul(wasm_v128_load(a + 2), y23);
+        const v128_t q01 = wasm_f64x2_mul(wasm_v128_load(a + 4), y01);
+        const v128_t q23 = wasm_f64x2_mul(wasm_v128_load(a + 6), y23);
+        const v128_t low =
+            wasm_f64x2_add(wasm_i64x2_shuffle(p01, q01, 0, 2), wasm_i64x2_shuffle(p01, q01, 1, 3));
+        const v128_t high =
+            wasm_f64x2_add(wasm_i64x2_shuffle(p23, q23, 0, 2), wasm_i64x2_shuffle(p23, q23, 1, 3));
+        wasm_v128_store(x + k, wasm_f64x2_sub(wasm_v128_load(x + k), wasm_f64x2_add(low, high)));
+    }
+    if (k < depth)
+        x[k] -= (a[0] * y[0] + a[1] * y[1]) + (a[2] * y[2] + a[3] * y[3]);
 }
 
 #endif
@@ -227,9 +283,12 @@ iccp_dense iccp_dense_as(iccp_simd_level level)
     iccp_dense dense = {multiply_portable, divide_portable, subtract_portable, spread_portable};
 #ifdef ICCP_HAS_SIMD
     if (level >= ICCP_SIMD_AVX2)
-        dense = (iccp_dense){multiply_avx2, divide_avx2, subtract_avx2, spread_avx2};
+        dense = (iccp_dense){multiply_avx2, divide_fours, subtract_fours, spread_fours};
     if (level >= ICCP_SIMD_AVX512)
         dense.multiply = iccp_multiply_avx512;
+#endif
+#ifdef ICCP_HAS_WASM_SIMD
+    dense = (iccp_dense){multiply_portable, divide_fours, subtract_fours, spread_fours};
 #endif
     (void)level;
     return dense;
