@@ -926,8 +926,10 @@ typedef struct icc_match_info {
  * then rotations are tried, and the best pairing is followed. It is a heuristic: what is
  * guaranteed is that the result is a monotone pairing that passes through all landmarks, not that
  * it is the one you mean. Every vertex of the two domains is in the result bit by bit and in its
- * order; the others are added on edges, rounded. The result begins with the source's vertex 0 and
- * has the source's sense. It is checked as icc_domain_create() checks it.
+ * order; the others are added on edges, rounded. Outlines of as many vertices that are clearly in
+ * step are paired vertex by vertex, so that what came out of a match goes through another one
+ * unchanged; not by arc length. The result begins with the source's vertex 0 and has the source's
+ * sense. It is checked as icc_domain_create() checks it.
  *
  * Holes, lines and points inside go together, too, each with one of its kind. The outer rings'
  * pairing says about where each should be in the target (by mean value coordinates); it goes to
@@ -938,18 +940,19 @@ typedef struct icc_match_info {
  *
  * In space, surfaces that need not have the same triangles become two with common ones. Both are
  * drawn on the sphere, one-to-one, one drawing is turned so that the map between them stretches
- * little, and both are cut by one another; then both are made coarse together, up to
- * icc_match_options::tolerance, except where a surface would meet itself. By exact signs, before
- * places are rounded: the drawings are one-to-one, and what they are cut into is the same on both.
- * Checked on each result: neither surface meets itself, and the distance in
- * icc_match_info::off. That like parts lie on one another is neither: surfaces that are nearly the
- * same up to a motion, or bend moderately, do well; bodies with limbs in other poses do not, and
- * icc_match_info::energy shows it. With landmarks, each at a vertex, paths between them triangulate
- * both surfaces alike; both are shrunk to that, and grow on the sphere with their landmarks in the
- * same places. Beside fewer than four, others are chosen first: where they go if the drawings are
- * turned so that landmarks come near their partners. Landmarks then are common vertices, whatever
- * places they are in; between them each drawing only keeps its own surface's shape. Vertices that
- * are left have the bits they were given with; facets are listed as seen from outside.
+ * little, vertices of both are moved so that it stretches less, and both are cut by one another;
+ * then both are made coarse together, up to icc_match_options::tolerance, except where a surface
+ * would meet itself. By exact signs, before places are rounded: the drawings are one-to-one, and
+ * what they are cut into is the same on both. Checked on each result: neither surface meets itself,
+ * and the distance in icc_match_info::off. That like parts lie on one another is neither: without
+ * landmarks, surfaces that are nearly the same up to a motion, or bend moderately, do well; bodies
+ * with limbs in other poses do not, and icc_match_info::energy shows it. With landmarks, each at a
+ * vertex, paths between them triangulate both surfaces alike; both are shrunk to that, and grow on
+ * the sphere with their landmarks in the same places, moved at every size so that the map between
+ * them stretches little. Beside fewer than four, others are chosen first: where they go if the
+ * drawings are turned so that landmarks come near their partners. Landmarks then are common
+ * vertices, whatever places they are in. Vertices that are left have the bits they were given with;
+ * facets are listed as seen from outside.
  *
  * @param[out] out    the match; owned by the caller, see icc_match_free()
  * @param source      a domain of the plane, which may have features, or of space; without a mesh

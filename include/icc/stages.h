@@ -307,11 +307,10 @@ enum {
  * @param err      may be NULL
  * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
  *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as
- *         `leaf_min` and `min_fall` do of deep trees) or where `leaf_min` is 1e-2, in narrow,
- *         winding corridors from 1e-4 on, and for harmonic where laplace would be solved
- *         iteratively; ::ICC_ERR_RESOLUTION when the root is the only vertex inside (laplace,
- *         bilaplace, clamped, harmonic); ::ICC_ERR_UNSUPPORTED for harmonic on a grid that was not
- *         made from a domain, or refined;
+ *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2, and for harmonic where
+ *         laplace would be solved iteratively; ::ICC_ERR_RESOLUTION when the root is the only
+ *         vertex inside (laplace, bilaplace, clamped, harmonic); ::ICC_ERR_UNSUPPORTED for harmonic
+ *         on a grid that was not made from a domain, or refined;
  *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  */
 ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,

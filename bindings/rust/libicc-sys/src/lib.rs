@@ -2314,7 +2314,7 @@ extern "C" {
     ///
     /// Returns `ICC_OK`; `ICC_ERR_SOLVER` when a solver did not converge, which has only been seen with
     /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
-    /// deep trees) or `leaf_min` is 1e-2, in narrow winding corridors from 1e-4 on; `ICC_ERR_RESOLUTION` when the root is
+    /// deep trees) or `leaf_min` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
     /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`,
     /// `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
     pub fn icc_function_create(
