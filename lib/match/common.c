@@ -11,9 +11,6 @@
 
 #define NONE UINT32_MAX
 
-/* Edges are not stretched by more for a join. */
-static const double limit = 1e3;
-
 /* Rounds in which joins are undone one by one. */
 enum { SINGLE_ROUNDS = 8 };
 
@@ -179,7 +176,7 @@ static bool relent(iccp_weave *w, size_t reach)
     bool has_any = false;
     for (size_t k = 0; k < w->n_events; ++k) {
         const double q = slope(w, k);
-        if (q >= 1 / limit && q <= limit)
+        if (q >= 1 / ICCP_MOST_SLOPE && q <= ICCP_MOST_SLOPE)
             continue;
         iccp_event *const a = &w->event[k], *const b = &w->event[(k + 1) % w->n_events];
         iccp_event *const worse = b->is_fixed || (!a->is_fixed && a->d >= b->d) ? a : b;

@@ -4,6 +4,9 @@
 
 #include "match/elastic.h"
 
+/* Edges are not stretched by more for a join. */
+#define ICCP_MOST_SLOPE 1e3
+
 /* Vertices that both outlines have, in order along the source, counter-clockwise. */
 typedef struct iccp_common {
     size_t n;

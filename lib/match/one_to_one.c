@@ -6,9 +6,6 @@
 
 #define NONE UINT32_MAX
 
-/* Edges are not stretched by more, as in match/common.c. */
-static const double limit = 1e3;
-
 /* The shift between vertices that are joined which most joins have, if any has more than half of
  * them (R. Boyer and J. Moore, MJRTY - a fast majority vote algorithm, 1991). */
 static uint32_t majority(const iccp_common *common, uint32_t n)
@@ -77,7 +74,7 @@ void iccp_one_to_one(iccp_common *common, const iccp_outline *source, const iccp
         least = slope < least ? slope : least;
         most = slope > most ? slope : most;
     }
-    if (least < 1 / limit || most > limit)
+    if (least < 1 / ICCP_MOST_SLOPE || most > ICCP_MOST_SLOPE)
         return;
     for (uint32_t i = 0; i < n; ++i) {
         const uint32_t j = (i + shift) % n;

@@ -58,3 +58,15 @@ size_t iccp_kernel_room(double (*work)[3], const double axis[3], size_t n,
         memmove(work, from, n_corners * sizeof *work);
     return n_corners;
 }
+
+void iccp_kernel_room_middle(double middle[3], double (*corner)[3], size_t n)
+{
+    middle[0] = middle[1] = middle[2] = 0;
+    for (size_t i = 0; i < n; ++i) {
+        const double length = iccp_vec_norm(3, corner[i]);
+        for (int k = 0; k < 3; ++k) {
+            corner[i][k] /= length;
+            middle[k] += corner[i][k] / (double)n;
+        }
+    }
+}

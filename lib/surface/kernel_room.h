@@ -15,4 +15,7 @@ enum { ICCP_ROOM_CORNERS = 8 };
 size_t iccp_kernel_room(double (*work)[3], const double axis[3], size_t n,
                         const double *const *ring);
 
+/* Gives its corners the length 1; their mean. */
+void iccp_kernel_room_middle(double middle[3], double (*corner)[3], size_t n);
+
 #endif

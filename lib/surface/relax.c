@@ -104,14 +104,8 @@ static double energy_towards(iccp_composed_star *star, double q[3])
 static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], double least)
 {
     const size_t n = iccp_kernel_room(r->room, star->p, star->n, star->ring);
-    double middle[3] = {0, 0, 0};
-    for (size_t i = 0; i < n; ++i) {
-        const double length = iccp_vec_norm(3, r->room[i]);
-        for (int k = 0; k < 3; ++k) {
-            r->room[i][k] /= length;
-            middle[k] += r->room[i][k] / (double)n;
-        }
-    }
+    double middle[3];
+    iccp_kernel_room_middle(middle, r->room, n);
     for (size_t i = 0; i <= 2 * n && n >= 3; ++i) {
         double q[3];
         const double share = i < n ? 0.5 : 0.85;

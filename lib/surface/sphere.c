@@ -97,14 +97,8 @@ static double move(drawing *d, uint32_t vertex, double *gain)
 static double jump(drawing *d, uint32_t vertex, const double axis[3], double least)
 {
     const size_t n = iccp_kernel_room(d->room, axis, d->star.n, d->star.ring);
-    double middle[3] = {0, 0, 0};
-    for (size_t i = 0; i < n; ++i) {
-        const double length = iccp_vec_norm(3, d->room[i]);
-        for (int k = 0; k < 3; ++k) {
-            d->room[i][k] /= length;
-            middle[k] += d->room[i][k] / (double)n;
-        }
-    }
+    double middle[3];
+    iccp_kernel_room_middle(middle, d->room, n);
     for (size_t i = 0; i <= n && n >= 3; ++i) {
         double p[3];
         for (int k = 0; k < 3; ++k)
