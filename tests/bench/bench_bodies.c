@@ -10,6 +10,7 @@
 #include "../obj.h"
 #include "../random.h"
 #include "bench.h"
+#include "bench_map.h"
 #include "surface/decimate.h"
 #include "surface/sphere.h"
 
@@ -21,12 +22,6 @@ static const char *const NAME[KINDS] = {"sphere", "cube", "pose"};
 static const double FEWEST = 300, MOST = 2500;
 
 enum { MOST_DRAWN = 50 };
-
-static void tell(void *user, const char *message)
-{
-    (void)user;
-    (void)fprintf(stderr, "    %s\n", message);
-}
 
 /* Into the box from -1 to 1. */
 static void scale(size_t n, double *x)
@@ -133,30 +128,6 @@ static bool draw(icc_domain *d[2], size_t *n_vertices, const obj pose[2], target
     return false;
 }
 
-/* Whether it is of kind mesh, certified. */
-static bool run(const icc_domain *source, const icc_domain *target)
-{
-    const icc_env env = {
-        .size = sizeof env, .threads = 1, .log = getenv("ICC_LOG") != NULL ? tell : NULL};
-    icc_error err = {.size = sizeof err};
-    icc_map_info info = {.size = sizeof info};
-    icc_map *map;
-    const double start = bench_processor_seconds();
-    const icc_status status = icc_map_create(&map, source, target, NULL, &env, &err);
-    const double spent = bench_processor_seconds() - start;
-    if (status != ICC_OK) {
-        printf("%s: %s, %.1f s\n", icc_status_name(status), err.message, spent);
-        return false;
-    }
-    bench_check(icc_map_get_info(map, &info), NULL);
-    printf("%s, %s, %zu left, energy %.4g, %zu tetrahedra, %.1f s\n",
-           info.kind == ICC_MAP_MESH ? "mesh" : "curves",
-           info.certified == 1 ? "certified" : "not certified", info.n_unrepaired, info.energy,
-           info.n_simplices, spent);
-    icc_map_free(map);
-    return info.kind == ICC_MAP_MESH && info.certified == 1;
-}
-
 int main(int argc, char **argv)
 {
     if (argc < 5 || argc % 2 == 0)
@@ -186,8 +157,7 @@ int main(int argc, char **argv)
             printf("%s, %zu vertices, %s: ", slash != NULL ? slash + 1 : argv[3 + 2 * g],
                    n_vertices, NAME[kind]);
             (void)fflush(stdout);
-            n_mesh += run(d[0], d[1]);
-            (void)fflush(stdout);
+            n_mesh += bench_map(d[0], d[1]);
             icc_domain_free(d[0]);
             icc_domain_free(d[1]);
         }

@@ -10,6 +10,7 @@
 
 #include "../obj.h"
 #include "bench.h"
+#include "face_stretch.h"
 #include "surface/decimate.h"
 #include "surface/half_edges.h"
 
@@ -19,58 +20,31 @@ static _Noreturn void fail(const char *what)
     exit(EXIT_FAILURE);
 }
 
-typedef struct stretched {
-    double energy, area[2];
-} stretched;
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = ((const stretched *)a)->energy, y = ((const stretched *)b)->energy;
-    return (x > y) - (x < y);
-}
-
-/* The products of two sides of a face. */
-static void sides(double product[3], const double *x, const uint32_t *v)
-{
-    product[0] = product[1] = product[2] = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const double o = x[3 * v[0] + k], a = x[3 * v[1] + k] - o, b = x[3 * v[2] + k] - o;
-        product[0] += a * a;
-        product[1] += a * b;
-        product[2] += b * b;
-    }
-}
-
-static double area_of(const double p[3])
-{
-    return 0.5 * sqrt(fmax(p[0] * p[2] - p[1] * p[1], 0));
-}
-
 /* By energy; areas sum up to 1 on either side. */
-static stretched *measure(const double *x, const double *y, size_t n, const uint32_t *faces)
+static face_stretch *measure(const double *x, const double *y, size_t n, const uint32_t *faces)
 {
-    stretched *const face = bench_alloc(n, sizeof *face);
+    face_stretch *const face = bench_alloc(n, sizeof *face);
     double area[2] = {0, 0}, p[3], q[3];
     for (size_t f = 0; f < n; ++f) {
-        sides(p, x, faces + 3 * f);
-        sides(q, y, faces + 3 * f);
-        area[0] += area_of(p);
-        area[1] += area_of(q);
+        face_sides(p, x, faces + 3 * f);
+        face_sides(q, y, faces + 3 * f);
+        area[0] += face_area(p);
+        area[1] += face_area(q);
     }
     for (size_t f = 0; f < n; ++f) {
-        sides(p, x, faces + 3 * f);
-        sides(q, y, faces + 3 * f);
-        const double a = area_of(p) / area[0], b = area_of(q) / area[1];
+        face_sides(p, x, faces + 3 * f);
+        face_sides(q, y, faces + 3 * f);
+        const double a = face_area(p) / area[0], b = face_area(q) / area[1];
         const double d = (p[0] * q[2] - 2 * p[1] * q[1] + p[2] * q[0]) / (area[0] * area[1]);
-        face[f] = (stretched){d * (1 / (4 * a * a) + 1 / (4 * b * b)), {a, b}};
+        face[f] = (face_stretch){d * (1 / (4 * a * a) + 1 / (4 * b * b)), {a, b}};
         if (!(face[f].energy > 0 && face[f].energy < 1e8))
             face[f].energy = 1e8;
     }
-    qsort(face, n, sizeof *face, ascending);
+    qsort(face, n, sizeof *face, face_stretch_ascending);
     return face;
 }
 
-static double mean_of(const stretched *face, size_t n)
+static double mean_of(const face_stretch *face, size_t n)
 {
     double mean = 0;
     for (size_t f = 0; f < n; ++f)
@@ -78,7 +52,7 @@ static double mean_of(const stretched *face, size_t n)
     return mean;
 }
 
-static void print_energy(const stretched *face, size_t n)
+static void print_energy(const face_stretch *face, size_t n)
 {
     double below = 0, quantile[2] = {0, 0}, above[2] = {0, 0};
     for (size_t f = 0; f < n; ++f) {
@@ -212,7 +186,7 @@ static void report(const icc_match *match, const char *name)
         if (name != NULL)
             write(name, s == 0 ? "src" : "tgt", size.n_vertices, x[s], size.n_facets, faces);
     }
-    stretched *const face = measure(x[0], x[1], size.n_facets, faces);
+    face_stretch *const face = measure(x[0], x[1], size.n_facets, faces);
     print_energy(face, size.n_facets);
     printf(", overlay %zu, left %zu, off %.1e, angle %.2g", info.n_overlay, size.n_vertices,
            info.off, info.least_angle);
@@ -236,7 +210,7 @@ int main(int argc, char **argv)
     double *const pairs = bench_alloc(n + 1, 6 * sizeof *pairs);
     find_landmarks(pairs, n, &source, &target);
     icc_domain *domain[2] = {domain_of(&source), domain_of(&target)};
-    stretched *const given =
+    face_stretch *const given =
         measure(source.vertices, target.vertices, target.n_faces, target.faces);
     icc_match *match;
     icc_error err = {.size = sizeof err};

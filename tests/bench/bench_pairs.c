@@ -6,12 +6,7 @@
 
 #include "../obj.h"
 #include "bench.h"
-
-static void tell(void *user, const char *message)
-{
-    (void)user;
-    (void)fprintf(stderr, "    %s\n", message);
-}
+#include "bench_map.h"
 
 static const char *name_of(const char *path)
 {
@@ -35,31 +30,11 @@ static icc_domain *read_domain(const char *path)
     return domain;
 }
 
-/* Whether it is of kind mesh. */
-static bool run(const icc_domain *source, const icc_domain *target, const char *from,
-                const char *to)
+/* From one of the two to the other; whether it is of kind mesh, certified. */
+static bool run(const icc_domain *const d[2], const char *const path[2], int from)
 {
-    const icc_env env = {
-        .size = sizeof env, .threads = 1, .log = getenv("ICC_LOG") != NULL ? tell : NULL};
-    icc_error err = {.size = sizeof err};
-    icc_map_info info = {.size = sizeof info};
-    icc_map *map;
-    const double start = bench_processor_seconds();
-    const icc_status status = icc_map_create(&map, source, target, NULL, &env, &err);
-    const double spent = bench_processor_seconds() - start;
-    printf("%s -> %s: ", name_of(from), name_of(to));
-    if (status != ICC_OK) {
-        printf("%s: %s, %.1f s\n", icc_status_name(status), err.message, spent);
-    } else {
-        bench_check(icc_map_get_info(map, &info), NULL);
-        printf("%s, %s, %zu left, energy %.4g, %zu tetrahedra, %.1f s\n",
-               info.kind == ICC_MAP_MESH ? "mesh" : "curves",
-               info.certified == 1 ? "certified" : "not certified", info.n_unrepaired, info.energy,
-               info.n_simplices, spent);
-        icc_map_free(map);
-    }
-    (void)fflush(stdout);
-    return status == ICC_OK && info.kind == ICC_MAP_MESH && info.certified == 1;
+    printf("%s -> %s: ", name_of(path[from]), name_of(path[1 - from]));
+    return bench_map(d[from], d[1 - from]);
 }
 
 int main(int argc, char **argv)
@@ -68,8 +43,9 @@ int main(int argc, char **argv)
     for (int k = 1; k + 1 < argc; k += 2) {
         icc_domain *const d[2] = {read_domain(argv[k]), read_domain(argv[k + 1])};
         n += 2;
-        n_mesh += run(d[0], d[1], argv[k], argv[k + 1]);
-        n_mesh += run(d[1], d[0], argv[k + 1], argv[k]);
+        const char *const path[2] = {argv[k], argv[k + 1]};
+        for (int from = 0; from < 2; ++from)
+            n_mesh += run((const icc_domain *const[]){d[0], d[1]}, path, from);
         icc_domain_free(d[0]);
         icc_domain_free(d[1]);
     }

@@ -6,61 +6,35 @@
 
 #include "../obj.h"
 #include "bench.h"
+#include "face_stretch.h"
 #include "surface/half_edges.h"
 #include "surface/sphere.h"
 #include "surface/sphere_certificate.h"
 
 enum { N_RUNS = 3 };
 
-typedef struct stretched {
-    double energy, area;
-} stretched;
-
-static int ascending(const void *a, const void *b)
-{
-    const double x = ((const stretched *)a)->energy, y = ((const stretched *)b)->energy;
-    return (x > y) - (x < y);
-}
-
-/* The products of two sides of a face. */
-static void sides(double product[3], const double *x, const uint32_t *v)
-{
-    product[0] = product[1] = product[2] = 0;
-    for (size_t k = 0; k < 3; ++k) {
-        const double o = x[3 * v[0] + k], a = x[3 * v[1] + k] - o, b = x[3 * v[2] + k] - o;
-        product[0] += a * a;
-        product[1] += a * b;
-        product[2] += b * b;
-    }
-}
-
-static double area_of(const double p[3])
-{
-    return 0.5 * sqrt(fmax(p[0] * p[2] - p[1] * p[1], 0));
-}
-
 static void print_energy(const obj *o, const double *y)
 {
-    stretched *face = bench_alloc(o->n_faces, sizeof *face);
+    face_stretch *face = bench_alloc(o->n_faces, sizeof *face);
     double area[2] = {0, 0}, p[3], q[3], mean = 0, below = 0, quantile[2] = {0, 0};
     for (size_t f = 0; f < o->n_faces; ++f) {
-        sides(p, o->vertices, o->faces + 3 * f);
-        sides(q, y, o->faces + 3 * f);
-        area[0] += area_of(p);
-        area[1] += area_of(q);
+        face_sides(p, o->vertices, o->faces + 3 * f);
+        face_sides(q, y, o->faces + 3 * f);
+        area[0] += face_area(p);
+        area[1] += face_area(q);
     }
     for (size_t f = 0; f < o->n_faces; ++f) {
-        sides(p, o->vertices, o->faces + 3 * f);
-        sides(q, y, o->faces + 3 * f);
-        const double a = area_of(p) * area[1] / area[0], b = area_of(q);
+        face_sides(p, o->vertices, o->faces + 3 * f);
+        face_sides(q, y, o->faces + 3 * f);
+        const double a = face_area(p) * area[1] / area[0], b = face_area(q);
         const double d = p[0] * q[2] - 2 * p[1] * q[1] + p[2] * q[0];
-        face[f] = (stretched){d * area[1] / area[0] * (1 / (4 * a * a) + 1 / (4 * b * b)),
-                              area_of(p) / area[0]};
-        mean += face[f].energy * face[f].area;
+        face[f] = (face_stretch){d * area[1] / area[0] * (1 / (4 * a * a) + 1 / (4 * b * b)),
+                                 {face_area(p) / area[0], b / area[1]}};
+        mean += face[f].energy * face[f].area[0];
     }
-    qsort(face, o->n_faces, sizeof *face, ascending);
+    qsort(face, o->n_faces, sizeof *face, face_stretch_ascending);
     for (size_t f = 0; f < o->n_faces; ++f) {
-        below += face[f].area;
+        below += face[f].area[0];
         for (int k = 0; k < 2; ++k)
             if (quantile[k] == 0 && below >= (k == 0 ? 0.5 : 0.99))
                 quantile[k] = face[f].energy;
