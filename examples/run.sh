@@ -61,5 +61,7 @@ echo "compare/reparent.py:"
 /usr/bin/python3 -B examples/compare/reparent.py --cells 16
 echo "compare/open_questions.py:"
 /usr/bin/python3 -B examples/compare/open_questions.py --cells 16
+echo "compare/texture.py:"
+/usr/bin/python3 -B examples/compare/texture.py "$out/texture.svg"
 echo "compare/skeleton.py:"
 /usr/bin/python3 -B examples/compare/skeleton.py "$out/skeleton.svg"

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What Huynh and Gingold leave open, tried out and measured: a plaid grid (thesis, chapter 7), C1 interpolation of the
-function that is monotone or not (6.5), the separation of curves that have merged (8), all points of a curve at once (paper, 7).
+function that is monotone or not (6.5), the separation of curves that have merged (8), all points of a curve at once (paper, 7),
+the centre of the extended grassfire transform (4.1).
 
     python3 examples/compare/open_questions.py [--cells N]
 
@@ -220,6 +221,67 @@ def compare_curves(cells):
         print(f"  {function:9}each point by itself: {1e6 * (time.process_time() - begin) / len(points):.1f} us")
 
 
+# ---- the extended grassfire's centre
+
+
+def medial_tree(outline):
+    """Circumcentres of the triangles of an outline with many points, their radii, and which triangles are neighbours: about
+    the medial axis, and a tree."""
+    points = shapes.finer(outline, 8)
+    triangles = stages.triangulate(points, len(points)).astype(int)
+    a, b, c = np.moveaxis(points[triangles], 1, 0)
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    u, v = (ux ** 2 + uy ** 2) / 2 / (ux * vy - uy * vx), (vx ** 2 + vy ** 2) / 2 / (ux * vy - uy * vx)
+    offsets = np.column_stack([vy * u - uy * v, ux * v - vx * u])
+    sides, near = {}, [[] for _ in triangles]
+    for t, corners in enumerate(triangles):
+        for k in range(3):
+            side = frozenset((corners[k], corners[k - 1]))
+            if side in sides:
+                near[t].append(sides[side])
+                near[sides[side]].append(t)
+            sides[side] = t
+    return a + offsets, np.hypot(*offsets.T), near
+
+
+def extended_centre(outline):
+    """Fire burns along the medial axis from its ends, each of which catches fire when the boundary's fire gets there: the
+    middle of the longest way burns last. Liu, Chambers, Letscher, Ju, Extended grassfire transform, 2011."""
+    centres, radii, near = medial_tree(outline)
+
+    def ways_from(start):
+        ways, came, queue = {start: radii[start]}, {}, [start]
+        for t in queue:
+            for other in near[t]:
+                if other not in ways:
+                    ways[other], came[other] = ways[t] + np.hypot(*(centres[other] - centres[t])), t
+                    queue.append(other)
+        return ways, came
+
+    def end(ways):
+        return max(ways, key=lambda t: ways[t] + radii[t])
+
+    ways, came = ways_from(end(ways_from(0)[0]))
+    t = end(ways)
+    half = (ways[t] + radii[t]) / 2
+    while t in came and ways[came[t]] > half:
+        t = came[t]
+    share = (half - ways[came[t]]) / (ways[t] - ways[came[t]])
+    return (1 - share) * centres[came[t]] + share * centres[t]
+
+
+def compare_centres(cells):
+    print(f"the grassfire's centre and the extended one's, {cells} cells, harmonic: collapsed and uncovered, %")
+    star = np.loadtxt(shapes.DATA / "star.txt")
+    for name, outline in (("star", star), ("three legs", shapes.tripus()[0]), ("frog", shapes.frog()[1])):
+        row = f"  {name:12}"
+        for maximum in (None, extended_centre(outline)):
+            chart = libicc.Chart(outline, method="gradient", function="harmonic", cells=cells, maximum=maximum)
+            report, (x, y) = chart.report(), chart.info.maximum
+            row += f" | ({x:5.2f}, {y:5.2f}) {100 * report.collapsed:5.1f}, {100 * report.uncovered:5.2f}"
+        print(row)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--cells", type=int, default=100, help="cells along the longest side")
@@ -228,6 +290,7 @@ def main():
     compare_smooth(cells)
     compare_separated(cells)
     compare_curves(cells)
+    compare_centres(cells)
 
 
 if __name__ == "__main__":
