@@ -143,7 +143,9 @@ typedef struct icc_env {
      *  - "load": an object is read back */
     int32_t (*progress)(void *user, const char *stage, double share);
     /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any
-     *  threads, and returns when all are done. Replaces the library's own threads. */
+     *  threads, and returns when all are done. Replaces the library's own threads. Certificates do
+     *  not rely on it: a task that it leaves out is done by the calling thread after it has
+     *  returned, and one that it runs twice is done once. */
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
     /** Threads that a call may use, including the calling one; 0 and 1 mean one. The others live
      *  only during the call. If one cannot be started, the others do its work; a library built with

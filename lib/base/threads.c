@@ -30,7 +30,6 @@ typedef struct loop {
     iccp_chunk chunk;
     void *argument;
     size_t n, grain, n_chunks;
-    size_t first;       /* chunk that task 0 of a parallel_for round stands for */
     atomic_size_t next; /* next chunk to hand out */
     atomic_bool stop;
     atomic_flag lock; /* guards the two below; held for a few instructions, after failures only */
@@ -108,23 +107,37 @@ static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stag
     return status;
 }
 
+/* Tasks that the caller's parallel_for gets at once: progress is reported between rounds. */
+enum { ROUND = 256 };
+
+typedef struct task_round {
+    loop *l;
+    size_t first; /* chunk that task 0 stands for */
+    atomic_flag taken[ROUND];
+} task_round;
+
 static void round_task(void *argument, size_t index)
 {
-    loop *l = argument;
-    run_chunk(l, l->first + index);
+    task_round *r = argument;
+    if (!atomic_flag_test_and_set(&r->taken[index]))
+        run_chunk(r->l, r->first + index);
 }
 
-/* The caller's parallel_for gets rounds of a fixed size, so that progress is reported between
- * them from the calling thread. */
+/* Certificates must not depend on what a parallel_for leaves out or does twice: each task is done
+ * once, by this thread if need be. */
 static icc_status run_callers_threads(loop *l, const iccp_env *env, const char *stage)
 {
-    enum { ROUND = 256 };
-    for (l->first = 0; l->first < l->n_chunks && !atomic_load(&l->stop); l->first += ROUND) {
-        const icc_status status = iccp_progress(env, stage, (double)l->first / (double)l->n_chunks);
+    task_round r = {.l = l};
+    for (r.first = 0; r.first < l->n_chunks && !atomic_load(&l->stop); r.first += ROUND) {
+        const icc_status status = iccp_progress(env, stage, (double)r.first / (double)l->n_chunks);
         if (status != ICC_OK)
             return status;
-        const size_t left = l->n_chunks - l->first;
-        env->parallel_for(env->user, left < ROUND ? left : ROUND, round_task, l);
+        const size_t left = l->n_chunks - r.first, n = left < ROUND ? left : ROUND;
+        for (size_t k = 0; k < n; ++k)
+            atomic_flag_clear(&r.taken[k]);
+        env->parallel_for(env->user, n, round_task, &r);
+        for (size_t k = 0; k < n; ++k)
+            round_task(&r, k);
     }
     return ICC_OK;
 }

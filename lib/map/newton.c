@@ -6,192 +6,13 @@
 #include "map/dirichlet.h"
 #include "map/newton_parts.h"
 #include "map/truncated_cg.h"
-#include "map/untangling.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Conjugate gradients end at this residual; at the second one where one simplex has more than this
- * SHARE of the energy, so that the step is nearly all about it. */
-static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3, SHARE = 0.5;
-
-/* In space, elements whose gradients and Hessians wait to be summed, and that a thread takes of
- * these. */
-enum { WAITING = 1024, FEW = 64 };
-
-/* Points whose sums a thread begins at once. */
-enum { POINTS = 256 };
-
-/* ---- sums over the elements ---- */
-
-/* A loop over the elements, or over the parts of the assembly. */
-typedef struct loop {
-    iccp_newton *s;
-    iccp_energy energy;
-    double epsilon;
-    size_t first; /* of the elements that wait */
-} loop;
-
-static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, iccp_energy energy,
-                                    double epsilon)
-{
-    const double *image[4], *element = iccp_newton_images(dim, s, e, image);
-    return energy == ICCP_UNTANGLE ? iccp_untangling_energy(dim, element, image, epsilon)
-                                   : iccp_dirichlet_energy(dim, element, image);
-}
-
-static icc_status find_terms(void *argument, size_t begin, size_t end)
-{
-    const loop *l = argument;
-    for (size_t e = begin; e < end; ++e)
-        l->s->term[e] = l->s->map.dim == 2 ? energy_of(2, l->s, e, l->energy, l->epsilon)
-                                           : energy_of(3, l->s, e, l->energy, l->epsilon);
-    return ICC_OK;
-}
-
-/* With threads the terms are found first; their sum has one order. */
-static ICCP_INLINE double sum_energy(size_t dim, const iccp_newton *s, iccp_energy energy,
-                                     double epsilon)
-{
-    const size_t n = s->assembly.n_elements;
-    const bool found = iccp_has_threads(&s->threads) && n > ICCP_NEWTON_GRAIN;
-    double sum = 0;
-    if (found)
-        iccp_newton_run(s, n, ICCP_NEWTON_GRAIN, find_terms,
-                        &(loop){(iccp_newton *)s, energy, epsilon, 0});
-    for (size_t e = 0; e < n && sum < HUGE_VAL; ++e)
-        sum += found ? s->term[e] : energy_of(dim, s, e, energy, epsilon);
-    return sum;
-}
-
-double iccp_newton_energy(const iccp_newton *newton, iccp_energy energy, double epsilon)
-{
-    return newton->map.dim == 2 ? sum_energy(2, newton, energy, epsilon)
-                                : sum_energy(3, newton, energy, epsilon);
-}
-
-static ICCP_INLINE double find_least(size_t dim, const iccp_newton *s, size_t *n_bad)
-{
-    double least = HUGE_VAL, j[9];
-    *n_bad = 0;
-    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
-        const double *image[4], *element = iccp_newton_images(dim, s, e, image);
-        const double det = iccp_element_jacobian(dim, element, image, j);
-        least = iccp_min(least, det);
-        *n_bad += det <= 0;
-    }
-    return least;
-}
-
-double iccp_newton_least(const iccp_newton *newton, size_t *n_bad)
-{
-    return newton->map.dim == 2 ? find_least(2, newton, n_bad) : find_least(3, newton, n_bad);
-}
-
-static void find_local(const loop *l, size_t e, iccp_local *local)
-{
-    const size_t dim = l->s->map.dim;
-    const double *image[4], *element = iccp_newton_images(dim, l->s, e, image);
-    if (l->energy == ICCP_UNTANGLE)
-        iccp_untangling_local(dim, element, image, l->epsilon, local);
-    else
-        iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
-}
-
-/* In the plane, and not while it is untangled, several side by side. */
-static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *local)
-{
-    iccp_dirichlet_batch batch;
-    if (l->s->map.dim == 3 || l->energy == ICCP_UNTANGLE) {
-        for (size_t i = 0; i < n; ++i)
-            find_local(l, e[i], &local[i]);
-        return;
-    }
-    for (size_t i = 0; i < ICCP_DIRICHLET_LANES; ++i) {
-        const double *image[3];
-        batch.element[i] = iccp_newton_images(2, l->s, e[i < n ? i : 0], image);
-        for (size_t k = 0; k < 3; ++k)
-            batch.image[k][i] = image[k];
-    }
-    iccp_dirichlet_locals(iccp_simd(), &batch, l->energy == ICCP_DIRICHLET_MAJORISED, local);
-}
-
-/* Elements list[begin] .. list[end - 1], or begin .. end - 1. */
-static void add_elements(const loop *l, size_t part, const uint32_t *list, size_t begin, size_t end)
-{
-    iccp_local local[ICCP_DIRICHLET_LANES];
-    size_t e[ICCP_DIRICHLET_LANES], n;
-    for (size_t k = begin; k < end; k += n) {
-        n = end - k < ICCP_DIRICHLET_LANES ? end - k : ICCP_DIRICHLET_LANES;
-        for (size_t i = 0; i < n; ++i)
-            e[i] = list != NULL ? list[k + i] : k + i;
-        find_some(l, n, e, local);
-        for (size_t i = 0; i < n; ++i)
-            iccp_assembly_add(&l->s->assembly, part, e[i], &local[i]);
-    }
-}
-
-static icc_status begin_sums(void *argument, size_t begin, size_t end)
-{
-    const loop *l = argument;
-    iccp_assembly_begin(&l->s->assembly, begin, end);
-    return ICC_OK;
-}
-
-static icc_status assemble_parts(void *argument, size_t begin, size_t end)
-{
-    const loop *l = argument;
-    const iccp_assembly *a = &l->s->assembly;
-    for (size_t part = begin; part < end; ++part)
-        add_elements(l, part, a->element, a->first_element[part], a->first_element[part + 1]);
-    return ICC_OK;
-}
-
-static icc_status find_locals(void *argument, size_t begin, size_t end)
-{
-    const loop *l = argument;
-    for (size_t k = begin; k < end; ++k)
-        find_local(l, l->first + k, &l->s->local[k]);
-    return ICC_OK;
-}
-
-/* In space most elements would be in several parts. What they add takes long to find, and little to
- * sum in order. */
-static void assemble_some(loop *l)
-{
-    const size_t left = l->s->assembly.n_elements - l->first, n = left < WAITING ? left : WAITING;
-    iccp_newton_run(l->s, n, FEW, find_locals, l);
-    for (size_t k = 0; k < n; ++k)
-        iccp_assembly_add(&l->s->assembly, ICCP_ALL_PARTS, l->first + k, &l->s->local[k]);
-}
-
-/* By one thread. */
-static void assemble_in_turn(iccp_newton *s, iccp_energy energy, double epsilon)
-{
-    const loop l = {s, energy, epsilon, 0};
-    iccp_assembly_begin(&s->assembly, 0, s->assembly.n_free);
-    add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
-    iccp_assembly_end(&s->assembly);
-}
-
-/* Unless that has been done ahead. */
-static void assemble(iccp_newton *s, iccp_energy energy, double epsilon)
-{
-    loop l = {s, energy, epsilon, 0};
-    const bool is_done = s->is_ahead && s->ahead == energy;
-    s->is_ahead = false;
-    if (is_done)
-        return;
-    iccp_newton_run(s, s->assembly.n_free, POINTS, begin_sums, &l);
-    if (s->local != NULL)
-        for (; l.first < s->assembly.n_elements; l.first += WAITING)
-            assemble_some(&l);
-    else if (s->assembly.n_parts > 1 && iccp_has_threads(&s->threads))
-        iccp_newton_run(s, s->assembly.n_parts, 1, assemble_parts, &l);
-    else
-        add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
-    iccp_assembly_end(&s->assembly);
-}
+/* Conjugate gradients end at this residual; at the second one where one simplex has most of the
+ * energy, so that the step is nearly all about it. */
+static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3;
 
 /* ---- set-up ---- */
 
@@ -212,7 +33,7 @@ static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_
     if (k == 0)
         return iccp_newton_order(&s->assembly, &s->factor, env);
     (void)find_elements(s, 0, s->assembly.n_elements);
-    assemble_in_turn(s, s->ahead, 0);
+    iccp_newton_sum_ahead(s, s->ahead);
     return ICC_OK;
 }
 
@@ -265,7 +86,7 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     if (has_terms)
         s->term = iccp_alloc(memory, s->assembly.n_elements, sizeof *s->term);
     if (has_locals)
-        s->local = iccp_alloc(memory, WAITING, sizeof *s->local);
+        s->local = iccp_alloc(memory, ICCP_NEWTON_WAITING, sizeof *s->local);
     if (s->element == NULL || s->step == NULL || s->saved == NULL || s->work == NULL ||
         (has_terms && s->term == NULL) || (has_locals && s->local == NULL))
         status = ICC_ERR_MEMORY;
@@ -306,24 +127,12 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
     return ICC_OK;
 }
 
-/* Whether one simplex has most of the Dirichlet energy. */
-static bool has_worst(const iccp_newton *s)
-{
-    double sum = 0, most = 0;
-    iccp_newton_run(s, s->assembly.n_elements, ICCP_NEWTON_GRAIN, find_terms,
-                    &(loop){(iccp_newton *)s, ICCP_DIRICHLET, 0, 0});
-    for (size_t e = 0; e < s->assembly.n_elements; ++e) {
-        sum += s->term[e];
-        most = iccp_max(most, s->term[e]);
-    }
-    return most > SHARE * sum;
-}
-
 /* In space. */
 static icc_status solve_by_directions(iccp_newton *s, const iccp_symmetric *hessian,
                                       iccp_energy energy, const iccp_env *env)
 {
-    const bool untangles = energy == ICCP_UNTANGLE, is_fine = !untangles && has_worst(s);
+    const bool untangles = energy == ICCP_UNTANGLE,
+               is_fine = !untangles && iccp_newton_has_worst(s);
     return iccp_truncated_cg(hessian, s->assembly.gradient, s->step,
                              is_fine ? FINE_RESIDUAL : RESIDUAL, s->work,
                              untangles ? "repair" : "improve", env);
@@ -334,7 +143,7 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
 {
     iccp_newton *s = newton;
     const double *gradient = s->assembly.gradient;
-    assemble(s, energy, epsilon);
+    iccp_newton_sum(s, energy, epsilon);
     const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
     const icc_status status = s->map.dim == 2 ? solve_directly(s, &hessian, env)
                                               : solve_by_directions(s, &hessian, energy, env);
@@ -401,7 +210,7 @@ icc_status iccp_newton_answer(iccp_newton *newton, double *motion, double *rest,
                               const iccp_env *env)
 {
     iccp_newton *s = newton;
-    assemble(s, ICCP_DIRICHLET, 0);
+    iccp_newton_sum(s, ICCP_DIRICHLET, 0);
     const iccp_symmetric hessian = iccp_assembly_hessian(&s->assembly);
     memset(s->saved, 0, hessian.n * sizeof *s->saved);
     for (size_t e = 0; e < s->assembly.n_elements; ++e)

@@ -20,6 +20,9 @@ struct iccp_newton_plan {
 /* Elements that a thread takes at once. */
 enum { ICCP_NEWTON_GRAIN = 512 };
 
+/* In space with threads, elements whose gradients and Hessians wait to be summed. */
+enum { ICCP_NEWTON_WAITING = 1024 };
+
 /* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
 static inline void iccp_newton_run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk,
                                    void *argument)
@@ -38,5 +41,13 @@ static ICCP_INLINE const double *iccp_newton_images(size_t dim, const iccp_newto
 icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env);
 icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor,
                               const iccp_env *env);
+
+/* The gradient and the Hessian at the images as they are, unless they have been summed ahead: by
+ * this thread alone, before there are parts. */
+void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon);
+void iccp_newton_sum_ahead(iccp_newton *newton, iccp_energy energy);
+
+/* Whether one simplex has more than half of the Dirichlet energy. Sets the terms. */
+bool iccp_newton_has_worst(const iccp_newton *newton);
 
 #endif

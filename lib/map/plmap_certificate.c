@@ -132,29 +132,30 @@ static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const i
 
 /* ---- triangles ---- */
 
+/* What is good is counted, so that what was not looked at counts as a fault. */
 typedef struct count {
     const iccp_plmap *map;
-    atomic_size_t n_faults, n_open;
+    atomic_size_t n_good, n_open;
 } count;
 
-/* Triangles that are not positive, edges whose two sides disagree, and edges with one side. */
+/* Triangles that are positive before and after, their edges that have one side or two that agree,
+ * and those with one. */
 static icc_status count_some(void *argument, size_t begin, size_t end)
 {
     count *all = argument;
     const iccp_plmap *map = all->map;
-    size_t n_faults = 0, n_open = 0;
+    size_t n_good = 0, n_open = 0;
     for (uint32_t t = (uint32_t)begin; t < end; ++t)
-        n_faults += !iccp_plmap_positive_point(map, t) || !iccp_plmap_positive_image(map, t);
+        n_good += iccp_plmap_positive_point(map, t) && iccp_plmap_positive_image(map, t);
     for (uint32_t c = 3 * (uint32_t)begin; c < 3 * end; ++c) {
         const uint32_t twin = map->corners.twin[c];
         n_open += twin == ICCP_NO_NEIGHBOUR;
-        if (twin != ICCP_NO_NEIGHBOUR)
-            n_faults +=
-                map->corners.twin[twin] != c ||
-                map->corners.vertex[iccp_after(twin)] != map->corners.vertex[iccp_before(c)] ||
-                map->corners.vertex[iccp_before(twin)] != map->corners.vertex[iccp_after(c)];
+        n_good += twin == ICCP_NO_NEIGHBOUR ||
+                  (map->corners.twin[twin] == c &&
+                   map->corners.vertex[iccp_after(twin)] == map->corners.vertex[iccp_before(c)] &&
+                   map->corners.vertex[iccp_before(twin)] == map->corners.vertex[iccp_after(c)]);
     }
-    atomic_fetch_add(&all->n_faults, n_faults);
+    atomic_fetch_add(&all->n_good, n_good);
     atomic_fetch_add(&all->n_open, n_open);
     return ICC_OK;
 }
@@ -166,7 +167,8 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
     count all = {.map = map};
     quiet.progress = NULL;
     (void)iccp_for_chunks(&quiet, "check", n_triangles, GRAIN, count_some, &all);
-    const size_t n_faults = atomic_load(&all.n_faults), n_open = atomic_load(&all.n_open);
+    const size_t n_faults = 4 * n_triangles - atomic_load(&all.n_good);
+    const size_t n_open = atomic_load(&all.n_open);
     if (n_faults > 0)
         return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
                          n_faults);

@@ -74,18 +74,19 @@ static bool has_image(const iccp_simplicial_map *map, size_t simplex)
     return is_finite;
 }
 
+/* What is good is counted, so that what was not looked at counts as inverted. */
 typedef struct counting {
     const iccp_simplicial_map *map;
-    atomic_size_t n;
+    atomic_size_t n_good;
 } counting;
 
 static icc_status count_some(void *argument, size_t begin, size_t end)
 {
     counting *c = argument;
-    size_t n = 0;
+    size_t n_good = 0;
     for (size_t s = begin; s < end; ++s)
-        n += !has_image(c->map, s) || !iccp_simplicial_is_positive(c->map, s);
-    atomic_fetch_add(&c->n, n);
+        n_good += has_image(c->map, s) && iccp_simplicial_is_positive(c->map, s);
+    atomic_fetch_add(&c->n_good, n_good);
     return ICC_OK;
 }
 
@@ -93,7 +94,7 @@ size_t iccp_simplicial_count_inverted(const iccp_simplicial_map *map)
 {
     counting c = {.map = map};
     (void)count_some(&c, 0, map->n_simplices);
-    return atomic_load(&c.n);
+    return map->n_simplices - atomic_load(&c.n_good);
 }
 
 size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_env *env)
@@ -102,7 +103,7 @@ size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_
     counting c = {.map = map};
     quiet.progress = NULL;
     (void)iccp_for_chunks(&quiet, "check", map->n_simplices, GRAIN, count_some, &c);
-    return atomic_load(&c.n);
+    return map->n_simplices - atomic_load(&c.n_good);
 }
 
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex)

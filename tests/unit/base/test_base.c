@@ -459,13 +459,29 @@ static void run_on_two(void *user, size_t n, icc_task task, void *argument)
     ck_assert_int_eq(pthread_join(thread, NULL), 0);
 }
 
+/* Some twice, some never. */
+static void run_badly(void *user, size_t n, icc_task task, void *argument)
+{
+    ++*(size_t *)user;
+    for (size_t i = 0; i < n; i += 3) {
+        task(argument, i);
+        task(argument, i);
+    }
+}
+
+static void run_nothing(void *user, size_t n, icc_task task, void *argument)
+{
+    (void)n, (void)task, (void)argument;
+    ++*(size_t *)user;
+}
+
 START_TEST(the_callers_threads_are_used)
 {
-    for (int i = 0; i < 2; ++i) {
+    void (*const run[])(void *, size_t, icc_task, void *) = {run_backwards, run_on_two, run_badly,
+                                                             run_nothing};
+    for (int i = 0; i < 4; ++i) {
         size_t n_rounds = 0;
-        const icc_env env = {.size = sizeof env,
-                             .user = &n_rounds,
-                             .parallel_for = i == 0 ? run_backwards : run_on_two};
+        const icc_env env = {.size = sizeof env, .user = &n_rounds, .parallel_for = run[i]};
         job j = new_job(SIZE_MAX, SIZE_MAX);
         ck_assert_int_eq(run_loop(&j, N_ITEMS, &env), ICC_OK);
         check_done_once(j.done, N_ITEMS);

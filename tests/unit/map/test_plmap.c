@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "map/improve.h"
 #include "map/newton.h"
+#include "map/plmap_certificate.h"
 #include "map/repair.h"
 
 #include "../../faulty.h"
@@ -599,6 +600,39 @@ START_TEST(failures_leave_valid_maps)
 }
 END_TEST
 
+/* A caller's loop that leaves all out but the first task, which it runs over and over. */
+static void run_first(void *user, size_t n, icc_task task, void *argument)
+{
+    (void)user;
+    for (size_t i = 0; i < n; ++i)
+        task(argument, 0);
+}
+
+/* The last vertex lands far away. */
+START_TEST(no_loop_of_the_callers_hides_what_is_inverted)
+{
+    const shape s = shape_l();
+    iccp_plmap map = map_of(&s, 40, wave, 0.7);
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map);
+    iccp_env env = default_env();
+    ck_assert_uint_gt(map.corners.n_triangles, 1500);
+    for (int k = 0; k < 2; ++k) {
+        env.parallel_for = k == 0 ? NULL : run_first;
+        ck_assert_int_eq(iccp_plmap_certify(&map, &env, NULL), ICC_OK);
+        ck_assert_uint_eq(iccp_simplicial_count_at_once(&simplicial, &env), 0);
+    }
+    map.images[2 * (map.n_vertices - 1)] += 10;
+    const size_t n = iccp_plmap_count_inverted(&map);
+    ck_assert_uint_gt(n, 0);
+    for (int k = 0; k < 2; ++k) {
+        env.parallel_for = k == 0 ? NULL : run_first;
+        ck_assert_int_eq(iccp_plmap_certify(&map, &env, NULL), ICC_ERR_CERTIFICATE);
+        ck_assert_uint_eq(iccp_simplicial_count_at_once(&simplicial, &env), n);
+    }
+    iccp_plmap_free(&map);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("plmap");
@@ -619,6 +653,7 @@ int main(void)
     tcase_add_test(tests, repairs_take_no_more_work_than_there_is);
     tcase_add_test(tests, a_trial_ends_what_takes_longer);
     tcase_add_test(tests, failures_leave_valid_maps);
+    tcase_add_test(tests, no_loop_of_the_callers_hides_what_is_inverted);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
