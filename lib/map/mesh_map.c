@@ -8,6 +8,7 @@
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "domain/features.h"
+#include "map/candidate.h"
 #include "map/feature_start.h"
 #include "map/fit.h"
 #include "map/isotopy.h"
@@ -25,6 +26,11 @@ static const double TRIAL_SHARE = 0.05;
 
 /* Of a start between domains with features: the energy from which on it counts as entangled. */
 static const double ENTANGLED = 20;
+
+/* Triangles flatter than this, as outlines with much detail have them: where there are more than
+ * A_FEW, the start has been inverted in places in each of seven pairs of more than 400 vertices. */
+static const double FLAT = 0.15;
+enum { A_FEW = 10 };
 
 /* ---- start ---- */
 
@@ -103,6 +109,19 @@ static icc_status run_start(void *argument, size_t k, const iccp_env *env, icc_e
     return iccp_newton_plan_create(&job->plan, &map, env);
 }
 
+/* Whether edges are likely to be flipped before the first step, so that what would be known of the
+ * mesh as it is would be of no use. */
+static bool is_doubtful(const iccp_planar *mesh)
+{
+    size_t n_flat = 0;
+    for (size_t t = 0; t < mesh->n_triangles && n_flat <= A_FEW; ++t) {
+        const uint32_t *v = mesh->triangles + 3 * t;
+        n_flat += iccp_roundness(mesh->points + 2 * (size_t)v[0], mesh->points + 2 * (size_t)v[1],
+                                 mesh->points + 2 * (size_t)v[2]) < FLAT;
+    }
+    return n_flat > A_FEW;
+}
+
 /* The map of the source chart's mesh that the two charts give, which may be inverted in places.
  * `plan`: of that mesh, where it can be made meanwhile and is likely to be of use; or NULL. */
 static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart *source,
@@ -112,7 +131,7 @@ static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart
     const iccp_planar *mesh = source->mesh;
     start_job job = {source, target, NULL, NULL};
     const bool plans = is_improved && iccp_has_threads(env) && env->budget == NULL &&
-                       iccp_all_are_movable(mesh->n_triangles);
+                       iccp_all_are_movable(mesh->n_triangles) && !is_doubtful(mesh);
     job.images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *job.images);
     icc_status status = ICC_ERR_MEMORY;
     if (job.images != NULL)

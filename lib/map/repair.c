@@ -2,6 +2,7 @@
 #include "map/repair.h"
 
 #include "base/minmax.h"
+#include "base/threads.h"
 #include "map/candidate.h"
 #include "math/predicates.h"
 
@@ -16,6 +17,9 @@ enum { A_FEW = 10, MANY = 20, FEW = 50 };
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is
  * missing. */
 enum { MOST_GROWTH = 2 };
+
+/* Triangles whose signs a thread finds at once. */
+enum { GRAIN = 1024 };
 
 /* A flipped edge must not make triangles that are flatter than this, as points along one side of
  * the polygon would: their energy would never come down. */
@@ -51,19 +55,50 @@ static bool is_worth_flipping(const iccp_plmap *map, uint32_t corner)
     return flipped > sign_of(x, a, b) + sign_of(y, b, a);
 }
 
+typedef struct signs {
+    const iccp_plmap *map;
+    uint8_t *is_bad; /* of each triangle: its image is not positive */
+} signs;
+
+static icc_status find_signs(void *argument, size_t begin, size_t end)
+{
+    const signs *s = argument;
+    for (uint32_t t = (uint32_t)begin; t < end; ++t)
+        s->is_bad[t] = !iccp_plmap_positive_image(s->map, t);
+    return ICC_OK;
+}
+
 /* Each flip raises the number of positive images, so this ends. */
-static void flip_edges(iccp_plmap *map)
+static void flip_bad(iccp_plmap *map, uint8_t *is_bad)
 {
     bool flipped = true;
     while (flipped) {
         flipped = false;
         for (uint32_t t = 0; t < map->corners.n_triangles; ++t)
-            for (uint32_t c = 3 * t; c < 3 * t + 3 && !iccp_plmap_positive_image(map, t); ++c)
+            for (uint32_t c = 3 * t; c < 3 * t + 3 && is_bad[t]; ++c)
                 if (is_worth_flipping(map, c)) {
+                    const uint32_t other = map->corners.twin[c] / 3;
                     iccp_flip_edge(&map->corners, c);
+                    is_bad[t] = !iccp_plmap_positive_image(map, t);
+                    is_bad[other] = !iccp_plmap_positive_image(map, other);
                     flipped = true;
                 }
     }
+}
+
+static icc_status flip_edges(iccp_plmap *map, const iccp_env *env)
+{
+    const size_t n = map->corners.n_triangles;
+    iccp_env quiet = *env;
+    signs s = {map, iccp_alloc(&env->memory, n, sizeof *s.is_bad)};
+    if (s.is_bad == NULL)
+        return ICC_ERR_MEMORY;
+    quiet.progress = NULL;
+    const icc_status status = iccp_for_chunks(&quiet, "repair", n, GRAIN, find_signs, &s);
+    if (status == ICC_OK)
+        flip_bad(map, s.is_bad);
+    iccp_free(&env->memory, s.is_bad);
+    return status;
 }
 
 /* ---- untangling and refining ---- */
@@ -74,16 +109,16 @@ static icc_status untangle_patches(iccp_plmap *map, double trial_work, iccp_work
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
-    icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    icc_status status = marks != NULL ? flip_edges(map, env) : ICC_ERR_MEMORY;
     const iccp_trial trial = {A_FEW + map->corners.n_triangles / MANY, trial_work};
-    flip_edges(map);
     *n_left = iccp_simplicial_count_at_once(&simplicial, env);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
         status = iccp_untangle_patches(&simplicial, k, marks, k == 0 ? &trial : NULL, work, &part);
+        if (status == ICC_OK)
+            status = flip_edges(map, env);
         if (status != ICC_OK)
             break;
-        flip_edges(map);
         *n_left = iccp_simplicial_count_at_once(&simplicial, env);
         if (*n_left > trial.most)
             break;
@@ -131,6 +166,10 @@ icc_status iccp_repair(iccp_plmap *map, double trial_work, iccp_work *work, size
 {
     iccp_plmap start;
     const size_t most = MOST_GROWTH * map->corners.n_triangles;
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+    if (*n_left == 0)
+        return iccp_cut_chords(map);
     icc_status status = iccp_plmap_copy(&start, map, &env->memory);
     if (status != ICC_OK)
         return status;
