@@ -79,14 +79,26 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
  * the mesh: side by side, where that is. */
 typedef struct start_job {
     const icc_chart *source, *target;
-    double *images;
+    iccp_plmap *pl;
     iccp_newton_plan *plan;
 } start_job;
 
-static icc_status find_all_images(const start_job *job, const iccp_env *env, icc_error *err)
+/* What it takes to find images: a chart that is ready, and room. */
+static icc_status prepare(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
-    charts c = {job->source, job->target, &env->memory, job->images, SIZE_MAX};
-    icc_status status = iccp_chart_ready(job->target, true);
+    const start_job *job = argument;
+    (void)err;
+    return k == 0 ? iccp_chart_ready(job->target, true)
+                  : iccp_plmap_create(
+                        job->pl, job->source->mesh, job->source->domain, NULL,
+                        sqrt(job->target->domain->measure / job->source->domain->measure),
+                        &env->memory);
+}
+
+static icc_status find_all_images(start_job *job, const iccp_env *env, icc_error *err)
+{
+    icc_status status = iccp_side_by_side(env, 2, prepare, job, err);
+    charts c = {job->source, job->target, &env->memory, job->pl->images, SIZE_MAX};
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "trace", job->source->mesh->n_vertices, 256, find_images, &c);
     if (iccp_is_point_status(status) && status != ICC_OK)
@@ -129,19 +141,11 @@ static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart
                         icc_error *err)
 {
     const iccp_planar *mesh = source->mesh;
-    start_job job = {source, target, NULL, NULL};
+    start_job job = {source, target, pl, NULL};
     const bool plans = is_improved && iccp_has_threads(env) && env->budget == NULL &&
                        iccp_all_are_movable(mesh->n_triangles) && !is_doubtful(mesh);
-    job.images = iccp_alloc(&env->memory, mesh->n_vertices, 2 * sizeof *job.images);
-    icc_status status = ICC_ERR_MEMORY;
-    if (job.images != NULL)
-        status = iccp_side_by_side(env, plans ? 2 : 1, run_start, &job, err);
-    if (status == ICC_OK)
-        status = iccp_plmap_create(pl, mesh, source->domain, job.images,
-                                   sqrt(target->domain->measure / source->domain->measure),
-                                   &env->memory);
+    const icc_status status = iccp_side_by_side(env, plans ? 2 : 1, run_start, &job, err);
     pl->plan = *plan = job.plan;
-    iccp_free(&env->memory, job.images);
     return status;
 }
 

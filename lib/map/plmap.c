@@ -61,7 +61,8 @@ icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc
     const icc_status status =
         iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles, stretch, memory);
     if (status == ICC_OK)
-        fill(map, mesh->points, images, mesh->triangles, mesh->twins);
+        fill(map, mesh->points, images != NULL ? images : mesh->points, mesh->triangles,
+             mesh->twins);
     for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
         map->fixed[v] = v < mesh->n_boundary ? iccp_plmap_sense(domain) : ICCP_FREE;
         map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;

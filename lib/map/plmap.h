@@ -38,7 +38,7 @@ typedef struct iccp_plmap {
 icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
                             const iccp_memory *memory);
 
-/* Copies the mesh of a domain. `images`: 2 n_vertices. */
+/* Copies the mesh of a domain. `images`: 2 n_vertices, or NULL for the points themselves. */
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
                              const double *images, double stretch, const iccp_memory *memory);
 icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory);

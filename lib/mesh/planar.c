@@ -25,6 +25,14 @@ static double facet_length(const icc_domain *domain, size_t facet)
     return iccp_hypot(b[0] - a[0], b[1] - a[1]);
 }
 
+/* Without a root, which tells it of most facets that are. */
+static bool is_shorter(const icc_domain *domain, size_t facet, double step)
+{
+    const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet];
+    const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * facet + 1];
+    return fabs(b[0] - a[0]) + fabs(b[1] - a[1]) < 0.99 * step;
+}
+
 static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cells)
 {
     double perimeter = 0;
@@ -33,7 +41,8 @@ static void raise_pieces(uint32_t *pieces, const icc_domain *domain, int32_t cel
     const double step =
         iccp_max(iccp_planar_step(domain, cells), perimeter / ((double)cells * cells));
     for (size_t f = 0; f < domain->n_facets; ++f)
-        pieces[f] = (uint32_t)iccp_max(pieces[f], ceil(facet_length(domain, f) / step));
+        if (!is_shorter(domain, f, step))
+            pieces[f] = (uint32_t)iccp_max(pieces[f], ceil(facet_length(domain, f) / step));
 }
 
 void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain *b, int32_t cells)
