@@ -143,8 +143,7 @@ static icc_status advance(carry *c, double *share, double *limit, const iccp_env
 static icc_status correct(const carry *c, iccp_work *work, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = c->as->see(c->map);
-    iccp_improvement ignored = {0};
-    return iccp_improve_images(&simplicial, &CORRECTION, work, &ignored, env);
+    return iccp_improve_images(&simplicial, &CORRECTION, work, NULL, env);
 }
 
 icc_status iccp_carry_by(const iccp_carriage *carriage, void *map, const icc_domain *target,

@@ -7,6 +7,7 @@
  * corners go back. */
 #include "map/descent.h"
 
+#include "base/threads.h"
 #include "map/candidate.h"
 #include "map/movable.h"
 #include "map/newton.h"
@@ -21,25 +22,25 @@ static const double TYPICAL_STEPS = 8;
  * where it is some 1e-8 of the domain across. */
 static const double LEAST_ROUNDNESS = 1e-8;
 
-icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
-                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
+                          const iccp_descent *descent, iccp_work *work,
+                          iccp_improvement *improvement, const iccp_env *env)
 {
     improvement->is_converged = false;
     if (!iccp_work_fits(work, map->n_simplices))
         return ICC_OK;
-    iccp_newton newton;
     const iccp_energy first = descent->majorised > 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
     uint8_t *movable;
     icc_status status = iccp_movable_create(&movable, map, env);
     if (status == ICC_OK)
-        status = iccp_newton_create(&newton, map, movable, &first, &part);
+        status = iccp_newton_create(newton, map, movable, &first, &part);
     iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;
-    double energy = iccp_newton_energy(&newton, ICCP_DIRICHLET, 0);
+    double energy = iccp_newton_energy(newton, ICCP_DIRICHLET, 0);
     /* Doubles may take what is positive for flat, and no step is known then. */
-    const size_t n_free = map->dim == 2 || energy < HUGE_VAL ? newton.assembly.n_free : 0;
+    const size_t n_free = map->dim == 2 || energy < HUGE_VAL ? newton->assembly.n_free : 0;
     size_t n_slow = 0;
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
                        iccp_work_take(work, map->n_simplices);
@@ -50,10 +51,10 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
         part = iccp_round(env, k + 1, TYPICAL_STEPS);
         status = iccp_progress(&part, "improve", 0);
         if (status == ICC_OK)
-            status = iccp_newton_solve(&newton, model, 0, &slope, &part);
+            status = iccp_newton_solve(newton, model, 0, &slope, &part);
         if (status != ICC_OK)
             break;
-        const double after = iccp_newton_move(&newton, model, 0, energy, slope);
+        const double after = iccp_newton_move(newton, model, 0, energy, slope);
         const double gain = energy - after;
         energy = after;
         ++improvement->n_iterations;
@@ -64,8 +65,51 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
         if (n_slow == (descent->is_hasty ? 1 : 2) || improvement->is_converged)
             break;
     }
-    iccp_newton_free(&newton);
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
+}
+
+typedef struct ending {
+    const iccp_simplicial_map *map;
+    iccp_newton newton;
+    double energy;
+} ending;
+
+/* To give the memory back takes about as long as to sum the energy. */
+static icc_status end(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    ending *e = argument;
+    (void)err;
+    if (k == 0)
+        e->energy = iccp_simplicial_energy_at_once(e->map, env);
+    else
+        iccp_newton_free(&e->newton);
+    return ICC_OK;
+}
+
+/* `energy`: the map's at the end; NULL if nobody asks. */
+static icc_status improve(const iccp_simplicial_map *map, const iccp_descent *descent,
+                          iccp_work *work, iccp_improvement *improvement, double *energy,
+                          const iccp_env *env)
+{
+    ending e = {.map = map, .newton.assembly.memory = env->memory};
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    const icc_status status = go_down(&e.newton, map, descent, work, improvement, env);
+    if (energy == NULL)
+        iccp_newton_free(&e.newton);
+    else
+        (void)iccp_side_by_side(&quiet, 2, end, &e, NULL);
+    if (energy != NULL)
+        *energy = e.energy;
+    return status;
+}
+
+icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
+                               iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
+{
+    iccp_improvement ignored = {0};
+    return improvement != NULL ? improve(map, descent, work, improvement, &improvement->energy, env)
+                               : improve(map, descent, work, &ignored, NULL, env);
 }
 
 /* ---- both sides ---- */
@@ -137,7 +181,7 @@ icc_status iccp_improve_both_sides(iccp_plmap *map, const iccp_descent *descent,
         if (status == ICC_OK) {
             const double energy = iccp_simplicial_energy_at_once(&simplicial, env);
             memcpy(r.before, map->images, 2 * n * sizeof *r.before);
-            status = iccp_improve_images(&simplicial, descent, work, improvement, &part[side]);
+            status = improve(&simplicial, descent, work, improvement, NULL, &part[side]);
             send_back_spoilt(&r, energy);
         }
         iccp_plmap_swap(map);

@@ -23,7 +23,8 @@ typedef struct iccp_descent {
 
 /* Lowers the symmetric Dirichlet energy of a map in the plane or in space, all of whose simplices
  * are positive, which they stay. Ends, too, when there is no work left for a step. Adds to
- * improvement->n_iterations. On any failure the map is as good. */
+ * improvement->n_iterations and sets the others but n_levels; NULL if nobody asks. On any failure
+ * the map is as good. */
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
 

@@ -60,9 +60,7 @@ static icc_status descend(void *map, const iccp_descent *descent, bool both_side
     if (both_sides)
         return iccp_improve_both_sides(map, descent, work, improvement, env);
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
-    improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
-    return status;
+    return iccp_improve_images(&simplicial, descent, work, improvement, env);
 }
 
 typedef struct ranked {

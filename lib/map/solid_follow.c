@@ -141,10 +141,9 @@ static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
     const bool cuts =
         (double)j->map->mesh->n_simplices < MOST_GROWTH * (double)j->source->mesh->n_simplices;
     size_t n_changes;
-    iccp_improvement ignored = {0};
     const icc_status status = iccp_solid_refine(j->map, j->source, cuts, &n_changes, env);
     const iccp_simplicial_map simplicial = see(map);
-    return status == ICC_OK ? iccp_improve_images(&simplicial, &REST, work, &ignored, env) : status;
+    return status == ICC_OK ? iccp_improve_images(&simplicial, &REST, work, NULL, env) : status;
 }
 
 static icc_status carry(journey *j, size_t patience, bool *reached, const iccp_env *env)

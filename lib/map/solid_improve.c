@@ -35,9 +35,7 @@ static icc_status descend(void *map, const iccp_descent *descent, bool both_side
     const improved *m = map;
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(m->map);
     (void)both_sides;
-    const icc_status status = iccp_improve_images(&simplicial, descent, work, improvement, env);
-    improvement->energy = iccp_simplicial_energy_at_once(&simplicial, env);
-    return status;
+    return iccp_improve_images(&simplicial, descent, work, improvement, env);
 }
 
 icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)

@@ -128,13 +128,12 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
         if (side == 0)
             iccp_plmap_swap(&inverse);
         iccp_simplicial_map simplicial = iccp_plmap_simplicial(&inverse);
-        iccp_improvement ignored = {0};
         simplicial.fixed = still;
         if (plan == NULL)
             status = iccp_newton_plan_create(&plan, &simplicial, env);
         simplicial.plan = plan;
         if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, &RELAXATION, work, &ignored, env);
+            status = iccp_improve_images(&simplicial, &RELAXATION, work, NULL, env);
     }
     iccp_newton_plan_release(plan);
     iccp_free(&env->memory, still);
