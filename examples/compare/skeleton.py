@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A skeleton as the maximum, which Huynh and Gingold leave open (paper, section 9): every curve ends on a tree of bones
-in place of a point. The same tree is given in both shapes; each bone goes to its partner, from both of its sides.
+in place of a point. The same tree is given in both shapes, or is the first one's medial axis, made simple, and its image
+by libicc's map; each bone goes to its partner, from both of its sides.
 
     python3 examples/compare/skeleton.py [--cells N] [OUT.svg]
 
@@ -17,6 +18,7 @@ import argparse
 import compare
 import libicc
 import numpy as np
+import open_questions
 import shapes
 from libicc import stages
 
@@ -39,6 +41,10 @@ def cut(points, edges, pieces):
         points += [points[a] + k / n * (points[b] - points[a]) for k in range(1, n)]
         cut_edges += zip(chain, chain[1:])
     return np.array(points), np.array(cut_edges)
+
+
+class NotConforming(Exception):
+    """Which pieces of bones are no edges of the triangulation."""
 
 
 class Ring:
@@ -72,8 +78,9 @@ class Ring:
         at = np.minimum(np.searchsorted(key[order], back), len(key) - 1)
         twins = np.where(key[order][at] == back, order[at], -1)
         is_wall = np.isin(key, np.concatenate([walls[:, 0] * n + walls[:, 1], walls[:, 1] * n + walls[:, 0]]))
-        if is_wall.sum() != 2 * len(walls):
-            raise ValueError("bones are no edges of the mesh: use more cells")
+        lost = ~np.isin(walls[:, 0] * n + walls[:, 1], key)
+        if lost.any():
+            raise NotConforming(lost)
         return np.where(is_wall, -1, twins)
 
     def slit_open(self, points, first):
@@ -244,8 +251,8 @@ class Ring:
         return path[piece, each] + share[:, None] * (path[piece + 1, each] - path[piece, each])
 
 
-def rings(outlines, trees, bones, cells):
-    """Both shapes, cut alike, with psi that is the same on their rims."""
+def conforming_rings(outlines, trees, bones, cells):
+    """Both shapes, cut alike; bones that are no edges of a mesh are cut finer."""
     steps = [np.ptp(outline, axis=0).max() / cells for outline in outlines]
 
     def pieces(places, edges):
@@ -254,10 +261,22 @@ def rings(outlines, trees, bones, cells):
 
     n = len(outlines[0])
     ring = np.column_stack([np.arange(n), np.roll(np.arange(n), -1)])
-    both = []
-    for outline, joints, step in zip(outlines, trees, steps):
-        points, edges = cut(outline, ring, pieces(outlines, ring))
-        both.append(Ring(points[edges[:, 0]], *cut(joints, bones, pieces(trees, bones)), step))
+    n_pieces = pieces(trees, bones)
+    for _ in range(12):
+        both = []
+        try:
+            for outline, joints, step in zip(outlines, trees, steps):
+                points, edges = cut(outline, ring, pieces(outlines, ring))
+                both.append(Ring(points[edges[:, 0]], *cut(joints, bones, n_pieces), step))
+            return both
+        except NotConforming as fault:
+            n_pieces[np.unique(np.repeat(np.arange(len(bones)), n_pieces)[fault.args[0]])] *= 2
+    raise SystemExit("bones are no edges of the meshes: use more cells")
+
+
+def rings(outlines, trees, bones, cells):
+    """Both shapes, with psi that is the same on their rims."""
+    both = conforming_rings(outlines, trees, bones, cells)
     if not np.array_equal(both[0].owner, both[1].owner):
         raise ValueError("the bones do not leave their joints in the same order in both shapes")
     flux = (both[0].flux() + both[1].flux()) / 2
@@ -291,6 +310,56 @@ def frog():
             joints += [(x, y) - .1 * way, (x, y) + length * way]
         trees.append(joints)
     return shapes.frog(), trees, [(0, 1), (0, 2), (2, 3), (1, 4), (4, 5), (1, 6), (6, 7), (0, 8), (8, 9)]
+
+
+def medial_bones(outline, end=.2, near=.5, bend=.08):
+    """A simple medial axis: its limbs lack `end` of the longest way from its middle, bones are no shorter than `near` radii,
+    and straight to `bend` radii."""
+    centres, radii, neighbours = open_questions.medial_tree(outline)
+    root = int(radii.argmax())
+    came, order = {root: root}, [root]
+    for t in order:
+        for other in neighbours[t]:
+            if other not in came:
+                came[other] = t
+                order.append(other)
+    reach = radii.copy()
+    for t in order[:0:-1]:
+        reach[came[t]] = max(reach[came[t]], reach[t] + np.hypot(*(centres[t] - centres[came[t]])))
+    kept = {root}
+    kept.update(t for t in order if reach[t] > end * reach[root])
+    children = {t: [other for other in neighbours[t] if other in kept and came[other] == t] for t in kept}
+    joints, bones, left = [centres[root]], [], [(root, 0)]
+    while left:
+        top, joint = left.pop()
+        for child in children[top]:
+            chain, last = [top, child], joint
+            while len(children[chain[-1]]) == 1:
+                chain += children[chain[-1]]
+            at, limit = 0, bend * radii[chain]
+            while at + 1 < len(chain):
+                to = next(k for k in range(len(chain) - 1, at, -1)
+                          if k == at + 1 or is_straight(centres[chain[at:k + 1]], limit[k]))
+                if np.hypot(*(centres[chain[to]] - joints[last])) > near * radii[chain[to]]:
+                    bones.append((last, len(joints)))
+                    last = len(joints)
+                    joints.append(centres[chain[to]])
+                at = to
+            left.append((chain[-1], last))
+    return np.array(joints), np.array(bones)
+
+
+def is_straight(chain, limit):
+    way = chain[-1] - chain[0]
+    return abs(compare.baselines.cross(chain - chain[0], way)).max() <= limit * np.hypot(*way)
+
+
+def carried(outlines):
+    """The first shape's medial axis, and where libicc's map takes it."""
+    joints, bones = medial_bones(outlines[0])
+    length = np.hypot(*(joints[bones[:, 1]] - joints[bones[:, 0]]).T)
+    joints, bones = cut(joints, bones, np.ceil(24 * length / np.ptp(outlines[0], axis=0).max()).astype(int))
+    return outlines, (joints, libicc.Map(*outlines)(joints)), bones
 
 
 def energies(points, triangles, images):
@@ -356,7 +425,9 @@ def main():
     parser.add_argument("out", nargs="?", metavar="OUT.svg")
     options = parser.parse_args()
     rows = []
-    for title, (outlines, trees, bones) in (("letter", letter()), ("frog", frog())):
+    for title, (outlines, trees, bones) in (("letter", letter()), ("frog", frog()),
+                                            ("frog, medial axis", carried(shapes.frog())),
+                                            ("three legs, medial axis", carried(shapes.tripus()))):
         outlines, trees = ([np.asarray(places, float) for places in pair] for pair in (outlines, trees))
         source, target = rings(outlines, trees, np.array(bones), options.cells)
         print(f"{title}: {len(source.triangles)} and {len(target.triangles)} triangles")

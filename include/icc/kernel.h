@@ -46,6 +46,8 @@ typedef struct icc_shape icc_shape;
  * and its surroundings. Curves are segments between vertices; they may lie anywhere, and are not
  * walls. Weights spread across a boundary only outward, from what it encloses to what surrounds it:
  * so they do not take a short cut through the surroundings from one limb to another.
+ * A sheet in space is given by curves: the edges of its triangles, about as long as the spacing of
+ * the samples will be.
  *
  * @param[out] out   the shape; owned by the caller. It keeps the regions alive.
  * @param dim        2 or 3
