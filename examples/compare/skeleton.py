@@ -181,8 +181,9 @@ class Ring:
         self.starts = np.rint(outer * TURN).astype(np.int64)
 
     def faults(self):
-        """Triangles that are turned over; and where level lines of psi are no leaves that never meet: edges of the rims along
-        which psi does not rise, vertices whose neighbours are not one higher and one lower run."""
+        """Triangles that are turned over, or no ring; and where level lines of psi are no leaves that never meet: edges of the
+        rims along which psi does not rise, less or more than a turn, vertices whose neighbours are not one higher and one
+        lower run."""
         corners = np.arange(len(self.rise))
         on_outline = (self.twins < 0) & (self.tail < self.n_outer)
         flat = (self.rise[on_outline] <= 0).sum() + (self.rise[self.inner] >= 0).sum()
@@ -190,7 +191,8 @@ class Ring:
         changes = np.zeros(len(self.points), np.int64)
         np.add.at(changes, self.triangles.ravel(), sign[before(corners)] == sign[after(corners)])
         wanted = np.where(np.arange(len(self.points)) < self.n_rims, 1, 2)
-        return compare.folds(self.points, self.triangles) + flat + (changes != wanted).sum()
+        no_ring = len(self.points) - self.once.sum() + len(self.triangles) != 0 or self.rise[on_outline].sum() != TURN
+        return compare.folds(self.points, self.triangles) + no_ring + flat + (changes != wanted).sum()
 
     def leaves(self, labels):
         """The leaves with these labels from the outline to the tree: (steps, n, 2), and the length up to there."""
