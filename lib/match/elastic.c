@@ -169,9 +169,9 @@ static void read_knots(iccp_pairing_knots *knots, const iccp_elastic_candidate *
 }
 
 /* The best candidate, and how much better it is than the next one elsewhere. */
-static const iccp_elastic_candidate *choose(const elastic *e, iccp_elastic_report *report)
+static iccp_elastic_candidate *choose(elastic *e, iccp_elastic_report *report)
 {
-    const iccp_elastic_candidate *best = &e->candidates[0];
+    iccp_elastic_candidate *best = &e->candidates[0];
     for (size_t k = 1; k < e->n_candidates; ++k)
         if (e->candidates[k].score < best->score)
             best = &e->candidates[k];
@@ -207,7 +207,9 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
         status = iccp_progress(&parts[2], NULL, (double)(k + 1) / (double)e->n_candidates);
     }
     if (status == ICC_OK) {
-        read_knots(knots, choose(e, report));
+        iccp_elastic_candidate *const best = choose(e, report);
+        iccp_elastic_candidate_bend(best, &e->samples);
+        read_knots(knots, best);
         report->is_mirrored = mirrored + noise < .67 * (least + noise);
     }
     release(e, &env->memory);

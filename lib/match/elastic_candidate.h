@@ -28,4 +28,8 @@ void iccp_elastic_candidate_place(iccp_elastic_candidate *candidate);
 /* Follows a candidate with the directions of tangents, as often as it pays. */
 void iccp_elastic_candidate_follow(iccp_elastic_candidate *candidate, iccp_samples *samples);
 
+/* Where it turns by other angles here than there, as bent limbs do: follows it once more, with the
+ * rotation round each sample. Its score and the rotation of the whole stay as they were. */
+void iccp_elastic_candidate_bend(iccp_elastic_candidate *candidate, iccp_samples *samples);
+
 #endif

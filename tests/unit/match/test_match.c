@@ -341,6 +341,48 @@ START_TEST(pairs_vertices_with_vertices)
 }
 END_TEST
 
+/* A strip with rough sides, straight or bent by four radians, and without every `without`-th
+ * vertex; 0: as it is. */
+static size_t strip(double *xy, size_t n, bool is_bent, size_t without)
+{
+    size_t kept = 0;
+    uint32_t state = 1;
+    for (size_t k = 0; k < n; ++k) {
+        state = state * 1664525u + 1013904223u;
+        if (without > 0 && k % without == without - 1)
+            continue;
+        const double rough = .06 * (double)(state >> 8) / 16777216.0;
+        const bool is_back = k >= n / 2;
+        const double x = 12 * (double)(is_back ? n - k : k) / (double)n;
+        const double y = is_back ? 1 + rough : -rough, out = 2 - y, turn = 2 * x / 3;
+        xy[2 * kept] = is_bent ? out * sin(turn) : x;
+        xy[2 * kept + 1] = is_bent ? -out * cos(turn) : y;
+        ++kept;
+    }
+    return kept;
+}
+
+/* No one rotation takes the directions of what is straight to those of what is bent; after that of
+ * its own place seven in ten vertices are found, else two in three. */
+START_TEST(follows_what_is_bent)
+{
+    enum { N = 900 };
+    static double a[2 * N], b[2 * N];
+    for (size_t without = 3; without < 6; ++without) {
+        const size_t n = strip(a, N, false, 0), m = strip(b, N, true, without);
+        icc_match *match = NULL;
+        icc_error err = {.size = sizeof err};
+        const icc_match_options options = {.size = sizeof options, .least_sure = 1};
+        const icc_status status = match_of(&match, n, a, m, b, 0, NULL, &options, &err);
+        ck_assert_msg(status == ICC_OK, "%s", err.message);
+        icc_match_info info = {.size = sizeof info};
+        ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+        ck_assert_msg(info.n_joined >= m * 7 / 10, "%zu of %zu", info.n_joined, m);
+        icc_match_free(match);
+    }
+}
+END_TEST
+
 /* What a match gave comes out of another match as it went in. */
 START_TEST(matched_outlines_stay)
 {
@@ -409,6 +451,7 @@ int main(void)
     tcase_add_test(tests, unlike_pieces_keep_the_limit);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, pairs_vertices_with_vertices);
+    tcase_add_test(tests, follows_what_is_bent);
     tcase_add_test(tests, matched_outlines_stay);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
