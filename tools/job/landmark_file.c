@@ -68,20 +68,26 @@ static bool read_rows(table *out, const char *p, size_t line, problem *wrong)
     return true;
 }
 
-int landmarks_read(table *out, const char *name, size_t dim)
+bool landmarks_decode(table *out, const char *text, size_t n, size_t dim, problem *wrong)
 {
     const table_form form = {.columns = 2 * dim,
                              .what = dim == 2
                                          ? "landmarks are `x y x' y'`, one pair per line"
                                          : "landmarks are `x y z x' y' z'`, one pair per line"};
-    size_t n, line;
+    size_t line;
+    const char *rows = dim == 2 ? find_rows(text, &line) : NULL;
+    return rows != NULL && strlen(text) == n ? read_rows(out, rows, line, wrong)
+                                             : table_read(out, text, n, &form, wrong);
+}
+
+int landmarks_read(table *out, const char *name, size_t dim)
+{
+    size_t n;
     problem wrong;
     char *text = file_read(name, &n);
     if (text == NULL)
         return FAILED;
-    const char *rows = dim == 2 ? find_rows(text, &line) : NULL;
-    bool good = rows != NULL && strlen(text) == n ? read_rows(out, rows, line, &wrong)
-                                                  : table_read(out, text, n, &form, &wrong);
+    bool good = landmarks_decode(out, text, n, dim, &wrong);
     free(text);
     if (good)
         return DONE;

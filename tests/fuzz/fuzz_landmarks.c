@@ -1,0 +1,45 @@
+/* Any bytes at all must give landmarks of finite numbers, or a reason: rows, and what QGIS saves. */
+#include "job/landmark_file.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* assert() is off in release builds. */
+static void require(bool fact)
+{
+    if (!fact)
+        abort();
+}
+
+static void try_landmarks(const char *text, size_t size, size_t dim)
+{
+    table t = {0};
+    problem wrong = {.text = ""};
+    if (landmarks_decode(&t, text, size, dim, &wrong)) {
+        require(t.n == 0 || t.columns == 2 * dim);
+        for (size_t i = 0; i < t.n * t.columns; i++)
+            require(isfinite(t.values[i]));
+        for (size_t i = 0; i < t.n; i++)
+            require(t.lines[i] > (i > 0 ? t.lines[i - 1] : 0) && t.lines[i] <= size + 1);
+    } else {
+        require(wrong.text[0] != '\0' && strlen(wrong.text) < sizeof wrong.text);
+    }
+    table_free(&t);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (text == NULL)
+        return 0;
+    memcpy(text, data, size);
+    text[size] = '\0';
+    try_landmarks(text, size, 2);
+    try_landmarks(text, size, 3);
+    free(text);
+    return 0;
+}
