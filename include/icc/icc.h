@@ -884,7 +884,8 @@ typedef struct icc_match_options {
     double tolerance;  /**< in space, how far the common surfaces may be off those that were given,
                             as a share of the diagonal of each one's bounding box: at most 0.1; 0:
                             1e-3; < 0: not at all, which takes four to six times as many vertices as
-                            both have together, and many thin triangles */
+                            both have together, and many thin triangles (what rounding brings
+                            together goes, up to 1e-3) */
 } icc_match_options;
 
 /** What icc_match_get_info() reports. */

@@ -102,10 +102,11 @@ static icc_status relax(body bodies[2], const iccp_env *env, icc_error *err)
         side[s] = (iccp_drawn_surface){&b->m, b->x, b->directions, iccp_sphere_scale(&b->m, b->x)};
     }
     iccp_relaxation r;
+    double left;
     icc_status status =
         iccp_relaxation_create(&r, side, (const uint8_t *const[]){NULL, NULL}, &env->memory);
     if (status == ICC_OK)
-        status = iccp_relax(&r, ROUNDS, env);
+        status = iccp_relax(&r, ICCP_LONGER, ROUNDS, &left, env);
     iccp_relaxation_free(&r, &env->memory);
     status = iccp_explain(err, status);
     for (int s = 0; s < 2 && status == ICC_OK; ++s)
@@ -320,17 +321,18 @@ static icc_status simplify(iccp_common_surface *common, double *off, const body 
             if (common->origin[0][v] == bodies[0].landmarks[k])
                 keep[v] = 1;
     iccp_simplify_limits limits = {.keep = keep};
+    const double most_off = tolerance > 0 ? tolerance : default_tolerance;
     for (int side = 0; side < 2; ++side) {
         const double diagonal = diagonal_of(&bodies[side]);
-        limits.off[side] = tolerance * diagonal;
+        limits.off[side] = most_off * diagonal;
         limits.edge[side] =
             iccp_max(longest_edge * diagonal, times_given * mean_edge(&bodies[side]));
     }
     const icc_status status = iccp_simplify_apart(
         common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
-        (const double *const[]){bodies[0].x, bodies[1].x}, &limits, env);
+        (const double *const[]){bodies[0].x, bodies[1].x}, &limits, tolerance < 0, env);
     iccp_free(&env->memory, keep);
-    *off *= tolerance;
+    *off *= most_off;
     return status;
 }
 
@@ -352,9 +354,7 @@ static icc_status run(icc_match *match, body bodies[2], iccp_common_surface *com
     if (status != ICC_OK)
         return status;
     match->info.n_overlay = common->n_vertices;
-    if (tolerance > 0)
-        status =
-            iccp_explain(err, simplify(common, &off, bodies, n_landmarks, tolerance, &parts[2]));
+    status = iccp_explain(err, simplify(common, &off, bodies, n_landmarks, tolerance, &parts[2]));
     if (status != ICC_OK)
         return status;
     fill_in(&match->info, common, off);

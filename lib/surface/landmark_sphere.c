@@ -14,9 +14,14 @@
 #include <string.h>
 
 /* Each drawing is first moved on the other when there are so many vertices, of a base and for each
- * landmark; then whenever there are so many times as many; in so many rounds at most. */
-enum { FEW = 120, FEW_EACH = 12, ROUNDS_OF_FEW = 200, ROUNDS = 30 };
-static const double finer = 1.6;
+ * landmark; then whenever there are so many times as many, oftener while there are no more than
+ * MANY, which costs little and decides how limbs come to lie; in so many rounds at most. */
+enum { FEW = 120, FEW_EACH = 12, MANY = 6000, ROUNDS_OF_FEW = 200, ROUNDS = 30 };
+static const double finer = 1.6, finer_of_few = 1.3;
+
+/* While there are few both ways are tried: with steps as long as later, and with shorter ones. A
+ * limb may come to lie beside its partner with either, and never comes back. */
+static const double lengths[2] = {ICCP_LONGER, 1.25};
 
 /* Landmarks where paths may begin are tried until no path is so many times as long on one surface
  * as on the other, or the best one of so many is taken. */
@@ -75,6 +80,42 @@ static icc_status shrink(iccp_half_edges m[2], iccp_split_surface s[2], size_t n
     return ICC_OK;
 }
 
+/* Moves drawings of few vertices, from where they are, in several ways; the best one stays. */
+static icc_status relax_few(iccp_relaxation *r, const iccp_env *env)
+{
+    enum { N = sizeof lengths / sizeof *lengths };
+    const iccp_memory *const memory = &env->memory;
+    double *kept[2], least = HUGE_VAL;
+    size_t n[2];
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2; ++side) {
+        n[side] = 3 * r->side[side].m->n_vertices;
+        kept[side] = iccp_alloc(memory, 2 * n[side], sizeof *kept[side]);
+        if (kept[side] == NULL)
+            status = ICC_ERR_MEMORY;
+        else
+            memcpy(kept[side], r->side[side].directions, n[side] * sizeof *kept[side]);
+    }
+    /* Behind the directions at the beginning, the best ones so far. */
+    for (size_t k = 0; k < N && status == ICC_OK; ++k) {
+        const iccp_env part =
+            iccp_part(env, NULL, (double)k / (double)N, (double)(k + 1) / (double)N);
+        double energy;
+        for (int side = 0; side < 2; ++side)
+            memcpy(r->side[side].directions, kept[side], n[side] * sizeof *kept[side]);
+        status = iccp_relax(r, lengths[k], ROUNDS_OF_FEW, &energy, &part);
+        for (int side = 0; side < 2 && energy < least; ++side)
+            memcpy(kept[side] + n[side], r->side[side].directions, n[side] * sizeof *kept[side]);
+        least = iccp_min(least, energy);
+    }
+    for (int side = 0; side < 2; ++side) {
+        if (least < HUGE_VAL)
+            memcpy(r->side[side].directions, kept[side] + n[side], n[side] * sizeof *kept[side]);
+        iccp_free(memory, kept[side]);
+    }
+    return status;
+}
+
 /* Both drawings get more and more vertices, and each is moved on the other whenever there are so
  * many times as many: how limbs come to lie is decided while there are few. */
 static icc_status grow_together(iccp_relaxation *r, iccp_half_edges m[2], size_t n,
@@ -82,9 +123,9 @@ static icc_status grow_together(iccp_relaxation *r, iccp_half_edges m[2], size_t
 {
     const size_t all[2] = {m[0].n_left + m[0].n_collapsed, m[1].n_left + m[1].n_collapsed};
     const double most = iccp_max((double)all[0], (double)all[1]);
-    double level = iccp_max(FEW, FEW_EACH * (double)n), before = 0;
+    double level = iccp_max(FEW, FEW_EACH * (double)n), before = 0, left;
     icc_status status = ICC_OK;
-    for (bool is_first = true; status == ICC_OK; is_first = false, level *= finer) {
+    for (bool is_first = true; status == ICC_OK; is_first = false) {
         const double share = iccp_min(1, level / most);
         const iccp_env part = iccp_part(env, NULL, before, share);
         for (int side = 0; side < 2 && status == ICC_OK; ++side) {
@@ -94,10 +135,12 @@ static icc_status grow_together(iccp_relaxation *r, iccp_half_edges m[2], size_t
                                       !is_first, until, &part, err);
         }
         if (status == ICC_OK)
-            status = iccp_explain(err, iccp_relax(r, is_first ? ROUNDS_OF_FEW : ROUNDS, &part));
+            status = iccp_explain(err, is_first ? relax_few(r, &part)
+                                                : iccp_relax(r, ICCP_LONGER, ROUNDS, &left, &part));
         if (!(share < 1))
             break;
         before = share;
+        level *= level < MANY ? finer_of_few : finer;
     }
     for (int side = 0; side < 2 && status == ICC_OK; ++side)
         status = iccp_sphere_check(&m[side], r->side[side].directions, err);

@@ -122,7 +122,8 @@ static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], do
 
 /* Moves one vertex; its star's energy and what that fell by are added. A star that is too large to
  * be seen from its vertex stays. */
-static icc_status move(iccp_relaxation *r, int s, uint32_t v, double *energy, double *gain)
+static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, double *energy,
+                       double *gain)
 {
     const iccp_drawn_surface *const one = &r->side[s], *const other = &r->side[1 - s];
     iccp_composed_star *const star = &r->star[s];
@@ -137,6 +138,8 @@ static icc_status move(iccp_relaxation *r, int s, uint32_t v, double *energy, do
     const double here = expand(gradient, hessian, star);
     *energy += here;
     iccp_newton_step(step, gradient, hessian, star->farthest);
+    step[0] *= longer;
+    step[1] *= longer;
     double least = here;
     for (int n = 0; n < TRIALS; ++n) {
         double q[3];
@@ -157,20 +160,23 @@ static icc_status move(iccp_relaxation *r, int s, uint32_t v, double *energy, do
     return ICC_OK;
 }
 
-icc_status iccp_relax(iccp_relaxation *r, int most_rounds, const iccp_env *env)
+icc_status iccp_relax(iccp_relaxation *r, double longer, int most_rounds, double *left,
+                      const iccp_env *env)
 {
     icc_status status = ICC_OK;
+    *left = HUGE_VAL;
     for (int round = 0; round < most_rounds && status == ICC_OK; ++round) {
         double energy = 0, gain = 0;
         for (int s = 0; s < 2; ++s) {
             const iccp_half_edges *const m = r->side[s].m;
             for (uint32_t v = 0; v < m->n_vertices && status == ICC_OK; ++v) {
                 if (m->degree[v] > 0 && !(r->is_fixed[s] != NULL && r->is_fixed[s][v] != 0))
-                    status = move(r, s, v, &energy, &gain);
+                    status = move(r, longer, s, v, &energy, &gain);
                 if (v % 256 == 0 && status == ICC_OK)
                     status = iccp_progress(env, "match", (double)round / most_rounds);
             }
         }
+        *left = energy - gain;
         if (gain < little * energy)
             break;
     }

@@ -2,13 +2,17 @@
 
 #include "base/minmax.h"
 #include "domain/facet_tree.h"
-#include "domain/simplicial.h"
-#include "domain/triangles.h"
+#include "surface/meeting.h"
 
 #include <string.h>
 
 /* Rounds, in each of which more vertices stay, until nothing goes. */
 enum { ROUNDS = 12 };
+
+/* Where the whole is mended vertices go as little off as they can: so many times as far in each
+ * round as in the one before, up to what is allowed. */
+enum { MENDS = 7 };
+static const double farther = 10;
 
 typedef struct rounds {
     const iccp_common_surface *whole;
@@ -18,7 +22,9 @@ typedef struct rounds {
     uint8_t *keep;    /* by vertex of the whole */
     uint8_t *is_bad;  /* by vertex of what is left */
     uint32_t *became; /* by vertex of the whole */
-    bool any;         /* something is bad */
+    uint8_t *flawed;  /* by vertex of the whole: it is bad there, once that has been looked at */
+    bool knows_flaws, has_flaws;
+    bool any; /* something is bad */
     double off;
 } rounds;
 
@@ -44,50 +50,6 @@ static icc_status copy(iccp_common_surface *to, const iccp_common_surface *c,
         memcpy(to->within[side], c->within[side], c->n_faces * sizeof *to->within[side]);
     }
     return ICC_OK;
-}
-
-/* ---- what meets ---- */
-
-/* Marks the corners of triangles that meet others, or have no area; whether there are any. */
-static bool mark_meeting(const iccp_facet_tree *tree, uint8_t *is_bad)
-{
-    bool any = false;
-    for (size_t place = 0; place < tree->n; ++place) {
-        const uint32_t f = iccp_facet_at(tree, place);
-        const uint32_t *const s = tree->facets + 3 * (size_t)f;
-        iccp_facet_query query;
-        uint32_t g = f;
-        if (!iccp_simplicial_has_area(tree, f)) {
-            any = true;
-            is_bad[s[0]] = is_bad[s[1]] = is_bad[s[2]] = 1;
-            continue;
-        }
-        iccp_facet_query_start_after(&query, tree, place);
-        while (iccp_facet_query_next(&query, &g)) {
-            const uint32_t *const t = tree->facets + 3 * (size_t)g;
-            if (!iccp_simplicial_has_area(tree, g) || !iccp_triangles_meet(tree->vertices, s, t))
-                continue;
-            any = true;
-            for (int i = 0; i < 3; ++i)
-                is_bad[s[i]] = is_bad[t[i]] = 1;
-        }
-    }
-    return any;
-}
-
-/* Looks for what meets on either side; whether there is memory. */
-static bool look_for_meeting(rounds *r, const iccp_common_surface *c, const iccp_memory *memory)
-{
-    bool has_memory = true;
-    for (int side = 0; side < 2 && has_memory; ++side) {
-        iccp_facet_tree tree;
-        iccp_facet_tree_create(&tree, 3, c->x[side], c->n_faces, c->faces, memory);
-        has_memory = tree.boxes != NULL;
-        if (has_memory && mark_meeting(&tree, r->is_bad))
-            r->any = true;
-        iccp_facet_tree_free(&tree, memory);
-    }
-    return has_memory;
 }
 
 /* ---- what is far off ---- */
@@ -126,8 +88,9 @@ static void look_at_middles(rounds *r, const iccp_facet_tree *given, const iccp_
     }
 }
 
-/* Looks how far the surfaces are off; whether there is memory. */
-static bool measure(rounds *r, const iccp_common_surface *c, const iccp_memory *memory)
+/* Looks how far the surfaces are off; *any_more if more has to stay. Whether there is memory. */
+static bool measure(rounds *r, const iccp_common_surface *c, bool *any_more,
+                    const iccp_memory *memory)
 {
     bool has_memory = true;
     r->off = 0;
@@ -140,8 +103,10 @@ static bool measure(rounds *r, const iccp_common_surface *c, const iccp_memory *
         if (has_memory) {
             look_at_middles(r, &given, c, side);
             for (size_t v = 0; v < r->whole->n_vertices; ++v)
-                if (is_far(r, side, &now, r->whole->x[side] + 3 * v))
+                if (is_far(r, side, &now, r->whole->x[side] + 3 * v)) {
+                    *any_more = *any_more || r->keep[v] == 0;
                     r->keep[v] = r->any = 1;
+                }
         }
         iccp_facet_tree_free(&given, memory);
         iccp_facet_tree_free(&now, memory);
@@ -151,35 +116,99 @@ static bool measure(rounds *r, const iccp_common_surface *c, const iccp_memory *
 
 /* ---- rounds ---- */
 
+static icc_status simplify(rounds *r, iccp_common_surface *c, const iccp_env *env)
+{
+    iccp_common_surface_free(c, &env->memory);
+    icc_status status = copy(c, r->whole, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_simplify(c, r->became, r->given, r->x, &r->limits, env);
+    if (status != ICC_OK)
+        return status;
+    memset(r->is_bad, 0, r->whole->n_vertices);
+    r->any = false;
+    return iccp_meeting_mark(r->is_bad, &r->any, c, &env->memory) ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Rounding may have brought together what is on the whole surfaces. */
+static icc_status look_for_flaws(rounds *r, const iccp_memory *memory)
+{
+    if (r->knows_flaws)
+        return ICC_OK;
+    r->knows_flaws = true;
+    return iccp_meeting_mark(r->flawed, &r->has_flaws, r->whole, memory) ? ICC_OK : ICC_ERR_MEMORY;
+}
+
 /* Simplifies until nothing meets and all is near enough; *is_done if that has come about. */
 static icc_status run(rounds *r, iccp_common_surface *c, bool *is_done, const iccp_env *env)
 {
-    const iccp_memory *const memory = &env->memory;
     icc_status status = ICC_OK;
-    *is_done = false;
-    for (size_t k = 0; k < ROUNDS && !*is_done && status == ICC_OK; ++k) {
+    bool any_more = true;
+    for (size_t k = 0; k < ROUNDS && !*is_done && any_more && status == ICC_OK; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
-        iccp_common_surface_free(c, memory);
-        status = copy(c, r->whole, memory);
-        if (status == ICC_OK)
-            status = iccp_simplify(c, r->became, r->given, r->x, &r->limits, &part);
-        if (status != ICC_OK)
-            continue;
-        memset(r->is_bad, 0, r->whole->n_vertices);
-        r->any = false;
-        if (!look_for_meeting(r, c, memory) || !measure(r, c, memory))
+        status = simplify(r, c, &part);
+        if (status == ICC_OK && r->any)
+            status = look_for_flaws(r, &env->memory);
+        any_more = false;
+        if (status == ICC_OK && !measure(r, c, &any_more, &env->memory))
             status = ICC_ERR_MEMORY;
-        for (size_t v = 0; v < r->whole->n_vertices; ++v)
-            if (r->is_bad[r->became[v]] != 0)
-                r->keep[v] = 1;
+        for (size_t v = 0; v < r->whole->n_vertices && status == ICC_OK; ++v)
+            if (r->is_bad[r->became[v]] != 0 && r->flawed[v] == 0 && r->keep[v] == 0)
+                r->keep[v] = any_more = true;
         *is_done = !r->any;
     }
     return status;
 }
 
+/* What is still bad, and what is next to it in the whole, is flawed, too. */
+static void widen(rounds *r)
+{
+    const iccp_common_surface *const c = r->whole;
+    for (size_t f = 0; f < c->n_faces; ++f) {
+        const uint32_t *const v = c->faces + 3 * f;
+        const uint8_t is_bad =
+            r->is_bad[r->became[v[0]]] | r->is_bad[r->became[v[1]]] | r->is_bad[r->became[v[2]]];
+        for (int i = 0; i < 3; ++i)
+            r->flawed[v[i]] |= is_bad;
+    }
+}
+
+/* Takes away of the whole what meets there, and more round it as long as something meets, and
+ * nothing else. The whole stays where nothing does. */
+static icc_status mend(rounds *r, const uint8_t *keep, iccp_common_surface *c, bool *is_done,
+                       const iccp_env *env)
+{
+    const size_t n = r->whole->n_vertices;
+    const double most[2] = {r->limits.off[0], r->limits.off[1]};
+    double share = 1;
+    bool any_more;
+    icc_status status = look_for_flaws(r, &env->memory);
+    if (status != ICC_OK || !r->has_flaws)
+        return status;
+    for (int k = 1; k < MENDS; ++k)
+        share /= farther;
+    for (size_t k = 0; k < MENDS && !*is_done && status == ICC_OK; ++k, share *= farther) {
+        const iccp_env part = iccp_round(env, k, 1);
+        for (size_t v = 0; v < n; ++v)
+            r->keep[v] = r->flawed[v] == 0 || (keep != NULL && keep[v] != 0);
+        for (int side = 0; side < 2; ++side)
+            r->limits.off[side] = share * most[side];
+        status = simplify(r, c, &part);
+        *is_done = status == ICC_OK && !r->any;
+        if (status == ICC_OK)
+            widen(r);
+    }
+    for (int side = 0; side < 2; ++side)
+        r->limits.off[side] = most[side];
+    if (*is_done && !measure(r, c, &any_more, &env->memory))
+        status = ICC_ERR_MEMORY;
+    *is_done = *is_done && r->off <= 1;
+    return status;
+}
+
 icc_status iccp_simplify_apart(iccp_common_surface *common, double *off,
                                const iccp_half_edges *const given[2], const double *const x[2],
-                               const iccp_simplify_limits *limits, const iccp_env *env)
+                               const iccp_simplify_limits *limits, bool only_flaws,
+                               const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
     const size_t n = common->n_vertices;
@@ -189,23 +218,27 @@ icc_status iccp_simplify_apart(iccp_common_surface *common, double *off,
     icc_status status = ICC_ERR_MEMORY;
     r.keep = iccp_alloc_zero(memory, n, sizeof *r.keep);
     r.is_bad = iccp_alloc(memory, n, sizeof *r.is_bad);
+    r.flawed = iccp_alloc_zero(memory, n, sizeof *r.flawed);
     r.became = iccp_alloc(memory, n, sizeof *r.became);
-    if (r.keep != NULL && r.is_bad != NULL && r.became != NULL) {
+    if (r.keep != NULL && r.is_bad != NULL && r.flawed != NULL && r.became != NULL) {
         if (limits->keep != NULL)
             memcpy(r.keep, limits->keep, n * sizeof *r.keep);
         r.limits.keep = r.keep;
-        status = run(&r, &coarse, &is_done, env);
+        status = only_flaws ? ICC_OK : run(&r, &coarse, &is_done, env);
+        if (status == ICC_OK && !is_done)
+            status = mend(&r, limits->keep, &coarse, &is_done, env);
     }
+    *off = 0;
     if (status == ICC_OK && is_done) {
         iccp_common_surface_free(common, memory);
         *common = coarse;
         *off = r.off;
     } else {
         iccp_common_surface_free(&coarse, memory);
-        *off = 0;
     }
     iccp_free(memory, r.keep);
     iccp_free(memory, r.is_bad);
+    iccp_free(memory, r.flawed);
     iccp_free(memory, r.became);
     return status;
 }

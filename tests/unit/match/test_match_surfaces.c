@@ -152,6 +152,20 @@ START_TEST(equal_surfaces)
 }
 END_TEST
 
+/* Edges that nearly fall on edges cross them in places that rounding brings together. */
+START_TEST(what_rounding_brings_together_goes)
+{
+    icc_match_info info;
+    surface_octahedron(&one);
+    surface_octahedron(&two);
+    icc_match *const match = matched(-1, &info);
+    check_common(match, &info);
+    ck_assert_uint_lt(info.n_vertices, info.n_overlay);
+    ck_assert_double_lt(info.off, 1e-6);
+    icc_match_free(match);
+}
+END_TEST
+
 START_TEST(tolerance_is_kept)
 {
     random_source r = {7};
@@ -303,6 +317,7 @@ int main(void)
     tcase_set_timeout(tests, 3600);
     tcase_add_test(tests, ellipsoids_of_other_triangles);
     tcase_add_test(tests, equal_surfaces);
+    tcase_add_test(tests, what_rounding_brings_together_goes);
     tcase_add_test(tests, tolerance_is_kept);
     tcase_add_test(tests, landmarks_go_to_their_partners);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
