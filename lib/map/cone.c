@@ -73,6 +73,37 @@ icc_status iccp_cone_create(iccp_cone *cone, const iccp_simplices *mesh, const d
     return ICC_OK;
 }
 
+void iccp_cone_fill(iccp_cone *cone, const double *images)
+{
+    const size_t n = cone->mesh.points.n;
+    memcpy(cone->image, images, 3 * n * sizeof *images);
+    memset(cone->n_faces, 0, n * sizeof *cone->n_faces);
+    memset(cone->is_placed, 1, cone->mesh.n_tets);
+    cone->n_left = 0;
+}
+
+icc_status iccp_cone_give(const iccp_cone *cone, iccp_simplices **out, double **images)
+{
+    const iccp_tets *m = &cone->mesh;
+    const size_t n = m->points.n;
+    iccp_simplices *mesh = *out = iccp_alloc_zero(&m->memory, 1, sizeof *mesh);
+    if (mesh == NULL)
+        return ICC_ERR_MEMORY;
+    *mesh =
+        (iccp_simplices){.memory = m->memory, .dim = 3, .n_points = n, .n_boundary = cone->n_fixed};
+    *images = iccp_alloc(&m->memory, n, 3 * sizeof **images);
+    mesh->points = iccp_alloc(&m->memory, n, 3 * sizeof *mesh->points);
+    mesh->corners = iccp_alloc(&m->memory, m->n_alive, 4 * sizeof *mesh->corners);
+    if (*images == NULL || mesh->points == NULL || mesh->corners == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(mesh->points, m->points.x, 3 * n * sizeof *mesh->points);
+    memcpy(*images, cone->image, 3 * n * sizeof **images);
+    for (uint32_t t = 0; t < m->n_tets; ++t)
+        if (iccp_tet_alive(m, t))
+            memcpy(mesh->corners + 4 * mesh->n_simplices++, m->tet[t].v, sizeof m->tet[t].v);
+    return ICC_OK;
+}
+
 void iccp_cone_free(iccp_cone *cone)
 {
     const iccp_memory *memory = &cone->mesh.memory;

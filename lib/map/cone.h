@@ -31,6 +31,13 @@ icc_status iccp_cone_create(iccp_cone *cone, const iccp_simplices *mesh, const d
                             const iccp_memory *memory);
 void iccp_cone_free(iccp_cone *cone);
 
+/* Puts all into their places at once, where the images of all points are known. */
+void iccp_cone_fill(iccp_cone *cone, const double *images);
+
+/* The mesh without what is gone, which does not know its neighbours, and its images; to be freed on
+ * failure, too. */
+icc_status iccp_cone_give(const iccp_cone *cone, iccp_simplices **out, double **images);
+
 /* Room for what the mesh has room for. */
 bool iccp_cone_reserve(iccp_cone *cone);
 

@@ -211,27 +211,17 @@ static icc_status run(job *j, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* The tetrahedra that are there, without what is gone; *out is to be freed on failure, too. */
-static icc_status give(const iccp_cone *cone, iccp_simplices **out, double **images)
+icc_status iccp_cone_apex(bool *sees, double apex[3], const iccp_simplices *mesh,
+                          const double *boundary, const iccp_env *env)
 {
-    const iccp_tets *m = &cone->mesh;
-    const size_t n = m->points.n;
-    iccp_simplices *mesh = *out = iccp_alloc_zero(&m->memory, 1, sizeof *mesh);
-    if (mesh == NULL)
-        return ICC_ERR_MEMORY;
-    *mesh =
-        (iccp_simplices){.memory = m->memory, .dim = 3, .n_points = n, .n_boundary = cone->n_fixed};
-    *images = iccp_alloc(&m->memory, n, 3 * sizeof **images);
-    mesh->points = iccp_alloc(&m->memory, n, 3 * sizeof *mesh->points);
-    mesh->corners = iccp_alloc(&m->memory, m->n_alive, 4 * sizeof *mesh->corners);
-    if (*images == NULL || mesh->points == NULL || mesh->corners == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(mesh->points, m->points.x, 3 * n * sizeof *mesh->points);
-    memcpy(*images, cone->image, 3 * n * sizeof **images);
-    for (uint32_t t = 0; t < m->n_tets; ++t)
-        if (iccp_tet_alive(m, t))
-            memcpy(mesh->corners + 4 * mesh->n_simplices++, m->tet[t].v, sizeof m->tet[t].v);
-    return ICC_OK;
+    iccp_cone cone;
+    icc_status status = iccp_cone_create(&cone, mesh, boundary, &env->memory);
+    *sees = status == ICC_OK && iccp_cone_find_apex(&cone);
+    memcpy(apex, cone.apex, sizeof cone.apex);
+    if (status == ICC_OK && cone.mesh.no_memory)
+        status = ICC_ERR_MEMORY;
+    iccp_cone_free(&cone);
+    return status;
 }
 
 static icc_status prepare(job *j, const iccp_memory *memory)
@@ -260,7 +250,7 @@ icc_status iccp_cone_map(iccp_simplices **out, double **images, const iccp_simpl
     if (status == ICC_OK && j.cone.mesh.no_memory)
         status = ICC_ERR_MEMORY;
     if (sees && status == ICC_OK && j.cone.n_left == 0)
-        status = give(&j.cone, out, images);
+        status = iccp_cone_give(&j.cone, out, images);
     if (status != ICC_OK) {
         iccp_simplices_free(*out);
         iccp_free(memory, *images);

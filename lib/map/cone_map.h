@@ -4,6 +4,11 @@
 
 #include "domain/simplices.h"
 
+/* Where a point sees all of the boundary's image, with some room; false for *sees where none was
+ * found. The mesh knows its neighbours. */
+icc_status iccp_cone_apex(bool *sees, double apex[3], const iccp_simplices *mesh,
+                          const double *boundary, const iccp_env *env);
+
 /* Images of a mesh that fills a ball, 3 coordinates each: of the points of its boundary they are
  * given, those of the others are found such that every tetrahedron is positive, exactly. That may
  * take a mesh with more points inside: *out, which does not know its neighbours nor the caller's

@@ -3,170 +3,13 @@
  * where the limbs of an animal come from. The inverse of a map is one. */
 #include "map/solid_start.h"
 
-#include "base/clock.h"
-#include "base/threads.h"
-#include "map/cone_map.h"
-#include "map/curves.h"
-#include "map/mesh_repair.h"
-#include "map/solid_chords.h"
+#include "map/coat_map.h"
+#include "map/solid_ball.h"
 #include "map/solid_edit.h"
-#include "map/solid_improve.h"
-#include "map/solid_mend.h"
+#include "map/solid_ways.h"
+#include "math/elementary.h"
 
-#include <string.h>
-
-/* Vertices per task. */
-enum { GRAIN = 64 };
-
-/* Of a repair, on all tetrahedra: on pairs of all kinds those that came to an end took no more than
- * 68; the others have better ways to go. */
-static const double MOST_STEPS = 80;
-
-/* From one chart to another. */
-typedef struct direction {
-    const icc_chart *source, *target;
-} direction;
-
-typedef struct start {
-    direction way;
-    const iccp_simplices *mesh;
-    const iccp_memory *memory;
-    double *images;
-} start;
-
-/* NaN for a vertex without an image: the repair finds one. */
-static icc_status find_images(void *argument, size_t begin, size_t end)
-{
-    const start *s = argument;
-    const iccp_frame *from = &s->way.source->domain->frame, *to = &s->way.target->domain->frame;
-    icc_status status = ICC_OK;
-    iccp_path path;
-    iccp_path_init(&path, s->memory);
-    for (size_t i = begin; i < end && status != ICC_ERR_MEMORY; ++i) {
-        const size_t v = s->mesh->n_boundary + i;
-        double point[3], image[3];
-        iccp_frame_out(from, 3, s->mesh->points + 3 * v, point);
-        status = iccp_curves_point(s->way.source, s->way.target, point, image, NULL, &path);
-        iccp_frame_in(to, 3, image, s->images + 3 * v);
-    }
-    iccp_path_clear(&path);
-    return status == ICC_ERR_MEMORY ? status : ICC_OK;
-}
-
-static icc_status find_start(iccp_solid_map *map, direction way, const iccp_env *env)
-{
-    const iccp_simplices *mesh = map->mesh;
-    start s = {way, mesh, &env->memory, NULL};
-    iccp_free(&env->memory, map->images);
-    map->images = iccp_alloc(&env->memory, mesh->n_points, 3 * sizeof *map->images);
-    if (map->images == NULL)
-        return ICC_ERR_MEMORY;
-    s.images = map->images;
-    memcpy(map->images, way.target->domain->vertices, 3 * mesh->n_boundary * sizeof *map->images);
-    return iccp_for_chunks(env, "trace", mesh->n_points - mesh->n_boundary, GRAIN, find_images, &s);
-}
-
-static size_t count_inverted(const iccp_solid_map *map)
-{
-    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
-    return iccp_simplicial_count_inverted(&simplicial);
-}
-
-static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
-{
-    const iccp_simplices *mesh = map->mesh;
-    const double began = iccp_seconds();
-    info->n_inverted = count_inverted(map);
-    if (info->n_inverted > 0) {
-        const icc_status status = iccp_mesh_repair(mesh, map->images, MOST_STEPS, env);
-        if (status != ICC_OK)
-            return status;
-    }
-    iccp_mesh_round(mesh, map->images);
-    const double repaired = iccp_seconds();
-    info->n_unrepaired = count_inverted(map);
-    info->seconds_certify += iccp_seconds() - repaired;
-    info->seconds_repair += repaired - began;
-    return ICC_OK;
-}
-
-/* With points between boundary vertices; *done says whether there is room for any. */
-static icc_status begin_without_chords(iccp_solid_map *map, direction way, bool *done,
-                                       const iccp_env *env)
-{
-    icc_status status = iccp_solid_cut_chords(&map->own, way.source->domain, env);
-    *done = map->own != NULL;
-    if (status != ICC_OK || map->own == NULL)
-        return status;
-    iccp_log(env, "tetrahedra between boundary vertices cannot be repaired: points are added");
-    map->mesh = map->own;
-    return find_start(map, way, env);
-}
-
-/* On the source's mesh if that can be repaired, else without its chords. */
-static icc_status fit(iccp_solid_map *map, direction way, icc_map_info *info, const iccp_env *env)
-{
-    bool cut = false;
-    iccp_env part[4];
-    iccp_split(part, 4, (const double[]){3, 1, 3, 1}, env);
-    icc_status status = find_start(map, way, &part[0]);
-    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
-    if (status == ICC_OK && iccp_simplicial_is_hopeless(&simplicial))
-        status = begin_without_chords(map, way, &cut, &part[1]);
-    if (status == ICC_OK)
-        status = repair(map, info, &part[2]);
-    if (status != ICC_OK || info->n_unrepaired == 0 || cut)
-        return status;
-    status = begin_without_chords(map, way, &cut, &part[3]);
-    return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
-}
-
-/* On what fit() has made of the mesh: from where images have been left, or anew from the charts. */
-static icc_status mend(iccp_solid_map *map, direction way, bool anew, icc_map_info *info,
-                       const iccp_env *env)
-{
-    const double began = iccp_seconds();
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 4}, env);
-    icc_status status = ICC_OK;
-    if (map->own == NULL)
-        status = iccp_simplices_copy(&map->own, map->mesh, &env->memory);
-    map->mesh = map->own;
-    if (status == ICC_OK && anew)
-        status = find_start(map, way, &part[0]);
-    if (status == ICC_OK)
-        status = iccp_mesh_place(map->mesh, map->images, env);
-    if (status == ICC_OK)
-        status = iccp_solid_mend(map, way.source->domain, &info->n_unrepaired, &part[1]);
-    info->seconds_repair += iccp_seconds() - began;
-    return status;
-}
-
-/* Without the charts, anew on a mesh without chords: where a point sees all of the target's surface
- * from inside. Else the map is none, and what is told stays. */
-static icc_status unfold(iccp_solid_map *map, direction way, icc_map_info *info,
-                         const iccp_env *env)
-{
-    const double began = iccp_seconds();
-    const icc_domain *from = way.source->domain, *to = way.target->domain;
-    iccp_simplices *cut, *mesh = NULL;
-    double *images;
-    icc_status status = iccp_solid_cut_chords(&cut, from, env);
-    if (status == ICC_OK)
-        status = iccp_cone_map(&mesh, &images, cut != NULL ? cut : from->mesh, to->vertices, env);
-    iccp_simplices_free(cut);
-    if (status == ICC_OK && mesh != NULL) {
-        iccp_simplices_free(map->own);
-        iccp_free(&map->memory, map->images);
-        map->own = mesh;
-        map->mesh = mesh;
-        map->images = images;
-        status = iccp_solid_check(map, from, env);
-        info->n_unrepaired = count_inverted(map);
-    }
-    info->seconds_repair += iccp_seconds() - began;
-    return status;
-}
+#include <math.h>
 
 /* Both meshes have the same boundary, by the same numbers. */
 static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
@@ -188,38 +31,149 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
     return ICC_OK;
 }
 
-/* Fits, then unfolds, then mends, by turns on the source's mesh and on the target's, until one
- * leads to a map; what else is told is of the last one. */
+/* ---- one stage after the other, by turns on the source's mesh and on the target's ---- */
+
+typedef enum stage { FIT, BALL, UNFOLD, MEND, MEND_ANEW } stage;
+
+/* A map, and one the other way round. */
+typedef struct both {
+    iccp_solid_map *map[2];
+    iccp_direction ways[2];
+    size_t fewest; /* that were left of one */
+} both;
+
+static both both_of(iccp_solid_map *map, iccp_solid_map *other, iccp_direction way)
+{
+    const both b = {{map, other}, {way, {way.target, way.source}}, SIZE_MAX};
+    *other = (iccp_solid_map){
+        .memory = map->memory, .mesh = way.target->domain->mesh, .stretch = 1 / map->stretch};
+    map->mesh = way.source->domain->mesh;
+    return b;
+}
+
+/* What one stage has left of one side; a map the other way round is turned. */
+static icc_status conclude(both *b, size_t side, icc_map_info *info)
+{
+    b->fewest = info->n_unrepaired < b->fewest ? info->n_unrepaired : b->fewest;
+    return info->n_unrepaired == 0 && side == 1 ? invert(b->map[0], b->map[1]) : ICC_OK;
+}
+
+/* A stage that needs no other map, unless there is a map already. */
+static icc_status take_turns(both *b, stage now, icc_map_info *info, const iccp_env *env)
+{
+    iccp_env part[2];
+    icc_status status = ICC_OK;
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    for (size_t side = 0; status == ICC_OK && b->fewest > 0 && side < 2; ++side) {
+        iccp_solid_map *const m = b->map[side];
+        status = now == FIT ? iccp_solid_fit(m, b->ways[side], info, &part[side])
+                 : now == UNFOLD
+                     ? iccp_solid_unfold(m, b->ways[side], info, &part[side])
+                     : iccp_solid_refit(m, b->ways[side], now == MEND_ANEW, info, &part[side]);
+        if (status == ICC_OK && info->n_unrepaired > 0 && now != UNFOLD)
+            iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
+                     side == 0 ? "source" : "target");
+        if (status == ICC_OK)
+            status = conclude(b, side, info);
+    }
+    return status;
+}
+
+/* ---- by way of a ball ---- */
+
+/* From a map onto the ball, which it takes apart. */
+static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direction way,
+                         const double apex[3], icc_map_info *info, const iccp_env *env)
+{
+    const icc_domain *from = way.source->domain, *to = way.target->domain;
+    icc_status status = ICC_OK;
+    bool done = false;
+    if (round->own == NULL)
+        status = iccp_simplices_copy(&round->own, round->mesh, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_coat_put_on(&round->own, &round->images, to->vertices, apex, &done, env);
+    round->mesh = round->own;
+    if (status == ICC_OK && done)
+        status = iccp_solid_check(round, from, env);
+    if (status != ICC_OK || !done || iccp_solid_count_inverted(round) > 0)
+        return status;
+    iccp_simplices_free(map->own);
+    iccp_free(&map->memory, map->images);
+    map->own = round->own;
+    map->mesh = map->own;
+    map->images = round->images;
+    round->own = NULL;
+    round->images = NULL;
+    info->n_unrepaired = 0;
+    return ICC_OK;
+}
+
+/* By a map onto a ball with the target's directions, if there is one. Else the map is none, and
+ * what is told stays. */
+static icc_status go_round(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+                           const iccp_env *env)
+{
+    static const stage STAGES[] = {FIT, MEND, MEND_ANEW};
+    enum { N_STAGES = sizeof STAGES / sizeof *STAGES };
+    icc_chart *ball;
+    icc_map_info told = *info;
+    double apex[3];
+    iccp_env part[1 + N_STAGES];
+    iccp_split(part, 1 + N_STAGES, (const double[]){2, 6, 1, 1}, env);
+    const icc_domain *from = way.source->domain;
+    icc_status status = iccp_solid_ball(&ball, apex, from, way.target->domain, &part[0]);
+    if (status != ICC_OK || ball == NULL)
+        return status;
+    iccp_solid_map other, round = {.memory = env->memory};
+    round.stretch = iccp_cbrt(fabs(ball->domain->measure) / fabs(from->measure));
+    both b = both_of(&round, &other, (iccp_direction){way.source, ball});
+    for (size_t k = 0; status == ICC_OK && k < N_STAGES; ++k)
+        status = take_turns(&b, STAGES[k], &told, &part[1 + k]);
+    if (status == ICC_OK && b.fewest == 0)
+        status = put_on(map, &round, way, apex, info, env);
+    info->seconds_repair = told.seconds_repair;
+    info->seconds_certify = told.seconds_certify;
+    iccp_simplices_free(round.own);
+    iccp_free(&env->memory, round.images);
+    iccp_simplices_free(other.own);
+    iccp_free(&env->memory, other.images);
+    iccp_chart_release(ball);
+    return status;
+}
+
+static icc_status take_turns_round(both *b, icc_map_info *info, const iccp_env *env)
+{
+    iccp_env part[2];
+    icc_status status = ICC_OK;
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    for (size_t side = 0; status == ICC_OK && b->fewest > 0 && side < 2; ++side) {
+        status = go_round(b->map[side], b->ways[side], info, &part[side]);
+        if (status == ICC_OK)
+            status = conclude(b, side, info);
+    }
+    return status;
+}
+
+/* ---- all of it ---- */
+
+/* Until one stage leads to a map; what else is told is of the last one. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                             bool *unfolded, icc_map_info *info, const iccp_env *env)
 {
-    enum { FIT, UNFOLD, MEND, MEND_ANEW, STAGES };
-    static const double COST[2 * STAGES] = {24, 4, 1, 1, 1, 1, 1, 1};
-    const direction ways[2] = {{source, target}, {target, source}};
-    iccp_solid_map other = {.memory = env->memory, .mesh = target->domain->mesh};
-    iccp_solid_map *const maps[2] = {map, &other};
-    size_t fewest = SIZE_MAX;
-    iccp_env part[2 * STAGES];
-    iccp_split(part, 2 * STAGES, COST, env);
+    static const stage STAGES[] = {FIT, BALL, UNFOLD, MEND, MEND_ANEW};
+    enum { N_STAGES = sizeof STAGES / sizeof *STAGES };
+    iccp_env part[N_STAGES];
+    iccp_split(part, N_STAGES, (const double[]){28, 6, 2, 2, 2}, env);
+    iccp_solid_map other;
+    both b = both_of(map, &other, (iccp_direction){source, target});
     icc_status status = ICC_OK;
     *unfolded = false;
-    map->mesh = source->domain->mesh;
-    other.stretch = 1 / map->stretch;
-    for (size_t k = 0; status == ICC_OK && fewest > 0 && k < 2 * STAGES; ++k) {
-        const size_t stage = k / 2, side = k % 2;
-        iccp_solid_map *const m = maps[side];
-        status = stage == FIT      ? fit(m, ways[side], info, &part[k])
-                 : stage == UNFOLD ? unfold(m, ways[side], info, &part[k])
-                                   : mend(m, ways[side], stage == MEND_ANEW, info, &part[k]);
-        *unfolded = status == ICC_OK && info->n_unrepaired == 0 && stage == UNFOLD;
-        if (status == ICC_OK && info->n_unrepaired > 0 && stage != UNFOLD)
-            iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
-                     side == 0 ? "source" : "target");
-        if (status == ICC_OK && info->n_unrepaired == 0 && side == 1)
-            status = invert(map, &other);
-        fewest = info->n_unrepaired < fewest ? info->n_unrepaired : fewest;
+    for (size_t k = 0; status == ICC_OK && b.fewest > 0 && k < N_STAGES; ++k) {
+        status = STAGES[k] == BALL ? take_turns_round(&b, info, &part[k])
+                                   : take_turns(&b, STAGES[k], info, &part[k]);
+        *unfolded = b.fewest == 0 && (STAGES[k] == BALL || STAGES[k] == UNFOLD);
     }
-    info->n_unrepaired = fewest;
+    info->n_unrepaired = b.fewest;
     iccp_simplices_free(other.own);
     iccp_free(&env->memory, other.images);
     return status;

@@ -1,13 +1,16 @@
 /* A mesh in space onto a star-shaped target: every tetrahedron exactly positive on both sides, the
- * boundary as it was given, and what is told when there is no such map. */
+ * boundary as it was given, and what is told when there is no such map; a coat on a map onto a ball. */
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "base/error.h"
 #include "domain/domain.h"
 #include "domain/simplices.h"
+#include "map/coat.h"
+#include "map/coat_map.h"
 #include "map/cone_map.h"
 #include "map/solid_chords.h"
 #include "math/predicates.h"
+#include "surface/sphere.h"
 
 /* A bar has 2 x 2 x 8 cells. */
 enum { LENGTH = 8, WIDTH = 2 };
@@ -68,12 +71,13 @@ typedef struct problem {
     double *boundary;
 } problem;
 
-static problem problem_of(body source, body target)
+static problem problem_of_cells(size_t length, int (*is_cell)(int32_t, const size_t *), body source,
+                                body target)
 {
     problem p;
     icc_error err = {.size = sizeof err};
     iccp_env env;
-    test_mesh bar = mesh_cells(3, LENGTH, is_bar), bent = mesh_moved(&bar, source);
+    test_mesh bar = mesh_cells(3, length, is_cell), bent = mesh_moved(&bar, source);
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_msg(mesh_domain(&p.source, &bent, NULL, &err) == ICC_OK, "%s", err.message);
     ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source, &env), ICC_OK);
@@ -84,6 +88,11 @@ static problem problem_of(body source, body target)
     mesh_free(&bar);
     mesh_free(&bent);
     return p;
+}
+
+static problem problem_of(body source, body target)
+{
+    return problem_of_cells(LENGTH, is_bar, source, target);
 }
 
 static void free_problem(problem *p)
@@ -111,6 +120,23 @@ static size_t count_positive(const iccp_simplices *mesh, const double *x)
     return n;
 }
 
+/* Of a problem; what is the result is freed. */
+static void check_result(const problem *p, const double *boundary, iccp_simplices *mesh,
+                         double *images)
+{
+    const size_t size = 3 * p->source->n_vertices * sizeof *images;
+    ck_assert_uint_eq(mesh->n_boundary, p->source->n_vertices);
+    ck_assert_mem_eq(mesh->points, p->source->vertices, size);
+    ck_assert_mem_eq(images, boundary, size);
+    ck_assert_uint_eq(count_positive(mesh, mesh->points), mesh->n_simplices);
+    ck_assert_uint_eq(count_positive(mesh, images), mesh->n_simplices);
+    ck_assert_int_eq(iccp_simplices_join(mesh, p->source->n_facets, p->source->facets, NULL),
+                     ICC_OK);
+    ck_assert_int_eq(iccp_simplices_check_shape(mesh, NULL), ICC_OK);
+    iccp_free(&mesh->memory, images);
+    iccp_simplices_free(mesh);
+}
+
 /* `grows`: whether it takes new points. */
 static void check_map(body source, body target, bool grows)
 {
@@ -119,17 +145,8 @@ static void check_map(body source, body target, bool grows)
     double *images;
     ck_assert_int_eq(unfold(&p, &mesh, &images, NULL, NULL), ICC_OK);
     ck_assert_ptr_nonnull(mesh);
-    const size_t size = 3 * p.source->n_vertices * sizeof *images;
-    ck_assert_uint_eq(mesh->n_boundary, p.source->n_vertices);
-    ck_assert_mem_eq(mesh->points, p.source->vertices, size);
-    ck_assert_mem_eq(images, p.boundary, size);
     ck_assert(grows == (mesh->n_simplices > p.mesh->n_simplices));
-    ck_assert_uint_eq(count_positive(mesh, mesh->points), mesh->n_simplices);
-    ck_assert_uint_eq(count_positive(mesh, images), mesh->n_simplices);
-    ck_assert_int_eq(iccp_simplices_join(mesh, p.source->n_facets, p.source->facets, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_simplices_check_shape(mesh, NULL), ICC_OK);
-    iccp_free(&mesh->memory, images);
-    iccp_simplices_free(mesh);
+    check_result(&p, p.boundary, mesh, images);
     free_problem(&p);
 }
 
@@ -148,6 +165,119 @@ END_TEST
 START_TEST(arch_onto_star)
 {
     check_map(arch, star, true);
+}
+END_TEST
+
+/* ---- a coat on a map onto a ball ---- */
+
+/* Four cells in a row with two corners, all at one vertex: its faces look up and down. */
+static int is_chain(int32_t dim, const size_t *cell)
+{
+    (void)dim;
+    return cell[0] >= cell[1] && cell[1] >= cell[2];
+}
+
+static void same(int32_t dim, const double *x, double *y)
+{
+    memcpy(y, x, (size_t)dim * sizeof *y);
+}
+
+/* The chain's mesh, with its drawing on the sphere, onto the ball; and that drawing on a cube. */
+typedef struct dress {
+    problem p;
+    double *cube;
+    iccp_simplices *mesh;
+    double *images;
+} dress;
+
+static dress dress_of(void)
+{
+    dress d = {.p = problem_of_cells(2, is_chain, same, same)};
+    iccp_env env;
+    const icc_domain *domain = d.p.source;
+    const size_t n = domain->n_vertices;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_sphere_draw(d.p.boundary, n, domain->vertices, domain->n_facets,
+                                      domain->facets, &env, NULL),
+                     ICC_OK);
+    d.cube = mesh_alloc(3 * n, sizeof *d.cube);
+    for (size_t v = 0; v < n; ++v) {
+        const double *x = d.p.boundary + 3 * v;
+        const double most = fmax(fabs(x[0]), fmax(fabs(x[1]), fabs(x[2])));
+        for (int k = 0; k < 3; ++k)
+            d.cube[3 * v + (size_t)k] = x[k] / most;
+    }
+    ck_assert_int_eq(unfold(&d.p, &d.mesh, &d.images, NULL, NULL), ICC_OK);
+    ck_assert_ptr_nonnull(d.mesh);
+    ck_assert_int_eq(iccp_simplices_join(d.mesh, 0, NULL, NULL), ICC_OK);
+    return d;
+}
+
+static void free_dress(dress *d)
+{
+    iccp_free(&d->mesh->memory, d->images);
+    iccp_simplices_free(d->mesh);
+    free(d->cube);
+    free_problem(&d->p);
+}
+
+/* Leaves the map onto the ball. */
+static icc_status put_on(const dress *d, iccp_simplices **mesh, double **images,
+                         const iccp_env *env)
+{
+    static const double apex[3] = {0, 0, 0};
+    const size_t n = 3 * d->mesh->n_points;
+    bool done = true;
+    icc_status status = iccp_simplices_copy(mesh, d->mesh, &env->memory);
+    *images = iccp_alloc(&env->memory, n, sizeof **images);
+    if (status == ICC_OK && *images == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        memcpy(*images, d->images, n * sizeof **images);
+        status = iccp_coat_put_on(mesh, images, d->cube, apex, &done, env);
+    }
+    ck_assert(done || status != ICC_OK);
+    return status;
+}
+
+/* One vertex has no point below. */
+START_TEST(coat)
+{
+    dress d = dress_of();
+    iccp_simplices *mesh;
+    double *images;
+    iccp_coat c;
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_coat_create(&c, d.mesh, &env.memory), ICC_OK);
+    ck_assert_uint_eq(c.n_below, d.mesh->n_boundary - 1);
+    ck_assert_uint_eq(c.core->n_simplices, d.mesh->n_simplices);
+    ck_assert_uint_eq(count_positive(c.core, c.core->points), c.core->n_simplices);
+    iccp_coat_free(&c);
+    ck_assert_int_eq(put_on(&d, &mesh, &images, &env), ICC_OK);
+    ck_assert_uint_gt(mesh->n_simplices, d.mesh->n_simplices);
+    check_result(&d.p, d.cube, mesh, images);
+    free_dress(&d);
+}
+END_TEST
+
+static icc_status put_on_once(const icc_env *given, icc_error *err, void *argument)
+{
+    iccp_simplices *mesh;
+    double *images;
+    iccp_env env;
+    ck_assert_int_eq(iccp_env_read(&env, given, err), ICC_OK);
+    const icc_status status = put_on(argument, &mesh, &images, &env);
+    iccp_free(&env.memory, images);
+    iccp_simplices_free(mesh);
+    return iccp_fail(err, status, "no map");
+}
+
+START_TEST(coat_failures)
+{
+    dress d = dress_of();
+    faulty_sweep(put_on_once, &d);
+    free_dress(&d);
 }
 END_TEST
 
@@ -191,6 +321,8 @@ int main(void)
     tcase_add_test(tests, arch_onto_ball);
     tcase_add_test(tests, arch_onto_cube);
     tcase_add_test(tests, arch_onto_star);
+    tcase_add_test(tests, coat);
+    tcase_add_test(tests, coat_failures);
     tcase_add_test(tests, none_onto_arch);
     tcase_add_test(tests, failures);
     suite_add_tcase(suite, tests);
