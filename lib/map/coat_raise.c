@@ -237,9 +237,10 @@ static bool raise(iccp_cone *cone, uint32_t vertex, const double *apex, const do
         up[k] = place[k] - apex[k];
     if (!normalize(up))
         return false;
-    for (int round = 0; round < MOST_ROUNDS; ++round)
-        if (beside->n == 1 && !tilt(cone, from, up, inside, beside, normal))
-            sink(cone, from, normal, inside);
+    for (int round = 0;
+         round < MOST_ROUNDS && beside->n == 1 && !tilt(cone, from, up, inside, beside, normal);
+         ++round)
+        sink(cone, from, normal, inside);
     return cut_all(cone, vertex, inside) &&
            (raise_from(cone, vertex, up, place, inside) ||
             (beside->n != 0 && tilt(cone, from, up, inside, beside, normal) &&

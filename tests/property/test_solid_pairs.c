@@ -209,6 +209,28 @@ START_TEST(unfolded)
 }
 END_TEST
 
+/* Whether a map went by way of a ball, and whether something else was tried after that. */
+static void note_coat(void *coats, const char *message)
+{
+    bool *is = coats;
+    is[1] |= is[0];
+    is[0] |= strstr(message, "a coat:") != NULL;
+}
+
+/* From flat faces to limbs, which is found the other way round. */
+START_TEST(in_a_coat)
+{
+    icc_domain *const d[2] = {domain_of(2, &STUCK[0][1]), domain_of(2, &STUCK[0][0])};
+    bool is[2] = {false, false};
+    const icc_env env = {.size = sizeof env, .log = note_coat, .user = is};
+    check_pair((const icc_domain *const *)d, "cube", &env);
+    ck_assert(is[0]);
+    ck_assert(!is[1]);
+    icc_domain_free(d[0]);
+    icc_domain_free(d[1]);
+}
+END_TEST
+
 START_TEST(random_pairs)
 {
     random_source r = {11};
@@ -261,6 +283,7 @@ int main(void)
     tcase_add_test(tcase, bodies_spheres_cubes);
     tcase_add_test(tcase, points_are_added);
     tcase_add_test(tcase, unfolded);
+    tcase_add_test(tcase, in_a_coat);
     tcase_add_test(tcase, random_pairs);
     tcase_add_test(tcase, failures);
     suite_add_tcase(suite, tcase);
