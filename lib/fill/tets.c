@@ -104,6 +104,21 @@ uint32_t iccp_tets_new(iccp_tets *m, uint32_t a, uint32_t b, uint32_t c, uint32_
     return t;
 }
 
+bool iccp_tets_copy(iccp_tets *m, const iccp_simplices *mesh)
+{
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        if (iccp_tets_add_point(m, mesh->points + 3 * v) == ICCP_NO_TET)
+            return false;
+    if (!iccp_tets_reserve(m, mesh->n_simplices))
+        return false;
+    for (size_t t = 0; t < mesh->n_simplices; ++t) {
+        const uint32_t *v = mesh->corners + 4 * t;
+        (void)iccp_tets_new(m, v[0], v[1], v[2], v[3]);
+        memcpy(m->tet[t].across, mesh->across + 4 * t, sizeof m->tet[t].across);
+    }
+    return true;
+}
+
 void iccp_tets_kill(iccp_tets *m, uint32_t t)
 {
     m->tet[t].v[0] = ICCP_NO_TET;

@@ -6,6 +6,7 @@
 #define ICCP_TETS_H
 
 #include "base/env.h"
+#include "domain/simplices.h"
 #include "fill/metric.h"
 #include "fill/points.h"
 
@@ -73,6 +74,10 @@ void iccp_tets_drop_point(iccp_tets *m);
 bool iccp_tets_reserve(iccp_tets *m, size_t n_more);
 uint32_t iccp_tets_new(iccp_tets *m, uint32_t a, uint32_t b, uint32_t c, uint32_t d);
 void iccp_tets_kill(iccp_tets *m, uint32_t t);
+
+/* Into what is empty: points and tetrahedra of a mesh that knows its neighbours, by its numbers.
+ * False without memory. */
+bool iccp_tets_copy(iccp_tets *m, const iccp_simplices *mesh);
 /* A stamp that no mark and no point has. */
 uint32_t iccp_tets_stamp(iccp_tets *m);
 

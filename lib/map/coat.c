@@ -20,21 +20,6 @@ typedef struct lifter {
     size_t n_below;
 } lifter;
 
-static bool copy_mesh(iccp_tets *m, const iccp_simplices *mesh)
-{
-    for (size_t v = 0; v < mesh->n_points; ++v)
-        if (iccp_tets_add_point(m, mesh->points + 3 * v) == ICCP_NO_TET)
-            return false;
-    if (!iccp_tets_reserve(m, mesh->n_simplices))
-        return false;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        const uint32_t *v = mesh->corners + 4 * t;
-        (void)iccp_tets_new(m, v[0], v[1], v[2], v[3]);
-        memcpy(m->tet[t].across, mesh->across + 4 * t, sizeof m->tet[t].across);
-    }
-    return true;
-}
-
 /* ---- lifting ---- */
 
 /* The side of a face of a tetrahedron on which the others of its points are. */
@@ -207,7 +192,8 @@ icc_status iccp_coat_create(iccp_coat *coat, const iccp_simplices *mesh, const i
     l.room.memory = *memory;
     coat->below = iccp_alloc(memory, l.n_boundary, sizeof *coat->below);
     l.below = coat->below;
-    icc_status status = coat->below != NULL && copy_mesh(&l.mesh, mesh) ? ICC_OK : ICC_ERR_MEMORY;
+    icc_status status =
+        coat->below != NULL && iccp_tets_copy(&l.mesh, mesh) ? ICC_OK : ICC_ERR_MEMORY;
     for (uint32_t v = 0; status == ICC_OK && v < l.n_boundary; ++v)
         l.below[v] = ICCP_NOTHING_BELOW;
     for (uint32_t v = 0; status == ICC_OK && v < l.n_boundary; ++v) {

@@ -49,35 +49,15 @@ static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex,
 static bool cut(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *point)
 {
     iccp_tets *m = &cone->mesh;
-    double x[3], y[3];
-    const uint32_t first = iccp_tets_towards(m, a, b);
-    if (first == ICCP_NO_TET || !iccp_tets_ring(m, a, b, first, SIZE_MAX))
+    const uint32_t ends[2] = {a, b}, first = iccp_tets_towards(m, a, b);
+    double y[3];
+    if (first == ICCP_NO_TET || !iccp_tets_ring(m, a, b, first, SIZE_MAX) ||
+        !iccp_cone_cut(cone, 2, ends, m->ring.n, m->ring.item, point))
         return false;
-    for (int k = 0; k < 3; ++k) {
-        x[k] = 0.5 * iccp_point(&m->points, a)[k] + 0.5 * iccp_point(&m->points, b)[k];
-        y[k] = 0.5 * iccp_cone_image(cone, a)[k] + 0.5 * iccp_cone_image(cone, b)[k];
-    }
-    m->cavity.n = 0;
-    if (!iccp_list_reserve(m, &m->cavity, 8 * m->ring.n))
-        return false;
-    *point = iccp_tets_add_point(m, x);
-    if (*point == ICCP_NO_TET)
-        return false;
-    for (size_t s = 0; s < m->ring.n; ++s)
-        for (int k = 0; k < 2; ++k) {
-            const iccp_tet *tet = &m->tet[m->ring.item[s]];
-            uint32_t *piece = m->cavity.item + m->cavity.n;
-            memcpy(piece, tet->v, sizeof tet->v);
-            piece[iccp_tet_index(tet, k == 0 ? a : b)] = *point;
-            m->cavity.n += 4;
-        }
-    if (!iccp_tets_reserve(m, m->cavity.n / 4) || !iccp_cone_reserve(cone) ||
-        !iccp_tets_replace(m, m->ring.n, m->ring.item, m->cavity.n / 4, m->cavity.item)) {
-        iccp_tets_drop_point(m);
-        return false;
-    }
     for (size_t k = 0; k < m->fresh.n; ++k)
         cone->is_placed[m->fresh.item[k]] = 1;
+    for (int k = 0; k < 3; ++k)
+        y[k] = 0.5 * iccp_cone_image(cone, a)[k] + 0.5 * iccp_cone_image(cone, b)[k];
     iccp_cone_put(cone, *point, y);
     return true;
 }

@@ -35,18 +35,34 @@ bool iccp_cone_reserve(iccp_cone *cone)
     return true;
 }
 
-static bool copy_mesh(iccp_cone *cone, const iccp_simplices *mesh)
+bool iccp_cone_cut(iccp_cone *cone, int n, const uint32_t *ends, size_t n_old, const uint32_t *old,
+                   uint32_t *point)
 {
     iccp_tets *m = &cone->mesh;
-    for (size_t v = 0; v < mesh->n_points; ++v)
-        if (iccp_tets_add_point(m, mesh->points + 3 * v) == ICCP_NO_TET)
-            return false;
-    if (!iccp_tets_reserve(m, mesh->n_simplices) || !iccp_cone_reserve(cone))
+    double x[3] = {0};
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < n; ++k)
+            x[i] += iccp_point(&m->points, ends[k])[i];
+        x[i] /= n;
+    }
+    m->cavity.n = 0;
+    if (!iccp_list_reserve(m, &m->cavity, 4 * (size_t)n * n_old))
         return false;
-    for (size_t t = 0; t < mesh->n_simplices; ++t) {
-        const uint32_t *v = mesh->corners + 4 * t;
-        (void)iccp_tets_new(m, v[0], v[1], v[2], v[3]);
-        memcpy(m->tet[t].across, mesh->across + 4 * t, sizeof m->tet[t].across);
+    *point = iccp_tets_add_point(m, x);
+    if (*point == ICCP_NO_TET)
+        return false;
+    for (size_t t = 0; t < n_old; ++t)
+        for (int k = 0; k < n; ++k) {
+            const iccp_tet *tet = &m->tet[old[t]];
+            uint32_t *piece = m->cavity.item + m->cavity.n;
+            memcpy(piece, tet->v, sizeof tet->v);
+            piece[iccp_tet_index(tet, ends[k])] = *point;
+            m->cavity.n += 4;
+        }
+    if (!iccp_tets_reserve(m, m->cavity.n / 4) || !iccp_cone_reserve(cone) ||
+        !iccp_tets_replace(m, n_old, old, m->cavity.n / 4, m->cavity.item)) {
+        iccp_tets_drop_point(m);
+        return false;
     }
     return true;
 }
@@ -63,7 +79,7 @@ icc_status iccp_cone_create(iccp_cone *cone, const iccp_simplices *mesh, const d
     *cone = (iccp_cone){.n_fixed = mesh->n_boundary, .n_left = mesh->n_simplices};
     iccp_tets_init(&cone->mesh, memory);
     cone->room.memory = *memory;
-    if (!copy_mesh(cone, mesh))
+    if (!iccp_tets_copy(&cone->mesh, mesh) || !iccp_cone_reserve(cone))
         return ICC_ERR_MEMORY;
     memcpy(cone->image, boundary, 3 * cone->n_fixed * sizeof *boundary);
     for (uint32_t t = 0; t < cone->n_left; ++t)

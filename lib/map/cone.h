@@ -41,6 +41,12 @@ icc_status iccp_cone_give(const iccp_cone *cone, iccp_simplices **out, double **
 /* Room for what the mesh has room for. */
 bool iccp_cone_reserve(iccp_cone *cone);
 
+/* Cuts what n points span, an edge or a face, by a new point in its middle, in the n_old
+ * tetrahedra that have it. The pieces are in mesh.fresh; whether they are in place, and the image
+ * of the point, is up to the caller. False: nothing has changed. */
+bool iccp_cone_cut(iccp_cone *cone, int n, const uint32_t *ends, size_t n_old, const uint32_t *old,
+                   uint32_t *point);
+
 /* Whether side i of a tetrahedron that is left belongs to the front, or that of one in place to the
  * boundary or to another in place. */
 static inline bool iccp_cone_is_front(const iccp_cone *cone, uint32_t tet, int i)

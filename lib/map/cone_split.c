@@ -19,38 +19,13 @@ static void between(const double *a, const double *b, double share, double *x)
         x[i] = a[i] + share * (b[i] - a[i]);
 }
 
-/* Cuts what n points span by a new one in their middle, in n_old tetrahedra; pieces are in
- * mesh.fresh. False: nothing has changed. */
+/* Cuts what n points span, in n_old tetrahedra that are left. False: nothing has changed. */
 static bool cut(iccp_cone *cone, int n, const uint32_t *ends, size_t n_old, const uint32_t *old,
                 uint32_t *point)
 {
-    iccp_tets *m = &cone->mesh;
-    double x[3] = {0};
-    for (int i = 0; i < 3; ++i) {
-        for (int k = 0; k < n; ++k)
-            x[i] += iccp_point(&m->points, ends[k])[i];
-        x[i] /= n;
-    }
-    m->cavity.n = 0;
-    if (!iccp_list_reserve(m, &m->cavity, 4 * (size_t)n * n_old))
+    if (!iccp_cone_cut(cone, n, ends, n_old, old, point))
         return false;
-    *point = iccp_tets_add_point(m, x);
-    if (*point == ICCP_NO_TET)
-        return false;
-    for (size_t t = 0; t < n_old; ++t)
-        for (int k = 0; k < n; ++k) {
-            const iccp_tet *tet = &m->tet[old[t]];
-            uint32_t *piece = m->cavity.item + m->cavity.n;
-            memcpy(piece, tet->v, sizeof tet->v);
-            piece[iccp_tet_index(tet, ends[k])] = *point;
-            m->cavity.n += 4;
-        }
-    if (!iccp_tets_reserve(m, m->cavity.n / 4) || !iccp_cone_reserve(cone) ||
-        !iccp_tets_replace(m, n_old, old, m->cavity.n / 4, m->cavity.item)) {
-        iccp_tets_drop_point(m);
-        return false;
-    }
-    cone->n_left += m->cavity.n / 4 - n_old;
+    cone->n_left += cone->mesh.fresh.n - n_old;
     iccp_cone_forget(cone, *point);
     return true;
 }

@@ -14,18 +14,12 @@
 /* Both meshes have the same boundary, by the same numbers. */
 static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
 {
-    if (other->own == NULL) {
-        const icc_status status = iccp_simplices_copy(&other->own, other->mesh, &other->memory);
-        if (status != ICC_OK)
-            return status;
-    }
+    const icc_status status = iccp_solid_own(other);
+    if (status != ICC_OK)
+        return status;
     double *points = other->own->points;
     other->own->points = other->images;
-    iccp_simplices_free(map->own);
-    iccp_free(&map->memory, map->images);
-    map->own = other->own;
-    map->mesh = map->own;
-    map->images = points;
+    iccp_solid_take(map, other->own, points);
     other->own = NULL;
     other->images = NULL;
     return ICC_OK;
@@ -86,10 +80,8 @@ static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direct
                          const double apex[3], icc_map_info *info, const iccp_env *env)
 {
     const icc_domain *from = way.source->domain, *to = way.target->domain;
-    icc_status status = ICC_OK;
     bool done = false;
-    if (round->own == NULL)
-        status = iccp_simplices_copy(&round->own, round->mesh, &env->memory);
+    icc_status status = iccp_solid_own(round);
     if (status == ICC_OK)
         status = iccp_coat_put_on(&round->own, &round->images, to->vertices, apex, &done, env);
     round->mesh = round->own;
@@ -97,11 +89,7 @@ static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direct
         status = iccp_solid_check(round, from, env);
     if (status != ICC_OK || !done || iccp_solid_count_inverted(round) > 0)
         return status;
-    iccp_simplices_free(map->own);
-    iccp_free(&map->memory, map->images);
-    map->own = round->own;
-    map->mesh = map->own;
-    map->images = round->images;
+    iccp_solid_take(map, round->own, round->images);
     round->own = NULL;
     round->images = NULL;
     info->n_unrepaired = 0;

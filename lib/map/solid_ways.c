@@ -63,6 +63,24 @@ size_t iccp_solid_count_inverted(const iccp_solid_map *map)
     return iccp_simplicial_count_inverted(&simplicial);
 }
 
+icc_status iccp_solid_own(iccp_solid_map *map)
+{
+    const icc_status status =
+        map->own != NULL ? ICC_OK : iccp_simplices_copy(&map->own, map->mesh, &map->memory);
+    if (status == ICC_OK)
+        map->mesh = map->own;
+    return status;
+}
+
+void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images)
+{
+    iccp_simplices_free(map->own);
+    iccp_free(&map->memory, map->images);
+    map->own = mesh;
+    map->mesh = mesh;
+    map->images = images;
+}
+
 static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
 {
     const iccp_simplices *mesh = map->mesh;
@@ -118,10 +136,7 @@ icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew, 
     const double began = iccp_seconds();
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 4}, env);
-    icc_status status = ICC_OK;
-    if (map->own == NULL)
-        status = iccp_simplices_copy(&map->own, map->mesh, &env->memory);
-    map->mesh = map->own;
+    icc_status status = iccp_solid_own(map);
     if (status == ICC_OK && anew)
         status = find_start(map, way, &part[0]);
     if (status == ICC_OK)
@@ -144,11 +159,7 @@ icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, icc_map_in
         status = iccp_cone_map(&mesh, &images, cut != NULL ? cut : from->mesh, to->vertices, env);
     iccp_simplices_free(cut);
     if (status == ICC_OK && mesh != NULL) {
-        iccp_simplices_free(map->own);
-        iccp_free(&map->memory, map->images);
-        map->own = mesh;
-        map->mesh = mesh;
-        map->images = images;
+        iccp_solid_take(map, mesh, images);
         status = iccp_solid_check(map, from, env);
         info->n_unrepaired = iccp_solid_count_inverted(map);
     }

@@ -11,6 +11,12 @@ typedef struct iccp_direction {
 
 size_t iccp_solid_count_inverted(const iccp_solid_map *map);
 
+/* Gives the map a mesh of its own, if it has none: a copy. */
+icc_status iccp_solid_own(iccp_solid_map *map);
+
+/* Puts a mesh and its images, which become the map's, in place of its own. */
+void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images);
+
 /* On the source's mesh if that can be repaired, else without its chords. */
 icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
                           const iccp_env *env);
