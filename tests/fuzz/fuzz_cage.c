@@ -2,19 +2,7 @@
 #include "cage/cage_features.h"
 #include "cage/cage_read.h"
 #include "cage/cage_ties.h"
-
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
+#include "fuzz.h"
 
 static bool is_message(const problem *wrong)
 {
@@ -45,11 +33,9 @@ static void check_features(const cage *c, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *text = malloc(size + 1);
+    char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     cage cages[2];
     problem wrong = {.text = ""};
     for (int role = CAGE_SOURCE; role <= CAGE_TARGET; role++) {

@@ -2,22 +2,11 @@
  * domain must find its own vertices and not contradict itself about other points.
  *
  * Byte 0 chooses how the rest is read: by coordinates.h, or as raw doubles, which may be anything. */
+#include "coordinates.h"
+#include "fuzz.h"
 #include "icc/icc.h"
 
-#include "coordinates.h"
-
-#include <stdlib.h>
-#include <string.h>
-
 enum { MAX_VERTICES = 512, MAX_DEFECTS = 16 };
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(int condition)
-{
-    if (!condition)
-        abort();
-}
 
 /* Two bytes or two doubles a vertex. */
 static size_t read_vertices(const uint8_t *data, size_t size, double *vertices)

@@ -6,24 +6,13 @@
  * coordinates.h; the lowest bit of byte 0, how far the map is improved. Then a chain after the
  * other, the outer ring first: a byte with the kind and the number of vertices, and four bytes for
  * each, two of the source and two of the target. */
+#include "coordinates.h"
+#include "fuzz.h"
 #include "icc/icc.h"
 
-#include "coordinates.h"
-
 #include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MAX_CHAINS = 10, MAX_VERTICES = 100 };
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(int holds)
-{
-    if (!holds)
-        abort();
-}
 
 typedef struct input {
     size_t n_outer, n, n_vertices;

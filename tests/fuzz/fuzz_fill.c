@@ -1,17 +1,8 @@
 /* Any bytes as a boundary in 3-D, as for fuzz_surface: what is accepted is filled, with its own vertices
  * and facets, or refused with a facet or vertex that is at fault. */
 #include "bodies.h"
+#include "fuzz.h"
 #include "icc/icc.h"
-
-#include <stdlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(int condition)
-{
-    if (!condition)
-        abort();
-}
 
 static icc_domain_info info_of(const icc_domain *domain)
 {

@@ -2,21 +2,10 @@
  * coordinates and bounding boxes; under each policy; and leak nothing. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "fuzz.h"
 #include "geo/geo_carry.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 /* An L with a slanted image, without holes or with two; made once and kept to the end of the
  * program. */
@@ -82,11 +71,9 @@ static void check_result(geo_result *r, const char *text, size_t n)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     const cages *c = make_cages(size % 2 == 1);
-    char *text = malloc(size + 1);
+    char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     for (int policy = GEO_KEEP; policy <= GEO_FAIL; policy++) {
         geo_result r;
         problem wrong = {.text = ""};

@@ -1,20 +1,9 @@
 /* Any bytes at all must give handles or a pose with numbers that are finite and in range, or a
  * reason; and leak nothing. */
+#include "fuzz.h"
 #include "kernel/handle_set.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 static void require_finite(size_t n, const double *numbers)
 {
@@ -83,11 +72,9 @@ static void try_pose(size_t dim, const char *text, size_t size)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *text = malloc(size + 1);
+    char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     try_handles(text, size);
     try_pose(2, text, size);
     try_pose(3, text, size);

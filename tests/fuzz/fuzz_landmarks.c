@@ -1,19 +1,8 @@
 /* Any bytes at all must give landmarks of finite numbers, or a reason: rows, and what QGIS saves. */
+#include "fuzz.h"
 #include "job/landmark_file.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 static void try_landmarks(const char *text, size_t size, size_t dim)
 {
@@ -33,11 +22,9 @@ static void try_landmarks(const char *text, size_t size, size_t dim)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *text = malloc(size + 1);
+    char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     try_landmarks(text, size, 2);
     try_landmarks(text, size, 3);
     free(text);

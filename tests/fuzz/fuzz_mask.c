@@ -1,23 +1,12 @@
 /* Any mask of cells: it is refused with a text, or gives a boundary around as much as its cells, a
  * grid with every cell's middle inside, and an order that the verifier agrees with, if there is
  * one. Turned round it fares the same. */
+#include "fuzz.h"
 #include "icc/stages.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MAX_CELLS = 256 };
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 typedef struct mask {
     int32_t dim;

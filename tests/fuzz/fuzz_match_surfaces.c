@@ -5,19 +5,10 @@
  * three, six; with bit 7 in other orders on both sides); byte 1, what part of the rest is the
  * source's. */
 #include "bodies.h"
+#include "fuzz.h"
 #include "icc/icc.h"
 
-#include <stdlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 enum { MOST_VERTICES = 1 << 15, MOST_LANDMARKS = 6 };
-
-static void require(int condition)
-{
-    if (!condition)
-        abort();
-}
 
 static icc_domain *read_body(surface *s, const uint8_t *data, size_t size)
 {

@@ -3,22 +3,11 @@
  * Nothing is leaked, and nothing beyond the text is read. */
 #define _POSIX_C_SOURCE 200809L
 
+#include "fuzz.h"
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 /* The types, then the spans: each begins where the one before has ended, or later. */
 static void require_ascending(const mesh_file *m)
@@ -87,11 +76,9 @@ static void require_written(const mesh_file *m, problem *wrong)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *text = malloc(size + 1);
+    char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    memcpy(text, data, size);
-    text[size] = '\0';
     for (size_t dim = 2; dim <= 3; dim++) {
         mesh_file m;
         problem wrong = {.text = ""};

@@ -7,15 +7,8 @@
 #include "../meshes.h"
 #include "domain/domain.h"
 #include "domain/simplices.h"
+#include "fuzz.h"
 #include "math/orient.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(int condition)
-{
-    if (!condition)
-        abort();
-}
 
 static void give_facets(test_mesh *m)
 {

@@ -1,25 +1,14 @@
 /* Any bytes at all must give a picture or a reason, and what is written of a picture must read back
  * as the same, from JPEG as one of the same size. Each input is tried as it is, and as a PNG with
  * the checksums of its chunks put right, behind which most of the reader lies. */
+#include "fuzz.h"
 #include "plot/picture_file.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
 #include <zlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* Larger ones only take time. */
 enum { MOST_PIXELS = 1 << 18 };
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 static uint32_t big_endian(const char *p)
 {
@@ -113,11 +102,9 @@ static void try_picture(const char *bytes, size_t n)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    char *bytes = malloc(size + 1);
+    char *bytes = text_of(data, size);
     if (bytes == NULL)
         return 0;
-    memcpy(bytes, data, size);
-    bytes[size] = '\0';
     if (!is_large(bytes, size)) {
         try_picture(bytes, size);
         put_checksums(bytes, size);

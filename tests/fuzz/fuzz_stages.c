@@ -1,21 +1,11 @@
 /* Any mask with any root: every stage works, the two forms of the tree agree, and what the stages
  * say about each other is consistent. On small masks, any solved function too. */
+#include "fuzz.h"
 #include "icc/stages.h"
 
 #include <math.h>
-#include <stdbool.h>
-#include <stdlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MAX_VERTICES = 1 << 12, MAX_SOLVED = 256 };
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 /* The input, one byte at a time; zeros when it has ended. */
 typedef struct reader {

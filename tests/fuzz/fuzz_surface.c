@@ -7,17 +7,8 @@
  * Three bytes a vertex; what is left replaces vertex indices of the faces. */
 #include "bodies.h"
 #include "domain/domain.h"
+#include "fuzz.h"
 #include "icc/icc.h"
-
-#include <stdlib.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(int condition)
-{
-    if (!condition)
-        abort();
-}
 
 /* A line through the point has the inside between its crossings; where the point is beside the
  * boundary, these tell which side it is on. */

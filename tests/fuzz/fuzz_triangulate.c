@@ -1,7 +1,6 @@
 /* Any polygon with any points: a triangulation that is what it must be, or a reason that holds. */
 #include "../triangulation.h"
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+#include "fuzz.h"
 
 enum { MOST_POINTS = 48 };
 
@@ -9,13 +8,6 @@ typedef struct input {
     size_t n_boundary, n_points;
     double points[2 * MOST_POINTS];
 } input;
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 /* A signed number of few bits, so that points coincide and line up; or, as the first byte says,
  * that times a number that is no power of two, or a few last places off, or very large or small. */

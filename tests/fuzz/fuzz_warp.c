@@ -2,23 +2,11 @@
  * interpolation, through a map that shrinks, grows and turns, and through the identity: refused
  * with a reason, or twice the same bytes, nothing written outside the domain and between rows, and
  * whole numbers as they were from the identity. */
+#include "fuzz.h"
+
 #include <icc/icc.h>
 
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
 enum { WIDE = 12, HIGH = 9, MARGIN = 2, GAP = 3, HEADER = 12, FILL = 0xa5 };
-
-/* assert() is off in release builds. */
-static void require(bool fact)
-{
-    if (!fact)
-        abort();
-}
 
 static icc_domain *box(double slant)
 {

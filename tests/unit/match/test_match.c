@@ -300,24 +300,31 @@ START_TEST(names_bad_landmarks)
 }
 END_TEST
 
-/* A coast with a straight stretch; bent, and without every `without`-th vertex; 0: as it is. */
-static size_t coast(double *xy, size_t n, double bend, size_t without)
+/* Vertex k of n, as far off the outline as a random share says. */
+typedef void vertex_of(double *xy, size_t k, size_t n, double random, double bend);
+
+/* A rough outline without every `without`-th vertex; 0: with all. How many are left. */
+static size_t thinned(double *xy, vertex_of *vertex, size_t n, double bend, size_t without)
 {
     size_t kept = 0;
     uint32_t state = 1;
     for (size_t k = 0; k < n; ++k) {
         state = state * 1664525u + 1013904223u;
-        if (without > 0 && k % without == without - 1)
-            continue;
-        const double turn = 6.283185307179586 * (double)k / (double)n;
-        const double rough = turn < 1 ? 0 : .05 * ((double)(state >> 8) / 16777216.0 - .5);
-        const double radius = (turn < 1 ? .8 / cos(turn - .5) : 1 + .4 * cos(3 * turn)) + rough;
-        const double x = radius * cos(turn), y = radius * sin(turn);
-        xy[2 * kept] = x + bend * y * y;
-        xy[2 * kept + 1] = y - bend * x * y;
-        ++kept;
+        if (without == 0 || k % without != without - 1)
+            vertex(xy + 2 * kept++, k, n, (double)(state >> 8) / 16777216.0, bend);
     }
     return kept;
+}
+
+/* A coast with a straight stretch; bent. */
+static void coast(double *xy, size_t k, size_t n, double random, double bend)
+{
+    const double turn = 6.283185307179586 * (double)k / (double)n;
+    const double rough = turn < 1 ? 0 : .05 * (random - .5);
+    const double radius = (turn < 1 ? .8 / cos(turn - .5) : 1 + .4 * cos(3 * turn)) + rough;
+    const double x = radius * cos(turn), y = radius * sin(turn);
+    xy[0] = x + bend * y * y;
+    xy[1] = y - bend * x * y;
 }
 
 /* Of outlines whose edges are finer than samples, most vertices that both have are found: without
@@ -327,7 +334,7 @@ START_TEST(pairs_vertices_with_vertices)
     enum { N = 1500 };
     static double a[2 * N], b[2 * N];
     for (size_t without = 2; without < 6; ++without) {
-        const size_t n = coast(a, N, 0, 0), m = coast(b, N, .2, without);
+        const size_t n = thinned(a, coast, N, 0, 0), m = thinned(b, coast, N, .2, without);
         icc_match *match = NULL;
         icc_error err = {.size = sizeof err};
         const icc_status status = match_of(&match, n, a, m, b, 0, NULL, NULL, &err);
@@ -341,25 +348,15 @@ START_TEST(pairs_vertices_with_vertices)
 }
 END_TEST
 
-/* A strip with rough sides, straight or bent by four radians, and without every `without`-th
- * vertex; 0: as it is. */
-static size_t strip(double *xy, size_t n, bool is_bent, size_t without)
+/* A strip with rough sides, straight or, if `bend` is not 0, bent by so many radians. */
+static void strip(double *xy, size_t k, size_t n, double random, double bend)
 {
-    size_t kept = 0;
-    uint32_t state = 1;
-    for (size_t k = 0; k < n; ++k) {
-        state = state * 1664525u + 1013904223u;
-        if (without > 0 && k % without == without - 1)
-            continue;
-        const double rough = .06 * (double)(state >> 8) / 16777216.0;
-        const bool is_back = k >= n / 2;
-        const double x = 12 * (double)(is_back ? n - k : k) / (double)n;
-        const double y = is_back ? 1 + rough : -rough, out = 2 - y, turn = 2 * x / 3;
-        xy[2 * kept] = is_bent ? out * sin(turn) : x;
-        xy[2 * kept + 1] = is_bent ? -out * cos(turn) : y;
-        ++kept;
-    }
-    return kept;
+    const double rough = .06 * random;
+    const bool is_back = k >= n / 2;
+    const double x = 12 * (double)(is_back ? n - k : k) / (double)n;
+    const double y = is_back ? 1 + rough : -rough, out = 2 - y, turn = bend * x / 6;
+    xy[0] = bend != 0 ? out * sin(turn) : x;
+    xy[1] = bend != 0 ? -out * cos(turn) : y;
 }
 
 /* No one rotation takes the directions of what is straight to those of what is bent; after that of
@@ -369,7 +366,7 @@ START_TEST(follows_what_is_bent)
     enum { N = 900 };
     static double a[2 * N], b[2 * N];
     for (size_t without = 3; without < 6; ++without) {
-        const size_t n = strip(a, N, false, 0), m = strip(b, N, true, without);
+        const size_t n = thinned(a, strip, N, 0, 0), m = thinned(b, strip, N, 4, without);
         icc_match *match = NULL;
         icc_error err = {.size = sizeof err};
         const icc_match_options options = {.size = sizeof options, .least_sure = 1};
@@ -388,7 +385,7 @@ START_TEST(matched_outlines_stay)
 {
     enum { N = 400 };
     static double a[2 * N], b[2 * N], before[2][4 * N], after[2][4 * N];
-    const size_t n = coast(a, N, 0, 0), m = coast(b, N, .3, 3);
+    const size_t n = thinned(a, coast, N, 0, 0), m = thinned(b, coast, N, .3, 3);
     icc_match *match = NULL, *again = NULL;
     icc_error err = {.size = sizeof err};
     ck_assert_msg(match_of(&match, n, a, m, b, 0, NULL, NULL, &err) == ICC_OK, "%s", err.message);
