@@ -36,12 +36,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    cage cages[2];
+    cage cages[2] = {{0}, {0}};
     problem wrong = {.text = ""};
     for (int role = CAGE_SOURCE; role <= CAGE_TARGET; role++) {
         cage *c = &cages[role == CAGE_TARGET];
         wrong.text[0] = '\0';
-        const cage_choice choice = {(cage_role)role, role == CAGE_TARGET ? "name=b" : NULL};
+        const cage_choice choice = {
+            .role = (cage_role)role,
+            .named = role == CAGE_TARGET && size % 2 == 0 ? "name=b" : NULL,
+            .flat = {role == CAGE_TARGET ? 0.25 : 0, cages[0].n_curves, cages[0].curve_edges}};
         bool good = cage_read(c, &choice, 2, text, size, &wrong);
         require(good ? c->cells != NULL || c->n > c->dim : c->dim == 0 && c->points == NULL);
         require(good || is_message(&wrong));

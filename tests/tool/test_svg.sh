@@ -81,6 +81,48 @@ printf '0 0\n0 2\n-1 2\n' | sed 's/-0$/0/' >expected
 sed 's/^-0 /0 /; s/ -0$/ 0/' quarter.txt >got
 same got expected 'a quarter of a turn is exact'
 
+# Curves within a tolerance: no vertex is farther from the true one, and no edge; both cages get what either needs.
+printf '<circle cx="200" cy="190" r="150"/>' | draw circle
+printf '<g transform="scale(3 .5) rotate(20)"><path d="M0 0C90 10 20 90 100 30Q150 90 40 120A60 30 25 0 1 0 90z"/></g>' | draw curved
+printf '<path d="M0 0C90 10 20 90 100 30Q150 90 40 120C20 130 5 120 0 90z"/>' | draw other
+for length in 5 .3 .02 .004; do
+    run 0 check -s circle.svg --flatten $length --repair circle.txt
+    run 0 check -s curved.svg --flatten $length --repair curved.txt
+    run 0 check -s curved.svg --flatten 1e-3 --repair true.txt
+    /usr/bin/python3 - $length <<'END' || complain "--flatten $length is not kept"
+import sys
+import numpy as np
+length = float(sys.argv[1])
+circle, curved, true = (np.loadtxt(name + ".txt") for name in ("circle", "curved", "true"))
+def off(p):
+    return np.abs(np.hypot(*(p - [200, 190]).T) - 150).max()
+middles = (circle + np.roll(circle, -1, 0)) / 2
+assert off(circle) < 1e-10 and length / 5 < off(middles) <= length, off(middles)
+a, b = curved, np.roll(curved, -1, 0) - curved
+share = np.clip(((true[:, None] - a) * b).sum(2) / (b * b).sum(1), 0, 1)
+far = np.hypot(*np.moveaxis(true[:, None] - a - share[..., None] * b, 2, 0)).min(1).max()
+assert length / 20 < far <= length + 1e-3, far
+END
+done
+vertices() {
+    sed -n 's/^ *cage  *\([0-9]*\) vertices.*/\1/p' out
+}
+run 0 info -s curved.svg --flatten .01
+curved=$(vertices)
+run 0 info -s other.svg --flatten .01
+other=$(vertices)
+[ "$curved" -ne "$other" ] || complain "both have $other vertices by themselves: this tests nothing"
+run 0 info -s curved.svg -t other.svg --flatten .01
+both=$(vertices)
+[ "$both" -ge "$curved" ] && [ "$both" -ge "$other" ] || complain "$both vertices, $curved and $other by themselves"
+run 0 info -s other.svg -t curved.svg --flatten .01
+[ "$(vertices)" -eq "$both" ] || complain "the other way round there are $(vertices) vertices, not $both"
+run 1 check -s circle.svg --flatten 1e-9
+says "libicc: circle.svg:2: --flatten makes more than 1024 edges of a curve"
+printf '0 0\n1 0\n0 1\n' >corners.txt
+run 1 check -s corners.txt --flatten 1
+says "libicc: corners.txt: no curves to flatten; only SVG has such"
+
 # Among several: by the role, by id, by label, by another attribute; one path or polygon counts before other shapes.
 printf '<rect width="9" height="9"/><path d="M0 0H5V5z"/>' | draw before
 run 0 info -s before.svg

@@ -54,6 +54,7 @@ void cage_free(cage *c)
     free(c->more);
     free(c->features);
     free(c->ties);
+    free(c->curve_edges);
     *c = (cage){0};
 }
 

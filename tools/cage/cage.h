@@ -16,12 +16,21 @@
 
 typedef enum cage_role { CAGE_SOURCE = 1, CAGE_TARGET = 2 } cage_role;
 
+/* How many edges a curve becomes: a power of two, so that no edge is farther from it than `length`, and
+ * not fewer than curve k of another cage has. */
+typedef struct flattening {
+    double length; /* 0: as many for each, whatever its size */
+    size_t n_least;
+    const uint32_t *least;
+} flattening;
+
 /* Which shape of a file: that with the role, or the one that is named. A name is `KEY=VALUE`: in
  * GeoJSON the feature with that property or id, in SVG the element with that attribute; or an id, in
  * SVG also the inkscape:label, by itself. */
 typedef struct cage_choice {
     cage_role role;
     const char *named; /* NULL: by its role */
+    flattening flat;
 } cage_choice;
 
 /* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
@@ -53,7 +62,9 @@ typedef struct cage {
     cage_feature *ties; /* polylines from a vertex to a vertex */
     size_t n_more;
     struct cage *more; /* of several polygons those behind the first */
-    size_t room_points, room_lines, room_facets, room_facet_lines, room_features;
+    size_t n_curves;   /* of SVG, arcs among them, in their order */
+    uint32_t *curve_edges;
+    size_t room_points, room_lines, room_facets, room_facet_lines, room_features, room_curves;
     uint32_t fan[3]; /* of the face that is being read */
 } cage;
 

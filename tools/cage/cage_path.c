@@ -1,18 +1,21 @@
 /* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative, the first of which
  * is the outline and the others are holes.
  *
- * Each curve becomes CURVE_SEGMENTS edges at equal steps of its parameter, whatever its size, and
- * each arc ARC_EDGES: so the same path with moved points gives the same number of vertices, and they
- * correspond. */
+ * Each curve becomes edges at equal steps of its parameter, each arc such of its angle. Without a
+ * tolerance there are CURVE_EDGES and ARC_EDGES, whatever the size: so the same path with moved points
+ * gives the same number of vertices, and they correspond. With one they correspond if each of two paths
+ * has been read with the other's counts as the least. */
 #include "cage/cage_readers.h"
 
+#include "base/allocate.h"
 #include "base/number.h"
 #include "cage/cage_features.h"
 #include "cage/svg_arc.h"
 
+#include <math.h>
 #include <string.h>
 
-enum { CURVE_SEGMENTS = 16 };
+enum { CURVE_EDGES = 16, MOST_EDGES = 1024 };
 
 typedef struct pen {
     cage *out;
@@ -23,6 +26,7 @@ typedef struct pen {
     double x, y;               /* where the pen is */
     double start_x, start_y;   /* of the subpath */
     double handle_x, handle_y; /* the last control point of a curve, else where the pen is */
+    const flattening *flat;
     problem *wrong;
 } pen;
 
@@ -68,12 +72,42 @@ static void line_to(pen *p, double x, double y)
     p->y = p->handle_y = y;
 }
 
+/* A power of two. */
+static bool choose_edges(pen *p, double needed, int fixed, int *n)
+{
+    cage *c = p->out;
+    const flattening *f = p->flat;
+    bool counts = f->length > 0 && c->n_curves < f->n_least && f->least[c->n_curves] > needed;
+    needed = !(f->length > 0) ? fixed : counts ? f->least[c->n_curves] : needed;
+    if (!(needed <= MOST_EDGES))
+        return spoilt(p->wrong, p->line, "--flatten makes more than %d edges of a curve",
+                      MOST_EDGES);
+    for (*n = 1; *n < needed;)
+        *n *= 2;
+    c->curve_edges = grow(c->curve_edges, &c->room_curves, c->n_curves + 1, sizeof(uint32_t));
+    c->curve_edges[c->n_curves++] = (uint32_t)*n;
+    return true;
+}
+
+/* An edge is off by an eighth of the second derivative, at most, times the square of its step; and
+ * the derivative is largest at an end. */
+static double edges_of_cubic(const pen *p, const double *abcdxy)
+{
+    double first = hypot(p->x - 2 * abcdxy[0] + abcdxy[2], p->y - 2 * abcdxy[1] + abcdxy[3]);
+    double last =
+        hypot(abcdxy[0] - 2 * abcdxy[2] + abcdxy[4], abcdxy[1] - 2 * abcdxy[3] + abcdxy[5]);
+    return sqrt(6 * fmax(first, last) / (8 * p->flat->length));
+}
+
 /* A cubic from the pen over (a, b), (c, d) to (x, y). */
-static void curve_to(pen *p, const double *abcdxy)
+static bool curve_to(pen *p, const double *abcdxy)
 {
     double x0 = p->x, y0 = p->y;
-    for (int i = 1; i < CURVE_SEGMENTS; i++) {
-        double t = (double)i / CURVE_SEGMENTS, s = 1 - t;
+    int n;
+    if (!choose_edges(p, edges_of_cubic(p, abcdxy), CURVE_EDGES, &n))
+        return false;
+    for (int i = 1; i < n; i++) {
+        double t = (double)i / n, s = 1 - t;
         double w[4] = {s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t};
         cage_add(p->out, w[0] * x0 + w[1] * abcdxy[0] + w[2] * abcdxy[2] + w[3] * abcdxy[4],
                  w[0] * y0 + w[1] * abcdxy[1] + w[2] * abcdxy[3] + w[3] * abcdxy[5], p->line);
@@ -81,26 +115,32 @@ static void curve_to(pen *p, const double *abcdxy)
     line_to(p, abcdxy[4], abcdxy[5]);
     p->handle_x = abcdxy[2];
     p->handle_y = abcdxy[3];
+    return true;
 }
 
 /* A quadratic over (a, b), raised to a cubic. */
-static void quadratic_to(pen *p, double a, double b, double x, double y)
+static bool quadratic_to(pen *p, double a, double b, double x, double y)
 {
-    curve_to(p, (double[]){p->x + (a - p->x) * 2 / 3, p->y + (b - p->y) * 2 / 3,
-                           x + (a - x) * 2 / 3, y + (b - y) * 2 / 3, x, y});
+    bool good = curve_to(p, (double[]){p->x + (a - p->x) * 2 / 3, p->y + (b - p->y) * 2 / 3,
+                                       x + (a - x) * 2 / 3, y + (b - y) * 2 / 3, x, y});
     p->handle_x = a;
     p->handle_y = b;
+    return good;
 }
 
-static void arc_to(pen *p, const double *v)
+static bool arc_to(pen *p, const double *v)
 {
     const double from[2] = {p->x, p->y};
     const arc a = {{v[0], v[1]}, v[2], v[3] > 0, v[4] > 0, {v[5], v[6]}};
-    double inner[2 * ARC_EDGES];
-    int n = arc_inner(inner, from, &a);
+    double inner[2 * (MOST_EDGES + 1)];
+    int n;
+    if (!choose_edges(p, arc_edges(from, &a, p->flat->length, MOST_EDGES), ARC_EDGES, &n))
+        return false;
+    n = arc_inner(inner, n, from, &a);
     for (int i = 0; i < n; i++)
         cage_add(p->out, inner[2 * i], inner[2 * i + 1], p->line);
     line_to(p, v[5], v[6]);
+    return true;
 }
 
 static size_t numbers_of(char command)
@@ -126,7 +166,7 @@ static size_t numbers_of(char command)
 }
 
 /* Draws one step. `previous`: whether the mirrored handle of S and T counts. */
-static void draw(pen *p, char command, char previous, const double *v)
+static bool draw(pen *p, char command, char previous, const double *v)
 {
     bool after_cubic = previous == 'C' || previous == 'S';
     bool after_quadratic = previous == 'Q' || previous == 'T';
@@ -147,21 +187,19 @@ static void draw(pen *p, char command, char previous, const double *v)
         line_to(p, p->x, v[0]);
         break;
     case 'A':
-        arc_to(p, v);
-        break;
+        return arc_to(p, v);
     case 'C':
-        curve_to(p, v);
-        break;
+        return curve_to(p, v);
     case 'S':
-        curve_to(p, (double[]){after_cubic ? mx : p->x, after_cubic ? my : p->y, v[0], v[1], v[2],
-                               v[3]});
-        break;
+        return curve_to(p, (double[]){after_cubic ? mx : p->x, after_cubic ? my : p->y, v[0], v[1],
+                                      v[2], v[3]});
     case 'Q':
-        quadratic_to(p, v[0], v[1], v[2], v[3]);
-        break;
+        return quadratic_to(p, v[0], v[1], v[2], v[3]);
     default:
-        quadratic_to(p, after_quadratic ? mx : p->x, after_quadratic ? my : p->y, v[0], v[1]);
+        return quadratic_to(p, after_quadratic ? mx : p->x, after_quadratic ? my : p->y, v[0],
+                            v[1]);
     }
+    return true;
 }
 
 /* Lower-case commands count from the pen. */
@@ -211,7 +249,8 @@ static bool read_command(pen *p, char letter, char *previous)
             return false;
         if (relative)
             make_absolute(p, command, n, v);
-        draw(p, command, *previous, v);
+        if (!draw(p, command, *previous, v))
+            return false;
         *previous = command;
         command = command == 'M' ? 'L' : command;
         skip_separators(p);
@@ -219,9 +258,16 @@ static bool read_command(pen *p, char letter, char *previous)
     return true;
 }
 
-bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong)
+bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
+                    const flattening *flat, problem *wrong)
 {
-    pen p = {.out = out, .at = data, .end = end, .line = line, .closed = true, .wrong = wrong};
+    pen p = {.out = out,
+             .at = data,
+             .end = end,
+             .line = line,
+             .closed = true,
+             .flat = flat,
+             .wrong = wrong};
     char previous = '\0';
     for (skip_separators(&p); p.at < p.end; skip_separators(&p)) {
         char letter = *p.at++;

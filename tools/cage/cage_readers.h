@@ -21,6 +21,7 @@ bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
 
 /* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
-bool cage_read_path(cage *out, const char *data, const char *end, size_t line, problem *wrong);
+bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
+                    const flattening *flat, problem *wrong);
 
 #endif

@@ -141,7 +141,8 @@ static bool read_length(const tag *t, const char *name, double missing, double *
 }
 
 /* An ellipse as its four quarters, clockwise as it is seen. */
-static bool read_ellipse(cage *out, const tag *t, size_t line, problem *wrong)
+static bool read_ellipse(cage *out, const tag *t, size_t line, const flattening *flat,
+                         problem *wrong)
 {
     bool circle = tag_is(t, "circle");
     double x, y, rx, ry;
@@ -156,11 +157,12 @@ static bool read_ellipse(cage *out, const tag *t, size_t line, problem *wrong)
              "M%.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17g"
              "A%.17g,%.17g 0 0 1 %.17g,%.17gA%.17g,%.17g 0 0 1 %.17g,%.17gZ",
              x + rx, y, rx, ry, x, y + ry, rx, ry, x - rx, y, rx, ry, x, y - ry, rx, ry, x + rx, y);
-    return cage_read_path(out, path, path + strlen(path), line, wrong);
+    return cage_read_path(out, path, path + strlen(path), line, flat, wrong);
 }
 
 /* Corners are rounded by one radius if only one is given, and by half the sides at most. */
-static bool read_rectangle(cage *out, const tag *t, size_t line, problem *wrong)
+static bool read_rectangle(cage *out, const tag *t, size_t line, const flattening *flat,
+                           problem *wrong)
 {
     double x, y, w, h, rx, ry;
     char path[800];
@@ -182,10 +184,11 @@ static bool read_rectangle(cage *out, const tag *t, size_t line, problem *wrong)
                  y + h, x + rx, rx, ry, x, y + h - ry, y + ry, rx, ry, x + rx, y);
     else
         snprintf(path, sizeof path, "M%.17g,%.17gH%.17gV%.17gH%.17gZ", x, y, x + w, y + h, x);
-    return cage_read_path(out, path, path + strlen(path), line, wrong);
+    return cage_read_path(out, path, path + strlen(path), line, flat, wrong);
 }
 
-static bool read_shape(cage *out, const tag *t, const char *text, problem *wrong)
+static bool read_shape(cage *out, const tag *t, const char *text, const flattening *flat,
+                       problem *wrong)
 {
     bool path = tag_is(t, "path"), points = tag_is(t, "polygon") || tag_is(t, "polyline");
     const char *end = NULL;
@@ -195,10 +198,10 @@ static bool read_shape(cage *out, const tag *t, const char *text, problem *wrong
     size_t line = line_of(text, data != NULL ? data : t->name);
     if (data == NULL)
         return spoilt(wrong, line, "the shape has no outline");
-    return path                ? cage_read_path(out, data, end, line, wrong)
+    return path                ? cage_read_path(out, data, end, line, flat, wrong)
            : points            ? read_points(out, data, end, line, wrong)
-           : tag_is(t, "rect") ? read_rectangle(out, t, line, wrong)
-                               : read_ellipse(out, t, line, wrong);
+           : tag_is(t, "rect") ? read_rectangle(out, t, line, flat, wrong)
+                               : read_ellipse(out, t, line, flat, wrong);
 }
 
 /* -------------------------------------------------------------------- file */
@@ -223,7 +226,7 @@ static bool move_all(cage *c, const transform *t)
 
 bool cage_svg_has(cage_role role, const char *text)
 {
-    return find_shapes(text, &(cage_choice){role, NULL}).chosen.n > 0;
+    return find_shapes(text, &(cage_choice){.role = role}).chosen.n > 0;
 }
 
 /* The shape to read, or NULL. */
@@ -255,7 +258,9 @@ bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_
     size_t line = line_of(text, s->tag.name);
     if (s->frame.unclear)
         return spoilt(wrong, line, "the shape has, or is in, a transform that is none of SVG's");
-    return read_shape(out, &s->tag, text, wrong) &&
+    flattening flat = choice->flat;
+    flat.length /= transform_stretch(&s->frame.all);
+    return read_shape(out, &s->tag, text, &flat, wrong) &&
            (move_all(out, &s->frame.all) ||
             spoilt(wrong, line, "the transform takes the shape beyond the range of numbers"));
 }

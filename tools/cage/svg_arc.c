@@ -32,32 +32,56 @@ static void halve(double out[2], const double from[2], const double to[2], bool 
     out[1] = -side * x / length;
 }
 
-int arc_inner(double out[2 * ARC_EDGES], const double from[2], const arc *a)
+/* An arc of the unit circle that a turn by (c, s) and two scales make of it. */
+typedef struct unit_arc {
+    double c, s, rx, ry;
+    double u, v, square; /* half the chord, and its square */
+} unit_arc;
+
+/* False: it is a line. */
+static bool find_unit(unit_arc *out, const double from[2], const arc *a)
 {
     double rx = fabs(a->radii[0]), ry = fabs(a->radii[1]), c, s;
     double hx = (from[0] - a->to[0]) / 2, hy = (from[1] - a->to[1]) / 2;
     turn_by(a->turn, &c, &s);
     double u = (c * hx + s * hy) / rx, v = (c * hy - s * hx) / ry, square = u * u + v * v;
     if (!(rx > 0 && ry > 0 && square > 0 && square < HUGE_VAL))
-        return 0;
+        return false;
     double reach = square > 1 ? sqrt(square) : 1;
-    rx *= reach;
-    ry *= reach;
-    u /= reach;
-    v /= reach;
-    square = square > 1 ? 1 : square;
-    double off = sqrt((1 - square) / square) * (a->large != a->positive ? 1 : -1);
-    const double centre[2] = {off * v, -off * u};
-    double on[ARC_EDGES + 1][2] = {{u - centre[0], v - centre[1]}};
-    on[ARC_EDGES][0] = -u - centre[0];
-    on[ARC_EDGES][1] = -v - centre[1];
-    for (int step = ARC_EDGES; step > 1; step /= 2)
-        for (int i = 0; i < ARC_EDGES; i += step)
-            halve(on[i + step / 2], on[i], on[i + step], a->positive);
-    for (int i = 1; i < ARC_EDGES; i++) {
-        double x = rx * (on[i][0] + centre[0]), y = ry * (on[i][1] + centre[1]);
-        out[2 * i - 2] = c * x - s * y + (from[0] + a->to[0]) / 2;
-        out[2 * i - 1] = s * x + c * y + (from[1] + a->to[1]) / 2;
+    *out = (unit_arc){c, s, rx * reach, ry * reach, u / reach, v / reach, square > 1 ? 1 : square};
+    return true;
+}
+
+int arc_inner(double *out, int n_edges, const double from[2], const arc *a)
+{
+    unit_arc x;
+    if (!find_unit(&x, from, a))
+        return 0;
+    double off = sqrt((1 - x.square) / x.square) * (a->large != a->positive ? 1 : -1);
+    const double centre[2] = {off * x.v, -off * x.u};
+    out[0] = x.u - centre[0];
+    out[1] = x.v - centre[1];
+    out[2 * n_edges] = -x.u - centre[0];
+    out[2 * n_edges + 1] = -x.v - centre[1];
+    for (int step = n_edges; step > 1; step /= 2)
+        for (int i = 0; i < n_edges; i += step)
+            halve(out + 2 * i + step, out + 2 * i, out + 2 * (i + step), a->positive);
+    for (int i = 1; i < n_edges; i++) {
+        double px = x.rx * (out[2 * i] + centre[0]), py = x.ry * (out[2 * i + 1] + centre[1]);
+        out[2 * i - 2] = x.c * px - x.s * py + (from[0] + a->to[0]) / 2;
+        out[2 * i - 1] = x.s * px + x.c * py + (from[1] + a->to[1]) / 2;
     }
-    return ARC_EDGES - 1;
+    return n_edges - 1;
+}
+
+int arc_edges(const double from[2], const arc *a, double tolerance, int most)
+{
+    unit_arc x;
+    if (!find_unit(&x, from, a))
+        return 1;
+    double cosine = sqrt(1 - x.square) * (a->large ? -1 : 1); /* of half the angle of an edge */
+    int n = 1;
+    for (; n <= most && fmax(x.rx, x.ry) * (1 - cosine) > tolerance; n *= 2)
+        cosine = sqrt((1 + cosine) / 2);
+    return n;
 }

@@ -4,6 +4,7 @@
 #include "base/number.h"
 #include "cage/svg_arc.h"
 
+#include <math.h>
 #include <string.h>
 
 static const char separators[] = " \t\r\n,";
@@ -101,4 +102,12 @@ bool transform_read(transform *out, const transform *after, const char *list, co
         *out = both(out, &next);
     }
     return true;
+}
+
+double transform_stretch(const transform *t)
+{
+    const double *m = t->m;
+    double det = m[0] * m[3] - m[1] * m[2];
+    double sum = m[0] * m[0] + m[1] * m[1] + m[2] * m[2] + m[3] * m[3];
+    return sqrt((sum + sqrt(fmax(sum * sum - 4 * det * det, 0))) / 2);
 }

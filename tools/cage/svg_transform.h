@@ -15,6 +15,9 @@ transform transform_none(void);
  * `after`. False: it is none. */
 bool transform_read(transform *out, const transform *after, const char *list, const char *end);
 
+/* How much longer it makes a line at most. */
+double transform_stretch(const transform *t);
+
 void transform_apply(const transform *t, double point[2]);
 
 #endif

@@ -29,6 +29,7 @@ typedef struct args {
     int32_t quality;  /* of JPEG; 0: not given */
     int32_t turning;  /* of outlines that are matched; 0: the library's choice */
     double snap;      /* below 0: the command's choice */
+    double flatten;   /* how far an edge may be from its curve; 0: a fixed number of edges */
     double weld;      /* how far apart vertices may be that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum;       /* their coordinates; 0: not given */

@@ -96,6 +96,13 @@ const option options[] = {
      .present = AT(weld),
      .value = "[=LENGTH]",
      .help = "in space: join vertices at one place, or no farther apart, as STL needs it"},
+    {.name = "flatten",
+     .kind = OPTION_LENGTH,
+     .commands = HAS_CAGES,
+     .offset = AT(flatten),
+     .value = "LENGTH",
+     .help = "SVG: so many edges of each curve that none is farther from it (default: 16, 32 of an "
+             "arc)"},
     {.name = "fill-holes",
      .kind = OPTION_FLAG,
      .commands = TAKES_PARTS,
