@@ -118,8 +118,9 @@ static void reach(web *w, int side, uint32_t h, double before)
     }
 }
 
-/* Shortest ways from a sector through free vertices to all others. */
-static void search(web *w, int side, uint32_t from)
+/* Shortest ways from a sector through free vertices to all others, as far as they are at most so
+ * long, each side's lengths times `scale`. */
+static void search(web *w, int side, uint32_t from, double most)
 {
     const iccp_split_surface *const s = &w->s[side];
     const uint32_t start = w->vertices[side][landmark_of(w, from)];
@@ -134,7 +135,7 @@ static void search(web *w, int side, uint32_t from)
             reach(w, side, h, 0);
         h = iccp_split_turn(s, h);
     } while (h != s->out[start]);
-    while (w->heap.n_entries > 0) {
+    while (w->heap.n_entries > 0 && !(w->scale[side] * w->heap.entry[0].key > most)) {
         const uint32_t v = iccp_heap_pop(&w->heap);
         const uint32_t first = h = s->out[v];
         do {
@@ -144,14 +145,14 @@ static void search(web *w, int side, uint32_t from)
     }
 }
 
-/* What paths from a sector to all others cost; both ways. */
-static void find_costs(web *w, uint32_t from)
+/* What paths from a sector to all others cost, if that is at most so much; both ways. */
+static void find_costs(web *w, uint32_t from, double most)
 {
     double *const row = w->cost + w->n_sectors * from;
     for (size_t k = 0; k < w->n_sectors; ++k)
         row[k] = 0;
     for (int side = 0; side < 2; ++side) {
-        search(w, side, from);
+        search(w, side, from, most);
         for (size_t k = 0; k < w->n_sectors; ++k)
             row[k] += w->scale[side] * w->arrival[k];
     }
@@ -166,7 +167,7 @@ static bool lay(web *w, int side, uint32_t from, uint32_t to, double *length)
 {
     iccp_split_surface *const s = &w->s[side];
     const uint32_t path = (uint32_t)w->n_paths;
-    search(w, side, from);
+    search(w, side, from, HUGE_VAL);
     *length = w->scale[side] * w->arrival[to];
     const uint32_t start = w->vertices[side][landmark_of(w, from)];
     for (uint32_t h = w->entered[to];; h = w->via[s->origin[h]]) {
@@ -226,7 +227,7 @@ static icc_status make_tree(web *w, const iccp_env *env)
         for (uint32_t k = 0; k < w->n; ++k) {
             if (w->is_in[k] || k == w->root)
                 continue;
-            find_costs(w, lonely + k);
+            find_costs(w, lonely + k, least);
             for (uint32_t to = 0; to < w->n_sectors; ++to) {
                 const bool is_in_tree = n == 1 ? to == lonely + w->root : to < 2 * w->n_paths;
                 if (is_in_tree && w->cost[w->n_sectors * (lonely + k) + to] < least) {
@@ -247,7 +248,7 @@ static icc_status add_diagonals(web *w, const iccp_env *env)
     for (size_t k = 0; k < w->n_sectors * w->n_sectors; ++k)
         w->cost[k] = HUGE_VAL;
     for (uint32_t k = 0; k < 2 * w->n_paths; ++k)
-        find_costs(w, k);
+        find_costs(w, k, HUGE_VAL);
     while (w->n_paths < w->most_paths && status == ICC_OK) {
         uint32_t best[2] = {0, 0};
         double least = HUGE_VAL;
@@ -271,7 +272,7 @@ static icc_status add_diagonals(web *w, const iccp_env *env)
                 k >= n || k == best[0] || w->cost[w->n_sectors * best[0] + k] < HUGE_VAL;
         for (uint32_t k = 0; k < n + 2 && status == ICC_OK; ++k)
             if (w->is_stale[k])
-                find_costs(w, k);
+                find_costs(w, k, HUGE_VAL);
     }
     return status;
 }
