@@ -23,6 +23,9 @@ static const double THINNEST = 1e-8;
  * jump at the hull by less the smaller it is: by 2e-4 on the star, and by 2e-2 with 1e-3. With
  * 1e-6, Newton's method fails at times. */
 static const double SLOPE = 1e-5;
+/* Of the length of an equation's row, squared: what is left of it when the other rows are taken
+ * away and it follows from them. */
+static const double FLAT = 1e-12;
 
 struct iccp_handles {
     iccp_memory memory;
@@ -178,10 +181,40 @@ static ICCP_INLINE void meet(const iccp_handles *h, const double *target, double
     add_rows(h, missing, weights);
 }
 
-void iccp_handles_project(const iccp_handles *handles, double *change)
+/* y, in place of b, with C y = b for a C that is not negative; where C is 0, y is. */
+static void solve_small(double c[ICCP_ROWS][ICCP_ROWS], double *y)
 {
-    static const double nothing[ICCP_ROWS] = {0};
-    meet(handles, nothing, change);
+    for (size_t k = 0; k < ICCP_ROWS; ++k)
+        for (size_t r = k + 1; c[k][k] > FLAT && r < ICCP_ROWS; ++r) {
+            const double factor = c[r][k] / c[k][k];
+            for (size_t j = k; j < ICCP_ROWS; ++j)
+                c[r][j] -= factor * c[k][j];
+            y[r] -= factor * y[k];
+        }
+    for (size_t k = ICCP_ROWS; k-- > 0;) {
+        for (size_t j = k + 1; j < ICCP_ROWS; ++j)
+            y[k] -= c[k][j] * y[j];
+        y[k] = c[k][k] > FLAT ? y[k] / c[k][k] : 0;
+    }
+}
+
+void iccp_handles_project(const iccp_handles *handles, const double *bounded, double *change)
+{
+    double gram[ICCP_ROWS][ICCP_ROWS] = {{0}}, y[ICCP_ROWS] = {0};
+    for (size_t j = 0; j < handles->m; ++j) {
+        const double *c = handles->columns + ICCP_ROWS * j;
+        if (bounded != NULL && bounded[j] <= 0)
+            change[j] = 0;
+        else
+            for (size_t r = 0; r < ICCP_ROWS; ++r)
+                for (size_t k = 0; k < ICCP_ROWS; ++k)
+                    gram[r][k] += c[r] * c[k];
+    }
+    subtract_rows(handles, change, y);
+    solve_small(gram, y);
+    for (size_t j = 0; j < handles->m; ++j)
+        for (size_t r = 0; r < ICCP_ROWS && !(bounded != NULL && bounded[j] <= 0); ++r)
+            change[j] += y[r] * handles->columns[ICCP_ROWS * j + r];
 }
 
 size_t iccp_optimise_work(const iccp_handles *handles)

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* A matrix is made that takes as many products as this at most, a program takes 300 to 1,200; and
+/* A matrix is made that takes as many products as this at most, a program takes 200 to 700; and
  * that has so many entries for each of the kernel's. On the star, with parts of 30 to 1,800 among
  * 1,000 to 16,000 nodes, it is then 1.0 to 19 times as fast. */
 enum { MOST_PRODUCTS = 300, MOST_ENTRIES = 16 };

@@ -7,6 +7,8 @@
  * is 0 but for the free nodes: both lie near the part, and so does what is read of the factor. */
 #include "kernel/rigid_slopes.h"
 
+#include "base/compiler.h"
+#include "base/simd.h"
 #include "math/vec.h"
 
 #include <string.h>
@@ -108,7 +110,7 @@ void iccp_slopes_free(iccp_slopes *slopes)
 }
 
 /* out += factor * row, m numbers each */
-static void add(size_t m, double factor, const double *row, double *out)
+static ICCP_INLINE void add(size_t m, double factor, const double *row, double *out)
 {
     for (size_t j = 0; j < m; ++j)
         out[j] += factor * row[j];
@@ -136,6 +138,75 @@ static void clear(const iccp_slopes *s)
         memset(s->all + s->m * s->marked[k], 0, s->m * sizeof *s->all);
 }
 
+/* The inner loops take some handles at a time, a constant number, which stay in registers. Lanes
+ * are handles and nothing is contracted: the same bits for all. */
+static ICCP_INLINE void gather_some(const iccp_slopes *s, size_t begin, size_t width,
+                                    double *derivatives)
+{
+    for (size_t row = 0; row < n_rows(s); ++row) {
+        double sum[8] = {0};
+        for (size_t p = s->kernel.first[row]; p < s->kernel.first[row + 1]; ++p)
+            add(width, s->kernel.value[p], s->all + s->m * s->kernel.column[p] + begin, sum);
+        memcpy(derivatives + s->m * row + begin, sum, width * sizeof *sum);
+    }
+}
+
+static ICCP_INLINE void scatter_some(const iccp_slopes *s, size_t begin, size_t width,
+                                     const double *derivatives)
+{
+    for (size_t row = 0; row < n_rows(s); ++row) {
+        double from[8];
+        memcpy(from, derivatives + s->m * row + begin, width * sizeof *from);
+        for (size_t p = s->kernel.first[row]; p < s->kernel.first[row + 1]; ++p)
+            add(width, s->kernel.value[p], from, s->all + s->m * s->kernel.column[p] + begin);
+    }
+}
+
+/* all -> to, or from -> all where `to` is NULL */
+static ICCP_INLINE void multiply(const iccp_slopes *s, size_t begin, size_t width,
+                                 const double *from, double *to)
+{
+    if (to != NULL)
+        gather_some(s, begin, width, to);
+    else
+        scatter_some(s, begin, width, from);
+}
+
+#ifdef ICCP_HAS_SIMD
+
+ICCP_AVX2 static void multiply_avx2(const iccp_slopes *s, size_t begin, size_t width,
+                                    const double *from, double *to)
+{
+    if (width == 8)
+        multiply(s, begin, 8, from, to);
+    else if (width == 4)
+        multiply(s, begin, 4, from, to);
+    else if (width == 2)
+        multiply(s, begin, 2, from, to);
+    else
+        multiply(s, begin, 1, from, to);
+}
+
+#else
+
+#define multiply_avx2 multiply
+
+#endif
+
+/* all -> to, or from -> all where `to` is NULL */
+static void multiply_kernel(const iccp_slopes *s, const double *from, double *to)
+{
+    const bool wide = iccp_simd() >= ICCP_SIMD_AVX2;
+    for (size_t begin = 0, width; begin < s->m; begin += width) {
+        const size_t left = s->m - begin;
+        width = left >= 8 ? 8 : left >= 4 ? 4 : left >= 2 ? 2 : 1;
+        if (wide)
+            multiply_avx2(s, begin, width, from, to);
+        else
+            multiply(s, begin, width, from, to);
+    }
+}
+
 void iccp_slopes_apply(const iccp_slopes *slopes, const double *weights, double *derivatives)
 {
     const iccp_slopes *s = slopes;
@@ -144,10 +215,7 @@ void iccp_slopes_apply(const iccp_slopes *slopes, const double *weights, double 
     for (size_t i = 0; i < s->n_free; ++i)
         memcpy(s->all + m * s->free[i], weights + m * i, m * sizeof *weights);
     iccp_collocation_invert(s->collocation, s->needed, m, s->all, s->work);
-    memset(derivatives, 0, n_rows(s) * m * sizeof *derivatives);
-    for (size_t row = 0; row < n_rows(s); ++row)
-        for (size_t p = s->kernel.first[row]; p < s->kernel.first[row + 1]; ++p)
-            add(m, s->kernel.value[p], s->all + m * s->kernel.column[p], derivatives + m * row);
+    multiply_kernel(s, NULL, derivatives);
     add_affine(s, s->n_free, n_rows(s), weights, false, derivatives);
 }
 
@@ -156,9 +224,7 @@ void iccp_slopes_transpose(const iccp_slopes *slopes, const double *derivatives,
     const iccp_slopes *s = slopes;
     const size_t m = s->m;
     clear(s);
-    for (size_t row = 0; row < n_rows(s); ++row)
-        for (size_t p = s->kernel.first[row]; p < s->kernel.first[row + 1]; ++p)
-            add(m, s->kernel.value[p], derivatives + m * row, s->all + m * s->kernel.column[p]);
+    multiply_kernel(s, derivatives, NULL);
     iccp_collocation_invert(s->collocation, s->needed, m, s->all, s->work);
     for (size_t i = 0; i < s->n_free; ++i)
         memcpy(weights + m * i, s->all + m * s->free[i], m * sizeof *weights);

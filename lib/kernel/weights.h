@@ -41,8 +41,8 @@ icc_status iccp_handles_create(iccp_handles **out, size_t dim, size_t m, const d
 void iccp_handles_free(iccp_handles *handles);
 
 /* Takes from m numbers, one for each handle, what would change sums or reproduction as a change of
- * weights. */
-void iccp_handles_project(const iccp_handles *handles, double *change);
+ * weights; and, unless `bounded` is NULL, where these m weights are not positive. */
+void iccp_handles_project(const iccp_handles *handles, const double *bounded, double *change);
 
 /* Doubles of scratch memory that iccp_optimise() needs. */
 size_t iccp_optimise_work(const iccp_handles *handles);

@@ -210,7 +210,8 @@ START_TEST(both_ways_agree)
 }
 END_TEST
 
-/* Changes that keep the equations, and do not make a weight negative at once, raise the cost. */
+/* Changes that keep the equations, and do not make a weight negative at once, raise the cost; those
+ * that keep weights at 0, too, neither raise nor lower it. */
 START_TEST(no_feasible_neighbour_is_better)
 {
     random_source r = {13};
@@ -228,7 +229,7 @@ START_TEST(no_feasible_neighbour_is_better)
                 double change[MOST], share = HUGE_VAL, uphill = 0;
                 for (size_t j = 0; j < p.m; ++j)
                     change[j] = random_between(&r, -1, 1);
-                iccp_handles_project(handles, change);
+                iccp_handles_project(handles, NULL, change);
                 for (size_t j = 0; j < p.m; ++j)
                     if (change[j] < 0)
                         share = fmin(share, -p.weights[j] / change[j]);
@@ -236,6 +237,16 @@ START_TEST(no_feasible_neighbour_is_better)
                     uphill += (p.weights[j] - p.start[j]) * change[j];
                 if (share > 1e-9)
                     ck_assert_double_ge(uphill, -1e-9 * size_of(&p));
+                double along = 0, sum = 0;
+                iccp_handles_project(handles, p.weights, change);
+                for (size_t j = 0; j < p.m; ++j) {
+                    along += (p.weights[j] - p.start[j]) * change[j];
+                    sum += change[j];
+                    if (p.weights[j] <= 0)
+                        ck_assert_double_le(fabs(change[j]), 0);
+                }
+                ck_assert_double_le(fabs(along), 1e-9 * size_of(&p));
+                ck_assert_double_le(fabs(sum), 1e-12);
             }
         }
         iccp_handles_free(handles);
@@ -462,7 +473,7 @@ START_TEST(l1_breaks_ties_by_squares)
                 double change[MOST], uphill = 0, slope = 0;
                 for (size_t j = 0; j < p.m; ++j)
                     change[j] = random_between(&r, -1, 1);
-                iccp_handles_project(handles, change);
+                iccp_handles_project(handles, NULL, change);
                 for (size_t j = 0; j < p.m; ++j) {
                     const double v = p.weights[j] - p.start[j];
                     uphill += v * change[j];
