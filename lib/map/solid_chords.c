@@ -21,8 +21,8 @@ typedef struct piece {
 } piece;
 
 typedef struct cutter {
-    const icc_domain *domain;
     const iccp_simplices *mesh;
+    const uint32_t *facets;
     size_t n; /* corners of a simplex */
     iccp_tuples
         edges; /* those of the facets, then those of the simplices between points of the boundary */
@@ -55,8 +55,7 @@ static void list_edges(cutter *c)
     for (size_t f = 0; f < c->mesh->n_facets; ++f)
         for (size_t i = 0; i < dim; ++i)
             for (size_t j = i + 1; j < dim; ++j)
-                put_edge(c, place++, c->domain->facets[dim * f + i],
-                         c->domain->facets[dim * f + j]);
+                put_edge(c, place++, c->facets[dim * f + i], c->facets[dim * f + j]);
     for (size_t s = 0; s < c->mesh->n_simplices; ++s) {
         const uint32_t *v = c->mesh->corners + c->n * s;
         for (size_t i = 0; i < c->n; ++i)
@@ -212,10 +211,10 @@ static icc_status cut_simplices(cutter *c, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_solid_cut_chords(iccp_simplices **out, const icc_domain *domain,
-                                 const iccp_env *env)
+icc_status iccp_solid_cut_chords(iccp_simplices **out, const iccp_simplices *mesh,
+                                 const uint32_t *facets, const iccp_env *env)
 {
-    cutter c = {.domain = domain, .mesh = domain->mesh, .n = (size_t)domain->dim + 1};
+    cutter c = {.mesh = mesh, .facets = facets, .n = mesh->dim + 1};
     *out = NULL;
     c.edges.memory = env->memory;
     icc_status status = find_chords(&c, env);
@@ -224,7 +223,7 @@ icc_status iccp_solid_cut_chords(iccp_simplices **out, const icc_domain *domain,
         status = c.out != NULL ? cut_simplices(&c, env) : ICC_ERR_MEMORY;
     }
     if (status == ICC_OK && c.out != NULL && all_positive(c.out)) {
-        status = iccp_simplices_join(c.out, c.mesh->n_facets, domain->facets, NULL);
+        status = iccp_simplices_join(c.out, mesh->n_facets, facets, NULL);
         *out = status == ICC_OK ? c.out : NULL;
     }
     if (*out == NULL)

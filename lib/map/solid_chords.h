@@ -4,12 +4,12 @@
 #ifndef ICCP_SOLID_CHORDS_H
 #define ICCP_SOLID_CHORDS_H
 
-#include "domain/domain.h"
 #include "domain/simplices.h"
 
-/* The domain's mesh with a point in the middle of every such edge. It does not know the caller's
- * numbers. *out is NULL, with ICC_OK, if there are none or a piece would be flat. O(n). */
-icc_status iccp_solid_cut_chords(iccp_simplices **out, const icc_domain *domain,
-                                 const iccp_env *env);
+/* A mesh with a point in the middle of every such edge, whose facets are given by their points. It
+ * does not know the caller's numbers. *out is NULL, with ICC_OK, if there are none or a piece would
+ * be flat. O(n). */
+icc_status iccp_solid_cut_chords(iccp_simplices **out, const iccp_simplices *mesh,
+                                 const uint32_t *facets, const iccp_env *env);
 
 #endif

@@ -103,7 +103,8 @@ static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env
 static icc_status begin_without_chords(iccp_solid_map *map, iccp_direction way, bool *done,
                                        const iccp_env *env)
 {
-    icc_status status = iccp_solid_cut_chords(&map->own, way.source->domain, env);
+    icc_status status =
+        iccp_solid_cut_chords(&map->own, way.source->domain->mesh, way.source->domain->facets, env);
     *done = map->own != NULL;
     if (status != ICC_OK || map->own == NULL)
         return status;
@@ -154,7 +155,7 @@ icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, icc_map_in
     const icc_domain *from = way.source->domain, *to = way.target->domain;
     iccp_simplices *cut, *mesh = NULL;
     double *images;
-    icc_status status = iccp_solid_cut_chords(&cut, from, env);
+    icc_status status = iccp_solid_cut_chords(&cut, from->mesh, from->facets, env);
     if (status == ICC_OK)
         status = iccp_cone_map(&mesh, &images, cut != NULL ? cut : from->mesh, to->vertices, env);
     iccp_simplices_free(cut);

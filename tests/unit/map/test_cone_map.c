@@ -1,5 +1,6 @@
 /* A mesh in space onto a star-shaped target: every tetrahedron exactly positive on both sides, the
- * boundary as it was given, and what is told when there is no such map; a coat on a map onto a ball. */
+ * boundary as it was given, and what is told when there is no such map; a coat on a map onto a ball;
+ * pockets of a map in which something is inverted. */
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "base/error.h"
@@ -9,6 +10,7 @@
 #include "map/coat_map.h"
 #include "map/cone_map.h"
 #include "map/solid_chords.h"
+#include "map/solid_pockets.h"
 #include "math/predicates.h"
 #include "surface/sphere.h"
 
@@ -80,7 +82,8 @@ static problem problem_of_cells(size_t length, int (*is_cell)(int32_t, const siz
     test_mesh bar = mesh_cells(3, length, is_cell), bent = mesh_moved(&bar, source);
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_msg(mesh_domain(&p.source, &bent, NULL, &err) == ICC_OK, "%s", err.message);
-    ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source, &env), ICC_OK);
+    ck_assert_int_eq(iccp_solid_cut_chords(&p.mesh, p.source->mesh, p.source->facets, &env),
+                     ICC_OK);
     ck_assert_ptr_nonnull(p.mesh);
     p.boundary = mesh_alloc(3 * p.mesh->n_boundary, sizeof *p.boundary);
     for (size_t v = 0; v < p.mesh->n_boundary; ++v)
@@ -281,6 +284,102 @@ START_TEST(coat_failures)
 }
 END_TEST
 
+/* ---- pockets ---- */
+
+static iccp_solid_solve by_cones, in_vain;
+
+static icc_status by_cones(iccp_simplices **mesh, double **images, const icc_domain *from,
+                           const icc_domain *to, const iccp_env *env)
+{
+    return iccp_cone_map(mesh, images, from->mesh, to->vertices, env);
+}
+
+static icc_status in_vain(iccp_simplices **mesh, double **images, const icc_domain *from,
+                          const icc_domain *to, const iccp_env *env)
+{
+    ck_assert_uint_eq(from->n_facets, to->n_facets);
+    *mesh = NULL;
+    *images = NULL;
+    return iccp_progress(env, "repair", 0);
+}
+
+/* The identity, but for one point inside that is somewhere else. */
+static iccp_solid_map spoilt_map(const problem *p)
+{
+    const iccp_memory *memory = &p->mesh->memory;
+    const size_t n = p->mesh->n_points, v = (n + p->mesh->n_boundary) / 2;
+    iccp_solid_map map = {.memory = *memory, .stretch = 1};
+    ck_assert_int_eq(iccp_simplices_copy(&map.own, p->mesh, memory), ICC_OK);
+    map.mesh = map.own;
+    map.images = iccp_alloc(memory, n, 3 * sizeof *map.images);
+    ck_assert_ptr_nonnull(map.images);
+    memcpy(map.images, p->mesh->points, 3 * n * sizeof *map.images);
+    memcpy(map.images + 3 * v, map.images, 3 * sizeof *map.images);
+    ck_assert_uint_lt(count_positive(map.mesh, map.images), map.mesh->n_simplices);
+    return map;
+}
+
+static void free_map(iccp_solid_map *map)
+{
+    iccp_free(&map->memory, map->images);
+    iccp_simplices_free(map->own);
+}
+
+static icc_status mend_once(const icc_env *given, icc_error *err, void *argument)
+{
+    const problem *p = argument;
+    iccp_env env;
+    iccp_solid_map map = {.stretch = 1}, spoilt = spoilt_map(p);
+    icc_status status = iccp_env_read(&env, given, err);
+    map.memory = env.memory;
+    if (status == ICC_OK)
+        status = iccp_simplices_copy(&map.own, spoilt.mesh, &env.memory);
+    map.mesh = map.own;
+    map.images = iccp_alloc(&env.memory, p->mesh->n_points, 3 * sizeof *map.images);
+    if (status == ICC_OK && map.images == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        memcpy(map.images, spoilt.images, 3 * p->mesh->n_points * sizeof *map.images);
+        status = iccp_solid_mend_pockets(&map, p->source, by_cones, &env);
+    }
+    free_map(&spoilt);
+    if (given == NULL) { /* memory lasts */
+        iccp_free(&map.memory, map.own->across);
+        map.own->across = NULL;
+        check_result(p, p->source->vertices, map.own, map.images);
+    } else {
+        free_map(&map);
+    }
+    return iccp_fail(err, status, "not mended");
+}
+
+START_TEST(pockets)
+{
+    problem p = problem_of(arch, ball);
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(mend_once(NULL, &err, &p) == ICC_OK, "%s", err.message);
+    faulty_sweep(mend_once, &p);
+    free_problem(&p);
+}
+END_TEST
+
+/* What nothing comes in place of stays as it is. */
+START_TEST(pockets_in_vain)
+{
+    problem p = problem_of(arch, ball);
+    iccp_solid_map map = spoilt_map(&p);
+    iccp_env env;
+    const iccp_simplices *mesh = map.mesh;
+    const size_t n_positive = count_positive(mesh, map.images);
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_solid_mend_pockets(&map, p.source, in_vain, &env), ICC_OK);
+    ck_assert_ptr_eq(map.mesh, mesh);
+    ck_assert_uint_eq(count_positive(map.mesh, map.images), n_positive);
+    free_map(&map);
+    free_problem(&p);
+}
+END_TEST
+
 START_TEST(none_onto_arch)
 {
     problem p = problem_of(ball, arch);
@@ -323,6 +422,8 @@ int main(void)
     tcase_add_test(tests, arch_onto_star);
     tcase_add_test(tests, coat);
     tcase_add_test(tests, coat_failures);
+    tcase_add_test(tests, pockets);
+    tcase_add_test(tests, pockets_in_vain);
     tcase_add_test(tests, none_onto_arch);
     tcase_add_test(tests, failures);
     suite_add_tcase(suite, tests);
