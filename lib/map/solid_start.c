@@ -206,10 +206,10 @@ static icc_status take_turns_round(both *b, icc_map_info *info, const iccp_env *
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                             bool *unfolded, icc_map_info *info, const iccp_env *env)
 {
-    static const stage STAGES[] = {FIT, POCKETS, BALL, UNFOLD, MEND, MEND_ANEW};
+    static const stage STAGES[] = {FIT, BALL, POCKETS, UNFOLD, MEND, MEND_ANEW};
     enum { N_STAGES = sizeof STAGES / sizeof *STAGES };
     iccp_env part[N_STAGES];
-    iccp_split(part, N_STAGES, (const double[]){28, 2, 6, 2, 2, 2}, env);
+    iccp_split(part, N_STAGES, (const double[]){28, 6, 2, 2, 2, 2}, env);
     iccp_solid_map other;
     both b = both_of(map, &other, (iccp_direction){source, target});
     icc_status status = ICC_OK;

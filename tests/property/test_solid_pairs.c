@@ -185,24 +185,20 @@ START_TEST(points_are_added)
 }
 END_TEST
 
-/* Whether all tetrahedra of some map came in place one by one. */
-static void note_unfolded(void *unfolded, const char *message)
+static void note_pockets(void *pockets, const char *message)
 {
-    static const char WHAT[] = "tetrahedra came in place";
-    size_t n, all;
-    if (strstr(message, WHAT) != NULL && sscanf(message, "%zu of %zu", &n, &all) == 2)
-        *(bool *)unfolded |= n == all;
+    *(bool *)pockets |= strstr(message, "a pocket of") != NULL;
 }
 
-/* Where charts are of no use but one point sees all of a surface: a ball's, from either side. */
-START_TEST(unfolded)
+/* Onto what is a ball already, from either side: few tetrahedra are left. */
+START_TEST(in_pockets)
 {
     icc_domain *const d[2] = {domain_of(2, &STUCK[1][0]), domain_of(2, &STUCK[1][1])};
     for (int k = 0; k < 2; ++k) {
-        bool is_unfolded = false;
-        const icc_env env = {.size = sizeof env, .log = note_unfolded, .user = &is_unfolded};
+        bool are_pockets = false;
+        const icc_env env = {.size = sizeof env, .log = note_pockets, .user = &are_pockets};
         check_pair((const icc_domain *const[2]){d[k], d[1 - k]}, "ball", &env);
-        ck_assert(is_unfolded);
+        ck_assert(are_pockets);
     }
     icc_domain_free(d[0]);
     icc_domain_free(d[1]);
@@ -282,7 +278,7 @@ int main(void)
     tcase_set_timeout(tcase, 3600);
     tcase_add_test(tcase, bodies_spheres_cubes);
     tcase_add_test(tcase, points_are_added);
-    tcase_add_test(tcase, unfolded);
+    tcase_add_test(tcase, in_pockets);
     tcase_add_test(tcase, in_a_coat);
     tcase_add_test(tcase, random_pairs);
     tcase_add_test(tcase, failures);
