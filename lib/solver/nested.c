@@ -12,7 +12,7 @@
 static const double COARSEST_TARGET = 1e-16;
 
 /* Residual of the coarser grids: more digits than that do not outlast the finer grid. */
-static const double COARSE_ENOUGH = 1e-7;
+static const double COARSE_ENOUGH = 1e-8;
 
 static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplier,
                                  icc_function_info *info, const iccp_env *env)

@@ -30,11 +30,11 @@ static const double UNIT = 0.04;
 static const double FIRST_WIDTH = 0.01;
 
 /* Width below which nothing is gained, for a maximum of 1. */
-static const double LEAST_WIDTH = 1e-12;
+static const double LEAST_WIDTH = 1e-17;
 
 /* The fewer inequalities are off by more than their width, the more it shrinks. */
 static const double FEW = 0.1, MANY = 0.25;
-static const double FAST = 0.3, STEADY = 0.5, SLOW = 0.8;
+static const double FAST = 0.1, STEADY = 0.2, SLOW = 0.3;
 
 /* The square of an inequality's width. */
 static double square_width(const iccp_smoothing *s, double width, size_t i)
