@@ -96,9 +96,13 @@ says "frame 1, 0.5 of the way from before.txt: "
 run 2 animate -s before.txt fish.png out.png
 says "usage: libicc animate"
 run 2 animate -s before.txt fish.png - after.txt
-says "only IN may be standard input"
-run 2 animate -s - fish.png o.png after.txt
-says "only IN may be standard input"
+says "only the source or IN may be standard input"
+run 2 animate -s before.txt fish.png o.png after.txt -
+says "only the source or IN may be standard input"
+run 2 animate -s - - o.png after.txt
+says "only one input can be standard input"
+run 1 animate -s nowhere.txt fish.png o.png after.txt
+says "nowhere.txt: cannot be opened"
 run 2 animate -s before.txt fish.png o.svg after.txt
 says "'o.svg' is a name for SVG"
 run 2 animate -s before.txt --steps 0 fish.png o.png after.txt
@@ -113,4 +117,9 @@ says "before.txt: this is no PNG"
 [ ! -e o-0000.png ] || complain "a frame is written though a cage is wrong"
 run 0 animate -s before.txt - o.png after.txt <fish.png
 same o-0000.png one-0000.png "a picture from standard input"
+run 0 animate -s - fish.png piped.png after.txt half.txt <before.txt
+run 0 animate -s before.txt fish.png file.png after.txt half.txt
+for frame in 0000 0001; do
+    same piped-$frame.png file-$frame.png "frame $frame of a source from standard input"
+done
 finish

@@ -26,6 +26,7 @@ typedef struct frame_facts {
 
 typedef struct animation {
     const args *args;
+    source_file source;
     size_t n_keys;
     job *keys; /* from the source to each cage of the path; the first one has map and progress */
     picture from, empty; /* and what each frame is drawn on */
@@ -41,13 +42,16 @@ static size_t n_steps(const args *a)
     return a->steps > 0 ? (size_t)a->steps : 1;
 }
 
+/* The source may be a pipe, so its file is read once. */
 static int read_keys(animation *x)
 {
-    int result = DONE;
+    x->source.text = file_read_chosen(x->args->source, &x->source.n, &x->source.named);
+    int result = x->source.text != NULL ? DONE : FAILED;
     for (size_t k = 0; k < x->n_keys && result == DONE; k++) {
         args own = *x->args;
         own.target = x->args->operands[2 + k];
         job_start(&x->keys[k], &own);
+        x->keys[k].source = &x->source;
         result = job_read_plane(&x->keys[k], "animate");
         if (result == DONE)
             result = job_make_domains(&x->keys[k]);
@@ -222,5 +226,6 @@ int run_animate(const args *a)
         job_end(&x.keys[k]);
     free(x.keys);
     free(x.frames);
+    free(x.source.text);
     return result;
 }

@@ -195,20 +195,21 @@ static int check_charts(const args *a, const command *c)
     return result == DONE ? check_functions(a, c) : result;
 }
 
-/* The cages of a path are read one by one, each with the source. */
+/* The frames are several files, and so are the cages of a path. */
 static int check_animate(const args *a, const command *c)
 {
-    bool standard = strcmp(a->source, "-") == 0;
+    bool standard = false;
     for (size_t i = 1; i < a->n_operands; i++)
         standard = standard || strcmp(a->operands[i], "-") == 0;
     return standard
-               ? misused(c->name, "cages and pictures are files; only IN may be standard input")
+               ? misused(c->name, "OUT and the cages of the path are files; only the source or IN "
+                                  "may be standard input")
                : DONE;
 }
 
 static int check_inputs(const args *a, const command *c)
 {
-    bool has_input = (c->n_operands == 2 || a->geojson) && !has_bound(a, c);
+    bool has_input = (c->n_operands >= 2 || a->geojson) && !has_bound(a, c);
     const char *inputs[] = {a->source,
                             a->target,
                             a->points ? a->points : a->coords,

@@ -13,13 +13,21 @@
 
 #include <icc/icc.h>
 
+/* What file_read_chosen() gives. */
+typedef struct source_file {
+    char *text;
+    size_t n;
+    const char *named;
+} source_file;
+
 typedef struct job {
     const args *args; /* own */
     args own;
     progress bar;
     icc_env env;
-    cage cages[2]; /* source, target */
-    bool both;     /* are in one file */
+    const source_file *source; /* borrowed, where several jobs have one source; NULL: it is read */
+    cage cages[2];             /* source, target */
+    bool both;                 /* are in one file */
     const icc_domain *domains[2];
     icc_domain *made[2]; /* the same, but for those that are of `match` */
     bool has_domains;    /* of all parts */

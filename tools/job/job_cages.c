@@ -172,19 +172,20 @@ int job_read_cages(job *j)
 {
     if (job_dim(j) > 0)
         return DONE;
-    size_t n;
-    const char *named;
-    char *text = file_read_chosen(job_file(j, 1), &n, &named);
-    if (text == NULL)
+    source_file own = {NULL};
+    const source_file *s = j->source != NULL ? j->source : &own;
+    if (j->source == NULL)
+        own.text = file_read_chosen(job_file(j, 1), &own.n, &own.named);
+    if (s->text == NULL)
         return FAILED;
-    int result = read_cage(j, 0, named, text, n);
+    int result = read_cage(j, 0, s->named, s->text, s->n);
     if (result == DONE)
         result = check_points(j);
     if (result == DONE)
-        result = read_target(j, text, n);
+        result = read_target(j, s->text, s->n);
     if (result == DONE)
-        result = read_source_again(j, named, text, n);
-    free(text);
+        result = read_source_again(j, s->named, s->text, s->n);
+    free(own.text);
     if (result == DONE && j->args->match != NULL)
         result = match(j);
     if (result == DONE)
