@@ -145,6 +145,8 @@ static icc_status alloc_boundary(pocket *p)
     return p->faces != NULL && p->before != NULL && p->after != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
+/* Its faces, by numbers of its points in the order of coming, and where these are before the map
+ * and after it. */
 static void list_boundary(pocket *p)
 {
     const iccp_simplices *mesh = p->map->mesh;
@@ -218,14 +220,19 @@ static void join(const iccp_solid_map *map, const pocket *p, const icc_domain *b
     }
 }
 
-static bool is_positive(const iccp_simplices *mesh)
+/* Whether fewer are inverted, and nothing is flat before the map. What was positive in the
+ * coordinates of two other domains need not be so when it is rounded to those of the map; as the
+ * number falls, there is an end to pockets. */
+static bool is_better(const iccp_simplices *mesh, double *images, const iccp_solid_map *map)
 {
-    const iccp_simplicial_map same = iccp_simplicial_map_of(mesh, mesh->points);
-    return iccp_simplicial_count_inverted(&same) == 0;
+    const iccp_simplicial_map before = iccp_simplicial_map_of(mesh, mesh->points);
+    const iccp_simplicial_map after = iccp_simplicial_map_of(mesh, images);
+    return iccp_simplicial_count_inverted(&before) == 0 &&
+           iccp_simplicial_count_inverted(&after) < iccp_solid_count_inverted(map);
 }
 
 /* `part`: a mesh in place of the pocket, with its images, in the coordinates of two other domains.
- * Not done where something is flat in those of the map. */
+ * Not done where that makes nothing better. */
 static icc_status splice(iccp_solid_map *map, pocket *p, const icc_domain *before,
                          const icc_domain *after, const iccp_simplices *part,
                          const double *part_images, bool *done)
@@ -244,12 +251,13 @@ static icc_status splice(iccp_solid_map *map, pocket *p, const icc_domain *befor
     mesh->corners = iccp_alloc(&map->memory, mesh->n_simplices, 4 * sizeof *mesh->corners);
     double *images = iccp_alloc(&map->memory, mesh->n_points, 3 * sizeof *images);
     const bool has_memory = mesh->points != NULL && mesh->corners != NULL && images != NULL;
-    if (has_memory)
+    if (has_memory) {
         join(map, p, before, after, part, part_images, mesh, images);
-    *done = has_memory && is_positive(mesh);
+        iccp_mesh_round(mesh, images);
+        *done = is_better(mesh, images, map);
+    }
     if (*done) {
         iccp_solid_take(map, mesh, images);
-        iccp_mesh_round(mesh, images);
         return ICC_OK;
     }
     iccp_simplices_free(mesh);
