@@ -1210,12 +1210,18 @@ typedef struct icc_map_info {
  * a third more. Deterministic: work is counted, and no clock is read.
  *
  * Kind mesh in 3-D starts from the source's mesh. Where that cannot be repaired, the map is the
- * inverse of one that starts from the target's mesh; where that cannot be either, points are added
- * to both. Every tetrahedron of a map of kind mesh is checked, exactly, before and after; that one
- * of these ways comes to a map is not guaranteed, only seen on most pairs tried; docs/3d.md names
- * them, and one that it was not seen on. Cost: Newton steps on all tetrahedra, at most 160 on each
- * mesh, without what crosses it from boundary to boundary in the second half; then 480 on each,
- * which may grow to twice as many tetrahedra meanwhile. Most maps take less than 20.
+ * inverse of one that starts from the target's mesh. Where that cannot be either, these ways are
+ * tried one after the other, each of them from both sides: by a ball, where a point inside sees all
+ * of the surface; by pockets, where 40 tetrahedra or fewer are left: what is round each of them,
+ * 4,096 at most, is filled and mapped anew (there are pockets on the way by a ball, too); by
+ * tetrahedra that are put in place one by one, where a point sees all; by points that are added to
+ * both meshes. Every tetrahedron of a map of kind mesh is checked, exactly, before and after; that
+ * one of these ways comes to a map is not guaranteed, only seen on most pairs tried; docs/3d.md
+ * names them, and one that it was not seen on. Cost: Newton steps on all tetrahedra, at most 160 on
+ * each mesh, without what crosses it from boundary to boundary in the second half; then 480 on
+ * each, which may grow to twice as many tetrahedra meanwhile; by a ball, as many again for either
+ * side; and those of pockets, of which there are 40 at most on each mesh, each of up to nine sizes.
+ * Most maps take less than 20.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
