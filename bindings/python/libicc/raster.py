@@ -16,7 +16,7 @@ from ._map import Map
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Floats
 
-RESAMPLING = ("nearest", "linear")
+RESAMPLING = ("nearest", "linear", "cubic")
 
 
 class Window(NamedTuple):
@@ -109,8 +109,9 @@ def warp_raster(data: ArrayLike, grid: Grid, mapping: Map, out: Optional[Grid] =
         grid: where its pixels lie, in the coordinates of the map's source
         mapping: from places in the raster to places in the result
         out: where the pixels of the result lie, in the coordinates of the map's target; None: as those of `data`
-        resampling: "linear" between the centres of pixels, or "nearest", for classes and labels. Neither averages
-            where the raster shrinks
+        resampling: "linear" between the centres of pixels; "cubic", which is exact for quadratic functions and may
+            overshoot, within the range of whole numbers; or "nearest", for classes and labels. None averages where the
+            raster shrinks
         fill: what pixels without an image in the raster get
         nodata: pixels of this value have none: what is made of them gets `fill`; None: all have. NaN is kept as such
 
@@ -152,22 +153,26 @@ def pull(read: Reader, grid: Grid, mapping: Map, out: Grid, window: Window, n_ba
     if not inside.any():
         return result
     column, row = column[inside], row[inside]
-    needed = _around(column, row, grid)
+    cubic = how.resampling == "cubic"
+    needed = _around(column, row, grid, 2 if cubic else 1)
     if needed.shape[0] * needed.shape[1] > how.max_pixels and window.shape != (1, 1):
         halves = _halves(window)
         parts = [pull(read, grid, mapping, out, half, n_bands, dtype, how, threads) for half in halves]
         return np.concatenate(parts, axis=1 if halves[0].row_end < window.row_end else 2)
     pixels, empty = read(needed), np.zeros((n_bands, len(row)), bool)
-    sample = _nearest if how.resampling == "nearest" else _linear
-    values = sample(pixels, column - needed.column, row - needed.row, how.nodata, empty)
+    column, row = column - needed.column, row - needed.row
+    if how.resampling == "nearest":
+        values = _nearest(pixels, column, row, how.nodata, empty)
+    else:
+        values = _between(pixels, column, row, how.nodata, empty, cubic)
     result[:, inside] = np.where(empty, result[:, inside], _typed(values, result.dtype))
     return result
 
 
-def _around(column: Floats, row: Floats, grid: Grid) -> Window:
-    """The pixels that count for these places, with one more on each side for those between two centres."""
-    return Window(max(int(row.min()) - 1, 0), min(int(row.max()) + 2, grid.height),
-                  max(int(column.min()) - 1, 0), min(int(column.max()) + 2, grid.width))
+def _around(column: Floats, row: Floats, grid: Grid, beside: int) -> Window:
+    """The pixels that count for these places, up to so many centres away."""
+    return Window(max(int(row.min()) - beside, 0), min(int(row.max()) + 1 + beside, grid.height),
+                  max(int(column.min()) - beside, 0), min(int(column.max()) + 1 + beside, grid.width))
 
 
 def _halves(w: Window) -> Sequence[Window]:
@@ -189,24 +194,39 @@ def _nearest(pixels: Array, column: Floats, row: Floats, nodata: Optional[float]
     return values
 
 
-def _linear(pixels: Array, column: Floats, row: Floats, nodata: Optional[float], empty: Array) -> Array:
-    """Between four centres; nearer to the rim than half a pixel those beyond it are those on it. A pixel without
-    data spoils what it has a share in."""
-    places, shares = [], []
-    for at, n in ((row - 0.5, pixels.shape[1]), (column - 0.5, pixels.shape[2])):
-        low = np.floor(at)
-        places.append((np.clip(low, 0, n - 1).astype(np.intp), np.clip(low + 1, 0, n - 1).astype(np.intp)))
-        shares.append((1 - (at - low), at - low))
-    values = np.zeros(empty.shape)
-    for i in (0, 1):
-        for j in (0, 1):
-            share, corner = shares[0][i] * shares[1][j], pixels[:, places[0][i], places[1][j]]
-            empty |= _is(corner, nodata) & (share > 0)
-            values += np.multiply(share, corner, out=np.zeros(empty.shape), where=share > 0)
+def _taps(at: Floats, n: int, cubic: bool) -> Sequence[Tuple[Array, Floats]]:
+    """The pixels that count along an axis, two or four, and what each counts. Beyond the edge its pixels go on."""
+    if cubic:
+        at = np.clip(at, 0, n - 1)
+    low = np.floor(at)
+    f = at - low
+    shares = (((2 - f) * f - 1) * f / 2, ((3 * f - 5) * f * f + 2) / 2, ((4 - 3 * f) * f + 1) * f / 2,
+              (f - 1) * f * f / 2) if cubic else (1 - f, f)
+    first = low - 1 if cubic else low
+    return [(np.clip(first + k, 0, n - 1).astype(np.intp), share) for k, share in enumerate(shares)]
+
+
+def _between(pixels: Array, column: Floats, row: Floats, nodata: Optional[float], empty: Array, cubic: bool) -> Array:
+    """Between the centres of pixels, linear or after R. Keys, Cubic Convolution Interpolation for Digital Image
+    Processing, 1981. A pixel without data spoils what it has a share in; of four by four that is linear then."""
+    values, spoilt = np.zeros(empty.shape), np.zeros_like(empty)
+    for y, of_row in _taps(row - 0.5, pixels.shape[1], cubic):
+        for x, of_column in _taps(column - 0.5, pixels.shape[2], cubic):
+            share, corner = of_row * of_column, pixels[:, y, x]
+            spoilt |= _is(corner, nodata) & (share != 0)
+            values += np.multiply(share, corner, out=np.zeros(empty.shape), where=share != 0)
+    if not cubic:
+        empty |= spoilt
+    elif spoilt.any():
+        linear = _between(pixels, column, row, nodata, empty, False)
+        values = np.where(spoilt, linear, values)
     return values
 
 
 def _typed(values: Array, dtype: Any) -> Array:
+    """Whole numbers are rounded, and kept in the range of their type."""
     if dtype.kind in "iu" and values.dtype.kind == "f":
-        return np.rint(values).astype(dtype)
+        info = np.iinfo(dtype)
+        most = float(info.max)
+        return np.clip(np.rint(values), info.min, most if most <= info.max else np.nextafter(most, 0)).astype(dtype)
     return values.astype(dtype)
