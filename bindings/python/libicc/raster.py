@@ -210,11 +210,13 @@ def _between(pixels: Array, column: Floats, row: Floats, nodata: Optional[float]
     """Between the centres of pixels, linear or after R. Keys, Cubic Convolution Interpolation for Digital Image
     Processing, 1981. A pixel without data spoils what it has a share in; of four by four that is linear then."""
     values, spoilt = np.zeros(empty.shape), np.zeros_like(empty)
+    columns = _taps(column - 0.5, pixels.shape[2], cubic)
     for y, of_row in _taps(row - 0.5, pixels.shape[1], cubic):
-        for x, of_column in _taps(column - 0.5, pixels.shape[2], cubic):
+        for x, of_column in columns:
             share, corner = of_row * of_column, pixels[:, y, x]
-            spoilt |= _is(corner, nodata) & (share != 0)
-            values += np.multiply(share, corner, out=np.zeros(empty.shape), where=share != 0)
+            counts = share != 0
+            spoilt |= _is(corner, nodata) & counts
+            values += np.multiply(share, corner, out=np.zeros(empty.shape), where=counts)
     if not cubic:
         empty |= spoilt
     elif spoilt.any():
