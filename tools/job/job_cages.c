@@ -172,7 +172,7 @@ int job_read_cages(job *j)
 {
     if (job_dim(j) > 0)
         return DONE;
-    source_file own = {NULL};
+    source_file own = {0};
     const source_file *s = j->source != NULL ? j->source : &own;
     if (j->source == NULL)
         own.text = file_read_chosen(job_file(j, 1), &own.n, &own.named);
