@@ -1,0 +1,183 @@
+/* Each surface is drawn on the sphere (surface/sphere.h), one drawing is turned to lie on the other
+ * (surface/rotation.h), and each is moved on the other (surface/relax.h). With landmarks both are
+ * drawn by way of the same few triangles (surface/landmark_sphere.h). */
+#include "match/bodies.h"
+
+#include "base/error.h"
+#include "math/vec.h"
+#include "surface/helpers.h"
+#include "surface/landmark_paths.h"
+#include "surface/landmark_sphere.h"
+#include "surface/relax.h"
+#include "surface/rotation.h"
+#include "surface/sphere.h"
+
+/* In which drawings are moved on one another where there are no landmarks. */
+enum { ROUNDS = 30 };
+
+/* Of the diagonal: how far a landmark may be from a vertex. */
+static const double farthest_landmark = 0.02;
+
+/* Paths need so many pairs. */
+enum { LEAST_PAIRS = 4 };
+
+static icc_status make_body(iccp_body *b, const icc_domain *domain, const iccp_env *env,
+                            icc_error *err)
+{
+    const size_t n = domain->n_facets;
+    uint32_t *const faces = iccp_alloc(&env->memory, n, 3 * sizeof *faces);
+    b->domain = domain;
+    b->x = domain->vertices;
+    if (faces == NULL)
+        return iccp_fail_memory(err);
+    for (size_t f = 0; f < n; ++f) {
+        const uint32_t *const v = domain->facets + 3 * f;
+        faces[3 * f] = v[0];
+        faces[3 * f + 1] = domain->orientation > 0 ? v[1] : v[2];
+        faces[3 * f + 2] = domain->orientation > 0 ? v[2] : v[1];
+    }
+    const icc_status status = iccp_half_edges_create(&b->m, domain->n_vertices, n, faces, env, err);
+    iccp_free(&env->memory, faces);
+    return status;
+}
+
+/* Moves each drawing on the other. */
+static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err)
+{
+    iccp_drawn_surface side[2];
+    for (int s = 0; s < 2; ++s) {
+        const iccp_body *const b = &bodies[s];
+        side[s] = (iccp_drawn_surface){&b->m, b->x, b->directions, iccp_sphere_scale(&b->m, b->x)};
+    }
+    iccp_relaxation r;
+    double left;
+    icc_status status =
+        iccp_relaxation_create(&r, side, (const uint8_t *const[]){NULL, NULL}, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_relax(&r, ICCP_LONGER, ROUNDS, &left, env);
+    iccp_relaxation_free(&r, &env->memory);
+    status = iccp_explain(err, status);
+    for (int s = 0; s < 2 && status == ICC_OK; ++s)
+        status = iccp_sphere_check(&bodies[s].m, bodies[s].directions, err);
+    return status;
+}
+
+static icc_status draw(iccp_body bodies[2], const iccp_env *env, icc_error *err)
+{
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+        iccp_body *const b = &bodies[side];
+        b->directions = iccp_alloc(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
+        if (b->directions == NULL)
+            return iccp_fail_memory(err);
+        const iccp_env part = iccp_part(env, NULL, 0.25 * side, 0.25 * side + 0.25);
+        status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
+                                  &part, err);
+        if (status != ICC_OK)
+            return iccp_fail_side(err, status, side + 1);
+    }
+    const iccp_env turning = iccp_part(env, NULL, 0.5, 0.7), last = iccp_part(env, NULL, 0.7, 1);
+    double energy;
+    status = iccp_explain(
+        err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
+                                (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                                (const double *const[]){bodies[0].x, bodies[1].x}, 0,
+                                (const uint32_t *const[]){NULL, NULL}, &energy, &turning));
+    return status == ICC_OK ? relax(bodies, &last, err) : status;
+}
+
+/* The vertices nearest to the landmarks of one side, which are no two of them the same. */
+static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, int side,
+                                 const iccp_memory *memory, icc_error *err)
+{
+    const icc_domain *const d = b->domain;
+    const double most = farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
+    b->landmarks = iccp_alloc(memory, n + LEAST_PAIRS, sizeof *b->landmarks);
+    if (b->landmarks == NULL)
+        return iccp_fail_memory(err);
+    for (size_t k = 0; k < n; ++k) {
+        double p[3], least = HUGE_VAL;
+        iccp_frame_in(&d->frame, 3, given + 6 * k + 3 * side, p);
+        for (uint32_t v = 0; v < d->n_vertices; ++v) {
+            const double distance = iccp_vec_distance2(3, p, d->vertices + 3 * (size_t)v);
+            if (b->m.degree[v] > 0 && distance < least) {
+                least = distance;
+                b->landmarks[k] = v;
+            }
+        }
+        icc_status status = ICC_OK;
+        if (!(least <= most * most))
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
+                                  "landmark %zu is too far from the vertices of the %s", k,
+                                  side == 0 ? "source" : "target");
+        for (size_t i = 0; i < k && status == ICC_OK; ++i)
+            if (b->landmarks[i] == b->landmarks[k])
+                status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
+                                      "landmark %zu is at the same vertex of the %s as landmark "
+                                      "%zu",
+                                      k, side == 0 ? "source" : "target", i);
+        if (status != ICC_OK)
+            return iccp_fail_side(err, status, side + 1);
+    }
+    return ICC_OK;
+}
+
+/* Draws both surfaces with landmarks in the same places; their edges may be halved then. Where
+ * landmarks are few others are found beside them, of which nothing more is asked. */
+static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double *given,
+                                    const iccp_env *env, icc_error *err)
+{
+    const size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){n < n_all ? 1 : 0, 2}, env);
+    iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    double *directions[2] = {NULL, NULL};
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
+        status = find_landmarks(&bodies[side], n, given, side, &env->memory, err);
+    }
+    if (status == ICC_OK && n < n_all)
+        status =
+            iccp_helpers_find((uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n,
+                              n_all, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                              (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
+    if (status == ICC_OK)
+        status = iccp_landmark_sphere_draw(
+            directions, m, split, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+            (const double *const[]){bodies[0].x, bodies[1].x}, n_all,
+            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[1], err);
+    for (int side = 0; side < 2; ++side) {
+        iccp_body *const b = &bodies[side];
+        iccp_half_edges_free(&b->m);
+        b->m = m[side];
+        b->split = split[side];
+        b->x = split[side].x;
+        b->directions = directions[side];
+    }
+    return status;
+}
+
+icc_status iccp_bodies_create(iccp_body bodies[2], const icc_domain *source,
+                              const icc_domain *target, const iccp_env *env, icc_error *err)
+{
+    const icc_status status = make_body(&bodies[0], source, env, err);
+    return status == ICC_OK ? make_body(&bodies[1], target, env, err) : status;
+}
+
+icc_status iccp_bodies_draw(iccp_body bodies[2], size_t n_landmarks, const double *landmarks,
+                            const iccp_env *env, icc_error *err)
+{
+    return n_landmarks == 0 ? draw(bodies, env, err)
+                            : draw_by_landmarks(bodies, n_landmarks, landmarks, env, err);
+}
+
+void iccp_bodies_free(iccp_body bodies[2], const iccp_memory *memory)
+{
+    for (int side = 0; side < 2; ++side) {
+        iccp_half_edges_free(&bodies[side].m);
+        iccp_split_surface_free(&bodies[side].split);
+        iccp_free(memory, bodies[side].landmarks);
+        iccp_free(memory, bodies[side].directions);
+    }
+}
