@@ -119,9 +119,20 @@ if [ "$both" -lt "$curved" ] || [ "$both" -lt "$other" ]; then
 fi
 run 0 info -s other.svg -t curved.svg --flatten .01
 [ "$(vertices)" -eq "$both" ] || complain "the other way round there are $(vertices) vertices, not $both"
+printf '0 0\n1 0\n0 1\n' >corners.txt
+# What is matched does not correspond, so its curves have nothing to do with those of the other; one side may have none.
+printf '<path d="M0 0C90 10 20 90 100 30L90 90 10 95z"/>' | draw large
+printf '<path d="M1 1C1 .9 1.1 .9 1.1 1L100 31 91 89C60 80 50 99 9 94z"/>' | draw small
+run 0 check -s small.svg --flatten .01 --repair small.txt
+run 0 match -s small.svg -t large.svg --flatten .01 -o a.txt --target-output b.txt
+run 0 match -s small.txt -t large.svg --flatten .01 -o c.txt --target-output d.txt
+same c.txt a.txt 'edges of the source are those it has by itself'
+same d.txt b.txt 'the target does not depend on them'
+run 1 match -s corners.txt -t corners.txt --flatten 1 -o a.txt --target-output b.txt
+says "libicc: corners.txt: no curves to flatten; only SVG has such"
+
 run 1 check -s circle.svg --flatten 1e-9
 says "libicc: circle.svg:2: --flatten makes more than 1024 edges of a curve"
-printf '0 0\n1 0\n0 1\n' >corners.txt
 run 1 check -s corners.txt --flatten 1
 says "libicc: corners.txt: no curves to flatten; only SVG has such"
 

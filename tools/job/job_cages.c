@@ -25,19 +25,20 @@ static int join_vertices(job *j, size_t side)
     return DONE;
 }
 
-/* The curves of one cage are cut into no fewer edges than those of the other, if that has been read. */
+/* The curves of one cage are cut into no fewer edges than those of the other, if that has been read
+ * and both are to correspond. */
 static int read_cage(job *j, size_t side, const char *named, const char *text, size_t n)
 {
     problem wrong;
     const cage *other = &j->cages[!side];
     const cage_choice choice = {.role = side == 0 ? CAGE_SOURCE : CAGE_TARGET,
                                 .named = named,
-                                .flat = {j->args->flatten, other->n_curves, other->curve_edges}};
+                                .flat = {j->args->flatten,
+                                         j->args->match == NULL ? other->n_curves : 0,
+                                         other->curve_edges}};
     size_t dim = side == 0 ? 2 : job_dim(j);
     if (cage_read(&j->cages[side], &choice, dim, text, n, &wrong))
-        return j->args->flatten > 0 && side == 0 && j->cages[0].n_curves == 0
-                   ? failed(job_file(j, 1), 0, "no curves to flatten; only SVG has such")
-                   : join_vertices(j, side);
+        return join_vertices(j, side);
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
     return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
@@ -74,10 +75,17 @@ static int read_source_again(job *j, const char *named, const char *text, size_t
     bool again = false;
     for (size_t k = 0; k < c->n_curves && k < target->n_curves; k++)
         again = again || c->curve_edges[k] < target->curve_edges[k];
-    if (!again || !(j->args->flatten > 0))
+    if (!again || !(j->args->flatten > 0) || j->args->match != NULL)
         return DONE;
     cage_free(c);
     return read_cage(j, 0, named, text, n);
+}
+
+static int check_curves(const job *j)
+{
+    return j->args->flatten > 0 && j->cages[0].n_curves + j->cages[1].n_curves == 0
+               ? failed(job_file(j, 1), 0, "no curves to flatten; only SVG has such")
+               : DONE;
 }
 
 /* Points of options must have as many coordinates as the cage. */
@@ -186,6 +194,8 @@ int job_read_cages(job *j)
     if (result == DONE)
         result = read_source_again(j, s->named, s->text, s->n);
     free(own.text);
+    if (result == DONE)
+        result = check_curves(j);
     if (result == DONE && j->args->match != NULL)
         result = match(j);
     if (result == DONE)
