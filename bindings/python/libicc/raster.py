@@ -113,7 +113,8 @@ def warp_raster(data: ArrayLike, grid: Grid, mapping: Map, out: Optional[Grid] =
             overshoot, within the range of whole numbers; or "nearest", for classes and labels. None averages where the
             raster shrinks
         fill: what pixels without an image in the raster get
-        nodata: pixels of this value have none: what is made of them gets `fill`; None: all have. NaN is kept as such
+        nodata: pixels of this value have none: what is made of them gets `fill`; None: all have. NaN, if it is not this
+            value, is kept as such
 
     Returns:
         the raster warped, of the type and with the bands of `data`
@@ -185,7 +186,12 @@ def _halves(w: Window) -> Sequence[Window]:
 
 
 def _is(values: Array, nodata: Optional[float]) -> Any:
-    return False if nodata is None else values == nodata
+    """Compared in the type of the values, in which the number may have been rounded."""
+    if nodata is None:
+        return False
+    if values.dtype.kind != "f":
+        return values == nodata
+    return np.isnan(values) if np.isnan(nodata) else values == values.dtype.type(nodata)
 
 
 def _nearest(pixels: Array, column: Floats, row: Floats, nodata: Optional[float], empty: Array) -> Array:
@@ -208,14 +214,15 @@ def _taps(at: Floats, n: int, cubic: bool) -> Sequence[Tuple[Array, Floats]]:
 
 def _between(pixels: Array, column: Floats, row: Floats, nodata: Optional[float], empty: Array, cubic: bool) -> Array:
     """Between the centres of pixels, linear or after R. Keys, Cubic Convolution Interpolation for Digital Image
-    Processing, 1981. A pixel without data spoils what it has a share in; of four by four that is linear then."""
+    Processing, 1981. A pixel without data spoils what it has a share in, as one that is not finite does; of four by four
+    that is linear then."""
     values, spoilt = np.zeros(empty.shape), np.zeros_like(empty)
     columns = _taps(column - 0.5, pixels.shape[2], cubic)
     for y, of_row in _taps(row - 0.5, pixels.shape[1], cubic):
         for x, of_column in columns:
             share, corner = of_row * of_column, pixels[:, y, x]
             counts = share != 0
-            spoilt |= _is(corner, nodata) & counts
+            spoilt |= (_is(corner, nodata) | ~np.isfinite(corner) if cubic else _is(corner, nodata)) & counts
             values += np.multiply(share, corner, out=np.zeros(empty.shape), where=counts)
     if not cubic:
         empty |= spoilt

@@ -47,11 +47,14 @@ class RasterAccessor:
         Args:
             mapping, resampling, threads: as `libicc.raster.warp_raster`
             like: a raster whose last two dimensions and their coordinates the result has; None: its own
-            fill: what pixels without an image get; None: the attribute ``_FillValue`` or ``nodata``, or else NaN, and
-                0 in whole numbers
+            fill: what pixels without an image get; None: what pixels without data have, or else NaN, and 0 in whole
+                numbers
+
+        Pixels without data have the attribute ``_FillValue``, ``missing_value`` or ``nodata``; or NaN where xarray has
+        put that for what is in the file, and in the encoding.
         """
         raster, like = self._raster, self._raster if like is None else like
-        nodata = raster.encoding.get("_FillValue", raster.attrs.get("_FillValue", raster.attrs.get("nodata")))
+        nodata = _nodata(raster)
         if fill is None:
             fill = nodata if nodata is not None else np.nan if raster.dtype.kind == "f" else 0
         pixels: Array = np.ascontiguousarray(raster.values).reshape(-1, *raster.shape[-2:])
@@ -62,3 +65,10 @@ class RasterAccessor:
         coords.update({name: like[name] for name in places})
         return xarray.DataArray(warped.reshape(*raster.shape[:-2], *like.shape[-2:]), coords,
                                 (*raster.dims[:-2], *places), raster.name, raster.attrs)
+
+
+def _nodata(raster: Any) -> Any:
+    names = ("_FillValue", "missing_value", "nodata")
+    if raster.dtype.kind == "f" and any(name in raster.encoding for name in names[:2]):
+        return np.nan
+    return next((have[name] for have in (raster.encoding, raster.attrs) for name in names if name in have), None)

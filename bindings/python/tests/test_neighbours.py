@@ -112,6 +112,15 @@ def test_data_arrays(mapping, neighbour):
     with pytest.raises(ValueError, match="evenly"):
         raster.assign_coords(x=x**3).icc.warp(mapping)
 
+    masked = raster[0, 0].where(raster[0, 0] > 2)  # as it was read, with NaN for what the file calls -9999
+    masked.encoding["_FillValue"] = -9999.0
+    raw = raster[0, 0].where(masked.notnull(), -9999.0)
+    raw.attrs["missing_value"] = -9999.0
+    for resampling in ("linear", "cubic"):
+        moved, other = (one.icc.warp(mapping, resampling=resampling) for one in (masked, raw))
+        assert np.array_equal(moved.values, other.where(other != -9999), equal_nan=True)
+        assert np.isnan(moved).sum() > np.isnan(raster[0, 0].icc.warp(mapping, resampling=resampling)).sum()
+
 
 def test_plot(mapping, neighbour, tmp_path):
     matplotlib = neighbour("matplotlib")

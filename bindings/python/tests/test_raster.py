@@ -133,6 +133,22 @@ def test_no_data_stays_none(before, grid):
         assert set(np.unique(warped)) == {-1, 50}
 
 
+def test_nan_is_no_data(mapping, data, grid):
+    """As far as any other value that stands for none, and no farther; and a number is the same in fewer digits."""
+    values = data[0].astype(np.float32)
+    missing = values < 20
+    for resampling in ("nearest", "linear", "cubic"):
+        least = np.float32(-3.4028235e38)
+        known = warp_raster(np.where(missing, least, values), grid, mapping, resampling=resampling, fill=-1,
+                            nodata=-3.40282347e38)
+        named = warp_raster(np.where(missing, np.nan, values), grid, mapping, resampling=resampling, fill=-1, nodata=np.nan)
+        kept = warp_raster(np.where(missing, np.nan, values), grid, mapping, resampling=resampling, fill=-1)
+        outside = np.isnan(mapping.inverse(grid.centres())[..., 0])
+        assert named.tobytes() == known.tobytes() and ((known == -1) & ~outside).sum() > 1000
+        assert np.array_equal(np.isnan(kept), (known == -1) & ~outside)
+        assert np.array_equal(kept[~np.isnan(kept)], known[~np.isnan(kept)])
+
+
 def test_not_finite_is_not_spread(before, grid):
     """A pixel counts where it has a share, and nowhere else."""
     mapping = libicc.Map(before + [EAST, NORTH], before + [EAST, NORTH])
