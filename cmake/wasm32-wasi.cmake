@@ -1,4 +1,4 @@
-# WebAssembly by Debian's clang, lld, wasi-libc and libclang-rt-dev-wasm32. Programs are run by node.
+# WebAssembly by Debian's clang, lld, llvm, wasi-libc and libclang-rt-dev-wasm32. Programs are run by node.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_C_COMPILER clang)

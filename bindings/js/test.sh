@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds the npm package and tests it: the same bits as everywhere, and what its users call.
-# usage: bindings/js/test.sh [--long]   (installs clang, lld, wasi-libc, libclang-rt-dev-wasm32 and binaryen; needs node and npm)
+# usage: bindings/js/test.sh [--long]   (installs clang, lld, llvm, wasi-libc, libclang-rt-dev-wasm32 and binaryen; needs node and npm)
 # --long: all shapes are compared with native builds, 10,000 maps are made and freed (else 500), a second build has to
 # give the same bytes, and tests/unit is run by node, too
 set -eu
@@ -11,7 +11,7 @@ if ! command -v node >/dev/null || ! command -v npm >/dev/null; then
     echo "left out: node or npm is missing"
     exit 77
 fi
-need clang lld wasi-libc libclang-rt-dev-wasm32 binaryen
+need clang lld llvm wasi-libc libclang-rt-dev-wasm32 binaryen
 mkdir -p build/wasm
 quietly build/wasm/configure.log cmake --preset wasm
 quietly build/wasm/build.log cmake --build --preset wasm --parallel "$(nproc)"
