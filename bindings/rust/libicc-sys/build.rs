@@ -101,7 +101,8 @@ fn library_folders(dir: &Path) -> Vec<PathBuf> {
 fn link_installed(linked_in: bool) {
     if let Err(why) = pkg_config(&["--print-errors", "--atleast-version", VERSION]) {
         fail(&format!(
-            "pkg-config does not know libicc {}: set PKG_CONFIG_PATH or LIBICC_DIR, or install libicc-map-dev.\n{}",
+            "pkg-config does not know libicc {}: set PKG_CONFIG_PATH or LIBICC_DIR, install libicc-map-dev, \
+             or have it compiled by the feature `vendored`.\n{}",
             VERSION, why
         ));
     }
