@@ -3,18 +3,25 @@
  * Euclidean spaces, 2011): cut open at its surest place, then the best path near by. */
 #include "match/elastic_candidate.h"
 
+#include "math/elementary.h"
+
 #include <math.h>
 #include <string.h>
 
 enum {
     N = ICCP_MATCH_SAMPLES,
     N_PASSES = 2,
-    N_BENT = 4,          /* passes with rotations of their own for each sample */
+    N_BENT = 4,          /* passes of each kind with rotations of their own for each sample */
     BAND = N / 10,       /* how far a pass may leave the one before */
     MARGIN = 8,          /* columns that steps pass beyond it */
     HALF = N / 64,       /* samples on each side of a place that is to be sure */
-    REACH = 3 * (N / 32) /* samples on each side that a rotation is the mean of */
+    WIDE = 3 * (N / 32), /* samples on each side that a rotation is the mean of, */
+    TIGHT = N / 32       /* and where large scales count for little */
 };
+
+/* Share of tangents in the cost then: of .8, .9 and 1, with 12, 16, 24 and 32 samples on each side,
+ * .8 and 16 had the least energy on bent development pairs. */
+static const double near_tangents = .8;
 
 /* A pairing whose rotations round all samples have a mean shorter than this is followed with these.
  * Of the development pairs (tests/bench/bench_match.c) bent limbs, a swirl and a coast in two
@@ -49,7 +56,7 @@ static void mean_turns(const iccp_descriptor *b, iccp_descriptor *mean)
 }
 
 /* The sample that is told from others best and is matched well: where a path may be cut. */
-static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c)
+static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c, double (*rotation)[2])
 {
     static const double none[2] = {1, 0};
     iccp_descriptor mean;
@@ -57,7 +64,7 @@ static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c)
     double here[N], best = -HUGE_VAL;
     for (int k = 0; k < N; ++k) {
         const int32_t j = (int32_t)floor((double)c->place[k] + .5);
-        here[k] = (double)iccp_descriptor_cost(&s->a[k], &s->b[(j % N + N) % N], c->rotation,
+        here[k] = (double)iccp_descriptor_cost(&s->a[k], &s->b[(j % N + N) % N], rotation[k],
                                                iccp_tangents);
     }
     int32_t found = 0;
@@ -87,10 +94,10 @@ static void rotation_of(const iccp_samples *s, iccp_elastic_candidate *c)
     memcpy(c->rotation, sum, sizeof sum);
 }
 
-/* The rotation round each sample of the source, the nearer ones counting more; whether they differ
- * so much that one for all is wrong nearly everywhere, as where an outline is bent. */
-static bool rotations_along(double (*rotation)[2], const iccp_samples *s,
-                            const iccp_elastic_candidate *c)
+/* The rotation round each sample of the source, the nearer ones counting more; returns the length
+ * of their mean, 1 if they are all the same. */
+static double rotations_along(double (*rotation)[2], const iccp_samples *s,
+                              const iccp_elastic_candidate *c, int reach)
 {
     double turn[N][2] = {{0}}, mean[2] = {0, 0};
     for (int k = 0; k < N; ++k) {
@@ -99,33 +106,48 @@ static bool rotations_along(double (*rotation)[2], const iccp_samples *s,
     }
     for (int k = 0; k < N; ++k) {
         double sum[2] = {0, 0};
-        for (int m = -REACH; m <= REACH; ++m)
+        for (int m = -reach; m <= reach; ++m)
             for (int e = 0; e < 2; ++e)
-                sum[e] += (REACH + 1 - (m < 0 ? -m : m)) * turn[(k + m + N) % N][e];
+                sum[e] += (reach + 1 - (m < 0 ? -m : m)) * turn[(k + m + N) % N][e];
         iccp_unit(sum);
         memcpy(rotation[k], sum, sizeof sum);
         for (int e = 0; e < 2; ++e)
             mean[e] += sum[e] / N;
     }
-    return mean[0] * mean[0] + mean[1] * mean[1] < bent * bent;
+    return iccp_hypot(mean[0], mean[1]);
 }
 
-/* A better path near the candidate's, with tangents after the rotation of each sample of the
- * source, cut at its surest place. */
-static void follow(iccp_samples *s, iccp_elastic_candidate *c, double (*rotation)[2])
+/* What a pair costs by how well the tangents round it agree after the rotation that serves them
+ * best, whatever that is. */
+static float patch_cost(const iccp_samples *s, int32_t i, int32_t j)
 {
-    const int32_t i = surest(s, c), j = (int32_t)floor((double)c->place[i] + .5);
+    double sum[2] = {0, 0};
+    for (int32_t m = -TIGHT; m <= TIGHT; ++m) {
+        double turn[2] = {0, 0};
+        iccp_descriptor_turn(turn, &s->a[(i + m + N) % N], &s->b[((j + m) % N + N) % N]);
+        for (int e = 0; e < 2; ++e)
+            sum[e] += (TIGHT + 1 - (m < 0 ? -m : m)) * turn[e];
+    }
+    return (float)(2 - 2 * iccp_hypot(sum[0], sum[1]) / ((TIGHT + 1) * (TIGHT + 1)));
+}
+
+/* A better path near the candidate's, cut at its surest place, with tangents after the rotation of
+ * each sample of the source; these are `share` of the cost. 0: by patches, without rotations. */
+static void follow(iccp_samples *s, iccp_elastic_candidate *c, double (*rotation)[2], double share)
+{
+    const int32_t i = surest(s, c, rotation), j = (int32_t)floor((double)c->place[i] + .5);
     for (int32_t row = 0; row <= N; ++row) {
         float *const cost = s->cost + (size_t)row * (N + 1);
-        const double place =
-            row == N ? N : (double)c->place[(i + row) % N] + (i + row >= N ? N : 0) - j;
+        const int32_t at = (i + row) % N;
+        const double place = row == N ? N : (double)c->place[at] + (i + row >= N ? N : 0) - j;
         const double low = place - BAND, high = place + BAND;
         s->lattice.low[row] = low > 0 ? (int32_t)low : 0;
         s->lattice.high[row] = high < N ? (int32_t)high : N;
         const int32_t from = s->lattice.low[row] - MARGIN, to = s->lattice.high[row] + MARGIN;
         for (int32_t k = from > 0 ? from : 0; k <= to && k <= N; ++k)
-            cost[k] = iccp_descriptor_cost(&s->a[(i + row) % N], &s->b[((j + k) % N + N) % N],
-                                           rotation[(i + row) % N], iccp_tangents);
+            cost[k] = share > 0 ? iccp_descriptor_cost(&s->a[at], &s->b[((j + k) % N + N) % N],
+                                                       rotation[at], share)
+                                : patch_cost(s, at, j + k);
     }
     iccp_lattice_search(&s->path, &s->lattice, N, s->cost, N + 1, 0);
     if (s->path.n_points == 0)
@@ -145,17 +167,25 @@ void iccp_elastic_candidate_follow(iccp_elastic_candidate *c, iccp_samples *s)
         rotation_of(s, c);
         for (int k = 0; k < N; ++k)
             memcpy(rotation[k], c->rotation, sizeof c->rotation);
-        follow(s, c, rotation);
+        follow(s, c, rotation, iccp_tangents);
     }
 }
 
+/* Where the target is bent, large scales mislead, and so do rotations along a path that they have
+ * led astray. So they count for little once the path is near, and the first of these passes
+ * knows of no rotation. */
 void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_samples *s)
 {
     double rotation[N][2];
-    if (!rotations_along(rotation, s, c))
+    if (rotations_along(rotation, s, c, WIDE) >= bent)
         return;
     for (int pass = 0; pass < N_BENT; ++pass) {
-        follow(s, c, rotation);
-        (void)rotations_along(rotation, s, c);
+        follow(s, c, rotation, iccp_tangents);
+        (void)rotations_along(rotation, s, c, WIDE);
+    }
+    follow(s, c, rotation, 0);
+    for (int pass = 0; pass < N_BENT; ++pass) {
+        (void)rotations_along(rotation, s, c, TIGHT);
+        follow(s, c, rotation, near_tangents);
     }
 }
