@@ -3,6 +3,7 @@
 #include "match/elastic.h"
 
 #include "match/elastic_candidate.h"
+#include "match/pins.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -214,6 +215,35 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     }
     release(e, &env->memory);
     return status;
+}
+
+/* Whether a candidate passes near all landmarks. */
+static bool passes(const iccp_elastic_candidate *c, size_t n, const double *landmarks)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const size_t row = (size_t)(N * iccp_outline_wrap(landmarks[2 * k]));
+        const double at = landmarks[2 * k + 1] - (double)c->place[row % N] / N;
+        if (fabs(iccp_outline_wrap(at + .5) - .5) > far / N)
+            return false;
+    }
+    return true;
+}
+
+icc_status iccp_elastic_bend(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, size_t n, const double *landmarks,
+                             const iccp_memory *memory)
+{
+    elastic *const e = prepare(source, target, memory);
+    if (e == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_elastic_candidate *const c = &e->candidates[0];
+    for (int k = 0; k < N; ++k)
+        c->place[k] = (float)(N * iccp_knots_at(knots, (double)k / N));
+    iccp_elastic_candidate_bend(c, &e->samples);
+    if (c->path.n_points > 0 && passes(c, n, landmarks))
+        read_knots(knots, c);
+    release(e, memory);
+    return ICC_OK;
 }
 
 icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,

@@ -32,6 +32,12 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
 icc_status iccp_elastic_near(iccp_pairing_knots *knots, const iccp_outline *source,
                              const iccp_outline *target, double start, const iccp_memory *memory);
 
+/* Near a pairing with n landmarks, which is taken where the target is bent and may then be off
+ * these a little. `knots` has room for 2 N + 1 pairs. */
+icc_status iccp_elastic_bend(iccp_pairing_knots *knots, const iccp_outline *source,
+                             const iccp_outline *target, size_t n, const double *landmarks,
+                             const iccp_memory *memory);
+
 /* Between landmarks: n pairs of shares, both growing by less than one turn. Knots at all of them.
  * `knots` has room for 4 N + 9 n pairs. */
 icc_status iccp_elastic_between(iccp_pairing_knots *knots, iccp_elastic_report *report,

@@ -80,6 +80,8 @@ icc_status iccp_pair_rings(iccp_common *common, iccp_elastic_report *report,
     else if (status == ICC_OK)
         status = iccp_elastic_search(&knots, report, source, target,
                                      options->turning == ICC_TURNING_FREE, &parts[0]);
+    if (status == ICC_OK && is_elastic && n > 0)
+        status = iccp_elastic_bend(&knots, source, target, n, landmarks, &env->memory);
     if (status == ICC_OK && report->sure < sure)
         status = refuse(report, sure, err);
     else if (status == ICC_OK)
