@@ -3,7 +3,7 @@
 #include <icc/stages.h>
 
 #if __has_include(<eigen3/Eigen/Core>)
-#define HAS_EIGEN 1
+#define HAS_EIGEN
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #include <eigen3/Eigen/Core>
@@ -376,7 +376,7 @@ void has_features()
     check(icc::map(source, target).ties().empty(), "no ties");
 }
 
-#if HAS_EIGEN
+#ifdef HAS_EIGEN
 // Matrices are not copied, and those whose points do not lie one after the other are refused.
 void takes_matrices()
 {
@@ -439,7 +439,7 @@ int main()
     makes_maps_of_maps();
     asks_charts_and_domains();
     has_features();
-#if HAS_EIGEN
+#ifdef HAS_EIGEN
     takes_matrices();
 #endif
     return n_failed != 0;
