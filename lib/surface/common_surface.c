@@ -170,6 +170,38 @@ icc_status iccp_common_surface_create(iccp_common_surface *common,
     return has_memory ? ICC_OK : iccp_fail_memory(err);
 }
 
+void iccp_common_surface_compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *became)
+{
+    size_t n = 0, n_faces = 0;
+    for (uint32_t v = 0; v < m->n_vertices; ++v) {
+        became[v] = (uint32_t)n;
+        if (m->degree[v] == 0)
+            continue;
+        for (int side = 0; side < 2; ++side) {
+            memmove(c->x[side] + 3 * n, c->x[side] + 3 * (size_t)v, 3 * sizeof(double));
+            c->origin[side][n] = c->origin[side][v];
+        }
+        ++n;
+    }
+    for (uint32_t f = 0; f < m->n_faces; ++f) {
+        const uint32_t *const v = m->origin + 3 * (size_t)f;
+        /* The two that go with a vertex still have it for a corner. */
+        if (m->degree[v[0]] == 0 || m->degree[v[1]] == 0 || m->degree[v[2]] == 0)
+            continue;
+        for (int side = 0; side < 2; ++side)
+            c->within[side][n_faces] = c->within[side][f];
+        for (int i = 0; i < 3; ++i)
+            c->faces[3 * n_faces + (size_t)i] = became[v[i]];
+        ++n_faces;
+    }
+    for (size_t k = m->n_collapsed; k-- > 0;) {
+        const uint32_t h = m->collapsed[k];
+        became[m->origin[h]] = became[iccp_edge_end(m, h)];
+    }
+    c->n_vertices = n;
+    c->n_faces = n_faces;
+}
+
 void iccp_common_surface_free(iccp_common_surface *common, const iccp_memory *memory)
 {
     for (int side = 0; side < 2; ++side) {

@@ -22,6 +22,10 @@ icc_status iccp_common_surface_create(iccp_common_surface *common,
                                       const iccp_half_edges *const m[2],
                                       const double *const directions[2], const double *const x[2],
                                       const iccp_memory *memory, icc_error *err);
+/* Leaves out what is no longer there after collapses (m: its triangles, now); the rest keeps its
+ * order. `became`: of each vertex that was there the number of the one that it has come to. */
+void iccp_common_surface_compact(iccp_common_surface *c, const iccp_half_edges *m,
+                                 uint32_t *became);
 void iccp_common_surface_free(iccp_common_surface *common, const iccp_memory *memory);
 
 #endif

@@ -141,6 +141,25 @@ void iccp_edge_collapse(iccp_half_edges *m, uint32_t h)
     --m->n_left;
 }
 
+void iccp_edge_flip(iccp_half_edges *m, uint32_t h)
+{
+    const uint32_t g = m->twin[h];
+    const sides s = sides_of(m, h);
+    const uint32_t u = m->origin[h], v = m->origin[s.vb];
+    const uint32_t a = m->origin[s.av], b = m->origin[s.bu];
+    m->origin[h] = a;
+    m->origin[g] = b;
+    m->out[u] = s.ua;
+    m->out[v] = s.vb;
+    --m->degree[u];
+    --m->degree[v];
+    count_neighbours(m, a, m->degree[a] + 1);
+    count_neighbours(m, b, m->degree[b] + 1);
+    pair(m, h, m->twin[s.av]);
+    pair(m, g, m->twin[s.bu]);
+    pair(m, s.bu, s.av);
+}
+
 uint32_t iccp_edge_restore(iccp_half_edges *m)
 {
     const uint32_t h = m->collapsed[--m->n_collapsed];

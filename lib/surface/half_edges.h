@@ -57,6 +57,10 @@ bool iccp_edge_collapsible(const iccp_half_edges *m, uint32_t h);
  * end. O(its degree). */
 void iccp_edge_collapse(iccp_half_edges *m, uint32_t h);
 
+/* Joins the two corners across an edge in place of its ends, which have more than three neighbours
+ * each; the corners are no neighbours yet. What was collapsed before cannot be taken back then. */
+void iccp_edge_flip(iccp_half_edges *m, uint32_t h);
+
 /* Takes the last collapse back; the vertex that is there again. O(its degree). */
 uint32_t iccp_edge_restore(iccp_half_edges *m);
 

@@ -248,39 +248,6 @@ static icc_status run(simplification *s, const iccp_env *env)
 
 /* ---- from beginning to end ---- */
 
-/* Leaves out vertices and triangles that are no longer there; the others keep their order. */
-static void compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *became)
-{
-    size_t n = 0, n_faces = 0;
-    for (uint32_t v = 0; v < m->n_vertices; ++v) {
-        became[v] = (uint32_t)n;
-        if (m->degree[v] == 0)
-            continue;
-        for (int side = 0; side < 2; ++side) {
-            memmove(c->x[side] + 3 * n, c->x[side] + 3 * (size_t)v, 3 * sizeof(double));
-            c->origin[side][n] = c->origin[side][v];
-        }
-        ++n;
-    }
-    for (uint32_t f = 0; f < m->n_faces; ++f) {
-        const uint32_t *const v = m->origin + 3 * (size_t)f;
-        /* The two that go with a vertex still have it for a corner. */
-        if (m->degree[v[0]] == 0 || m->degree[v[1]] == 0 || m->degree[v[2]] == 0)
-            continue;
-        for (int side = 0; side < 2; ++side)
-            c->within[side][n_faces] = c->within[side][f];
-        for (int i = 0; i < 3; ++i)
-            c->faces[3 * n_faces + (size_t)i] = became[v[i]];
-        ++n_faces;
-    }
-    for (size_t k = m->n_collapsed; k-- > 0;) {
-        const uint32_t h = m->collapsed[k];
-        became[m->origin[h]] = became[iccp_edge_end(m, h)];
-    }
-    c->n_vertices = n;
-    c->n_faces = n_faces;
-}
-
 static icc_status simplify(simplification *s, iccp_common_surface *c, uint32_t *became,
                            const iccp_half_edges *const given[2], const double *const x[2],
                            const iccp_env *env)
@@ -301,7 +268,7 @@ static icc_status simplify(simplification *s, iccp_common_surface *c, uint32_t *
         return ICC_ERR_MEMORY;
     const icc_status status = run(s, env);
     if (status == ICC_OK)
-        compact(c, &s->m, became);
+        iccp_common_surface_compact(c, &s->m, became);
     return status;
 }
 

@@ -3,11 +3,12 @@
 #include "base/minmax.h"
 #include "domain/facet_tree.h"
 #include "surface/meeting.h"
+#include "surface/touch_up.h"
 
 #include <string.h>
 
-/* Rounds, in each of which more vertices stay, until nothing goes. */
-enum { ROUNDS = 12 };
+/* Rounds, in each of which more vertices stay, until nothing goes; and such of what follows. */
+enum { ROUNDS = 12, TOUCHES = 6 };
 
 /* Where the whole is mended vertices go as little off as they can: so many times as far in each
  * round as in the one before, up to what is allowed. */
@@ -159,6 +160,51 @@ static icc_status run(rounds *r, iccp_common_surface *c, bool *is_done, const ic
     return status;
 }
 
+/* Touches up what is done. Where something meets then it is done once more from the same beginning,
+ * but for what is there; at last it stays as it was. */
+static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
+                           const iccp_env *env)
+{
+    const iccp_memory *const memory = &env->memory;
+    uint8_t *const stays = iccp_alloc_zero(memory, c->n_vertices, sizeof *stays);
+    uint32_t *const became = iccp_alloc(memory, c->n_vertices, sizeof *became);
+    iccp_simplify_limits limits = r->limits;
+    icc_status status = stays != NULL && became != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    limits.keep = stays;
+    for (size_t v = 0; v < r->whole->n_vertices && keep != NULL && status == ICC_OK; ++v)
+        if (keep[v] != 0)
+            stays[r->became[v]] = ICCP_STAYS;
+    bool is_done = false;
+    for (size_t k = 0; k < TOUCHES && !is_done && status == ICC_OK; ++k) {
+        const iccp_env part = iccp_round(env, k, 1);
+        iccp_common_surface fine;
+        status = copy(&fine, c, memory);
+        if (status == ICC_OK)
+            status =
+                iccp_touch_up(&fine, became, r->whole, r->became, r->given, r->x, &limits, &part);
+        memset(r->is_bad, 0, r->whole->n_vertices);
+        r->any = false;
+        if (status == ICC_OK && !iccp_meeting_mark(r->is_bad, &r->any, &fine, memory))
+            status = ICC_ERR_MEMORY;
+        is_done = status == ICC_OK && !r->any;
+        for (size_t v = 0; v < c->n_vertices && status == ICC_OK; ++v)
+            if (r->is_bad[became[v]] != 0)
+                stays[v] |= (stays[v] & ICCP_CAREFUL) == 0 ? ICCP_CAREFUL : ICCP_FROZEN;
+        if (is_done) {
+            iccp_common_surface_free(c, memory);
+            *c = fine;
+        } else {
+            iccp_common_surface_free(&fine, memory);
+        }
+    }
+    bool any_more;
+    iccp_free(memory, stays);
+    iccp_free(memory, became);
+    if (is_done && !measure(r, c, &any_more, memory))
+        status = ICC_ERR_MEMORY;
+    return status;
+}
+
 /* What is still bad, and what is next to it in the whole, is flawed, too. */
 static void widen(rounds *r)
 {
@@ -225,7 +271,9 @@ icc_status iccp_simplify_apart(iccp_common_surface *common, double *off,
             memcpy(r.keep, limits->keep, n * sizeof *r.keep);
         r.limits.keep = r.keep;
         status = only_flaws ? ICC_OK : run(&r, &coarse, &is_done, env);
-        if (status == ICC_OK && !is_done)
+        if (status == ICC_OK && is_done)
+            status = touch_up(&r, &coarse, limits->keep, env);
+        else if (status == ICC_OK)
             status = mend(&r, limits->keep, &coarse, &is_done, env);
     }
     *off = 0;

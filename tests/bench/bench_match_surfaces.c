@@ -4,13 +4,15 @@
  * Processor time; the energy s^2 + t^2 + 1 / s^2 + 1 / t^2 of the common triangles, 4 for none, the
  * areas being made the same: mean by area of the source, median and 99 % quantile of that area, the
  * share of the area on either side above 1000; beside them the mean of the correspondence that the
- * files have, on the target's triangles. A tolerance below 0 leaves the bare overlay. With OUT both
- * surfaces are written, to OUT.src.obj and OUT.tgt.obj. */
+ * files have, on the target's triangles; what is left beside what both had together, and the angle
+ * that one in a hundred triangles' least angles are below, on either side. A tolerance below 0
+ * leaves the bare overlay. With OUT both surfaces are written, to OUT.src.obj and OUT.tgt.obj. */
 #include <icc/icc.h>
 
 #include "../obj.h"
 #include "bench.h"
 #include "face_stretch.h"
+#include "surface/corner_angle.h"
 #include "surface/decimate.h"
 #include "surface/half_edges.h"
 
@@ -171,7 +173,28 @@ static void write(const char *name, const char *side, size_t n, const double *x,
     (void)fclose(file);
 }
 
-static void report(const icc_match *match, const char *name)
+static int ascending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* One in a hundred of the triangles' least angles are below it; degrees. */
+static double thin_angle(const double *x, size_t n, const uint32_t *faces)
+{
+    double *const angle = bench_alloc(n, sizeof *angle);
+    for (size_t f = 0; f < n; ++f) {
+        const uint32_t *const v = faces + 3 * f;
+        angle[f] = asin(fmin(
+            1, iccp_least_sine(x + 3 * (size_t)v[0], x + 3 * (size_t)v[1], x + 3 * (size_t)v[2])));
+    }
+    qsort(angle, n, sizeof *angle, ascending);
+    const double least = angle[n / 100] * 180 / acos(-1);
+    free(angle);
+    return least;
+}
+
+static void report(const icc_match *match, const char *name, size_t n_given)
 {
     icc_match_info info = {.size = sizeof info};
     icc_domain_info size = {.size = sizeof size};
@@ -188,12 +211,20 @@ static void report(const icc_match *match, const char *name)
     }
     face_stretch *const face = measure(x[0], x[1], size.n_facets, faces);
     print_energy(face, size.n_facets);
-    printf(", overlay %zu, left %zu, off %.1e, angle %.2g", info.n_overlay, size.n_vertices,
-           info.off, info.least_angle);
+    printf(", overlay %zu, left %zu of %zu, off %.1e, angle %.2g, 1 %% %.2g / %.2g", info.n_overlay,
+           size.n_vertices, n_given, info.off, info.least_angle,
+           thin_angle(x[0], size.n_facets, faces), thin_angle(x[1], size.n_facets, faces));
     free(face);
     free(x[0]);
     free(x[1]);
     free(faces);
+}
+
+static size_t n_vertices_of(const icc_domain *domain)
+{
+    icc_domain_info info = {.size = sizeof info};
+    (void)icc_domain_get_info(domain, &info);
+    return info.n_vertices;
 }
 
 int main(int argc, char **argv)
@@ -221,7 +252,8 @@ int main(int argc, char **argv)
                                                n > 0 ? pairs : NULL, &options, NULL, &err);
     const double seconds = bench_processor_seconds() - start;
     if (status == ICC_OK)
-        report(match, argc > 6 ? argv[6] : NULL);
+        report(match, argc > 6 ? argv[6] : NULL,
+               n_vertices_of(domain[0]) + n_vertices_of(domain[1]));
     else
         printf("%s", err.message);
     printf("; given %.4g; %.2f s\n", mean_of(given, target.n_faces), seconds);

@@ -185,6 +185,33 @@ START_TEST(tolerance_is_kept)
 }
 END_TEST
 
+/* Edges of one that pass close to vertices of the other leave neither thin triangles nor many. */
+START_TEST(creases_that_cross_leave_no_thin_triangles)
+{
+    for (int splits = 0; splits < 3; ++splits) {
+        icc_match_info info;
+        surface_octahedron(&one);
+        for (int i = 0; i < splits; ++i)
+            surface_split(&one);
+        surface_octahedron(&two);
+        surface_split(&two);
+        surface_split(&two);
+        for (size_t v = 0; v < two.n_vertices; ++v) {
+            double *const p = two.vertices + 3 * v, x = p[0], y = p[1];
+            p[0] = 1.2 * (cos(.3) * x - sin(.3) * y);
+            p[1] = sin(.3) * x + cos(.3) * y;
+            p[2] *= .9;
+        }
+        icc_match *const match = matched(0, &info);
+        ck_assert_double_gt(info.least_angle, 1.5);
+        ck_assert_uint_lt(3 * info.n_vertices, 2 * (one.n_vertices + two.n_vertices));
+        ck_assert(info.off > 0 && info.off <= 1e-3);
+        check_common(match, &info);
+        icc_match_free(match);
+    }
+}
+END_TEST
+
 START_TEST(what_cannot_be_matched_is_refused)
 {
     static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
@@ -319,6 +346,7 @@ int main(void)
     tcase_add_test(tests, equal_surfaces);
     tcase_add_test(tests, what_rounding_brings_together_goes);
     tcase_add_test(tests, tolerance_is_kept);
+    tcase_add_test(tests, creases_that_cross_leave_no_thin_triangles);
     tcase_add_test(tests, landmarks_go_to_their_partners);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
     tcase_add_test(tests, fails_cleanly);

@@ -110,6 +110,29 @@ START_TEST(surfaces_shrink_and_grow)
 }
 END_TEST
 
+START_TEST(edges_are_flipped)
+{
+    random_source r = {5};
+    surface_star(&shape, 2, .3, &r);
+    iccp_half_edges m = half_edges(shape.n_vertices, shape.n_faces, shape.faces);
+    size_t n = 0;
+    collapse_some(&m, 30, &r);
+    for (int k = 0; k < 400; ++k) {
+        const uint32_t h = (uint32_t)random_below(&r, (int)(3 * m.n_faces)), g = m.twin[h];
+        const uint32_t u = m.origin[h], v = iccp_edge_end(&m, h);
+        const uint32_t b = m.origin[iccp_before(h)], a = m.origin[iccp_before(g)];
+        if (m.degree[u] < 4 || m.degree[v] < 4 || m.degree[b] == 0 || iccp_are_neighbours(&m, a, b))
+            continue;
+        iccp_edge_flip(&m, h);
+        ck_assert(iccp_are_neighbours(&m, a, b) && !iccp_are_neighbours(&m, u, v));
+        ++n;
+    }
+    ck_assert_uint_gt(n, 40);
+    check_half_edges(&m);
+    iccp_half_edges_free(&m);
+}
+END_TEST
+
 START_TEST(an_edge_with_other_common_neighbours_stays)
 {
     /* Two tetrahedra glued along 0, 1, 2, which is no face: none of its edges is collapsible. */
@@ -409,6 +432,7 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 3600);
     tcase_add_test(tests, surfaces_shrink_and_grow);
+    tcase_add_test(tests, edges_are_flipped);
     tcase_add_test(tests, an_edge_with_other_common_neighbours_stays);
     tcase_add_test(tests, flat_parts_go_first);
     tcase_add_test(tests, a_double_cover_is_not_certified);

@@ -1,0 +1,149 @@
+/* What a change of common triangles does: to their shape, to how one surface is stretched to become
+ * the other (surface/stretch.h), and to how far both are off (surface/covering.h). */
+#include "surface/touch_patch.h"
+
+#include "base/minmax.h"
+#include "surface/corner_angle.h"
+#include "surface/stretch.h"
+#include "surface/touch_up.h"
+
+#include <string.h>
+
+/* The mean energy becomes at most so many times what it was: `calm`, and where the least angle has
+ * a sine below `thin` more, in inverse proportion, up to `most_calm`. The fox t08 keeps a tenth
+ * more vertices where thin triangles may cost no more than others. */
+static const double calm = 1.01, thin = 0.13, most_calm = 4;
+
+static const double most_energy = 1e8;
+
+/* Sheets that have come to meet are this much nearer to where they were given, at least. */
+static const double careful = 0.125;
+
+/* Of 1 / sine^2: nothing is thinner. */
+static const double least_sine2 = 1e-12;
+
+void iccp_patch_add_ring(const iccp_patches *s, iccp_patch *p, uint32_t v, uint32_t but,
+                         uint32_t as)
+{
+    const iccp_half_edges *const m = &s->m;
+    uint32_t h = m->out[v];
+    for (uint32_t k = 0; k < m->degree[v]; ++k, h = iccp_edge_turn(m, h)) {
+        uint32_t corner[3] = {v, iccp_edge_end(m, h), m->origin[iccp_before(h)]};
+        if (corner[1] == but || corner[2] == but)
+            continue;
+        iccp_patch_triangles *t = &p->before;
+        for (int i = 0; i < 2; ++i) {
+            t->number[t->n] = h / 3;
+            memcpy(t->corner[t->n++], corner, sizeof corner);
+            if (corner[1] == as || corner[2] == as)
+                break;
+            corner[0] = as;
+            t = &p->after;
+        }
+    }
+}
+
+/* Corners on one side of triangle k, with all vertices where they are or as they will be. */
+static iccp_corners corners_of(const iccp_patches *s, const iccp_patch *p,
+                               const iccp_patch_triangles *t, int side, uint32_t k)
+{
+    iccp_corners c;
+    for (int i = 0; i < 3; ++i) {
+        const uint32_t v = t->corner[k][i];
+        c.at[i] = iccp_patch_point(
+            s, side, t == &p->after && v == p->vertex ? p->place[side] : s->at[side][v]);
+    }
+    return c;
+}
+
+static bool look(const iccp_patches *s, const iccp_patch *p, const iccp_patch_triangles *t,
+                 double least, double most, iccp_patch_shape *shape)
+{
+    *shape = (iccp_patch_shape){.least = HUGE_VAL};
+    for (int side = 0; side < 2; ++side)
+        for (uint32_t k = 0; k < t->n; ++k) {
+            const iccp_corners c = corners_of(s, p, t, side, k);
+            const double sine = iccp_least_sine(c.at[0], c.at[1], c.at[2]);
+            shape->least = iccp_min(shape->least, sine);
+            shape->sum += 1 / (sine * sine + least_sine2);
+            if (shape->least < least || shape->sum > most)
+                return false;
+            for (int i = 0; i < 3; ++i)
+                shape->longest2[side] = iccp_max(shape->longest2[side],
+                                                 iccp_vec_distance2(3, c.at[i], c.at[(i + 1) % 3]));
+        }
+    return true;
+}
+
+iccp_patch_shape iccp_patch_before(const iccp_patches *s, const iccp_patch *p)
+{
+    iccp_patch_shape shape;
+    (void)look(s, p, &p->before, 0, HUGE_VAL, &shape);
+    return shape;
+}
+
+bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_patch_shape *before,
+                      double least, double most, iccp_patch_shape *after)
+{
+    bool is_good = look(s, p, &p->after, least, most, after);
+    for (int side = 0; side < 2; ++side)
+        is_good =
+            is_good && after->longest2[side] <= iccp_max(s->edge2[side], before->longest2[side]);
+    return is_good;
+}
+
+/* The mean energy of triangles, by area on both sides. */
+static double energy_of(const iccp_patches *s, const iccp_patch *p, const iccp_patch_triangles *t)
+{
+    double sum = 0, weights = 0;
+    for (uint32_t k = 0; k < t->n; ++k) {
+        const iccp_corners c = corners_of(s, p, t, 0, k), d = corners_of(s, p, t, 1, k);
+        double normal[3], scaled[3][3];
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+                scaled[i][j] = s->scale * d.at[i][j];
+        const double *const to[3] = {scaled[0], scaled[1], scaled[2]};
+        iccp_triangle_normal(normal, c.at[0], c.at[1], c.at[2]);
+        double weight = iccp_vec_norm(3, normal);
+        iccp_triangle_normal(normal, to[0], to[1], to[2]);
+        weight += iccp_vec_norm(3, normal);
+        sum += weight * iccp_stretch_energy(c.at, to, most_energy);
+        weights += weight;
+    }
+    return sum / weights;
+}
+
+bool iccp_patch_allowed(const iccp_patches *s, const iccp_patch *p, double least_before)
+{
+    const iccp_patch_triangles *const t = &p->after;
+    const double more = iccp_max(calm, iccp_min(most_calm, thin / least_before));
+    uint32_t keep = 0;
+    for (uint32_t k = 0; k < t->n; ++k)
+        for (int i = 0; i < 3; ++i)
+            keep |= s->keep[t->corner[k][i]];
+    if ((keep & ICCP_FROZEN) != 0 || !(energy_of(s, p, t) <= more * energy_of(s, p, &p->before)))
+        return false;
+    for (int side = 0; side < 2; ++side) {
+        iccp_corners c[ICCP_PATCH_TRIANGLES];
+        for (uint32_t k = 0; k < t->n; ++k)
+            c[k] = corners_of(s, p, t, side, k);
+        if (!iccp_covering_allows(&s->covering[side], p->before.n, p->before.number, t->n, c,
+                                  (keep & ICCP_CAREFUL) != 0 ? careful : 1))
+            return false;
+    }
+    return true;
+}
+
+void iccp_patch_apply(iccp_patches *s, const iccp_patch *p)
+{
+    const iccp_patch_triangles *const t = &p->after;
+    for (int side = 0; side < 2; ++side) {
+        iccp_corners c[ICCP_PATCH_TRIANGLES];
+        for (uint32_t k = 0; k < t->n; ++k)
+            c[k] = corners_of(s, p, t, side, k);
+        iccp_covering_replace(&s->covering[side], p->before.n, p->before.number, t->n, c,
+                              t->number);
+        if (p->vertex != ICCP_NO_EDGE)
+            s->at[side][p->vertex] = p->place[side];
+    }
+}
