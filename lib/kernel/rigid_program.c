@@ -55,8 +55,8 @@ enum { N_ARRAYS = 12, N_WEIGHTS = 9 };
 
 static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
 {
-    double **const list[N_ARRAYS] = {&r->x.weights,  &r->next.weights,  &r->ahead.weights,
-                                     &r->x.gradient, &r->next.gradient, &r->ahead.gradient,
+    double **const list[N_ARRAYS] = {&r->x.weights,  &r->next.weights,  &r->best.weights,
+                                     &r->x.gradient, &r->next.gradient, &r->best.gradient,
                                      &r->before,     &r->change,        &r->bent,
                                      &r->slopes,     &r->scratch,       &r->count};
     memcpy(arrays, list, sizeof list);
@@ -123,6 +123,7 @@ icc_status iccp_rigid_create(iccp_rigid *rigid, const iccp_nodes *nodes,
         .collocation = collocation,
         .n_part = n_part,
         .hessian = {.memory = env->memory,
+                    .inverse = {.memory = env->memory},
                     .map = {.memory = env->memory, .kernel = {.memory = env->memory}}}};
     const icc_status status = create(rigid, part, rigidity, held, positive, weights, env);
     if (status != ICC_OK)

@@ -21,7 +21,7 @@ typedef struct iccp_rigid {
     double *count;    /* of each place: how much its derivatives count, over `mean` */
     double mean;      /* rigidity of the part's nodes */
     iccp_hessian hessian;
-    iccp_rigid_state x, next, ahead;
+    iccp_rigid_state x, next, best;
     double *before;  /* free weights, as they were */
     double *change;  /* the same: what a step adds */
     double *bent;    /* the Hessian's product with it */

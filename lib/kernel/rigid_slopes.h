@@ -13,7 +13,9 @@ typedef struct iccp_slopes {
     size_t m;                            /* handles: columns of weights and of derivatives */
     size_t n_free;
     const uint32_t *free; /* the nodes whose weights count */
-    iccp_sparse kernel;   /* from coefficients of all nodes to derivatives: dim rows a place */
+    size_t n_rows;        /* derivatives: dim for each place */
+    iccp_sparse kernel;   /* from coefficients of all nodes to derivatives, and in the rows after
+                             these to values: at the free nodes, then at others near */
     double *affine;       /* (dim + 1) numbers a row, for the affine function; NULL without */
     uint8_t *needed;      /* what of the factor concerns these nodes */
     size_t n_marked;
@@ -34,5 +36,10 @@ void iccp_slopes_apply(const iccp_slopes *slopes, const double *weights, double 
 
 /* The transposed function: n_free rows of m from a row for each derivative. */
 void iccp_slopes_transpose(const iccp_slopes *slopes, const double *derivatives, double *weights);
+
+/* Rows of the kernel from `begin` on times `all`, to `to`, m numbers a row. Where `to` is NULL, all
+ * becomes their transpose times `from`. */
+void iccp_slopes_multiply(const iccp_slopes *slopes, size_t begin, size_t n_rows,
+                          const double *from, double *to);
 
 #endif
