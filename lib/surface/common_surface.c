@@ -170,6 +170,30 @@ icc_status iccp_common_surface_create(iccp_common_surface *common,
     return has_memory ? ICC_OK : iccp_fail_memory(err);
 }
 
+icc_status iccp_common_surface_copy(iccp_common_surface *to, const iccp_common_surface *c,
+                                    const iccp_memory *memory)
+{
+    bool has_memory = true;
+    *to = (iccp_common_surface){.n_vertices = c->n_vertices, .n_faces = c->n_faces};
+    to->faces = iccp_alloc(memory, c->n_faces, 3 * sizeof *to->faces);
+    for (int side = 0; side < 2; ++side) {
+        to->x[side] = iccp_alloc(memory, c->n_vertices, 3 * sizeof *to->x[side]);
+        to->origin[side] = iccp_alloc(memory, c->n_vertices, sizeof *to->origin[side]);
+        to->within[side] = iccp_alloc(memory, c->n_faces, sizeof *to->within[side]);
+        has_memory = has_memory && to->x[side] != NULL && to->origin[side] != NULL &&
+                     to->within[side] != NULL;
+    }
+    if (!has_memory || to->faces == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(to->faces, c->faces, 3 * c->n_faces * sizeof *to->faces);
+    for (int side = 0; side < 2; ++side) {
+        memcpy(to->x[side], c->x[side], 3 * c->n_vertices * sizeof *to->x[side]);
+        memcpy(to->origin[side], c->origin[side], c->n_vertices * sizeof *to->origin[side]);
+        memcpy(to->within[side], c->within[side], c->n_faces * sizeof *to->within[side]);
+    }
+    return ICC_OK;
+}
+
 void iccp_common_surface_compact(iccp_common_surface *c, const iccp_half_edges *m, uint32_t *became)
 {
     size_t n = 0, n_faces = 0;

@@ -22,6 +22,9 @@ icc_status iccp_common_surface_create(iccp_common_surface *common,
                                       const iccp_half_edges *const m[2],
                                       const double *const directions[2], const double *const x[2],
                                       const iccp_memory *memory, icc_error *err);
+/* `to`: freed, or never made, before; to be freed in any case. */
+icc_status iccp_common_surface_copy(iccp_common_surface *to, const iccp_common_surface *c,
+                                    const iccp_memory *memory);
 /* Leaves out what is no longer there after collapses (m: its triangles, now); the rest keeps its
  * order. `became`: of each vertex that was there the number of the one that it has come to. */
 void iccp_common_surface_compact(iccp_common_surface *c, const iccp_half_edges *m,

@@ -99,6 +99,8 @@ static double look_at(const iccp_covering *c, const iccp_corners *t, const doubl
     return off2;
 }
 
+/* Whether a triangle's middle, and that of its first side, are near the surface, and it faces as
+ * that does at one of its middles. Its other sides are first sides of others, or were there. */
 static bool fits(const iccp_covering *c, const iccp_corners *t, double most2)
 {
     static const double middles[4][3] = {

@@ -26,8 +26,8 @@ bool iccp_covering_create(iccp_covering *c, const iccp_half_edges *given, const 
 void iccp_covering_free(iccp_covering *c, const iccp_memory *memory);
 
 /* Whether triangles may take the place of others: each point beside these is near one of them, and
- * the middles of them and of their sides are near the surface, which they face as its faces there
- * do: within a share of what is allowed. */
+ * the middles of them and of their first sides are near the surface, which they face as its faces
+ * there do: within a share of what is allowed. Sides that are new have to be the first of one. */
 bool iccp_covering_allows(const iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
                           const iccp_corners *triangles, double share);
 

@@ -29,30 +29,6 @@ typedef struct rounds {
     double off;
 } rounds;
 
-static icc_status copy(iccp_common_surface *to, const iccp_common_surface *c,
-                       const iccp_memory *memory)
-{
-    bool has_memory = true;
-    *to = (iccp_common_surface){.n_vertices = c->n_vertices, .n_faces = c->n_faces};
-    to->faces = iccp_alloc(memory, c->n_faces, 3 * sizeof *to->faces);
-    for (int side = 0; side < 2; ++side) {
-        to->x[side] = iccp_alloc(memory, c->n_vertices, 3 * sizeof *to->x[side]);
-        to->origin[side] = iccp_alloc(memory, c->n_vertices, sizeof *to->origin[side]);
-        to->within[side] = iccp_alloc(memory, c->n_faces, sizeof *to->within[side]);
-        has_memory = has_memory && to->x[side] != NULL && to->origin[side] != NULL &&
-                     to->within[side] != NULL;
-    }
-    if (!has_memory || to->faces == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(to->faces, c->faces, 3 * c->n_faces * sizeof *to->faces);
-    for (int side = 0; side < 2; ++side) {
-        memcpy(to->x[side], c->x[side], 3 * c->n_vertices * sizeof *to->x[side]);
-        memcpy(to->origin[side], c->origin[side], c->n_vertices * sizeof *to->origin[side]);
-        memcpy(to->within[side], c->within[side], c->n_faces * sizeof *to->within[side]);
-    }
-    return ICC_OK;
-}
-
 /* ---- what is far off ---- */
 
 /* Whether a point is too far from the surface of a tree. */
@@ -120,7 +96,7 @@ static bool measure(rounds *r, const iccp_common_surface *c, bool *any_more,
 static icc_status simplify(rounds *r, iccp_common_surface *c, const iccp_env *env)
 {
     iccp_common_surface_free(c, &env->memory);
-    icc_status status = copy(c, r->whole, &env->memory);
+    icc_status status = iccp_common_surface_copy(c, r->whole, &env->memory);
     if (status == ICC_OK)
         status = iccp_simplify(c, r->became, r->given, r->x, &r->limits, env);
     if (status != ICC_OK)
@@ -160,6 +136,24 @@ static icc_status run(rounds *r, iccp_common_surface *c, bool *is_done, const ic
     return status;
 }
 
+/* Puts `fine` in the place of c, and c in its, if it is near enough as measured. */
+static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_surface *fine,
+                               const iccp_memory *memory)
+{
+    const double off = r->off;
+    bool any_more;
+    if (!measure(r, fine, &any_more, memory))
+        return ICC_ERR_MEMORY;
+    if (r->off <= 1) {
+        const iccp_common_surface coarse = *c;
+        *c = *fine;
+        *fine = coarse;
+    } else {
+        r->off = off;
+    }
+    return ICC_OK;
+}
+
 /* Touches up what is done. Where something meets then it is done once more from the same beginning,
  * but for what is there; at last it stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
@@ -178,7 +172,7 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
     for (size_t k = 0; k < TOUCHES && !is_done && status == ICC_OK; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
         iccp_common_surface fine;
-        status = copy(&fine, c, memory);
+        status = iccp_common_surface_copy(&fine, c, memory);
         if (status == ICC_OK)
             status =
                 iccp_touch_up(&fine, became, r->whole, r->became, r->given, r->x, &limits, &part);
@@ -190,18 +184,12 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
         for (size_t v = 0; v < c->n_vertices && status == ICC_OK; ++v)
             if (r->is_bad[became[v]] != 0)
                 stays[v] |= (stays[v] & ICCP_CAREFUL) == 0 ? ICCP_CAREFUL : ICCP_FROZEN;
-        if (is_done) {
-            iccp_common_surface_free(c, memory);
-            *c = fine;
-        } else {
-            iccp_common_surface_free(&fine, memory);
-        }
+        if (is_done)
+            status = take_if_near(r, c, &fine, memory);
+        iccp_common_surface_free(&fine, memory);
     }
-    bool any_more;
     iccp_free(memory, stays);
     iccp_free(memory, became);
-    if (is_done && !measure(r, c, &any_more, memory))
-        status = ICC_ERR_MEMORY;
     return status;
 }
 
