@@ -104,6 +104,8 @@ static void reach(web *w, int side, uint32_t h, double before)
 {
     const iccp_split_surface *const s = &w->s[side];
     const uint32_t end = iccp_split_end(s, h);
+    if (s->holder[end] == ICCP_NO_EDGE && w->distance[end] <= before)
+        return;
     const double at = before + length_of(s, h);
     if (s->holder[end] == ICCP_NO_EDGE && at < w->distance[end]) {
         w->distance[end] = at;
