@@ -15,6 +15,9 @@ enum { ROUNDS = 12, TOUCHES = 6 };
 enum { MENDS = 7 };
 static const double farther = 10;
 
+/* The mean energy of the map becomes at most so many times what it was by touching up. */
+static const double most_rise = 1.03;
+
 typedef struct rounds {
     const iccp_common_surface *whole;
     const iccp_half_edges *const *given;
@@ -154,7 +157,7 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Touches up what is done. Where something meets then it is done once more from the same beginning,
+/* Touches up what is done, once more and calmly if the energy rises too much. Where something meets then it is done once more from the same beginning,
  * but for what is there; at last it stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
@@ -168,14 +171,22 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
     for (size_t v = 0; v < r->whole->n_vertices && keep != NULL && status == ICC_OK; ++v)
         if (keep[v] != 0)
             stays[r->became[v]] = ICCP_STAYS;
-    bool is_done = false;
+    bool is_done = false, is_calm = false;
+    double rise = 0;
     for (size_t k = 0; k < TOUCHES && !is_done && status == ICC_OK; ++k) {
         const iccp_env part = iccp_round(env, k, 1);
         iccp_common_surface fine;
         status = iccp_common_surface_copy(&fine, c, memory);
         if (status == ICC_OK)
-            status =
-                iccp_touch_up(&fine, became, r->whole, r->became, r->given, r->x, &limits, &part);
+            status = iccp_touch_up(&fine, became, &rise, is_calm, r->whole, r->became, r->given,
+                                   r->x, &limits, &part);
+        if (status == ICC_OK && rise > most_rise) {
+            iccp_common_surface_free(&fine, memory);
+            if (is_calm)
+                break;
+            is_calm = true;
+            continue;
+        }
         memset(r->is_bad, 0, r->whole->n_vertices);
         r->any = false;
         if (status == ICC_OK && !iccp_meeting_mark(r->is_bad, &r->any, &fine, memory))

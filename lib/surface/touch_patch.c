@@ -92,31 +92,36 @@ bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_pat
     return is_good;
 }
 
-/* The mean energy of triangles, by area on both sides. */
+void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corners *d,
+                           double scale)
+{
+    double normal[3], scaled[3][3];
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            scaled[i][j] = scale * d->at[i][j];
+    const double *const to[3] = {scaled[0], scaled[1], scaled[2]};
+    iccp_triangle_normal(normal, c->at[0], c->at[1], c->at[2]);
+    double weight = iccp_vec_norm(3, normal);
+    iccp_triangle_normal(normal, to[0], to[1], to[2]);
+    weight += iccp_vec_norm(3, normal);
+    sum[0] += weight * iccp_stretch_energy(c->at, to, most_energy);
+    sum[1] += weight;
+}
+
 static double energy_of(const iccp_patches *s, const iccp_patch *p, const iccp_patch_triangles *t)
 {
-    double sum = 0, weights = 0;
+    double sum[2] = {0, 0};
     for (uint32_t k = 0; k < t->n; ++k) {
         const iccp_corners c = corners_of(s, p, t, 0, k), d = corners_of(s, p, t, 1, k);
-        double normal[3], scaled[3][3];
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-                scaled[i][j] = s->scale * d.at[i][j];
-        const double *const to[3] = {scaled[0], scaled[1], scaled[2]};
-        iccp_triangle_normal(normal, c.at[0], c.at[1], c.at[2]);
-        double weight = iccp_vec_norm(3, normal);
-        iccp_triangle_normal(normal, to[0], to[1], to[2]);
-        weight += iccp_vec_norm(3, normal);
-        sum += weight * iccp_stretch_energy(c.at, to, most_energy);
-        weights += weight;
+        iccp_patch_add_energy(sum, &c, &d, s->scale);
     }
-    return sum / weights;
+    return sum[0] / sum[1];
 }
 
 bool iccp_patch_allowed(const iccp_patches *s, const iccp_patch *p, double least_before)
 {
     const iccp_patch_triangles *const t = &p->after;
-    const double more = iccp_max(calm, iccp_min(most_calm, thin / least_before));
+    const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most_calm, thin / least_before));
     uint32_t keep = 0;
     for (uint32_t k = 0; k < t->n; ++k)
         for (int i = 0; i < 3; ++i)

@@ -16,6 +16,7 @@ typedef struct iccp_patches {
     const uint8_t *keep;              /* by vertex, as for iccp_touch_up() */
     double edge2[2]; /* on either side: sides are no longer, squared, unless some were before */
     double scale;    /* times which the second has the area of the first */
+    bool is_calm;    /* no change may stretch one more to become the other */
     uint32_t *at[2]; /* by vertex: the one of the whole in whose place it is */
     iccp_covering covering[2];
 } iccp_patches;
@@ -51,8 +52,13 @@ iccp_patch_shape iccp_patch_before(const iccp_patches *s, const iccp_patch *p);
 bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_patch_shape *before,
                       double least, double most, iccp_patch_shape *after);
 
+/* Adds the energy of a triangle, times its areas on both sides, and these; scale: as above. */
+void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corners *d,
+                           double scale);
+
 /* Whether both surfaces are near enough afterwards, no triangle changes that is to stay, and one is
- * not stretched more to become the other; a little more where the least sine has been small. */
+ * not stretched more to become the other; unless s->is_calm a little more where the least sine has
+ * been small. */
 bool iccp_patch_allowed(const iccp_patches *s, const iccp_patch *p, double least_before);
 
 /* Moves the vertex and what is beside the triangles; s->m is the caller's to change. */

@@ -221,7 +221,21 @@ static double area_of(const iccp_common_surface *c, int side)
     return area;
 }
 
-static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became,
+/* The mean energy, by area on both sides. */
+static double energy_of(const iccp_common_surface *c, double scale)
+{
+    double sum[2] = {0, 0};
+    for (size_t f = 0; f < c->n_faces; ++f) {
+        iccp_corners on[2];
+        for (int side = 0; side < 2; ++side)
+            for (int i = 0; i < 3; ++i)
+                on[side].at[i] = c->x[side] + 3 * (size_t)c->faces[3 * f + (size_t)i];
+        iccp_patch_add_energy(sum, &on[0], &on[1], scale);
+    }
+    return sum[0] / sum[1];
+}
+
+static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became, double *rise,
                            const uint32_t *left, const iccp_half_edges *const given[2],
                            const double *const x[2], const double *off, const iccp_env *env)
 {
@@ -242,6 +256,7 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
                 s->at[side][left[v]] = v;
     }
     s->scale = sqrt(area_of(c, 0) / area_of(c, 1));
+    const double before = energy_of(c, s->scale);
     const icc_status status = has_memory ? run(t, env) : ICC_ERR_MEMORY;
     if (status != ICC_OK)
         return status;
@@ -252,21 +267,22 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
             c->origin[side][v] = s->whole->origin[side][at];
         }
     iccp_common_surface_compact(c, &s->m, became);
+    *rise = energy_of(c, s->scale) / before;
     return status;
 }
 
-icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became,
+icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *rise, bool is_calm,
                          const iccp_common_surface *whole, const uint32_t *left,
                          const iccp_half_edges *const given[2], const double *const x[2],
                          const iccp_simplify_limits *limits, const iccp_env *env)
 {
-    touching t = {.s = {.whole = whole, .keep = limits->keep}};
+    touching t = {.s = {.whole = whole, .keep = limits->keep, .is_calm = is_calm}};
     icc_status status = iccp_half_edges_create(&t.s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     for (int side = 0; side < 2; ++side)
         t.s.edge2[side] = limits->edge[side] * limits->edge[side];
     if (status == ICC_OK)
-        status = touch_up(&t, common, became, left, given, x, limits->off, env);
+        status = touch_up(&t, common, became, rise, left, given, x, limits->off, env);
     for (int side = 0; side < 2; ++side) {
         iccp_covering_free(&t.s.covering[side], &env->memory);
         iccp_free(&env->memory, t.s.at[side]);

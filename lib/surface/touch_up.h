@@ -15,7 +15,7 @@ enum { ICCP_STAYS = 1, ICCP_CAREFUL = 2, ICCP_FROZEN = 4 };
  * limits->keep, by vertex of `common`: as above. `became`, and what is said of meeting and errors,
  * as for iccp_simplify(); common->within is not kept. O(n log n) for n vertices of the whole that
  * are spread evenly over what is left. */
-icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became,
+icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *rise, bool is_calm,
                          const iccp_common_surface *whole, const uint32_t *left,
                          const iccp_half_edges *const given[2], const double *const x[2],
                          const iccp_simplify_limits *limits, const iccp_env *env);
