@@ -157,8 +157,8 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Touches up what is done, once more and calmly if the energy rises too much. Where something meets then it is done once more from the same beginning,
- * but for what is there; at last it stays as it was. */
+/* Touches up what is done, and anew, calmly, if the energy rises too much. Where something meets it
+ * is done once more from the same beginning, but for what is there; at last it stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
