@@ -24,9 +24,11 @@ if [ "$tier" = long ]; then
     need clang libclang-rt-dev llvm
 fi
 if [ "$tier" != plain ]; then
-    need libsuitesparse-dev cargo rustc python3-distributed python3-shapely python3-skimage python3-meshio python3-pil python3-matplotlib \
-        python3-setuptools python3-wheel python3-pip python3-venv mypy netpbm librsvg2-bin doxygen \
-        mandoc man-db clang-format proj-bin gdal-bin assimp-utils zsh fish
+    need libsuitesparse-dev cargo rustc mypy doxygen mandoc man-db clang-format netpbm librsvg2-bin proj-bin gdal-bin \
+        assimp-utils zsh fish \
+        python3-setuptools python3-wheel python3-pip python3-venv \
+        python3-distributed python3-geopandas python3-matplotlib python3-meshio python3-pil python3-rasterio \
+        python3-shapely python3-skimage python3-xarray python3-zarr
 fi
 
 preset=${1:-release}

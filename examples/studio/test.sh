@@ -1,9 +1,11 @@
 #!/bin/sh
 # Drives the studio, and the package over a worker, in Debian's chromium, without a network but for npm's puppeteer-core; screenshots in
 # build/wasm/studio/shots.
-# usage: examples/studio/test.sh [--long]    (after bindings/js/test.sh, which builds the page)
+# usage: examples/studio/test.sh [--long]    (after bindings/js/test.sh, which builds the page; installs chromium)
 set -eu
 cd "$(dirname "$0")/../.."
+. cmake/deps.sh
+need chromium
 folder=$PWD/build/wasm/studio
 for program in chromium node npm; do
     if ! command -v "$program" >/dev/null; then
@@ -11,7 +13,6 @@ for program in chromium node npm; do
         exit 77
     fi
 done
-. cmake/deps.sh
 mkdir -p "$folder/shots"
 cp examples/studio/test/*.js "$folder"
 if [ ! -d "$folder/node_modules/puppeteer-core" ]; then
