@@ -23,6 +23,9 @@ if ! command -v mmdebstrap autopkgtest >/dev/null; then
     exit 77
 fi
 
+# In the chroots there is no compiler cache.
+unset CMAKE_C_COMPILER_LAUNCHER CMAKE_CXX_COMPILER_LAUNCHER
+
 mkdir -p "$1"
 work=$(cd "$1" && pwd)/debian
 build_root=$work/build-root
