@@ -241,6 +241,12 @@ void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const doubl
     make(tree, memory);
 }
 
+void iccp_facet_tree_include(iccp_facet_tree *tree, size_t place, const double *box)
+{
+    for (size_t node = tree->n_leaves + place / LEAF; node > 0; node /= 2)
+        include(tree->dim, tree->boxes + 2 * tree->dim * node, box);
+}
+
 void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory)
 {
     iccp_free(memory, tree->boxes);

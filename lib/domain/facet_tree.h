@@ -35,6 +35,8 @@ void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *ver
 void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,
                                   size_t n_simplices, const uint32_t *simplices,
                                   const iccp_memory *memory);
+/* The facet at a place will be within such a box, or where it has been: boxes only grow. */
+void iccp_facet_tree_include(iccp_facet_tree *tree, size_t place, const double *box);
 void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory);
 
 /* The corners of a facet. */

@@ -101,7 +101,7 @@ static double look_at(const iccp_covering *c, const iccp_corners *t, const doubl
 
 /* Whether a triangle's middle, and that of its first side, are near the surface, and it faces as
  * that does at one of its middles. Its other sides are first sides of others, or were there. */
-static bool fits(const iccp_covering *c, const iccp_corners *t, double most2)
+static bool fits(const iccp_covering *c, const iccp_corners *t)
 {
     static const double middles[4][3] = {
         {1 / 3., 1 / 3., 1 / 3.}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
@@ -109,24 +109,23 @@ static bool fits(const iccp_covering *c, const iccp_corners *t, double most2)
     double normal[3];
     iccp_triangle_normal(normal, t->at[0], t->at[1], t->at[2]);
     for (int i = 0; i < 2; ++i)
-        if (look_at(c, t, middles[i], normal, &faces_so) > most2)
+        if (look_at(c, t, middles[i], normal, &faces_so) > c->most2)
             return false;
     for (int i = 2; i < 4 && !faces_so; ++i)
         (void)look_at(c, t, middles[i], normal, &faces_so);
     return faces_so;
 }
 
-bool iccp_covering_allows(const iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
-                          const iccp_corners *triangles, double share)
+bool iccp_covering_allows(iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
+                          const iccp_corners *triangles)
 {
-    const double most2 = share * share * c->most2;
     size_t t = 0;
     for (size_t k = 0; k < n_old; ++k)
         for (uint32_t before = ICCP_NO_EDGE, i = c->first[old[k]]; i != ICCP_NO_EDGE;
              before = i, i = c->next[i]) {
             size_t tries = 0;
             /* Its neighbour was near to this one. */
-            while (tries < n && !(distance2(&triangles[t], c->x + 3 * (size_t)i) <= most2)) {
+            while (tries < n && !(distance2(&triangles[t], c->x + 3 * (size_t)i) <= c->most2)) {
                 t = t + 1 == n ? 0 : t + 1;
                 ++tries;
             }
@@ -141,7 +140,7 @@ bool iccp_covering_allows(const iccp_covering *c, size_t n_old, const uint32_t *
             }
         }
     for (t = 0; t < n; ++t)
-        if (!fits(c, &triangles[t], most2))
+        if (!fits(c, &triangles[t]))
             return false;
     return true;
 }

@@ -27,9 +27,9 @@ void iccp_covering_free(iccp_covering *c, const iccp_memory *memory);
 
 /* Whether triangles may take the place of others: each point beside these is near one of them, and
  * the middles of them and of their first sides are near the surface, which they face as its faces
- * there do: within a share of what is allowed. Sides that are new have to be the first of one. */
-bool iccp_covering_allows(const iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
-                          const iccp_corners *triangles, double share);
+ * there do. Sides that are new have to be the first of one. Points change their order. */
+bool iccp_covering_allows(iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
+                          const iccp_corners *triangles);
 
 /* Puts what was beside the old triangles beside the nearest of n new ones, with these numbers. */
 void iccp_covering_replace(iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,

@@ -102,11 +102,12 @@ static void hand_over(simplification *s, int side, uint32_t u, uint32_t v)
     s->first[side][u] = ICCP_NO_EDGE;
 }
 
-/* How far `v` is off the planes of `u`. */
+/* How far `v` is off the planes of `u`, if that is at most what is allowed. */
 static double distance_off(const simplification *s, int side, uint32_t u, uint32_t v)
 {
     double off = 0;
-    for (uint32_t i = s->first[side][u]; i != ICCP_NO_EDGE; i = s->links[side][i].next) {
+    for (uint32_t i = s->first[side][u]; i != ICCP_NO_EDGE && off <= s->limits->off[side];
+         i = s->links[side][i].next) {
         const plane *const p = &s->plane[side][s->links[side][i].plane];
         off = iccp_max(off, fabs(iccp_vec_dot(3, p->normal, at(s, side, v)) - p->at));
     }

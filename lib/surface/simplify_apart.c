@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Rounds, in each of which more vertices stay, until nothing goes; and such of what follows. */
-enum { ROUNDS = 12, TOUCHES = 6 };
+/* In each of which more vertices stay, until nothing goes. */
+enum { ROUNDS = 12 };
 
 /* Where the whole is mended vertices go as little off as they can: so many times as far in each
  * round as in the one before, up to what is allowed. */
@@ -157,8 +157,8 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Touches up what is done, and anew, calmly, if the energy rises too much. Where something meets it
- * is done once more from the same beginning, but for what is there; at last it stays as it was. */
+/* Touches up what is done, and anew, calmly, if the energy rises too much; if it still does it
+ * stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
@@ -170,32 +170,16 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
     limits.keep = stays;
     for (size_t v = 0; v < r->whole->n_vertices && keep != NULL && status == ICC_OK; ++v)
         if (keep[v] != 0)
-            stays[r->became[v]] = ICCP_STAYS;
-    bool is_done = false, is_calm = false;
-    double rise = 0;
-    for (size_t k = 0; k < TOUCHES && !is_done && status == ICC_OK; ++k) {
-        const iccp_env part = iccp_round(env, k, 1);
+            stays[r->became[v]] = 1;
+    double rise = HUGE_VAL;
+    for (int is_calm = 0; is_calm < 2 && rise > most_rise && status == ICC_OK; ++is_calm) {
+        const iccp_env part = iccp_part(env, NULL, 0.5 * is_calm, 0.5 * is_calm + 0.5);
         iccp_common_surface fine;
         status = iccp_common_surface_copy(&fine, c, memory);
         if (status == ICC_OK)
-            status = iccp_touch_up(&fine, became, &rise, is_calm, r->whole, r->became, r->given,
-                                   r->x, &limits, &part);
-        if (status == ICC_OK && rise > most_rise) {
-            iccp_common_surface_free(&fine, memory);
-            if (is_calm)
-                break;
-            is_calm = true;
-            continue;
-        }
-        memset(r->is_bad, 0, r->whole->n_vertices);
-        r->any = false;
-        if (status == ICC_OK && !iccp_meeting_mark(r->is_bad, &r->any, &fine, memory))
-            status = ICC_ERR_MEMORY;
-        is_done = status == ICC_OK && !r->any;
-        for (size_t v = 0; v < c->n_vertices && status == ICC_OK; ++v)
-            if (r->is_bad[became[v]] != 0)
-                stays[v] |= (stays[v] & ICCP_CAREFUL) == 0 ? ICCP_CAREFUL : ICCP_FROZEN;
-        if (is_done)
+            status = iccp_touch_up(&fine, became, &rise, is_calm != 0, r->whole, r->became,
+                                   r->given, r->x, &limits, &part);
+        if (status == ICC_OK && rise <= most_rise)
             status = take_if_near(r, c, &fine, memory);
         iccp_common_surface_free(&fine, memory);
     }

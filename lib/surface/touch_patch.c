@@ -1,11 +1,11 @@
 /* What a change of common triangles does: to their shape, to how one surface is stretched to become
- * the other (surface/stretch.h), and to how far both are off (surface/covering.h). */
+ * the other (surface/stretch.h), to how far both are off (surface/covering.h) and to what meets
+ * (surface/clearance.h). */
 #include "surface/touch_patch.h"
 
 #include "base/minmax.h"
 #include "surface/corner_angle.h"
 #include "surface/stretch.h"
-#include "surface/touch_up.h"
 
 #include <string.h>
 
@@ -15,9 +15,6 @@
 static const double calm = 1.01, thin = 0.13, most_calm = 4;
 
 static const double most_energy = 1e8;
-
-/* Sheets that have come to meet are this much nearer to where they were given, at least. */
-static const double careful = 0.125;
 
 /* Of 1 / sine^2: nothing is thinner. */
 static const double least_sine2 = 1e-12;
@@ -50,8 +47,8 @@ static iccp_corners corners_of(const iccp_patches *s, const iccp_patch *p,
     iccp_corners c;
     for (int i = 0; i < 3; ++i) {
         const uint32_t v = t->corner[k][i];
-        c.at[i] = iccp_patch_point(
-            s, side, t == &p->after && v == p->vertex ? p->place[side] : s->at[side][v]);
+        c.at[i] = t == &p->after && v == p->vertex ? iccp_patch_point(s, side, p->place[side])
+                                                   : s->x[side] + 3 * (size_t)v;
     }
     return c;
 }
@@ -118,25 +115,34 @@ static double energy_of(const iccp_patches *s, const iccp_patch *p, const iccp_p
     return sum[0] / sum[1];
 }
 
-bool iccp_patch_allowed(const iccp_patches *s, const iccp_patch *p, double least_before)
+/* Puts the vertex that moves, if any, in a place. */
+static void put(iccp_patches *s, const iccp_patch *p, int side, uint32_t place)
+{
+    if (p->vertex != ICCP_NO_EDGE)
+        memcpy(s->x[side] + 3 * (size_t)p->vertex, iccp_patch_point(s, side, place),
+               3 * sizeof(double));
+}
+
+bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_before)
 {
     const iccp_patch_triangles *const t = &p->after;
     const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most_calm, thin / least_before));
-    uint32_t keep = 0;
-    for (uint32_t k = 0; k < t->n; ++k)
-        for (int i = 0; i < 3; ++i)
-            keep |= s->keep[t->corner[k][i]];
-    if ((keep & ICCP_FROZEN) != 0 || !(energy_of(s, p, t) <= more * energy_of(s, p, &p->before)))
-        return false;
-    for (int side = 0; side < 2; ++side) {
+    bool is_allowed = energy_of(s, p, t) <= more * energy_of(s, p, &p->before);
+    for (int side = 0; side < 2 && is_allowed; ++side) {
         iccp_corners c[ICCP_PATCH_TRIANGLES];
         for (uint32_t k = 0; k < t->n; ++k)
             c[k] = corners_of(s, p, t, side, k);
-        if (!iccp_covering_allows(&s->covering[side], p->before.n, p->before.number, t->n, c,
-                                  (keep & ICCP_CAREFUL) != 0 ? careful : 1))
-            return false;
+        is_allowed =
+            iccp_covering_allows(&s->covering[side], p->before.n, p->before.number, t->n, c);
     }
-    return true;
+    for (int side = 0; side < 2 && is_allowed; ++side) {
+        put(s, p, side, p->place[side]);
+        is_allowed = iccp_clearance_allows(&s->clearance[side], p->before.n, p->before.number, t->n,
+                                           t->corner);
+        if (p->vertex != ICCP_NO_EDGE)
+            put(s, p, side, s->at[side][p->vertex]);
+    }
+    return is_allowed;
 }
 
 void iccp_patch_apply(iccp_patches *s, const iccp_patch *p)
@@ -148,7 +154,9 @@ void iccp_patch_apply(iccp_patches *s, const iccp_patch *p)
             c[k] = corners_of(s, p, t, side, k);
         iccp_covering_replace(&s->covering[side], p->before.n, p->before.number, t->n, c,
                               t->number);
+        put(s, p, side, p->place[side]);
         if (p->vertex != ICCP_NO_EDGE)
             s->at[side][p->vertex] = p->place[side];
+        iccp_clearance_replace(&s->clearance[side], t->n, t->number, t->corner);
     }
 }

@@ -2,6 +2,7 @@
 #ifndef ICCP_TOUCH_PATCH_H
 #define ICCP_TOUCH_PATCH_H
 
+#include "surface/clearance.h"
 #include "surface/common_surface.h"
 #include "surface/covering.h"
 
@@ -13,12 +14,14 @@ enum { ICCP_PATCH_NEIGHBOURS = 18, ICCP_PATCH_TRIANGLES = ICCP_PATCH_NEIGHBOURS 
 typedef struct iccp_patches {
     iccp_half_edges m;
     const iccp_common_surface *whole; /* the overlay */
-    const uint8_t *keep;              /* by vertex, as for iccp_touch_up() */
+    const uint8_t *keep;              /* by vertex: not 0: it stays where it is */
     double edge2[2]; /* on either side: sides are no longer, squared, unless some were before */
     double scale;    /* times which the second has the area of the first */
     bool is_calm;    /* no change may stretch one more to become the other */
     uint32_t *at[2]; /* by vertex: the one of the whole in whose place it is */
+    double *x[2];    /* by vertex: that place */
     iccp_covering covering[2];
+    iccp_clearance clearance[2];
 } iccp_patches;
 
 typedef struct iccp_patch_triangles {
@@ -56,10 +59,9 @@ bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_pat
 void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corners *d,
                            double scale);
 
-/* Whether both surfaces are near enough afterwards, no triangle changes that is to stay, and one is
- * not stretched more to become the other; unless s->is_calm a little more where the least sine has
- * been small. */
-bool iccp_patch_allowed(const iccp_patches *s, const iccp_patch *p, double least_before);
+/* Whether both surfaces are near enough afterwards, neither meets itself, and one is not stretched
+ * more to become the other; unless s->is_calm a little more where the least sine has been small. */
+bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_before);
 
 /* Moves the vertex and what is beside the triangles; s->m is the caller's to change. */
 void iccp_patch_apply(iccp_patches *s, const iccp_patch *p);

@@ -33,25 +33,29 @@ typedef struct touching {
 /* ---- collapses ---- */
 
 /* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is allowed. */
-static uint32_t find_cheapest(const iccp_patches *s, uint32_t u, iccp_patch *best, double *cost)
+static uint32_t find_cheapest(iccp_patches *s, uint32_t u, iccp_patch *best, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
     uint32_t found = ICCP_NO_EDGE, h = m->out[u];
+    iccp_patch ring = {.vertex = ICCP_NO_EDGE};
     *cost = HUGE_VAL;
-    if (m->degree[u] > ICCP_PATCH_NEIGHBOURS || (s->keep[u] & ICCP_STAYS) != 0)
+    if (m->degree[u] > ICCP_PATCH_NEIGHBOURS || s->keep[u] != 0)
         return found;
+    iccp_patch_add_ring(s, &ring, u, ICCP_NO_EDGE, u);
+    const iccp_patch_shape round_u = iccp_patch_before(s, &ring);
     for (uint32_t k = 0; k < m->degree[u]; ++k, h = iccp_edge_turn(m, h)) {
         const uint32_t v = iccp_edge_end(m, h);
         double length = 0;
         for (int side = 0; side < 2; ++side)
-            length += sqrt(iccp_vec_distance2(3, iccp_patch_point(s, side, s->at[side][u]),
-                                              iccp_patch_point(s, side, s->at[side][v])) /
-                           s->edge2[side]);
+            length +=
+                sqrt(iccp_vec_distance2(3, s->x[side] + 3 * (size_t)u, s->x[side] + 3 * (size_t)v) /
+                     s->edge2[side]);
         if (m->degree[u] + m->degree[v] - 4 > ICCP_PATCH_NEIGHBOURS || length * readily >= *cost ||
             !iccp_edge_collapsible(m, h))
             continue;
+        iccp_patch_shape before;
         /* Both places from v; or one from u. */
-        for (int from_u = -1; from_u < ((s->keep[v] & ICCP_STAYS) == 0 ? 2 : 0); ++from_u) {
+        for (int from_u = -1; from_u < (s->keep[v] == 0 ? 2 : 0); ++from_u) {
             iccp_patch p = {.vertex = v, .place = {s->at[0][v], s->at[1][v]}};
             iccp_patch_shape after;
             iccp_patch_add_ring(s, &p, u, ICCP_NO_EDGE, v);
@@ -59,7 +63,8 @@ static uint32_t find_cheapest(const iccp_patches *s, uint32_t u, iccp_patch *bes
                 p.place[from_u] = s->at[from_u][u];
                 iccp_patch_add_ring(s, &p, v, u, v);
             }
-            const iccp_patch_shape before = iccp_patch_before(s, &p);
+            if (from_u <= 0)
+                before = from_u < 0 ? round_u : iccp_patch_before(s, &p);
             if ((from_u >= 0 && before.least > fair_sine) ||
                 !iccp_patch_after(s, &p, &before, iccp_min(fair_sine, before.least), HUGE_VAL,
                                   &after))
@@ -172,8 +177,7 @@ static bool move_all(iccp_patches *s)
     bool any = false;
     for (uint32_t v = 0; v < s->m.n_vertices; ++v)
         for (uint32_t sides = 1; sides <= 3; ++sides)
-            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS &&
-                (s->keep[v] & ICCP_STAYS) == 0)
+            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS && s->keep[v] == 0)
                 any = move(s, v, sides) || any;
     return any;
 }
@@ -243,14 +247,13 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
     iccp_patches *const s = &t->s;
     bool has_memory = iccp_heap_create(&t->heap, c->n_vertices, memory);
     for (int side = 0; side < 2 && has_memory; ++side) {
-        iccp_facet_tree now;
-        iccp_facet_tree_create(&now, 3, c->x[side], c->n_faces, c->faces, memory);
+        s->x[side] = c->x[side];
         s->at[side] = iccp_alloc(memory, c->n_vertices, sizeof *s->at[side]);
         has_memory =
-            now.boxes != NULL && s->at[side] != NULL &&
+            s->at[side] != NULL &&
+            iccp_clearance_create(&s->clearance[side], &s->m, c->x[side], memory) &&
             iccp_covering_create(&s->covering[side], given[side], x[side], s->whole->n_vertices,
-                                 s->whole->x[side], off[side], &now, memory);
-        iccp_facet_tree_free(&now, memory);
+                                 s->whole->x[side], off[side], &s->clearance[side].tree, memory);
         for (uint32_t v = 0; v < s->whole->n_vertices && has_memory; ++v)
             if (is_left(s, c, v, left[v]))
                 s->at[side][left[v]] = v;
@@ -261,11 +264,8 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
     if (status != ICC_OK)
         return status;
     for (int side = 0; side < 2; ++side)
-        for (uint32_t v = 0; v < c->n_vertices; ++v) {
-            const uint32_t at = s->at[side][v];
-            memcpy(c->x[side] + 3 * (size_t)v, iccp_patch_point(s, side, at), 3 * sizeof(double));
-            c->origin[side][v] = s->whole->origin[side][at];
-        }
+        for (uint32_t v = 0; v < c->n_vertices; ++v)
+            c->origin[side][v] = s->whole->origin[side][s->at[side][v]];
     iccp_common_surface_compact(c, &s->m, became);
     *rise = energy_of(c, s->scale) / before;
     return status;
@@ -285,6 +285,7 @@ icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *
         status = touch_up(&t, common, became, rise, left, given, x, limits->off, env);
     for (int side = 0; side < 2; ++side) {
         iccp_covering_free(&t.s.covering[side], &env->memory);
+        iccp_clearance_free(&t.s.clearance[side], &env->memory);
         iccp_free(&env->memory, t.s.at[side]);
     }
     iccp_heap_free(&t.heap, &env->memory);
