@@ -61,6 +61,8 @@ echo "compare/reparent.py:"
 /usr/bin/python3 -B examples/compare/reparent.py --cells 16
 echo "compare/open_questions.py:"
 /usr/bin/python3 -B examples/compare/open_questions.py --cells 16
+echo "compare/corners.py:"
+/usr/bin/python3 -B examples/compare/corners.py --cells 12 25 --turns 1
 echo "compare/dual_functions.py:"
 /usr/bin/python3 -B examples/compare/dual_functions.py "$out/dual_functions.svg"
 echo "compare/texture.py:"

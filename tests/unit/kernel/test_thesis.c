@@ -380,6 +380,42 @@ START_TEST(rigid_parts_are_at_the_optimum)
 }
 END_TEST
 
+/* By either kernel. The energy at the end is that of the interpolant, whose coefficients threads find
+ * side by side. */
+START_TEST(rigid_parts_do_not_depend_on_threads)
+{
+    double star[2 * TIPS], energy[2], again[2];
+    draw_star(star);
+    icc_sampling *sampling = make_samples(TIPS, star, 1.2, ICC_SAMPLING_BLUE, 0.035);
+    const icc_weights_options options = {
+        .size = sizeof options, .kernel = _i == 0 ? ICC_KERNEL_WENDLAND : ICC_KERNEL_GAUSS};
+    made before = make(sampling, TIPS, star, &options);
+    uint32_t *part = allocate(before.info.n_nodes, sizeof *part);
+    const size_t n = find_leg(&before, star, part);
+    made alone = stiffen(&before, n, part, NULL, energy);
+    const double measured = energy_of(&alone, n, part, NULL);
+    ck_assert_double_lt(energy[1], 0.6 * energy[0]);
+    for (int32_t threads = 1; threads <= 4; threads *= 2) {
+        const icc_env env = {.size = sizeof env, .threads = threads};
+        icc_weights *stiff;
+        ck_assert_int_eq(
+            icc_weights_stiffen(&stiff, before.weights, n, part, NULL, again, &env, NULL), ICC_OK);
+        made shared = take(stiff);
+        const double here = energy_of(&shared, n, part, NULL);
+        ck_assert_mem_eq(&here, &measured, sizeof here);
+        ck_assert_mem_eq(again, energy, sizeof energy);
+        ck_assert_mem_eq(&shared.info.residual, &alone.info.residual, sizeof(double));
+        ck_assert_mem_eq(shared.values, alone.values,
+                         TIPS * before.info.n_nodes * sizeof *alone.values);
+        clear(&shared);
+    }
+    free(part);
+    clear(&before);
+    clear(&alone);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
 /* A rigidity that varies is no obstacle: it counts where it is large, and only its proportions
  * do. */
 START_TEST(rigidity_may_vary)
@@ -761,6 +797,7 @@ int main(void)
     TCase *defects = tcase_create("defects");
     tcase_add_test(defects, rigid_parts_lose_energy_and_edges_stay);
     tcase_add_loop_test(defects, rigid_parts_are_at_the_optimum, 0, 3);
+    tcase_add_loop_test(defects, rigid_parts_do_not_depend_on_threads, 0, 2);
     tcase_add_test(defects, rigidity_may_vary);
     tcase_add_test(defects, diffusion_does_not_grow_and_handles_are_held);
     tcase_add_test(defects, diffusion_fills_up_to_one);
