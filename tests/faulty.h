@@ -1,4 +1,5 @@
-/* An environment whose allocations, or whose patience, end at the k-th call. */
+/* An environment whose allocations, or whose patience, end at the k-th call, and which notices what
+ * is written behind the end of an allocation. */
 #ifndef TESTS_FAULTY_H
 #define TESTS_FAULTY_H
 
@@ -9,6 +10,22 @@
 #include <check.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* Behind each allocation lie so many bytes that nobody may write to; before it, as many with its
+ * size, so that it stays aligned. The address sanitizer has its own, which notices reading, too. */
+#define FAULTY_GUARD 64
+#ifdef __SANITIZE_ADDRESS__
+#undef FAULTY_GUARD
+#define FAULTY_GUARD 0
+#endif
+#ifdef __has_feature
+#if __has_feature(address_sanitizer)
+#undef FAULTY_GUARD
+#define FAULTY_GUARD 0
+#endif
+#endif
+enum { FAULTY_BYTE = 0xa5 };
 
 typedef struct faulty {
     atomic_size_t n_live; /* allocations not yet given back */
@@ -23,14 +40,29 @@ static inline void *faulty_alloc(void *user, size_t size)
     faulty *f = user;
     if (++f->n_allocs == f->fail_at)
         return NULL;
+    if (size > SIZE_MAX - 2 * FAULTY_GUARD)
+        return NULL;
+    unsigned char *const block = malloc(size + 2 * FAULTY_GUARD);
+    if (block == NULL)
+        return NULL;
     ++f->n_live;
-    return malloc(size);
+    if (FAULTY_GUARD > 0)
+        memcpy(block, &size, sizeof size);
+    memset(block + FAULTY_GUARD + size, FAULTY_BYTE, FAULTY_GUARD);
+    return block + FAULTY_GUARD;
 }
 
 static inline void faulty_dealloc(void *user, void *memory)
 {
+    unsigned char *const block = (unsigned char *)memory - FAULTY_GUARD;
+    size_t size = 0;
+    if (FAULTY_GUARD > 0)
+        memcpy(&size, block, sizeof size);
+    for (size_t k = FAULTY_GUARD; k-- > 0;)
+        ck_assert_msg(block[FAULTY_GUARD + size + k] == FAULTY_BYTE,
+                      "written %zu bytes behind the end of %zu", k + 1, size);
     --((faulty *)user)->n_live;
-    free(memory);
+    free(block);
 }
 
 static inline int32_t faulty_progress(void *user, const char *stage, double share)

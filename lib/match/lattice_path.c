@@ -21,14 +21,14 @@ static const double stretch = .4, flat = .05;
 
 icc_status iccp_lattice_create(iccp_lattice *lattice, int32_t n, const iccp_memory *memory)
 {
-    const size_t rows = (size_t)n + 1;
+    const size_t rows = (size_t)n + 1, columns = 2 * (size_t)n + 1;
     *lattice = (iccp_lattice){.n = n};
     lattice->low = iccp_alloc(memory, rows, sizeof *lattice->low);
     lattice->high = iccp_alloc(memory, rows, sizeof *lattice->high);
     lattice->row = iccp_alloc(memory, rows + 1, sizeof *lattice->row);
-    lattice->best = iccp_alloc(memory, rows * (rows + 1), sizeof *lattice->best);
-    lattice->from = iccp_alloc(memory, rows * (rows + 1), sizeof *lattice->from);
-    lattice->step = iccp_alloc(memory, 2 * rows, sizeof *lattice->step);
+    lattice->best = iccp_alloc(memory, rows * columns, sizeof *lattice->best);
+    lattice->from = iccp_alloc(memory, rows * columns, sizeof *lattice->from);
+    lattice->step = iccp_alloc(memory, columns, sizeof *lattice->step);
     const bool has_all = lattice->low != NULL && lattice->high != NULL && lattice->row != NULL &&
                          lattice->best != NULL && lattice->from != NULL && lattice->step != NULL;
     return has_all ? ICC_OK : ICC_ERR_MEMORY;

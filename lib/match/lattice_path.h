@@ -14,19 +14,20 @@ typedef struct iccp_lattice_path {
 /* Memory for searches in lattices of at most n + 1 rows, in which paths advance n columns. */
 typedef struct iccp_lattice {
     int32_t n;
-    int32_t *low, *high; /* n + 1: the columns of each row that a path may use; set by the caller */
+    int32_t *low, *high; /* n + 1: the columns of each row that a path may use, of 0 to 2 n; set by
+                          * the caller */
     size_t *row;         /* n + 2 */
-    float *best;         /* (n + 1) (n + 2) */
+    float *best;         /* (n + 1) (2 n + 1) */
     unsigned char *from; /* as many */
-    int32_t *step;       /* 2 n + 2 */
+    int32_t *step;       /* 2 n + 1 */
 } iccp_lattice;
 
 icc_status iccp_lattice_create(iccp_lattice *lattice, int32_t n, const iccp_memory *memory);
 /* Accepts one that is all zero. */
 void iccp_lattice_free(iccp_lattice *lattice, const iccp_memory *memory);
 
-/* The path of least cost from (0, first) to (n, first + n) in the rows' columns, of which no row
- * has more than n + 2. `cost` of a pair is in row i, column j of an array with `width` columns. */
+/* The path of least cost from (0, first) to (n, first + n) in the rows' columns. `cost` of a pair is
+ * in row i, column j of an array with `width` columns. */
 void iccp_lattice_search(iccp_lattice_path *path, iccp_lattice *lattice, int32_t n,
                          const float *cost, size_t width, int32_t first);
 
