@@ -26,8 +26,8 @@ icc_status iccp_lattice_create(iccp_lattice *lattice, int32_t n, const iccp_memo
 /* Accepts one that is all zero. */
 void iccp_lattice_free(iccp_lattice *lattice, const iccp_memory *memory);
 
-/* The path of least cost from (0, first) to (n, first + n) in the rows' columns. `cost` of a pair is
- * in row i, column j of an array with `width` columns. */
+/* The path of least cost from (0, first) to (n, first + n) in the rows' columns. `cost` of a pair
+ * is in row i, column j of an array with `width` columns. */
 void iccp_lattice_search(iccp_lattice_path *path, iccp_lattice *lattice, int32_t n,
                          const float *cost, size_t width, int32_t first);
 
