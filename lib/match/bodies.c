@@ -8,6 +8,7 @@
 #include "surface/helpers.h"
 #include "surface/landmark_paths.h"
 #include "surface/landmark_sphere.h"
+#include "surface/likely_pairs.h"
 #include "surface/relax.h"
 #include "surface/rotation.h"
 #include "surface/sphere.h"
@@ -18,8 +19,9 @@ enum { ROUNDS = 30 };
 /* Of the diagonal: how far a landmark may be from a vertex. */
 static const double farthest_landmark = 0.02;
 
-/* Paths need so many pairs. */
-enum { LEAST_PAIRS = 4 };
+/* Paths need so many pairs; where there are fewer than the second others are looked for, so that a
+ * limb without a landmark comes to lie on its partner. */
+enum { LEAST_PAIRS = 4, ENOUGH_PAIRS = 12 };
 
 static icc_status make_body(iccp_body *b, const icc_domain *domain, const iccp_env *env,
                             icc_error *err)
@@ -92,7 +94,7 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
 {
     const icc_domain *const d = b->domain;
     const double most = farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
-    b->landmarks = iccp_alloc(memory, n + LEAST_PAIRS, sizeof *b->landmarks);
+    b->landmarks = iccp_alloc(memory, n + ENOUGH_PAIRS, sizeof *b->landmarks);
     if (b->landmarks == NULL)
         return iccp_fail_memory(err);
     for (size_t k = 0; k < n; ++k) {
@@ -127,7 +129,7 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
 static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double *given,
                                     const iccp_env *env, icc_error *err)
 {
-    const size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
+    size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){n < n_all ? 1 : 0, 2}, env);
     iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
@@ -142,10 +144,19 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double 
             iccp_helpers_find((uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n,
                               n_all, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
                               (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
+    if (status == ICC_OK && n_all < ENOUGH_PAIRS)
+        status = iccp_explain(
+            err, iccp_likely_pairs_find(
+                     (uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &n_all,
+                     ENOUGH_PAIRS, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                     (const double *const[]){bodies[0].x, bodies[1].x},
+                     (const double[]){iccp_sphere_scale(&bodies[0].m, bodies[0].x),
+                                      iccp_sphere_scale(&bodies[1].m, bodies[1].x)},
+                     &parts[1]));
     if (status == ICC_OK)
         status = iccp_landmark_sphere_draw(
             directions, m, split, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
-            (const double *const[]){bodies[0].x, bodies[1].x}, n_all,
+            (const double *const[]){bodies[0].x, bodies[1].x}, n_all, n,
             (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[1], err);
     for (int side = 0; side < 2; ++side) {
         iccp_body *const b = &bodies[side];

@@ -22,8 +22,6 @@ static const double longest_edge = 0.05, times_given = 2;
 /* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
 enum { MOST_CROSSINGS = 200 };
 
-static const double most_energy = 1e8;
-
 static double diagonal_of(const iccp_body *b)
 {
     return iccp_vec_distance(3, b->domain->lower, b->domain->upper);
@@ -74,36 +72,27 @@ static icc_status cut(iccp_common_surface *common, const iccp_body bodies[2], co
 static void measure(icc_match_info *info, const iccp_common_surface *c)
 {
     double area[2] = {0, 0}, least_sine = 1, sum = 0;
-    for (int round = 0; round < 2; ++round)
+    for (int round = 0; round < 2; ++round) {
+        /* The target is scaled once its area is known. */
+        const double scale = round == 0 ? 1 : sqrt(area[0] / area[1]);
+        sum = 0;
         for (size_t f = 0; f < c->n_faces; ++f) {
             const double *p[2][3];
-            double scaled[3][3], twice[2];
-            const double *to[3];
-            /* The target is scaled once its area is known. */
-            const double scale = round == 0 ? 1 : sqrt(area[0] / area[1]);
-            for (int side = 0; side < 2; ++side) {
-                double normal[3];
+            for (int side = 0; side < 2; ++side)
                 for (size_t i = 0; i < 3; ++i)
                     p[side][i] = c->x[side] + 3 * (size_t)c->faces[3 * f + i];
-                iccp_triangle_normal(normal, p[side][0], p[side][1], p[side][2]);
-                twice[side] = iccp_vec_norm(3, normal);
-                if (round == 0)
-                    area[side] += twice[side];
+            const iccp_stretch t = iccp_stretch_of(p[0], p[1], scale);
+            for (int side = 0; side < 2 && round == 0; ++side) {
+                area[side] += t.twice[side];
                 least_sine =
                     iccp_min(least_sine, iccp_least_sine(p[side][0], p[side][1], p[side][2]));
             }
-            if (round == 0)
-                continue;
-            for (int i = 0; i < 3; ++i) {
-                for (int k = 0; k < 3; ++k)
-                    scaled[i][k] = scale * p[1][i][k];
-                to[i] = scaled[i];
-            }
-            sum += twice[0] * iccp_stretch_energy(p[0], to, most_energy);
-            const double slope = twice[1] / twice[0] * scale * scale;
+            const double slope = t.twice[1] / t.twice[0];
+            sum += t.twice[0] * t.energy;
             info->least_slope = f == 0 ? slope : iccp_min(info->least_slope, slope);
             info->most_slope = f == 0 ? slope : iccp_max(info->most_slope, slope);
         }
+    }
     info->energy = sum / area[0];
     info->least_angle =
         360 * iccp_atan2_turns(least_sine, sqrt(iccp_max(0, 1 - least_sine * least_sine)));

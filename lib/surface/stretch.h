@@ -2,7 +2,7 @@
 #ifndef ICCP_STRETCH_H
 #define ICCP_STRETCH_H
 
-#include "math/vec.h"
+#include "surface/corner_angle.h"
 
 /* The symmetric Dirichlet energy of the linear map of one triangle in space onto another: (s^2 +
  * t^2)(1 + 1 / (s t)^2) for the singular values s and t; 4 for an isometry, at most `most`. */
@@ -24,6 +24,29 @@ static inline double iccp_stretch_energy(const double *const from[3], const doub
         return most;
     const double energy = (aa * qq - 2 * ab * pq + bb * pp) * (1 / before + 1 / after);
     return energy < most ? energy : most;
+}
+
+/* A triangle, and another that is made so many times as large before. */
+typedef struct iccp_stretch {
+    double twice[2]; /* both areas */
+    double energy;   /* at most 1e8 */
+} iccp_stretch;
+
+static inline iccp_stretch iccp_stretch_of(const double *const from[3], const double *const to[3],
+                                           double scale)
+{
+    double scaled[3][3], normal[3];
+    iccp_stretch s;
+    for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+            scaled[i][k] = scale * to[i][k];
+    const double *const large[3] = {scaled[0], scaled[1], scaled[2]};
+    iccp_triangle_normal(normal, from[0], from[1], from[2]);
+    s.twice[0] = iccp_vec_norm(3, normal);
+    iccp_triangle_normal(normal, large[0], large[1], large[2]);
+    s.twice[1] = iccp_vec_norm(3, normal);
+    s.energy = iccp_stretch_energy(from, large, 1e8);
+    return s;
 }
 
 #endif

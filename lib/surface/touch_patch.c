@@ -14,8 +14,6 @@
  * more vertices where thin triangles may cost no more than others. */
 static const double calm = 1.01, thin = 0.13, most_calm = 4;
 
-static const double most_energy = 1e8;
-
 /* Of 1 / sine^2: nothing is thinner. */
 static const double least_sine2 = 1e-12;
 
@@ -92,16 +90,9 @@ bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_pat
 void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corners *d,
                            double scale)
 {
-    double normal[3], scaled[3][3];
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            scaled[i][j] = scale * d->at[i][j];
-    const double *const to[3] = {scaled[0], scaled[1], scaled[2]};
-    iccp_triangle_normal(normal, c->at[0], c->at[1], c->at[2]);
-    double weight = iccp_vec_norm(3, normal);
-    iccp_triangle_normal(normal, to[0], to[1], to[2]);
-    weight += iccp_vec_norm(3, normal);
-    sum[0] += weight * iccp_stretch_energy(c->at, to, most_energy);
+    const iccp_stretch t = iccp_stretch_of(c->at, d->at, scale);
+    const double weight = t.twice[0] + t.twice[1];
+    sum[0] += weight * t.energy;
     sum[1] += weight;
 }
 

@@ -1,10 +1,11 @@
-/* Drawings that are moved on one another: their energy, what stays, and edges that are halved and
- * made whole again. */
+/* Drawings that are moved on one another: their energy, what stays, edges that are halved and made
+ * whole again, and pairs that are found by their distances. */
 #include "../../hard_bodies.h"
 #include "base/env.h"
 #include "icc/icc.h"
 #include "surface/direction.h"
 #include "surface/drawn_finder.h"
+#include "surface/likely_pairs.h"
 #include "surface/relax.h"
 #include "surface/sphere.h"
 #include "surface/split_surface.h"
@@ -177,6 +178,59 @@ START_TEST(halved_edges_are_made_whole)
 }
 END_TEST
 
+/* The same surface with other numbers and turned: distances agree up to rounding, and the farthest
+ * vertices are found with their partners. */
+START_TEST(likely_pairs_are_partners)
+{
+    const iccp_env env = plain_env();
+    random_source r = {21};
+    for (int trial = 0; trial < 10; ++trial) {
+        static uint32_t number[SURFACE_VERTICES], faces[3 * SURFACE_FACES], vertices[2][12];
+        static double turned[3 * SURFACE_VERTICES];
+        iccp_half_edges m[2];
+        size_t n = 4;
+        surface_star(&shape, 3, .6, &r);
+        for (uint32_t v = 0; v < shape.n_vertices; ++v)
+            number[v] = v;
+        for (size_t v = shape.n_vertices; v-- > 1;) {
+            const int other = random_below(&r, (int)v + 1);
+            const uint32_t swap = number[v];
+            number[v] = number[other];
+            number[other] = swap;
+        }
+        for (size_t v = 0; v < shape.n_vertices; ++v)
+            for (size_t k = 0; k < 3; ++k)
+                turned[3 * (size_t)number[v] + k] = shape.vertices[3 * v + (k + 1) % 3];
+        for (size_t c = 0; c < 3 * shape.n_faces; ++c)
+            faces[c] = number[shape.faces[c]];
+        ck_assert_int_eq(
+            iccp_half_edges_create(&m[0], shape.n_vertices, shape.n_faces, shape.faces, &env, NULL),
+            ICC_OK);
+        ck_assert_int_eq(
+            iccp_half_edges_create(&m[1], shape.n_vertices, shape.n_faces, faces, &env, NULL),
+            ICC_OK);
+        for (uint32_t k = 0; k < n; ++k)
+            vertices[1][k] = number[vertices[0][k] = 40 * k + (uint32_t)random_below(&r, 40)];
+        ck_assert_int_eq(
+            iccp_likely_pairs_find((uint32_t *const[]){vertices[0], vertices[1]}, &n, 12,
+                                   (const iccp_half_edges *const[]){&m[0], &m[1]},
+                                   (const double *const[]){shape.vertices, turned},
+                                   (const double[]){iccp_sphere_scale(&m[0], shape.vertices),
+                                                    iccp_sphere_scale(&m[1], turned)},
+                                   &env),
+            ICC_OK);
+        ck_assert_uint_eq(n, 12);
+        for (size_t k = 0; k < n; ++k)
+            ck_assert_uint_eq(vertices[1][k], number[vertices[0][k]]);
+        for (size_t k = 0; k < n; ++k)
+            for (size_t i = 0; i < k; ++i)
+                ck_assert_uint_ne(vertices[0][i], vertices[0][k]);
+        iccp_half_edges_free(&m[0]);
+        iccp_half_edges_free(&m[1]);
+    }
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("relax");
@@ -185,6 +239,7 @@ int main(void)
     tcase_add_test(tests, a_surface_on_itself_is_not_stretched);
     tcase_add_test(tests, relaxing_lowers_the_energy_and_keeps_the_class);
     tcase_add_test(tests, halved_edges_are_made_whole);
+    tcase_add_test(tests, likely_pairs_are_partners);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
