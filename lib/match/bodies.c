@@ -130,8 +130,8 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double 
                                     const iccp_env *env, icc_error *err)
 {
     size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
-    iccp_env parts[2];
-    iccp_split(parts, 2, (const double[]){n < n_all ? 1 : 0, 2}, env);
+    iccp_env parts[3];
+    iccp_split(parts, 3, (const double[]){n < n_all ? 1 : 0, n < ENOUGH_PAIRS ? .1 : 0, 2}, env);
     iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
     iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
     double *directions[2] = {NULL, NULL};
@@ -157,7 +157,7 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double 
         status = iccp_landmark_sphere_draw(
             directions, m, split, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
             (const double *const[]){bodies[0].x, bodies[1].x}, n_all, n,
-            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[1], err);
+            (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, &parts[2], err);
     for (int side = 0; side < 2; ++side) {
         iccp_body *const b = &bodies[side];
         iccp_half_edges_free(&b->m);
