@@ -1,67 +1,20 @@
-/* Based on: E. Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001: a tree of
- * paths first, which leaves one face, then diagonals of faces; round each landmark a path begins in
- * the same sector on both surfaces. */
+/* Based on: E. Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001: a tree
+ * of paths first, which leaves one face, then diagonals of faces; round each landmark a path
+ * begins in the same sector on both surfaces. */
 #include "surface/landmark_paths.h"
 
-#include "base/heap.h"
 #include "base/minmax.h"
-#include "math/vec.h"
+#include "surface/landmark_web.h"
 
 #include <string.h>
 
 enum { MOST_ADDED = 20 };
 
-/* Sector 2 p + e of a landmark begins, counter-clockwise, with end e of path p: there are at most
- * two for each path. Behind them, one for each landmark without a path. */
-typedef struct web {
-    iccp_split_surface *s; /* 2 */
-    size_t n, n_paths, most_paths, n_sectors, most_vertices[2];
-    const uint32_t *const *vertices;
-    uint32_t (*ends)[2];      /* landmarks, by path */
-    uint8_t *joined;          /* n * n */
-    bool *is_in;              /* by landmark: it has a path */
-    bool *is_stale;           /* by sector: its costs have changed */
-    double *cost;             /* n_sectors^2: of a path from one to another, both lengths */
-    uint32_t root;            /* landmark */
-    const double *scale;      /* of lengths, by side */
-    double worst, most_ratio; /* of a path's lengths */
-    /* Of the search on one side. */
-    iccp_heap heap;
-    size_t room;
-    double *distance;  /* by vertex */
-    uint32_t *via;     /* by vertex: the half-edge to it */
-    double *arrival;   /* by sector */
-    uint32_t *entered; /* by sector: the half-edge to its landmark */
-} web;
-
-static bool is_landmark(uint32_t holder)
-{
-    return holder != ICCP_NO_EDGE && holder >= ICCP_LANDMARK;
-}
-
-static uint32_t landmark_of(const web *w, uint32_t sector)
-{
-    return sector < 2 * w->most_paths ? w->ends[sector / 2][sector % 2]
-                                      : sector - (uint32_t)(2 * w->most_paths);
-}
-
-/* The sector that a half-edge from a landmark lies in: that of the path before it, clockwise. */
-static uint32_t sector_at(const web *w, int side, uint32_t h)
-{
-    const iccp_split_surface *const s = &w->s[side];
-    const uint32_t k = s->holder[s->origin[h]] - ICCP_LANDMARK;
-    if (!w->is_in[k])
-        return (uint32_t)(2 * w->most_paths) + k;
-    while (s->path[h] == ICCP_NO_EDGE)
-        h = iccp_split_turn_back(s, h);
-    return 2 * s->path[h] + (w->ends[s->path[h]][1] == k);
-}
-
 /* ---- halves ---- */
 
 /* Halves the edges round a vertex of the web that join it to others of the web. Those that it has
  * are as many afterwards, but may have other numbers. */
-static bool make_room_at(const web *w, int side, uint32_t v)
+static bool make_room_at(const iccp_landmark_web *w, int side, uint32_t v)
 {
     iccp_split_surface *const s = &w->s[side];
     size_t n = 0;
@@ -77,101 +30,16 @@ static bool make_room_at(const web *w, int side, uint32_t v)
     return true;
 }
 
-/* ---- one search ---- */
-
-static bool make_search(web *w, size_t n, const iccp_memory *memory)
-{
-    if (n <= w->room)
-        return true;
-    const size_t room = n + n / 2;
-    iccp_heap_free(&w->heap, memory);
-    iccp_free(memory, w->distance);
-    iccp_free(memory, w->via);
-    w->distance = iccp_alloc(memory, room, sizeof *w->distance);
-    w->via = iccp_alloc(memory, room, sizeof *w->via);
-    w->room = room;
-    return iccp_heap_create(&w->heap, room, memory) && w->distance != NULL && w->via != NULL;
-}
-
-static double length_of(const iccp_split_surface *s, uint32_t h)
-{
-    return iccp_vec_distance(3, s->x + 3 * (size_t)s->origin[h],
-                             s->x + 3 * (size_t)iccp_split_end(s, h));
-}
-
-/* Goes along half-edge h with `before` behind it. */
-static void reach(web *w, int side, uint32_t h, double before)
-{
-    const iccp_split_surface *const s = &w->s[side];
-    const uint32_t end = iccp_split_end(s, h);
-    if (s->holder[end] == ICCP_NO_EDGE && w->distance[end] <= before)
-        return;
-    const double at = before + length_of(s, h);
-    if (s->holder[end] == ICCP_NO_EDGE && at < w->distance[end]) {
-        w->distance[end] = at;
-        w->via[end] = h;
-        iccp_heap_put(&w->heap, end, at);
-    } else if (is_landmark(s->holder[end])) {
-        const uint32_t sector = sector_at(w, side, s->twin[h]);
-        if (at < w->arrival[sector]) {
-            w->arrival[sector] = at;
-            w->entered[sector] = h;
-        }
-    }
-}
-
-/* Shortest ways from a sector through free vertices to all others, as far as they are at most so
- * long, each side's lengths times `scale`. */
-static void search(web *w, int side, uint32_t from, double most)
-{
-    const iccp_split_surface *const s = &w->s[side];
-    const uint32_t start = w->vertices[side][landmark_of(w, from)];
-    for (size_t v = 0; v < s->n_vertices; ++v)
-        w->distance[v] = HUGE_VAL;
-    for (size_t k = 0; k < w->n_sectors; ++k)
-        w->arrival[k] = HUGE_VAL;
-    iccp_heap_clear(&w->heap);
-    uint32_t h = s->out[start];
-    do {
-        if (s->path[h] == ICCP_NO_EDGE && sector_at(w, side, h) == from)
-            reach(w, side, h, 0);
-        h = iccp_split_turn(s, h);
-    } while (h != s->out[start]);
-    while (w->heap.n_entries > 0 && !(w->scale[side] * w->heap.entry[0].key > most)) {
-        const uint32_t v = iccp_heap_pop(&w->heap);
-        const uint32_t first = h = s->out[v];
-        do {
-            reach(w, side, h, w->distance[v]);
-            h = iccp_split_turn(s, h);
-        } while (h != first);
-    }
-}
-
-/* What paths from a sector to all others cost, if that is at most so much; both ways. */
-static void find_costs(web *w, uint32_t from, double most)
-{
-    double *const row = w->cost + w->n_sectors * from;
-    for (size_t k = 0; k < w->n_sectors; ++k)
-        row[k] = 0;
-    for (int side = 0; side < 2; ++side) {
-        search(w, side, from, most);
-        for (size_t k = 0; k < w->n_sectors; ++k)
-            row[k] += w->scale[side] * w->arrival[k];
-    }
-    for (size_t k = 0; k < w->n_sectors; ++k)
-        w->cost[w->n_sectors * k + from] = row[k];
-}
-
 /* ---- one path ---- */
 
 /* Lays the next path on one side; its length there. */
-static bool lay(web *w, int side, uint32_t from, uint32_t to, double *length)
+static bool lay(iccp_landmark_web *w, int side, uint32_t from, uint32_t to, double *length)
 {
     iccp_split_surface *const s = &w->s[side];
     const uint32_t path = (uint32_t)w->n_paths;
-    search(w, side, from, HUGE_VAL);
+    iccp_web_search(w, side, from, HUGE_VAL);
     *length = w->scale[side] * w->arrival[to];
-    const uint32_t start = w->vertices[side][landmark_of(w, from)];
+    const uint32_t start = w->vertices[side][iccp_web_landmark_of(w, from)];
     for (uint32_t h = w->entered[to];; h = w->via[s->origin[h]]) {
         s->path[h] = s->path[s->twin[h]] = path;
         if (s->origin[h] == start)
@@ -179,7 +47,7 @@ static bool lay(web *w, int side, uint32_t from, uint32_t to, double *length)
         s->holder[s->origin[h]] = path;
     }
     /* Its vertices are found once more by following it, since halving moves half-edges. */
-    uint32_t v = w->vertices[side][landmark_of(w, to)], before = ICCP_NO_EDGE;
+    uint32_t v = w->vertices[side][iccp_web_landmark_of(w, to)], before = ICCP_NO_EDGE;
     while (v != start) {
         uint32_t h = s->out[v];
         while (s->path[h] != path || iccp_split_end(s, h) == before)
@@ -190,19 +58,19 @@ static bool lay(web *w, int side, uint32_t from, uint32_t to, double *length)
             return false;
     }
     return make_room_at(w, side, start) &&
-           make_room_at(w, side, w->vertices[side][landmark_of(w, to)]);
+           make_room_at(w, side, w->vertices[side][iccp_web_landmark_of(w, to)]);
 }
 
-static icc_status add_path(web *w, uint32_t from, uint32_t to, const iccp_env *env)
+static icc_status add_path(iccp_landmark_web *w, uint32_t from, uint32_t to, const iccp_env *env)
 {
-    const uint32_t a = landmark_of(w, from), b = landmark_of(w, to);
+    const uint32_t a = iccp_web_landmark_of(w, from), b = iccp_web_landmark_of(w, to);
     double length[2];
     for (int side = 0; side < 2; ++side) {
         if (!lay(w, side, from, to, &length[side]))
             return ICC_ERR_MEMORY;
         if (w->s[side].n_vertices > w->most_vertices[side])
             return ICC_ERR_RESOLUTION;
-        if (!make_search(w, w->s[side].n_vertices, &env->memory))
+        if (!iccp_web_make_room(w, w->s[side].n_vertices, &env->memory))
             return ICC_ERR_MEMORY;
     }
     w->ends[w->n_paths][0] = a;
@@ -218,8 +86,9 @@ static icc_status add_path(web *w, uint32_t from, uint32_t to, const iccp_env *e
 
 /* ---- all paths ---- */
 
-/* J. Kruskal's rule as R. C. Prim has it: the cheapest path from a landmark outside to the tree. */
-static icc_status make_tree(web *w, const iccp_env *env)
+/* J. Kruskal's rule as R. C. Prim has it: the cheapest path from a landmark outside to the tree.
+ * */
+static icc_status make_tree(iccp_landmark_web *w, const iccp_env *env)
 {
     icc_status status = ICC_OK;
     for (size_t n = 1; n < w->n && status == ICC_OK; ++n) {
@@ -229,7 +98,7 @@ static icc_status make_tree(web *w, const iccp_env *env)
         for (uint32_t k = 0; k < w->n; ++k) {
             if (w->is_in[k] || k == w->root)
                 continue;
-            find_costs(w, lonely + k, least);
+            iccp_web_find_costs(w, lonely + k, least);
             for (uint32_t to = 0; to < w->n_sectors; ++to) {
                 const bool is_in_tree = n == 1 ? to == lonely + w->root : to < 2 * w->n_paths;
                 if (is_in_tree && w->cost[w->n_sectors * (lonely + k) + to] < least) {
@@ -244,20 +113,20 @@ static icc_status make_tree(web *w, const iccp_env *env)
     return status;
 }
 
-static icc_status add_diagonals(web *w, const iccp_env *env)
+static icc_status add_diagonals(iccp_landmark_web *w, const iccp_env *env)
 {
     icc_status status = ICC_OK;
     for (size_t k = 0; k < w->n_sectors * w->n_sectors; ++k)
         w->cost[k] = HUGE_VAL;
     for (uint32_t k = 0; k < 2 * w->n_paths; ++k)
-        find_costs(w, k, HUGE_VAL);
+        iccp_web_find_costs(w, k, HUGE_VAL);
     while (w->n_paths < w->most_paths && status == ICC_OK) {
         uint32_t best[2] = {0, 0};
         double least = HUGE_VAL;
         const uint32_t n = (uint32_t)(2 * w->n_paths);
         for (uint32_t a = 0; a < n; ++a)
             for (uint32_t b = 0; b < a; ++b) {
-                const uint32_t p = landmark_of(w, a), q = landmark_of(w, b);
+                const uint32_t p = iccp_web_landmark_of(w, a), q = iccp_web_landmark_of(w, b);
                 const double cost = w->cost[w->n_sectors * a + b];
                 if (p != q && !w->joined[p * w->n + q] && cost < least) {
                     least = cost;
@@ -274,12 +143,12 @@ static icc_status add_diagonals(web *w, const iccp_env *env)
                 k >= n || k == best[0] || w->cost[w->n_sectors * best[0] + k] < HUGE_VAL;
         for (uint32_t k = 0; k < n + 2 && status == ICC_OK; ++k)
             if (w->is_stale[k])
-                find_costs(w, k, HUGE_VAL);
+                iccp_web_find_costs(w, k, HUGE_VAL);
     }
     return status;
 }
 
-static icc_status run(web *w, const iccp_env *env)
+static icc_status run(iccp_landmark_web *w, const iccp_env *env)
 {
     for (int side = 0; side < 2; ++side) {
         iccp_split_surface *const s = &w->s[side];
@@ -288,7 +157,7 @@ static icc_status run(web *w, const iccp_env *env)
         for (size_t k = 0; k < w->n; ++k)
             if (!make_room_at(w, side, w->vertices[side][k]))
                 return ICC_ERR_MEMORY;
-        if (!make_search(w, s->n_vertices, &env->memory))
+        if (!iccp_web_make_room(w, s->n_vertices, &env->memory))
             return ICC_ERR_MEMORY;
     }
     icc_status status = make_tree(w, env);
@@ -303,16 +172,16 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
                                const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
-    web w = {.s = s,
-             .n = n,
-             .most_paths = 3 * n - 6,
-             .vertices = vertices,
-             .root = root,
-             .scale = scale,
-             .worst = 1,
-             .most_ratio = most_ratio,
-             .ends = ends,
-             .joined = joined};
+    iccp_landmark_web w = {.s = s,
+                           .n = n,
+                           .most_paths = 3 * n - 6,
+                           .vertices = vertices,
+                           .root = root,
+                           .scale = scale,
+                           .worst = 1,
+                           .most_ratio = most_ratio,
+                           .ends = ends,
+                           .joined = joined};
     icc_status status = ICC_ERR_MEMORY;
     w.n_sectors = 2 * w.most_paths + n;
     for (int side = 0; side < 2; ++side)

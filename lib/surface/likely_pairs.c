@@ -98,6 +98,7 @@ static void try_one(likely *l, double *room, uint32_t *const vertices[2], size_t
     }
 }
 
+/* Distances from the pairs there are, then one try after the other. */
 static icc_status find(likely *l, double *room, uint32_t *const vertices[2], size_t *n, size_t most,
                        const iccp_env *env)
 {
