@@ -19,19 +19,24 @@ static void default_dealloc(void *user, void *memory)
 
 const iccp_memory iccp_memory_default = {NULL, default_alloc, default_dealloc};
 
+static size_t bytes_of(size_t n, size_t size)
+{
+    const size_t bytes = (n > 0 ? n : 1) * size;
+    return bytes > 0 ? bytes : 1;
+}
+
 void *iccp_alloc(const iccp_memory *memory, size_t n, size_t size)
 {
-    assert(size > 0);
-    if (n > SIZE_MAX / 2 / size)
+    if (size > 0 && n > SIZE_MAX / 2 / size)
         return NULL;
-    return memory->alloc(memory->user, n == 0 ? size : n * size);
+    return memory->alloc(memory->user, bytes_of(n, size));
 }
 
 void *iccp_alloc_zero(const iccp_memory *memory, size_t n, size_t size)
 {
     void *pointer = iccp_alloc(memory, n, size);
     if (pointer != NULL)
-        memset(pointer, 0, n == 0 ? size : n * size);
+        memset(pointer, 0, bytes_of(n, size));
     return pointer;
 }
 

@@ -16,7 +16,7 @@ typedef struct iccp_memory {
 extern const iccp_memory iccp_memory_default;
 
 /* n elements of the given size, uninitialised; NULL when the product overflows or there is no
- * memory. n == 0 gives a valid pointer, so that NULL always means failure. */
+ * memory. n == 0, or size == 0, gives a valid pointer, so that NULL always means failure. */
 void *iccp_alloc(const iccp_memory *memory, size_t n, size_t size);
 
 /* The same, all bytes zero. */

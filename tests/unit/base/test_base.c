@@ -216,6 +216,9 @@ START_TEST(memory_comes_from_the_caller)
     void *empty = iccp_alloc(&memory, 0, 24);
     ck_assert_ptr_nonnull(empty);
     iccp_free(&memory, empty);
+    void *sizeless = iccp_alloc_zero(&memory, 5, 0);
+    ck_assert_ptr_nonnull(sizeless);
+    iccp_free(&memory, sizeless);
     unsigned char *zeros = iccp_alloc_zero(&memory, 5, 8);
     ck_assert_uint_eq(c.last_size, 40);
     for (int i = 0; i < 40; ++i)
@@ -231,8 +234,8 @@ START_TEST(memory_comes_from_the_caller)
     ck_assert_ptr_null(iccp_alloc_zero(&memory, 1, 8));
     iccp_free(&memory, more);
     iccp_free(&memory, NULL);
-    ck_assert_uint_eq(c.n_allocs, 3);
-    ck_assert_uint_eq(c.n_frees, 3);
+    ck_assert_uint_eq(c.n_allocs, 4);
+    ck_assert_uint_eq(c.n_frees, 4);
     void *usual = iccp_alloc(&iccp_memory_default, 3, 3);
     ck_assert_ptr_nonnull(usual);
     iccp_free(&iccp_memory_default, usual);

@@ -240,6 +240,26 @@ START_TEST(stiff_parts_without_freedom_stay)
 }
 END_TEST
 
+START_TEST(a_part_without_nodes_changes_nothing)
+{
+    icc_sampling *sampling = sample_square(0.1);
+    icc_weights *weights = make(sampling, 5, HANDLES, NULL), *stiff;
+    double energy[2] = {1, 1}, *before = weights_of(weights);
+    ck_assert_int_eq(icc_weights_stiffen(&stiff, weights, 0, NULL, NULL, energy, NULL, NULL),
+                     ICC_OK);
+    double *after = weights_of(stiff);
+    ck_assert_double_eq(energy[0], 0);
+    ck_assert_double_eq(energy[1], 0);
+    for (size_t k = 0; k < 5 * info_of(weights).n_nodes; ++k)
+        ck_assert_double_eq_tol(after[k], before[k], 1e-12);
+    free(before);
+    free(after);
+    icc_weights_free(stiff);
+    icc_weights_free(weights);
+    icc_sampling_free(sampling);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("weights_edit");
@@ -250,6 +270,7 @@ int main(void)
     tcase_add_test(tests, another_method_starts_afresh);
     tcase_add_test(tests, stiff_parts_vary_less);
     tcase_add_test(tests, stiff_parts_without_freedom_stay);
+    tcase_add_test(tests, a_part_without_nodes_changes_nothing);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
