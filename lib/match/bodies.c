@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "math/vec.h"
+#include "surface/close_vertices.h"
 #include "surface/helpers.h"
 #include "surface/landmark_paths.h"
 #include "surface/landmark_sphere.h"
@@ -59,6 +60,9 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
         status = iccp_relax(&r, ICCP_LONGER, ROUNDS, &left, env);
     iccp_relaxation_free(&r, &env->memory);
     status = iccp_explain(err, status);
+    if (status == ICC_OK)
+        iccp_close_vertices_join((const iccp_half_edges *const[]){side[0].m, side[1].m},
+                                 (double *const[]){side[0].directions, side[1].directions});
     for (int s = 0; s < 2 && status == ICC_OK; ++s)
         status = iccp_sphere_check(&bodies[s].m, bodies[s].directions, err);
     return status;
