@@ -78,10 +78,10 @@ static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *con
     const size_t tries = n < TRIES ? n : TRIES;
     double least = HUGE_VAL;
     uint32_t best = 0, root = 0;
+    iccp_paths_report report;
     icc_status status = ICC_OK;
     for (size_t k = 0; k <= tries; ++k, ++root) {
         const iccp_env part = iccp_round(env, k, 1);
-        double worst;
         if (k == tries)
             root = best;
         for (int side = 0; side < 2; ++side) {
@@ -90,20 +90,21 @@ static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *con
                 return iccp_fail_memory(err);
         }
         status = iccp_landmark_paths(s, n, vertices, scale, root, k == tries ? HUGE_VAL : least,
-                                     ends, joined, &worst, &part);
-        if (status == ICC_OK && worst < least) {
-            least = worst;
+                                     ends, joined, &report, &part);
+        if (status == ICC_OK && report.worst < least) {
+            least = report.worst;
             best = root;
         }
         if ((status == ICC_OK && least < good_ratio) ||
             (status != ICC_OK && status != ICC_ERR_RESOLUTION))
             break;
     }
-    return status == ICC_ERR_RESOLUTION
-               ? iccp_fail(err, status,
-                           "the paths between landmarks take too many vertices: these are not in "
-                           "corresponding places")
-               : iccp_explain(err, status);
+    if (status != ICC_ERR_RESOLUTION)
+        return iccp_explain(err, status);
+    status = iccp_fail_at(err, status, ICC_ITEM_POINT, report.landmark,
+                          "the paths between landmarks take too many vertices: these are not in "
+                          "corresponding places");
+    return iccp_fail_side(err, status, report.side + 1);
 }
 
 /* By the first surface. */

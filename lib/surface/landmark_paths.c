@@ -68,8 +68,11 @@ static icc_status add_path(iccp_landmark_web *w, uint32_t from, uint32_t to, con
     for (int side = 0; side < 2; ++side) {
         if (!lay(w, side, from, to, &length[side]))
             return ICC_ERR_MEMORY;
-        if (w->s[side].n_vertices > w->most_vertices[side])
+        if (w->s[side].n_vertices > w->most_vertices[side]) {
+            w->report.side = side;
+            w->report.landmark = a;
             return ICC_ERR_RESOLUTION;
+        }
         if (!iccp_web_make_room(w, w->s[side].n_vertices, &env->memory))
             return ICC_ERR_MEMORY;
     }
@@ -78,8 +81,9 @@ static icc_status add_path(iccp_landmark_web *w, uint32_t from, uint32_t to, con
     w->is_in[a] = w->is_in[b] = true;
     w->joined[a * w->n + b] = w->joined[b * w->n + a] = 1;
     ++w->n_paths;
-    w->worst = iccp_max(w->worst, iccp_max(length[0] / length[1], length[1] / length[0]));
-    if (w->worst > w->most_ratio)
+    w->report.worst =
+        iccp_max(w->report.worst, iccp_max(length[0] / length[1], length[1] / length[0]));
+    if (w->report.worst > w->most_ratio)
         return ICC_ERR_RESOLUTION;
     return iccp_progress(env, "match", (double)w->n_paths / (double)w->most_paths);
 }
@@ -168,7 +172,7 @@ static icc_status run(iccp_landmark_web *w, const iccp_env *env)
 
 icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t *const vertices[2],
                                const double scale[2], uint32_t root, double most_ratio,
-                               uint32_t (*ends)[2], uint8_t *joined, double *worst,
+                               uint32_t (*ends)[2], uint8_t *joined, iccp_paths_report *report,
                                const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
@@ -178,7 +182,7 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
                            .vertices = vertices,
                            .root = root,
                            .scale = scale,
-                           .worst = 1,
+                           .report = {.worst = 1},
                            .most_ratio = most_ratio,
                            .ends = ends,
                            .joined = joined};
@@ -195,7 +199,7 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
     if (w.is_in != NULL && w.is_stale != NULL && w.cost != NULL && w.arrival != NULL &&
         w.entered != NULL)
         status = run(&w, env);
-    *worst = w.worst;
+    *report = w.report;
     iccp_heap_free(&w.heap, memory);
     iccp_free(memory, w.is_in);
     iccp_free(memory, w.is_stale);

@@ -4,6 +4,12 @@
 
 #include "surface/split_surface.h"
 
+typedef struct iccp_paths_report {
+    double worst; /* the greatest ratio of a path's two lengths */
+    int side;     /* where there are too many vertices, and the landmark that the path begins at */
+    uint32_t landmark;
+} iccp_paths_report;
+
 /* vertices[side][k]: of landmark k, 4 <= n <= 128, all different on either side. Paths along edges
  * that have only landmarks in common, 3 n - 6 of them, come in the same order round every landmark
  * of both surfaces; edges are halved where there is no room for them. Afterwards `path` of
@@ -12,13 +18,13 @@
  * path between two landmarks.
  *
  * Short paths first, by the sum of both lengths, each times `scale`, the first one from landmark
- * `root`. *worst: the greatest ratio of a path's two lengths; where it is far above 1 a path goes
- * round something on one surface that it does not go round on the other. ICC_ERR_RESOLUTION if it
- * would be above most_ratio, or more than 20 times as many vertices would be added as there are,
- * ICC_ERR_MEMORY, ICC_ERR_CANCELLED, without a text. O(n^2 m log m) for m vertices. */
+ * `root`. Where report->worst is far above 1 a path goes round something on one surface that it
+ * does not go round on the other. ICC_ERR_RESOLUTION if it would be above most_ratio, or more than
+ * 20 times as many vertices would be added as there are, ICC_ERR_MEMORY, ICC_ERR_CANCELLED,
+ * without a text. O(n^2 m log m) for m vertices. */
 icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t *const vertices[2],
                                const double scale[2], uint32_t root, double most_ratio,
-                               uint32_t (*ends)[2], uint8_t *joined, double *worst,
+                               uint32_t (*ends)[2], uint8_t *joined, iccp_paths_report *report,
                                const iccp_env *env);
 
 enum { ICCP_MOST_SURFACE_LANDMARKS = 128 };

@@ -118,6 +118,10 @@ static icc_status begin(beginning *b, const problem *p, size_t n, const iccp_env
     iccp_split(parts, 2, (const double[]){1, 1}, env);
     icc_status status = iccp_landmark_base_create(&b->base, p->given, p->x, p->scale, n,
                                                   p->vertices, &parts[0], err);
+    if (status == ICC_ERR_RESOLUTION && n > p->n_fixed)
+        return iccp_fail(err, status,
+                         "the paths between landmarks, and others that were found beside them, "
+                         "take too many vertices");
     if (status != ICC_OK)
         return status;
     for (int side = 0; side < 2; ++side) {

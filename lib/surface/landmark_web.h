@@ -12,14 +12,15 @@ typedef struct iccp_landmark_web {
     iccp_split_surface *s; /* 2 */
     size_t n, n_paths, most_paths, n_sectors, most_vertices[2];
     const uint32_t *const *vertices;
-    uint32_t (*ends)[2];      /* landmarks, by path */
-    uint8_t *joined;          /* n * n */
-    bool *is_in;              /* by landmark: it has a path */
-    bool *is_stale;           /* by sector: its costs have changed */
-    double *cost;             /* n_sectors^2: of a path from one to another, both lengths */
-    uint32_t root;            /* landmark */
-    const double *scale;      /* of lengths, by side */
-    double worst, most_ratio; /* of a path's lengths */
+    uint32_t (*ends)[2]; /* landmarks, by path */
+    uint8_t *joined;     /* n * n */
+    bool *is_in;         /* by landmark: it has a path */
+    bool *is_stale;      /* by sector: its costs have changed */
+    double *cost;        /* n_sectors^2: of a path from one to another, both lengths */
+    uint32_t root;       /* landmark */
+    const double *scale; /* of lengths, by side */
+    double most_ratio;   /* of a path's lengths */
+    iccp_paths_report report;
     /* Of the search on one side. */
     iccp_heap heap;
     size_t room;

@@ -296,6 +296,30 @@ START_TEST(what_cannot_be_matched_is_refused)
 }
 END_TEST
 
+/* All vertices are landmarks, of which many have partners that are anywhere. */
+START_TEST(landmarks_without_room_are_named)
+{
+    random_source r = {4};
+    double pairs[6 * 18];
+    icc_match *match = NULL;
+    icc_error err = {.size = sizeof err};
+    surface_star(&one, 1, .2, &r);
+    icc_domain *const solid = domain_of(&one);
+    ck_assert_uint_eq(one.n_vertices, 18);
+    for (size_t v = 0; v < 18; ++v) {
+        memcpy(pairs + 6 * v, one.vertices + 3 * v, 3 * sizeof *pairs);
+        memcpy(pairs + 6 * v + 3, one.vertices + 3 * (5 * v % 18), 3 * sizeof *pairs);
+    }
+    ck_assert_int_eq(icc_match_create(&match, solid, solid, 18, pairs, NULL, NULL, &err),
+                     ICC_ERR_RESOLUTION);
+    ck_assert_int_eq(err.item, ICC_ITEM_POINT);
+    ck_assert(err.index >= 0 && err.index < 18);
+    ck_assert(err.side == 1 || err.side == 2);
+    ck_assert_ptr_nonnull(strstr(err.message, "paths"));
+    icc_domain_free(solid);
+}
+END_TEST
+
 /* Any landmarks, however unrelated, go to their partners, and all is one-to-one. */
 START_TEST(landmarks_go_to_their_partners)
 {
@@ -400,6 +424,7 @@ int main(void)
     tcase_add_test(tests, creases_that_cross_leave_no_thin_triangles);
     tcase_add_test(tests, landmarks_go_to_their_partners);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
+    tcase_add_test(tests, landmarks_without_room_are_named);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
