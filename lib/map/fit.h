@@ -5,7 +5,8 @@
 #include "map/mesh_map.h"
 #include "map/work.h"
 
-/* A step of the repair takes as long as so many others. */
+/* A step of the repair counts as so many others: it takes no longer, but what needs many of them
+ * seldom comes to anything. */
 #define ICCP_REPAIR_WEIGHT 2
 
 /* Work that is left and spent. */

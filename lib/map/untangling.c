@@ -1,10 +1,12 @@
 /* V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, Foldover-free maps in
  * 50 lines of code, 2021: with chi for the determinant of J, the energy is
  *     (1 - s) |J|^2 / (dim chi^(2 / dim)) + s (1 + det^2) / (2 chi).
- * In the plane the eigenvectors of its Hessian by J are found by rotations. In space it is taken as
- * a function A(N, D) of N = |J|^2 and D = det J, whose Hessian has the eigenvectors of B. Smith, F.
- * de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019: for each pair of
- * singular vectors a flip and a twist, and three in the space of the singular values. */
+ * It is taken as a function A(N, D) of N = |J|^2 and D = det J. In the plane J is a rotation scaled
+ * by p / sqrt 2 and a reflection scaled by q / sqrt 2, N = p^2 + q^2 and D = (p^2 - q^2) / 2: the
+ * Hessian falls apart into turning the one, turning the other, and both scales. In space its
+ * eigenvectors are those of B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic
+ * distortion energies, 2019: for each pair of singular vectors a flip and a twist, and three in the
+ * space of the singular values. */
 #include "map/untangling.h"
 
 #include "base/minmax.h"
@@ -35,74 +37,83 @@ double iccp_untangling_next(double epsilon, double least, double fall)
     return least < mu ? 2 * sqrt(mu * (mu - least)) : 1e-10;
 }
 
-/* ---- in the plane ---- */
-
-static double numerator(const double *j, double det)
-{
-    return 0.5 * (1 - MEASURE_SHARE) * iccp_squared_norm(2, j) +
-           0.5 * MEASURE_SHARE * (1 + det * det);
-}
-
-/* The derivatives of numerator / chi by J, and the modes of positive curvature among the four. */
-static void set_local2(const double *element, const double *const *image, double epsilon,
-                       iccp_local *local)
-{
-    enum { SWEEPS = 12 };
-    double j[4], by_det[4], by_j[4], n_by_j[4], h[4][4], v[4][4];
-    const double det = iccp_element_jacobian(2, element, image, j);
-    const double root = sqrt(epsilon * epsilon + det * det);
-    const double chi = iccp_untangling_chi(epsilon, det), d_chi = chi / root;
-    const double dd_chi = 0.5 * epsilon * epsilon / (root * root * root);
-    const double n = numerator(j, det);
-    static const double second[4][4] = {{0, 0, 0, 1}, {0, 0, -1, 0}, {0, -1, 0, 0}, {1, 0, 0, 0}};
-    iccp_cofactors(2, j, by_det);
-    for (int i = 0; i < 4; ++i) {
-        n_by_j[i] = (1 - MEASURE_SHARE) * j[i] + MEASURE_SHARE * det * by_det[i];
-        by_j[i] = n_by_j[i] / chi - n * d_chi / (chi * chi) * by_det[i];
-    }
-    const double outer = MEASURE_SHARE / chi + n * (2 * d_chi * d_chi / chi - dd_chi) / (chi * chi);
-    const double curve = MEASURE_SHARE * det / chi - n * d_chi / (chi * chi);
-    for (int r = 0; r < 4; ++r)
-        for (int c = 0; c < 4; ++c)
-            h[r][c] = (r == c) * (1 - MEASURE_SHARE) / chi + outer * by_det[r] * by_det[c] +
-                      curve * second[r][c] -
-                      d_chi / (chi * chi) * (n_by_j[r] * by_det[c] + by_det[r] * n_by_j[c]);
-    iccp_jacobi_diagonalise(4, SWEEPS, 1e-14, &h[0][0], &v[0][0]);
-    iccp_pull_back(2, element, by_j, element[0], local->gradient);
-    memset(local->hessian, 0, 36 * sizeof *local->hessian);
-    for (int i = 0; i < 4; ++i)
-        if (h[i][i] > 0)
-            iccp_add_mode(2, element, v[i], element[0] * h[i][i], local->hessian);
-}
-
-/* ---- in space ---- */
-
 /* A(N, D) and its derivatives; it is linear in N. */
 typedef struct profile {
     double value, by_n, by_d, by_nd, by_dd;
 } profile;
 
-static profile evaluate(double n, double det, double epsilon)
+static ICCP_INLINE profile evaluate(size_t dim, double n, double det, double epsilon)
 {
+    const double e = dim == 2 ? 1 : 2.0 / 3, ee = dim == 2 ? 2 : 10.0 / 9; /* e (e + 1) */
     const double root = sqrt(epsilon * epsilon + det * det),
                  chi = iccp_untangling_chi(epsilon, det);
     const double first = chi / root, second = 0.5 * epsilon * epsilon / (root * root * root);
-    const double third = iccp_cbrt(chi), power = 1 / (third * third);
-    const double shape = (1 - MEASURE_SHARE) / 3 * power, size = 0.5 * MEASURE_SHARE / chi;
+    const double base = dim == 2 ? 1 : iccp_cbrt(chi), power = 1 / (dim == 2 ? chi : base * base);
+    const double shape = (1 - MEASURE_SHARE) / (double)dim * power,
+                 size = 0.5 * MEASURE_SHARE / chi;
     const double slope = first / chi, bend = second / chi, square = 1 + det * det;
     return (profile){
         .value = shape * n + size * square,
         .by_n = shape,
-        .by_d = -2.0 / 3 * shape * n * slope + size * (2 * det - square * slope),
-        .by_nd = -2.0 / 3 * shape * slope,
-        .by_dd = shape * n * (10.0 / 9 * slope * slope - 2.0 / 3 * bend) +
+        .by_d = -e * shape * n * slope + size * (2 * det - square * slope),
+        .by_nd = -e * shape * slope,
+        .by_dd = shape * n * (ee * slope * slope - e * bend) +
                  size * (2 - 4 * det * slope + square * (2 * slope * slope - bend)),
     };
 }
 
+/* ---- in the plane ---- */
+
+typedef struct polar {
+    double length, c, s; /* a complex number; of 0 the direction is any */
+} polar;
+
+static polar polar_of(double x, double y)
+{
+    const double length = sqrt(x * x + y * y);
+    return length > 0 ? (polar){length, x / length, y / length} : (polar){0, 1, 0};
+}
+
+static void add_positive(const double *element, const double *mode, double curvature,
+                         double *hessian)
+{
+    if (curvature > 0)
+        iccp_add_mode(2, element, mode, element[0] * curvature, hessian);
+}
+
+/* Four modes, of which those with negative curvature are left out: turning either part, and two of
+ * both scales, whose 2 by 2 Hessian `a` one rotation diagonalises. */
+static void set_hessian2(const double *element, const double *j, const profile *p, double *hessian)
+{
+    const double half = sqrt(0.5);
+    const polar z = polar_of(half * (j[0] + j[3]), half * (j[2] - j[1]));
+    const polar w = polar_of(half * (j[0] - j[3]), half * (j[1] + j[2]));
+    const double turn[2] = {2 * p->by_n + p->by_d, 2 * p->by_n - p->by_d};
+    const double mixed = -p->by_dd * z.length * w.length;
+    double a[2][2] = {{turn[0] + z.length * z.length * (p->by_dd + 4 * p->by_nd), mixed},
+                      {mixed, turn[1] + w.length * w.length * (p->by_dd - 4 * p->by_nd)}};
+    double v[2][2], mode[4];
+    memset(hessian, 0, 36 * sizeof *hessian);
+    add_positive(element, (double[4]){-half * z.s, -half * z.c, half * z.c, -half * z.s}, turn[0],
+                 hessian);
+    add_positive(element, (double[4]){-half * w.s, half * w.c, half * w.c, half * w.s}, turn[1],
+                 hessian);
+    iccp_jacobi_diagonalise(2, 1, 0, &a[0][0], &v[0][0]);
+    for (int k = 0; k < 2; ++k) {
+        const double x = half * v[k][0], y = half * v[k][1];
+        mode[0] = x * z.c + y * w.c;
+        mode[1] = -x * z.s + y * w.s;
+        mode[2] = x * z.s + y * w.s;
+        mode[3] = x * z.c - y * w.c;
+        add_positive(element, mode, a[k][k], hessian);
+    }
+}
+
+/* ---- in space ---- */
+
 /* Flips and twists are known; the three modes of the singular values are the eigenvectors of a
  * matrix. */
-static void set_curvature(const profile *p, const double *sigma, iccp_modes *h)
+static void set_curvature3(const profile *p, const double *sigma, iccp_modes *h)
 {
     enum { SWEEPS = 8 };
     const double minor[3] = {sigma[1] * sigma[2], sigma[2] * sigma[0], sigma[0] * sigma[1]};
@@ -126,42 +137,54 @@ static void set_curvature(const profile *p, const double *sigma, iccp_modes *h)
                 h->singular[i][k] += iccp_max(a[n][n], 0) * v[n][i] * v[n][k];
 }
 
-static void set_local3(const double *element, const double *const *image, double epsilon,
-                       iccp_local *local)
+static void set_hessian3(const double *element, const double *j, const profile *p, double *hessian)
 {
-    double j[9], minor[9], by_j[9];
-    iccp_singular s;
     iccp_modes h;
-    const double det = iccp_element_jacobian(3, element, image, j);
-    const profile p = evaluate(iccp_squared_norm(3, j), det, epsilon);
-    iccp_cofactors(3, j, minor);
-    for (int i = 0; i < 9; ++i)
-        by_j[i] = element[0] * (2 * p.by_n * j[i] + p.by_d * minor[i]);
-    iccp_pull_back(3, element, by_j, 1, local->gradient);
+    iccp_singular s;
     iccp_singular_find(3, j, &s);
-    set_curvature(&p, s.sigma, &h);
-    iccp_modes_hessian(element, &h, &s, local->hessian);
+    set_curvature3(p, s.sigma, &h);
+    iccp_modes_hessian(element, &h, &s, hessian);
 }
 
 /* ---- in either ---- */
 
+static ICCP_INLINE double energy_of(size_t dim, const double *element, const double *const *image,
+                                    double epsilon)
+{
+    double j[9];
+    const double det = iccp_element_jacobian(dim, element, image, j);
+    return element[0] * evaluate(dim, iccp_squared_norm(dim, j), det, epsilon).value;
+}
+
 double iccp_untangling_energy(size_t dim, const double *element, const double *const *image,
                               double epsilon)
 {
-    double j[9];
-    if (dim == 2) {
-        const double det = iccp_element_jacobian(2, element, image, j);
-        return element[0] * numerator(j, det) / iccp_untangling_chi(epsilon, det);
-    }
-    const double det = iccp_element_jacobian(3, element, image, j);
-    return element[0] * evaluate(iccp_squared_norm(3, j), det, epsilon).value;
+    return dim == 2 ? energy_of(2, element, image, epsilon) : energy_of(3, element, image, epsilon);
+}
+
+static ICCP_INLINE profile set_gradient(size_t dim, const double *element,
+                                        const double *const *image, double epsilon, double *j,
+                                        double *gradient)
+{
+    double minor[9], by_j[9];
+    const double det = iccp_element_jacobian(dim, element, image, j);
+    const profile p = evaluate(dim, iccp_squared_norm(dim, j), det, epsilon);
+    iccp_cofactors(dim, j, minor);
+    for (size_t i = 0; i < dim * dim; ++i)
+        by_j[i] = element[0] * (2 * p.by_n * j[i] + p.by_d * minor[i]);
+    iccp_pull_back(dim, element, by_j, 1, gradient);
+    return p;
 }
 
 void iccp_untangling_local(size_t dim, const double *element, const double *const *image,
                            double epsilon, iccp_local *local)
 {
-    if (dim == 2)
-        set_local2(element, image, epsilon, local);
-    else
-        set_local3(element, image, epsilon, local);
+    double j[9];
+    if (dim == 2) {
+        const profile p = set_gradient(2, element, image, epsilon, j, local->gradient);
+        set_hessian2(element, j, &p, local->hessian);
+    } else {
+        const profile p = set_gradient(3, element, image, epsilon, j, local->gradient);
+        set_hessian3(element, j, &p, local->hessian);
+    }
 }

@@ -1,6 +1,6 @@
 /* What a map may cost, counted in steps of Newton's method times simplices; work of other kinds is
  * counted as so many of them. No clock is read, so that the same input gives the same bits; in the
- * plane each takes half a microsecond, a microsecond in untangling.
+ * plane each takes a quarter of a microsecond to half of one, in untangling too.
  *
  * All that makes a mesh map of the plane from its start comes out of one budget (map/fit.c):
  * untangling; the crossings of an overlay, which have to be found and merged; steps on it; and

@@ -258,9 +258,7 @@ START_TEST(gradients_and_hessians_of_the_untangling_energy)
             ck_assert(isfinite(energy_at(iccp_untangling_energy, &s, s.image, epsilon)));
             const iccp_local local = untangling_at(&s, epsilon);
             check_gradient(iccp_untangling_energy, &s, epsilon, &local);
-            check_shape(&s, &local, &r);
-            if (epsilon >= 1 || dim == 3)
-                check_hessian(iccp_untangling_energy, &s, epsilon, &local, false, &r);
+            check_hessian(iccp_untangling_energy, &s, epsilon, &local, false, &r);
         }
 }
 END_TEST
@@ -299,7 +297,7 @@ START_TEST(isometries)
                 ck_assert(fabs(newton.gradient[i]) < 1e-10 && fabs(slim.gradient[i]) < 1e-10 &&
                           fabs(untangling.gradient[i]) < 1e-10);
             check_hessian(dirichlet, &s, 1, &newton, true, &r);
-            check_hessian(iccp_untangling_energy, &s, 1e-9, &untangling, dim == 3, &r);
+            check_hessian(iccp_untangling_energy, &s, 1e-9, &untangling, true, &r);
         }
 }
 END_TEST
@@ -423,9 +421,9 @@ START_TEST(degenerate_images)
             for (size_t i = 0; i < s.n; ++i)
                 if (i % dim < (size_t)(k / 3) % (dim + 1))
                     s.image[i] = 0.3 + thin * s.image[i];
-            const iccp_local local = untangling_at(&s, dim == 2 ? 1 : 0.1);
-            check_gradient(iccp_untangling_energy, &s, dim == 2 ? 1 : 0.1, &local);
-            check_hessian(iccp_untangling_energy, &s, dim == 2 ? 1 : 0.1, &local, false, &r);
+            const iccp_local local = untangling_at(&s, 0.1);
+            check_gradient(iccp_untangling_energy, &s, 0.1, &local);
+            check_hessian(iccp_untangling_energy, &s, 0.1, &local, false, &r);
         }
 }
 END_TEST
