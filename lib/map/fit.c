@@ -32,12 +32,12 @@ iccp_allowance iccp_allow(size_t n_facets)
 
 double iccp_spent(const iccp_allowance *work)
 {
-    return ICCP_REPAIR_WEIGHT * work->repair.spent + work->overlay.spent + work->improvement.spent;
+    return work->repair.spent + work->overlay.spent + work->improvement.spent;
 }
 
-iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work)
+iccp_work *iccp_bound(iccp_work *part, const iccp_allowance *work)
 {
-    part->left = iccp_min(part->left, iccp_max(0, work->all - iccp_spent(work)) / weight);
+    part->left = iccp_min(part->left, iccp_max(0, work->all - iccp_spent(work)));
     return part;
 }
 
@@ -113,13 +113,12 @@ icc_status iccp_refit(iccp_mesh_map *map, const icc_improve_options *options, ic
     iccp_split(part, 2, (const double[]){1, 5}, env);
     const iccp_simplicial_map before = iccp_plmap_simplicial(&map->pl);
     info->n_inverted = iccp_simplicial_count_at_once(&before, env);
-    icc_status status =
-        iccp_repair(&map->pl, work->trial, iccp_bound(&work->repair, ICCP_REPAIR_WEIGHT, work),
-                    &info->n_unrepaired, &part[0]);
+    icc_status status = iccp_repair(&map->pl, work->trial, iccp_bound(&work->repair, work),
+                                    &info->n_unrepaired, &part[0]);
     info->seconds_repair = iccp_seconds() - begin;
     if (status != ICC_OK || info->n_unrepaired > 0)
         return status;
-    return iccp_fit_complete(map, options, &iccp_fit_plain, iccp_bound(&work->improvement, 1, work),
+    return iccp_fit_complete(map, options, &iccp_fit_plain, iccp_bound(&work->improvement, work),
                              info, &part[1], err);
 }
 

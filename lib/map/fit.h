@@ -5,10 +5,6 @@
 #include "map/mesh_map.h"
 #include "map/work.h"
 
-/* A step of the repair counts as so many others: it takes no longer, but what needs many of them
- * seldom comes to anything. */
-#define ICCP_REPAIR_WEIGHT 2
-
 /* Work that is left and spent. */
 typedef struct iccp_allowance {
     iccp_work repair, overlay, improvement;
@@ -21,8 +17,8 @@ iccp_allowance iccp_allow(size_t n_facets);
 
 double iccp_spent(const iccp_allowance *work);
 
-/* Before a part begins: no more than is left of all, where a step counts `weight` times. */
-iccp_work *iccp_bound(iccp_work *part, double weight, const iccp_allowance *work);
+/* Before a part begins: no more than is left of all. */
+iccp_work *iccp_bound(iccp_work *part, const iccp_allowance *work);
 
 /* How: the rest of a schedule is up to options. */
 extern const iccp_schedule iccp_fit_plain, iccp_fit_relaxed, iccp_fit_both_sides;

@@ -201,7 +201,7 @@ static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     icc_status status = iccp_overlay_start(&map->pl, source, target, work->overlay_steps,
-                                           iccp_bound(&work->overlay, 1, work), &part[0]);
+                                           iccp_bound(&work->overlay, work), &part[0]);
     const double seconds = iccp_seconds() - begin;
     if (status == ICC_ERR_RESOLUTION)
         iccp_log(env, "the two triangulations cross too often");
@@ -225,7 +225,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     const icc_improve_options options = {.iterations = iterations};
     iccp_allowance work = iccp_allow(source->domain->n_facets);
     if (overlay)
-        work.trial = TRIAL_SHARE * iccp_bound(&work.repair, ICCP_REPAIR_WEIGHT, &work)->left;
+        work.trial = TRIAL_SHARE * iccp_bound(&work.repair, &work)->left;
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 7, 1}, env);
     iccp_newton_plan *plan;

@@ -18,8 +18,10 @@ enum { MAX_CUTS = 40, MAX_CUTS_IN_SPACE = 60 };
 /* In space, the share of a motion that is looked at first, and how it is shortened. */
 static const double FARTHEST = 2, CLOSER = 0.9;
 
-/* In space, where a step of 1 lowers the energy by this share, longer ones are tried. */
-static const double LARGE_FALL = 0.3;
+/* Longer steps are tried where the first lowers the energy by this share, in space; in the plane,
+ * by so many times what a step of 1 does in the model, which is too stiff where negative curvature
+ * has been left out. */
+static const double LARGE_FALL = 0.3, BETTER = 1.5;
 
 /* The smallest positive root of det(t) = a + b t + c t^2, where a > 0; infinite when there is
  * none. */
@@ -134,19 +136,16 @@ static double flip_limit(const iccp_newton *s)
     return atomic_load(&l.least);
 }
 
-static void set_images(iccp_newton *s, double length)
+static void set_images(iccp_newton *s, double length, bool rounded)
 {
     const size_t dim = s->map.dim;
-    for (size_t i = 0; i < s->assembly.n_free; ++i)
+    for (size_t i = 0; i < s->assembly.n_free; ++i) {
+        double *image = s->map.images + dim * s->assembly.free_point[i];
         for (size_t d = 0; d < dim; ++d)
-            s->map.images[dim * s->assembly.free_point[i] + d] =
-                s->saved[dim * i + d] + length * s->step[dim * i + d];
-}
-
-static void round_images(iccp_newton *s)
-{
-    for (size_t i = 0; i < s->assembly.n_free; ++i)
-        iccp_simplicial_round(3, s->map.images + 3 * s->assembly.free_point[i]);
+            image[d] = s->saved[dim * i + d] + length * s->step[dim * i + d];
+        if (rounded)
+            iccp_simplicial_round(dim, image);
+    }
 }
 
 typedef struct verdict {
@@ -170,21 +169,20 @@ static bool all_positive(const iccp_newton *s)
     return atomic_load(&v.is_positive);
 }
 
-/* Beyond a step of 1 as long as the energy falls. Where a simplex is all but flat, Newton's model
- * of its energy, of which most is 1 / sigma^2, only takes it a third farther from that at a
- * time. */
-static double go_on(iccp_newton *s, iccp_energy energy, double before)
+/* Beyond a length, below `most`, as long as the energy falls. In space, where a simplex is all
+ * but flat, Newton's model of its energy, of which most is 1 / sigma^2, only takes it a third
+ * farther from that at a time. */
+static double go_on(iccp_newton *s, iccp_energy energy, double before, double length, double most)
 {
-    double length = 1, after = before;
+    const bool in_space = s->map.dim == 3;
+    double after = before;
     do {
         before = after;
         length *= 2;
-        set_images(s, length);
-        round_images(s);
-        after = iccp_newton_energy(s, energy, 0);
+        set_images(s, length, in_space);
+        after = length < most ? iccp_newton_energy(s, energy, 0) : HUGE_VAL;
     } while (after < before && all_positive(s));
-    set_images(s, length / 2);
-    round_images(s);
+    set_images(s, length / 2, in_space);
     return before;
 }
 
@@ -198,19 +196,18 @@ double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon,
     const bool guarded = energy != ICCP_UNTANGLE, in_space = guarded && dim == 3;
     const double shorter = in_space ? SHORTER_IN_SPACE : SHORTER;
     const int n_tries = in_space ? MAX_CUTS_IN_SPACE : MAX_CUTS;
-    double length = guarded && dim == 2 ? iccp_min(1, SHARE_OF_FLIP * flip_limit(s)) : 1;
+    const double most = guarded && dim == 2 ? SHARE_OF_FLIP * flip_limit(s) : HUGE_VAL;
+    const double low = in_space ? (1 - LARGE_FALL) * before : before + 0.5 * BETTER * slope;
+    double length = iccp_min(1, most);
     for (size_t i = 0; i < s->assembly.n_free; ++i)
         memcpy(s->saved + dim * i, s->map.images + dim * s->assembly.free_point[i],
                dim * sizeof *s->saved);
     for (int k = 0; k < n_tries; ++k, length *= shorter) {
-        set_images(s, length);
-        if (in_space)
-            round_images(s);
+        set_images(s, length, in_space);
         const double after = iccp_newton_energy(s, energy, epsilon);
         if (after <= before + DECREASE * length * slope && (!guarded || all_positive(s)))
-            return in_space && k == 0 && after < (1 - LARGE_FALL) * before ? go_on(s, energy, after)
-                                                                           : after;
+            return guarded && k == 0 && after < low ? go_on(s, energy, after, length, most) : after;
     }
-    set_images(s, 0);
+    set_images(s, 0, false);
     return before;
 }

@@ -14,6 +14,9 @@ enum { ROUNDS = 4 };
  * refinement helps where A_FEW and one in FEW are stuck, at most. */
 enum { A_FEW = 10, MANY = 20, FEW = 50 };
 
+/* Rounds of untangling that move small patches only. */
+enum { SMALL_ROUNDS = 2 };
+
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is
  * missing. */
 enum { MOST_GROWTH = 2 };
@@ -103,30 +106,6 @@ static icc_status flip_edges(iccp_plmap *map, const iccp_env *env)
 
 /* ---- untangling and refining ---- */
 
-/* As iccp_untangle(), with flipped edges in between. */
-static icc_status untangle_patches(iccp_plmap *map, double trial_work, iccp_work *work,
-                                   size_t *n_left, const iccp_env *env)
-{
-    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
-    uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
-    icc_status status = marks != NULL ? flip_edges(map, env) : ICC_ERR_MEMORY;
-    const iccp_trial trial = {A_FEW + map->corners.n_triangles / MANY, trial_work};
-    *n_left = iccp_simplicial_count_at_once(&simplicial, env);
-    for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
-        const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(&simplicial, k, marks, k == 0 ? &trial : NULL, work, &part);
-        if (status == ICC_OK)
-            status = flip_edges(map, env);
-        if (status != ICC_OK)
-            break;
-        *n_left = iccp_simplicial_count_at_once(&simplicial, env);
-        if (*n_left > trial.most)
-            break;
-    }
-    iccp_free(&env->memory, marks);
-    return status;
-}
-
 /* Cuts, in `map`, the edges between the corners of triangles that are not positive in `tangled`.
  * Flipped edges make the two differ, but they have the same vertices. */
 static icc_status refine_round(iccp_plmap *map, const iccp_plmap *tangled, const iccp_env *env)
@@ -145,6 +124,65 @@ static icc_status refine_round(iccp_plmap *map, const iccp_plmap *tangled, const
             status = iccp_plmap_cut(map, c, &done);
     }
     iccp_free(&env->memory, marked);
+    return status;
+}
+
+/* Round k of iccp_untangle(), then flipped edges. */
+static icc_status untangle_round(iccp_plmap *map, size_t k, const iccp_trial *trial,
+                                 iccp_work *work, size_t *n_left, const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+    const iccp_env part = iccp_round(env, k, 1);
+    uint8_t *marks = iccp_alloc(&env->memory, map->n_vertices, 1);
+    icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_untangle_patches(&simplicial, k, marks, trial, work, &part);
+    if (status == ICC_OK)
+        status = flip_edges(map, env);
+    if (status == ICC_OK)
+        *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+    iccp_free(&env->memory, marks);
+    return status;
+}
+
+/* Refines a copy round what is left, and untangles small patches there: the map becomes the copy
+ * if that is enough. */
+static icc_status mend(iccp_plmap *map, iccp_work *work, size_t *n_left, const iccp_env *env)
+{
+    iccp_plmap finer;
+    size_t n = *n_left;
+    icc_status status = iccp_plmap_copy(&finer, map, &env->memory);
+    if (status != ICC_OK)
+        return status;
+    status = refine_round(&finer, map, env);
+    for (size_t k = 0; status == ICC_OK && n > 0 && k < SMALL_ROUNDS; ++k)
+        status = untangle_round(&finer, k, NULL, work, &n, env);
+    if (status == ICC_OK && n == 0) {
+        const iccp_plmap tangled = *map;
+        *map = finer;
+        finer = tangled;
+        *n_left = 0;
+    }
+    iccp_plmap_free(&finer);
+    return status;
+}
+
+/* As iccp_untangle(), with flipped edges in between. Before everything is untangled at once for the
+ * sake of a few triangles, they are mended. */
+static icc_status untangle_patches(iccp_plmap *map, double trial_work, iccp_work *work,
+                                   size_t *n_left, const iccp_env *env)
+{
+    icc_status status = flip_edges(map, env);
+    const iccp_trial trial = {A_FEW + map->corners.n_triangles / MANY, trial_work};
+    *n_left = iccp_plmap_count_inverted(map);
+    for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
+        if (k + 1 == ICCP_PLANE_ROUNDS && *n_left <= A_FEW)
+            status = mend(map, work, n_left, env);
+        if (status == ICC_OK && *n_left > 0)
+            status = untangle_round(map, k, k == 0 ? &trial : NULL, work, n_left, env);
+        if (*n_left > trial.most)
+            break;
+    }
     return status;
 }
 

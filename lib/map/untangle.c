@@ -4,6 +4,7 @@
 
 #include "base/minmax.h"
 #include "map/newton.h"
+#include "map/patches.h"
 #include "map/untangling.h"
 
 #include <math.h>
@@ -96,7 +97,7 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
         least = iccp_newton_least(newton, &n_bad);
         since = n_bad < fewest ? 0 : since + 1;
         fewest = n_bad < fewest ? n_bad : fewest;
-        if (trial != NULL && n_bad > trial->most && work->spent - begin >= trial->work)
+        if (n_bad > trial->most && work->spent - begin >= trial->work)
             break;
         if (least > 0 && after >= 0.99 * before)
             break;
@@ -105,19 +106,60 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
+/* The points with movable[v] != 0, or all. */
+static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t *movable,
+                                   const patches *round, const iccp_trial *trial, iccp_work *work,
+                                   const iccp_env *env)
+{
+    iccp_newton newton;
+    icc_status status = iccp_newton_create(&newton, map, movable, NULL, env);
+    if (status != ICC_OK)
+        return status;
+    status = descend(&newton, round, trial, work, env);
+    iccp_newton_free(&newton);
+    return status;
+}
+
+/* Each patch by itself: its epsilon begins where its own worst triangle asks for it, and it costs
+ * nothing any more once it is done. The trial fails when more would be left in the end if all
+ * patches went like those so far. */
+static icc_status untangle_one_by_one(const iccp_simplicial_map *map, const uint8_t *movable,
+                                      const patches *round, const iccp_trial *trial,
+                                      iccp_work *work, const iccp_env *env)
+{
+    const double begin = work->spent;
+    const size_t n_all = count_tasks(map);
+    size_t n_before = 0, n_after = 0;
+    iccp_patches parts;
+    icc_status status = iccp_patches_create(&parts, map, movable, &env->memory);
+    for (size_t p = 0; status == ICC_OK && p < parts.n; ++p) {
+        const iccp_env own = iccp_round(env, p, (double)parts.n);
+        const iccp_simplicial_map part = iccp_patches_cut_out(&parts, p);
+        const size_t n = count_tasks(&part);
+        const iccp_trial share = {trial->most * n / n_all, trial->work - (work->spent - begin)};
+        if (n > 0)
+            status = untangle_at_once(&part, NULL, round, &share, work, &own);
+        iccp_patches_put_back(&parts, &part);
+        n_before += n;
+        n_after += count_tasks(&part);
+        if (work->spent - begin >= trial->work && n_after * n_all > trial->most * n_before)
+            break;
+    }
+    iccp_patches_free(&parts);
+    return status;
+}
+
 icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
                                  const iccp_trial *trial, iccp_work *work, const iccp_env *env)
 {
+    static const iccp_trial none = {0, HUGE_VAL};
     const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
-    iccp_newton newton;
-    if (p->rings > 0)
-        iccp_untangle_mark(map, p->rings, marks);
-    icc_status status = iccp_newton_create(&newton, map, p->rings > 0 ? marks : NULL, NULL, env);
-    if (status != ICC_OK)
-        return status;
-    status = descend(&newton, p, trial, work, env);
-    iccp_newton_free(&newton);
-    return status;
+    trial = trial != NULL ? trial : &none;
+    if (p->rings == 0)
+        return untangle_at_once(map, NULL, p, trial, work, env);
+    iccp_untangle_mark(map, p->rings, marks);
+    return map->dim == 2 ? untangle_one_by_one(map, marks, p, trial, work, env)
+                         : untangle_at_once(map, marks, p, trial, work, env);
 }
 
 icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t *n_left,

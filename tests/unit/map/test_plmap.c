@@ -204,11 +204,24 @@ START_TEST(steps_begun_ahead_are_the_same)
 }
 END_TEST
 
-/* Every accepted step lowers the energy; Dirichlet's keeps every triangle positive. Vertices that
- * are not movable stay. */
+/* By how many steps the images have moved. */
+static double length_of(const iccp_newton *newton)
+{
+    double along = 0, square = 0;
+    for (size_t i = 0; i < 2 * newton->assembly.n_free; ++i) {
+        const size_t at = 2 * (size_t)newton->assembly.free_point[i / 2] + i % 2;
+        along += newton->step[i] * (newton->map.images[at] - newton->saved[i]);
+        square += newton->step[i] * newton->step[i];
+    }
+    return along / square;
+}
+
+/* Every accepted step lowers the energy; Dirichlet's keeps every triangle positive. Some go farther
+ * than the model says. Vertices that are not movable stay. */
 START_TEST(every_step_is_monotone_and_positive)
 {
     const iccp_env env = default_env();
+    size_t n_longer = 0;
     for (int k = 0; k < N_SHAPES; ++k) {
         const shape s = shape_number(k);
         iccp_plmap map = map_of(&s, 10, identity, 1), start;
@@ -230,6 +243,7 @@ START_TEST(every_step_is_monotone_and_positive)
             const double after = iccp_newton_move(&newton, model, 0, energy, slope);
             ck_assert_double_le(after, energy);
             ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
+            n_longer += length_of(&newton) > 1.5;
             energy = after;
         }
         size_t n_moved = 0;
@@ -244,14 +258,18 @@ START_TEST(every_step_is_monotone_and_positive)
         iccp_plmap_free(&start);
         free(movable);
     }
+    ck_assert_uint_gt(n_longer, 0);
 }
 END_TEST
 
 /* ---- repair ---- */
 
-enum { N_REPAIRABLE = 2, N_BREAKS = 6 };
+enum { N_BREAKS = 6, N_TRIES = 20 };
 
-/* The first kinds of damage can be repaired always; the others need luck. */
+/* How many of N_TRIES times N_SHAPES may fail for each kind of damage but the last: the first can be
+ * repaired always, the last nearly never. */
+static const size_t MOST_FAILED[N_BREAKS - 1] = {0, 18, 18, 6, 85};
+
 static void break_map(iccp_plmap *map, int how, random_source *r)
 {
     double centre[2] = {0, 0};
@@ -279,7 +297,7 @@ static void break_map(iccp_plmap *map, int how, random_source *r)
             break;
         case 4: /* one vertex far outside */
             if (v + 1 == map->n_vertices)
-                image[0] += 10;
+                image[0] += random_between(r, 5, 15);
             break;
         default: /* all far outside */
             image[0] += 100;
@@ -320,20 +338,19 @@ static size_t repair_and_check(iccp_plmap *map, bool twice)
 
 START_TEST(broken_maps_are_repaired_or_counted)
 {
-    size_t n_failed = 0;
-    for (int k = 0; k < N_SHAPES; ++k)
-        for (int how = 0; how < N_BREAKS; ++how) {
-            const shape s = shape_number(k);
+    for (int how = 0; how < N_BREAKS; ++how) {
+        size_t n_failed = 0;
+        for (int k = 0; k < N_SHAPES * N_TRIES; ++k) {
+            const shape s = shape_number(k % N_SHAPES);
             random_source r = {(uint64_t)(10 * k + how)};
-            iccp_plmap map = map_of(&s, 8, identity, 1);
+            iccp_plmap map = map_of(&s, 6 + (size_t)(k / N_SHAPES % 5), identity, 1);
             break_map(&map, how, &r);
-            const size_t n_left = repair_and_check(&map, k < 2);
-            n_failed += n_left > 0;
-            if (n_left > 0 && how < N_REPAIRABLE)
-                ck_abort_msg("shape %d broken in way %d: %zu triangles left", k, how, n_left);
+            n_failed += repair_and_check(&map, k < 2) > 0;
             iccp_plmap_free(&map);
         }
-    ck_assert_uint_le(n_failed, 2 * N_SHAPES);
+        if (how < N_BREAKS - 1 && n_failed > MOST_FAILED[how])
+            ck_abort_msg("broken in way %d: %zu maps are not repaired", how, n_failed);
+    }
 }
 END_TEST
 

@@ -10,6 +10,7 @@
 #include "map/improve.h"
 #include "map/mesh_repair.h"
 #include "map/newton.h"
+#include "map/patches.h"
 #include "map/untangle.h"
 #include "math/orient.h"
 
@@ -158,6 +159,60 @@ START_TEST(what_is_far_away_stays)
 }
 END_TEST
 
+/* Every triangle with a point that may move is in one patch, as it is in the map, and so is every
+ * such point; what is put back moves these alone. */
+START_TEST(patches_have_nothing_in_common)
+{
+    random_source r = {11};
+    const iccp_env env = default_env();
+    for (unsigned share = 2; share <= 40; share += 2) {
+        cube c = cube_of(2, 12, 0.1, false, &r);
+        const size_t n = c.mesh->n_points;
+        const iccp_simplicial_map map = iccp_simplicial_map_of(c.mesh, c.images);
+        uint8_t *movable = mesh_alloc(n, 1);
+        size_t *seen = mesh_alloc(n, sizeof *seen), n_triangles = 0;
+        iccp_patches patches;
+        for (size_t v = 0; v < n; ++v) {
+            movable[v] = random_unit(&r) * share < 3;
+            seen[v] = 0;
+        }
+        ck_assert_int_eq(iccp_patches_create(&patches, &map, movable, &env.memory), ICC_OK);
+        for (size_t p = 0; p < patches.n; ++p) {
+            const iccp_simplicial_map part = iccp_patches_cut_out(&patches, p);
+            n_triangles += part.n_simplices;
+            for (size_t k = 0; k < 3 * part.n_simplices; ++k) {
+                const size_t t = patches.triangle[patches.first[p] + k / 3];
+                ck_assert_mem_eq(part.points + 2 * part.corners[k],
+                                 map.points + 2 * map.corners[3 * t + k % 3], 2 * sizeof(double));
+            }
+            for (size_t v = 0; v < part.n_points; ++v) {
+                const uint32_t point = patches.point[v];
+                ck_assert(part.fixed[v] == (point < map.n_fixed || !movable[point]));
+                seen[point] += !part.fixed[v];
+                part.images[2 * v] += 1;
+            }
+            iccp_patches_put_back(&patches, &part);
+        }
+        for (size_t v = 0; v < n; ++v) {
+            const size_t moves = movable[v] && v >= map.n_fixed;
+            ck_assert_uint_eq(seen[v], moves);
+            ck_assert_double_eq(c.images[2 * v], c.start[2 * v] + (double)moves);
+        }
+        size_t n_all = 0;
+        for (size_t t = 0; t < map.n_simplices; ++t) {
+            const uint32_t *v = map.corners + 3 * t;
+            n_all += seen[v[0]] + seen[v[1]] + seen[v[2]] > 0;
+        }
+        ck_assert_uint_eq(n_triangles, n_all);
+        ck_assert(share < 20 || patches.n > 1);
+        iccp_patches_free(&patches);
+        free(movable);
+        free(seen);
+        free_cube(&c);
+    }
+}
+END_TEST
+
 /* Inside out, and all of it or all but one vertex on the boundary. */
 START_TEST(what_cannot_be_repaired_is_counted)
 {
@@ -289,6 +344,7 @@ int main(void)
     tcase_set_timeout(tests, 300);
     tcase_add_test(tests, tangles);
     tcase_add_test(tests, what_is_far_away_stays);
+    tcase_add_test(tests, patches_have_nothing_in_common);
     tcase_add_test(tests, what_cannot_be_repaired_is_counted);
     tcase_add_test(tests, points_without_an_image);
     tcase_add_test(tests, failures_leave_nothing_behind);
