@@ -190,8 +190,9 @@ icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const
                                icc_error *err)
 {
     if (n_landmarks > ICCP_MOST_SURFACE_LANDMARKS)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu landmarks in space are too many; at most %d",
-                         n_landmarks, ICCP_MOST_SURFACE_LANDMARKS);
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, ICCP_MOST_SURFACE_LANDMARKS,
+                            "%zu landmarks in space are too many; at most %d", n_landmarks,
+                            ICCP_MOST_SURFACE_LANDMARKS);
     iccp_body bodies[2] = {{0}, {0}};
     iccp_common_surface common = {0};
     icc_status status = iccp_bodies_create(bodies, source, target, env, err);
