@@ -408,6 +408,8 @@ START_TEST(fails_cleanly)
     ellipsoid(&two, 0, axes, .4);
     faulty_sweep(match_once, NULL);
     faulty_sweep(match_landmarks_once, &(size_t){2}); /* and two helpers */
+    two = one;
+    faulty_sweep(match_landmarks_once, &(size_t){4}); /* and eight likely ones: three beginnings */
 }
 END_TEST
 
