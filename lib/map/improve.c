@@ -21,6 +21,9 @@ static const double TYPICAL_LEVELS = 2;
  * more than this share of all. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
 
+/* Before the first step, only if they are no more than this share. */
+static const double VERY_FEW = 0.002;
+
 /* It multiplies the triangles by about GROWTH, and is made where there is work for so many STEPS on
  * what comes of it. */
 static const double GROWTH = 1.4, STEPS = 6;
@@ -114,8 +117,10 @@ static icc_status rank(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The triangle with most comes first. A heap is enough: a few of them are cut. */
-icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
+/* Cuts the triangles that carry EXCESS_SHARE, the one with most first: `most` of them at most, or
+ * none if those are more and it is all or nothing. A heap is enough: they are few. */
+static icc_status cut_worst(iccp_plmap *map, double most, bool all_or_nothing, size_t *n_cut,
+                            const iccp_env *env)
 {
     const size_t n = map->corners.n_triangles;
     iccp_env quiet = *env;
@@ -129,19 +134,25 @@ icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
     for (size_t t = 0; t < n; ++t)
         excess += r.list[t].excess;
     iccp_sort_begin(r.list, n, sizeof(ranked), by_excess);
-    for (size_t left = n;
-         status == ICC_OK && left > 0 && (double)(n - left) < MOST_CUT * (double)n &&
-         reached < EXCESS_SHARE * excess;
-         --left) {
-        bool done;
-        const ranked most = r.list[0];
+    size_t left = n;
+    for (; left > 0 && (double)(n - left) < most && reached < EXCESS_SHARE * excess; --left) {
+        reached += r.list[0].excess;
         iccp_sort_next(r.list, left, sizeof(ranked), by_excess);
-        reached += most.excess;
-        status = iccp_plmap_cut(map, longest_edge(map, most.triangle), &done);
+    }
+    if (all_or_nothing && reached < EXCESS_SHARE * excess)
+        left = n;
+    for (size_t k = n; status == ICC_OK && k-- > left;) {
+        bool done;
+        status = iccp_plmap_cut(map, longest_edge(map, r.list[k].triangle), &done);
         *n_cut += status == ICC_OK && done;
     }
     iccp_free(&env->memory, r.list);
     return status;
+}
+
+icc_status iccp_refine(iccp_plmap *map, size_t *n_cut, const iccp_env *env)
+{
+    return cut_worst(map, MOST_CUT * (double)map->corners.n_triangles, false, n_cut, env);
 }
 
 static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
@@ -149,6 +160,18 @@ static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
     size_t n_flips;
     const icc_status status = iccp_refine(map, n_cut, env);
     return status == ICC_OK && *n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
+}
+
+/* Where very few triangles have most of the energy, no step gets far before the first of them
+ * flips, and all others wait for it. */
+static icc_status unlock(iccp_plmap *map, const iccp_env *env)
+{
+    size_t n_cut, n_flips;
+    if (!(iccp_plmap_energy(map) > HIGH))
+        return ICC_OK;
+    const double few = VERY_FEW * (double)map->corners.n_triangles;
+    const icc_status status = cut_worst(map, few, true, &n_cut, env);
+    return status == ICC_OK && n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
 }
 
 icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
@@ -160,7 +183,10 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
                                        .energy = energy_of,
                                        .descend = descend,
                                        .refine = refine_and_flip};
-    return iccp_improve_by(&PLANE, map, schedule, work, improvement, env);
+    const bool starts = schedule->levels > 0 && !schedule->is_relaxed;
+    const icc_status status = starts ? unlock(map, env) : ICC_OK;
+    return status == ICC_OK ? iccp_improve_by(&PLANE, map, schedule, work, improvement, env)
+                            : status;
 }
 
 /* ---- in either ---- */

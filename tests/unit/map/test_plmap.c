@@ -262,6 +262,42 @@ START_TEST(every_step_is_monotone_and_positive)
 }
 END_TEST
 
+/* One triangle with nearly all of the energy is cut before the first step, here without any; the same
+ * with many of them, or a fair map, is left as it is. */
+START_TEST(what_locks_all_others_is_cut_first)
+{
+    const iccp_env env = default_env();
+    const shape s = shape_square();
+    for (int kind = 0; kind < 3; ++kind) {
+        iccp_plmap map = map_of(&s, 30, identity, 1);
+        const size_t n = map.n_vertices;
+        iccp_improvement improvement;
+        iccp_work none = {0};
+        const iccp_schedule schedule = {10, 1e-4, 5, HUGE_VAL, false, false};
+        size_t n_flat = kind == 0 ? 0 : kind == 1 ? 1 : map.corners.n_triangles;
+        for (uint32_t t = 0; t < map.corners.n_triangles && n_flat > 0; ++t) {
+            const uint32_t *v = map.corners.vertex + 3 * (size_t)t;
+            if (map.fixed[v[0]] || map.fixed[v[1]] || map.fixed[v[2]])
+                continue;
+            double *a = map.images + 2 * (size_t)v[0];
+            const double *b = map.images + 2 * (size_t)v[1], *c = map.images + 2 * (size_t)v[2];
+            for (int d = 0; d < 2; ++d)
+                a[d] += 0.9999999 * ((b[d] + c[d]) / 2 - a[d]);
+            --n_flat;
+            t += kind == 2 ? 40 : 0;
+        }
+        const double before = iccp_plmap_energy(&map);
+        ck_assert_uint_eq(iccp_plmap_count_inverted(&map), 0);
+        ck_assert_int_eq(iccp_improve(&map, &schedule, &none, &improvement, &env), ICC_OK);
+        check_mesh(&map);
+        ck_assert_uint_eq(map.n_vertices, n + (kind == 1));
+        ck_assert_double_le(iccp_plmap_energy(&map), before * (1 + 1e-9));
+        ck_assert(kind == 0 ? before < 20 : before > 20);
+        iccp_plmap_free(&map);
+    }
+}
+END_TEST
+
 /* ---- repair ---- */
 
 enum { N_BREAKS = 6, N_TRIES = 20 };
@@ -661,6 +697,7 @@ int main(void)
     tcase_add_test(tests, steps_go_down);
     tcase_add_test(tests, steps_begun_ahead_are_the_same);
     tcase_add_test(tests, every_step_is_monotone_and_positive);
+    tcase_add_test(tests, what_locks_all_others_is_cut_first);
     tcase_add_test(tests, broken_maps_are_repaired_or_counted);
     tcase_add_test(tests, what_cannot_be_repaired_is_counted);
     tcase_add_test(tests, there_is_nothing_to_repair);
