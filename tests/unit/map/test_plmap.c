@@ -304,7 +304,7 @@ enum { N_BREAKS = 6, N_TRIES = 20 };
 
 /* How many of N_TRIES times N_SHAPES may fail for each kind of damage but the last: the first can be
  * repaired always, the last nearly never. */
-static const size_t MOST_FAILED[N_BREAKS - 1] = {0, 18, 18, 6, 85};
+static const size_t MOST_FAILED[N_BREAKS - 1] = {0, 12, 9, 4, 74};
 
 static void break_map(iccp_plmap *map, int how, random_source *r)
 {
