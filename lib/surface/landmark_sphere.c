@@ -61,7 +61,7 @@ static icc_status relax_few(iccp_relaxation *r, const iccp_env *env)
     for (size_t k = 0; k < N && status == ICC_OK; ++k) {
         const iccp_env part =
             iccp_part(env, NULL, (double)k / (double)N, (double)(k + 1) / (double)N);
-        double energy;
+        double energy = HUGE_VAL;
         for (int side = 0; side < 2; ++side)
             memcpy(r->side[side].directions, kept[side], n[side] * sizeof *kept[side]);
         status = iccp_relax(r, lengths[k], ROUNDS_OF_FEW, &energy, &part);

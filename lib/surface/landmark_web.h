@@ -1,5 +1,5 @@
-/* Paths between landmarks of two surfaces, the sectors between them, and ways from one to another.
- * */
+/* Paths between landmarks of two surfaces, the sectors between them, and ways from one sector to
+ * another. */
 #ifndef ICCP_LANDMARK_WEB_H
 #define ICCP_LANDMARK_WEB_H
 
