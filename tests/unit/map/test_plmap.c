@@ -379,7 +379,7 @@ START_TEST(broken_maps_are_repaired_or_counted)
         for (int k = 0; k < N_SHAPES * N_TRIES; ++k) {
             const shape s = shape_number(k % N_SHAPES);
             random_source r = {(uint64_t)(10 * k + how)};
-            iccp_plmap map = map_of(&s, 6 + (size_t)(k / N_SHAPES % 5), identity, 1);
+            iccp_plmap map = map_of(&s, 6 + k / N_SHAPES % 5, identity, 1);
             break_map(&map, how, &r);
             n_failed += repair_and_check(&map, k < 2) > 0;
             iccp_plmap_free(&map);
