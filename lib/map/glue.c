@@ -1,48 +1,35 @@
 /* Corners of the cut polygon that come together when partners are joined become one vertex:
- * classes are found by union and find, R. E. Tarjan, Efficiency of a good but not linear set union
- * algorithm, 1975, with halved paths. */
+ * their classes are sets that are joined (base/sets.h). */
 #include "map/glue.h"
+
+#include "base/sets.h"
 
 #include <string.h>
 
 static const uint32_t NONE = ICCP_NO_NEIGHBOUR;
 
-static uint32_t find(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-static void unite(uint32_t *parent, uint32_t i, uint32_t j)
-{
-    const uint32_t a = find(parent, i), b = find(parent, j);
-    parent[a < b ? b : a] = a < b ? a : b;
-}
-
 /* The corners of the polygon, joined; those with the smallest numbers stand for the others. */
-static void join_corners(uint32_t *parent, const iccp_cut_polygon *p)
+static void join_corners(uint32_t *leader, const iccp_cut_polygon *p)
 {
-    for (uint32_t i = 0; i < p->n; ++i)
-        parent[i] = i;
+    iccp_sets_begin(leader, p->n);
     for (uint32_t i = 0; i < p->n; ++i) {
         const uint32_t j = p->partner[i];
         if (j == NONE)
             continue;
-        unite(parent, i, j + 1 < p->n ? j + 1 : 0);
-        unite(parent, i + 1 < p->n ? i + 1 : 0, j);
+        iccp_sets_join(leader, i, j + 1 < p->n ? j + 1 : 0);
+        iccp_sets_join(leader, i + 1 < p->n ? i + 1 : 0, j);
     }
 }
 
 /* Numbers of vertices: number[i] for what was vertex i of the overlay. Returns how many there
  * are. */
-static uint32_t number_vertices(uint32_t *number, uint32_t *parent, uint32_t n, size_t n_vertices)
+static uint32_t number_vertices(uint32_t *number, uint32_t *leader, uint32_t n, size_t n_vertices)
 {
     uint32_t n_left = 0;
     for (uint32_t i = 0; i < n_vertices; ++i)
-        number[i] = i >= n || find(parent, i) == i ? n_left++ : number[find(parent, i)];
+        number[i] = i >= n || iccp_sets_leader(leader, i) == i
+                        ? n_left++
+                        : number[iccp_sets_leader(leader, i)];
     return n_left;
 }
 
@@ -116,20 +103,20 @@ icc_status iccp_glue(iccp_plmap *map, const iccp_overlay *overlay, const iccp_cu
                      const iccp_scene *scene, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    uint32_t *parent = iccp_alloc(memory, polygon->n, sizeof *parent);
+    uint32_t *leader = iccp_alloc(memory, polygon->n, sizeof *leader);
     uint32_t *number = iccp_alloc(memory, overlay->n_vertices, sizeof *number);
     icc_status status = ICC_ERR_MEMORY;
     *map = (iccp_plmap){.memory = *memory};
-    if (parent != NULL && number != NULL) {
-        join_corners(parent, polygon);
-        const uint32_t n = number_vertices(number, parent, polygon->n, overlay->n_vertices);
+    if (leader != NULL && number != NULL) {
+        join_corners(leader, polygon);
+        const uint32_t n = number_vertices(number, leader, polygon->n, overlay->n_vertices);
         status = iccp_plmap_begin(map, n, overlay->corners.n_triangles, 1 / scene->scale, memory);
     }
     if (status == ICC_OK) {
         place_vertices(map, overlay, polygon, scene, number);
-        join_triangles(map, overlay, polygon, number, parent);
+        join_triangles(map, overlay, polygon, number, leader);
     }
-    iccp_free(memory, parent);
+    iccp_free(memory, leader);
     iccp_free(memory, number);
     return status;
 }

@@ -3,6 +3,7 @@
  * in vain (map/word.h). */
 #include "map/isotopy.h"
 
+#include "base/sets.h"
 #include "base/sort.h"
 #include "map/strands.h"
 #include "map/word_motion.h"
@@ -41,15 +42,6 @@ static size_t list_joints(joint *joints, const iccp_scene *scene)
     return n;
 }
 
-static uint32_t find(uint32_t *parent, uint32_t i)
-{
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
 /* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956. Straight, without bends; what
  * is not the source's is not there. */
 static icc_status find_tree(iccp_cuts *tree, const iccp_scene *scene, const iccp_env *env)
@@ -57,29 +49,24 @@ static icc_status find_tree(iccp_cuts *tree, const iccp_scene *scene, const iccp
     const size_t n = scene->n_components;
     joint *joints =
         iccp_alloc(&env->memory, 3 * scene->mesh[0].n_triangles / 2 + 1, sizeof *joints);
-    uint32_t *parent = iccp_alloc(&env->memory, n, sizeof *parent);
+    uint32_t *leader = iccp_alloc(&env->memory, n, sizeof *leader);
     size_t n_found = 0;
     icc_status status = iccp_cuts_begin(tree, n - 1, &env->memory);
-    if (joints == NULL || parent == NULL)
+    if (joints == NULL || leader == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         const size_t n_joints = list_joints(joints, scene);
         iccp_sort(joints, n_joints, sizeof *joints, compare);
-        for (uint32_t i = 0; i < n; ++i)
-            parent[i] = i;
+        iccp_sets_begin(leader, n);
         for (size_t k = 0; k < n_joints && n_found + 1 < n; ++k) {
             const uint32_t *ends = joints[k].ends;
-            const uint32_t a = find(parent, scene->component[ends[0]]);
-            const uint32_t b = find(parent, scene->component[ends[1]]);
-            if (a == b)
-                continue;
-            parent[a > b ? a : b] = a > b ? b : a;
-            memcpy(tree->ends + 2 * n_found++, ends, 2 * sizeof *ends);
+            if (iccp_sets_join(leader, scene->component[ends[0]], scene->component[ends[1]]))
+                memcpy(tree->ends + 2 * n_found++, ends, 2 * sizeof *ends);
         }
         status = n_found + 1 == n ? ICC_OK : ICC_ERR_TOPOLOGY;
     }
     iccp_free(&env->memory, joints);
-    iccp_free(&env->memory, parent);
+    iccp_free(&env->memory, leader);
     return status;
 }
 

@@ -1,6 +1,8 @@
-/* Components by sets of points that are joined: R. E. Tarjan, J. van Leeuwen, Worst-case analysis
- * of set union algorithms, 1984. */
+/* Patches are the components of the points that may be moved, by triangles: sets that are joined
+ * (base/sets.h). */
 #include "map/patches.h"
+
+#include "base/sets.h"
 
 #include <string.h>
 
@@ -21,27 +23,15 @@ static uint32_t handle_of(const iccp_patches *s, size_t triangle)
     return NONE;
 }
 
-/* The point that stands for those it is joined to; paths are halved on the way. */
-static uint32_t leader_of(uint32_t *leader, uint32_t point)
-{
-    while (leader[point] != point)
-        point = leader[point] = leader[leader[point]];
-    return point;
-}
-
-/* Corners of one triangle that may be moved get one leader, which for patches is the least. */
+/* Corners of one triangle that may be moved get one leader. */
 static void join(iccp_patches *s, uint32_t *leader)
 {
-    for (uint32_t v = 0; v < s->map->n_points; ++v)
-        leader[v] = v;
+    iccp_sets_begin(leader, s->map->n_points);
     for (size_t t = 0; t < s->map->n_simplices; ++t) {
         const uint32_t *v = s->map->corners + 3 * t, handle = handle_of(s, t);
-        for (int k = 0; k < 3 && handle != NONE; ++k) {
-            if (!is_movable(s, v[k]))
-                continue;
-            const uint32_t a = leader_of(leader, handle), b = leader_of(leader, v[k]);
-            leader[a > b ? a : b] = a > b ? b : a;
-        }
+        for (int k = 0; k < 3 && handle != NONE; ++k)
+            if (is_movable(s, v[k]))
+                (void)iccp_sets_join(leader, handle, v[k]);
     }
 }
 
@@ -57,7 +47,7 @@ static size_t sort(iccp_patches *s, uint32_t *leader)
         const uint32_t handle = handle_of(s, t);
         if (handle == NONE)
             continue;
-        uint32_t *const own = &patch[leader_of(leader, handle)];
+        uint32_t *const own = &patch[iccp_sets_leader(leader, handle)];
         if (*own == NONE)
             *own = (uint32_t)s->n++;
         ++s->first[*own + 2];
@@ -69,7 +59,7 @@ static size_t sort(iccp_patches *s, uint32_t *leader)
     for (size_t t = 0; t < n; ++t) {
         const uint32_t handle = handle_of(s, t);
         if (handle != NONE)
-            s->triangle[s->first[patch[leader_of(leader, handle)] + 1]++] = (uint32_t)t;
+            s->triangle[s->first[patch[iccp_sets_leader(leader, handle)] + 1]++] = (uint32_t)t;
     }
     return most;
 }
