@@ -14,16 +14,15 @@
 
 /* Behind each allocation lie so many bytes that nobody may write to; before it, as many with its
  * size, so that it stays aligned. The address sanitizer has its own, which notices reading, too. */
-#define FAULTY_GUARD 64
-#ifdef __SANITIZE_ADDRESS__
-#undef FAULTY_GUARD
-#define FAULTY_GUARD 0
-#endif
 #ifdef __has_feature
 #if __has_feature(address_sanitizer)
-#undef FAULTY_GUARD
 #define FAULTY_GUARD 0
 #endif
+#elif defined(__SANITIZE_ADDRESS__)
+#define FAULTY_GUARD 0
+#endif
+#ifndef FAULTY_GUARD
+#define FAULTY_GUARD 64
 #endif
 enum { FAULTY_BYTE = 0xa5 };
 

@@ -68,30 +68,34 @@ static icc_status cut(iccp_common_surface *common, const iccp_body bodies[2], co
 
 /* ---- what came of it ---- */
 
-/* Energy, slopes and angles of the common triangles. */
+static void gather_corners(const double *p[2][3], const iccp_common_surface *c, size_t face)
+{
+    for (int side = 0; side < 2; ++side)
+        for (size_t i = 0; i < 3; ++i)
+            p[side][i] = c->x[side] + 3 * (size_t)c->faces[3 * face + i];
+}
+
+/* Energy, slopes and angles of the common triangles. Stretch is known once the areas are. */
 static void measure(icc_match_info *info, const iccp_common_surface *c)
 {
-    double area[2] = {0, 0}, least_sine = 1, sum = 0;
-    for (int round = 0; round < 2; ++round) {
-        /* The target is scaled once its area is known. */
-        const double scale = round == 0 ? 1 : sqrt(area[0] / area[1]);
-        sum = 0;
-        for (size_t f = 0; f < c->n_faces; ++f) {
-            const double *p[2][3];
-            for (int side = 0; side < 2; ++side)
-                for (size_t i = 0; i < 3; ++i)
-                    p[side][i] = c->x[side] + 3 * (size_t)c->faces[3 * f + i];
-            const iccp_stretch t = iccp_stretch_of(p[0], p[1], scale);
-            for (int side = 0; side < 2 && round == 0; ++side) {
-                area[side] += t.twice[side];
-                least_sine =
-                    iccp_min(least_sine, iccp_least_sine(p[side][0], p[side][1], p[side][2]));
-            }
-            const double slope = t.twice[1] / t.twice[0];
-            sum += t.twice[0] * t.energy;
-            info->least_slope = f == 0 ? slope : iccp_min(info->least_slope, slope);
-            info->most_slope = f == 0 ? slope : iccp_max(info->most_slope, slope);
+    const double *p[2][3];
+    double area[2] = {0, 0}, normal[3], least_sine = 1, sum = 0;
+    for (size_t f = 0; f < c->n_faces; ++f) {
+        gather_corners(p, c, f);
+        for (int side = 0; side < 2; ++side) {
+            iccp_triangle_normal(normal, p[side][0], p[side][1], p[side][2]);
+            area[side] += iccp_vec_norm(3, normal);
+            least_sine = iccp_min(least_sine, iccp_least_sine(p[side][0], p[side][1], p[side][2]));
         }
+    }
+    const double scale = sqrt(area[0] / area[1]);
+    for (size_t f = 0; f < c->n_faces; ++f) {
+        gather_corners(p, c, f);
+        const iccp_stretch t = iccp_stretch_of(p[0], p[1], scale);
+        const double slope = t.twice[1] / t.twice[0];
+        sum += t.twice[0] * t.energy;
+        info->least_slope = f == 0 ? slope : iccp_min(info->least_slope, slope);
+        info->most_slope = f == 0 ? slope : iccp_max(info->most_slope, slope);
     }
     info->energy = sum / area[0];
     info->least_angle =

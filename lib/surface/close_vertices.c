@@ -1,3 +1,5 @@
+/* The vertex of the other drawing is found in the face that one walks to (drawn_finder.c), and is
+ * taken where the exact signs of the faces round it allow. */
 #include "surface/close_vertices.h"
 
 #include "base/minmax.h"
