@@ -10,6 +10,7 @@ import platform
 import re
 import shutil
 import subprocess
+import sys
 import sysconfig
 
 from setuptools import Distribution, setup
@@ -21,17 +22,20 @@ HERE = pathlib.Path(__file__).resolve().parent
 BESIDE, ABOVE = HERE / "c", HERE.parent.parent  # an sdist has the C sources in a folder of its own
 SOURCES = BESIDE if BESIDE.exists() else ABOVE
 PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "include", "lib")
-NAME = "libicc.so.0"
+NAME = {"win32": "libicc.dll", "darwin": "libicc.0.dylib"}.get(sys.platform, "libicc.so.0")
 GIVEN = os.environ.get("LIBICC_LIBRARY", "")
 
 
 def compiled(folder: pathlib.Path) -> pathlib.Path:
     """The library, compiled in a folder."""
-    options = ["-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_SHARED_LINKER_FLAGS=-s", "-DICC_BUILD_STATIC=OFF",
-               "-DICC_BUILD_TOOLS=OFF"]
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DICC_BUILD_STATIC=OFF", "-DICC_BUILD_TOOLS=OFF"]
+    if sys.platform == "linux":
+        options.append("-DCMAKE_SHARED_LINKER_FLAGS=-s")
     subprocess.run(["cmake", "-S", SOURCES, "-B", folder, *options], check=True)
-    subprocess.run(["cmake", "--build", folder, "--target", "icc", "--parallel", str(os.cpu_count() or 1)], check=True)
-    return folder / "lib" / NAME
+    subprocess.run(["cmake", "--build", folder, "--config", "Release", "--target", "icc",
+                    "--parallel", str(os.cpu_count() or 1)], check=True)
+    # Microsoft's compiler calls it icc.dll, in a folder Release.
+    return next((folder / "lib").rglob(NAME.replace("lib", "*")))
 
 
 class BuildWithLibrary(build_py):

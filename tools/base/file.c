@@ -1,16 +1,12 @@
-#define _XOPEN_SOURCE 700
-
 #include "base/file.h"
 
 #include "base/allocate.h"
 #include "base/say.h"
+#include "base/system.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static char *read_stream(FILE *stream, size_t *n)
 {
@@ -50,12 +46,12 @@ char *file_read(const char *name, size_t *n)
 char *file_read_chosen(const char *name, size_t *n, const char **choice)
 {
     *choice = NULL;
-    for (const char *mark = strchr(name, '#'); mark != NULL && access(name, F_OK) != 0;
+    for (const char *mark = strchr(name, '#'); mark != NULL && !system_exists(name);
          mark = strchr(mark + 1, '#')) {
         size_t n_file = (size_t)(mark - name);
         char *file = need(n_file + 1, 1);
         memcpy(file, name, n_file);
-        bool found = strcmp(file, "-") == 0 || access(file, F_OK) == 0;
+        bool found = strcmp(file, "-") == 0 || system_exists(file);
         char *text = found ? file_read(file, n) : NULL;
         free(file);
         *choice = found ? mark + 1 : NULL;
@@ -67,48 +63,19 @@ char *file_read_chosen(const char *name, size_t *n, const char **choice)
 
 bool file_is_same(const char *input, const char *output)
 {
-    struct stat in, out;
-    bool known = (strcmp(input, "-") == 0 ? fstat(STDIN_FILENO, &in) : stat(input, &in)) == 0 &&
-                 (strcmp(output, "-") == 0 ? fstat(STDOUT_FILENO, &out) : stat(output, &out)) == 0;
-    return known && S_ISREG(in.st_mode) && in.st_dev == out.st_dev && in.st_ino == out.st_ino;
-}
-
-/* Where a plain file of this name is or will be, with links followed: a rename onto a link would
- * cut it off from its file. NULL for devices, pipes and links to nowhere, which are written
- * directly. */
-static char *find_place(const char *name)
-{
-    struct stat info;
-    if (stat(name, &info) == 0)
-        return S_ISREG(info.st_mode) ? realpath(name, NULL) : NULL;
-    if (lstat(name, &info) == 0)
-        return NULL;
-    char *place = need(strlen(name) + 1, 1);
-    return strcpy(place, name);
-}
-
-static FILE *open_beside(const char *place, char **temporary)
-{
-    size_t n = strlen(place) + 32;
-    char *path = need(n, 1);
-    snprintf(path, n, "%s.%ld.part", place, (long)getpid());
-    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    FILE *stream = descriptor >= 0 ? fdopen(descriptor, "wb") : NULL;
-    if (stream == NULL && descriptor >= 0)
-        close(descriptor);
-    *temporary = path;
-    return stream;
+    return system_is_same(strcmp(input, "-") == 0 ? NULL : input,
+                          strcmp(output, "-") == 0 ? NULL : output);
 }
 
 bool outfile_open(outfile *out, const char *name)
 {
     bool standard = strcmp(name, "-") == 0;
     *out = (outfile){.name = standard ? STANDARD_OUTPUT : name};
-    out->place = standard ? NULL : find_place(name);
+    out->place = standard ? NULL : system_place(name);
     if (standard)
         out->stream = stdout;
     else if (out->place != NULL)
-        out->stream = open_beside(out->place, &out->temporary);
+        out->stream = system_open_beside(out->place, &out->temporary);
     else
         out->stream = fopen(name, "wb");
     if (out->stream != NULL)
@@ -133,7 +100,7 @@ bool outfile_close(outfile *out)
         good = false;
         why = errno;
     }
-    if (good && out->temporary != NULL && rename(out->temporary, out->place) != 0) {
+    if (good && out->temporary != NULL && !system_replace(out->temporary, out->place)) {
         good = false;
         why = errno;
     }

@@ -1,26 +1,16 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "base/progress.h"
+
+#include "base/system.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <sys/ioctl.h>
-#include <time.h>
-#include <unistd.h>
 
 /* Of what is left, for a call that was not announced: those that check cages and masks. */
 static const double SMALL = 0.04;
 
-double seconds_now(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 void progress_start(progress *p, bool quiet)
 {
-    *p = (progress){.wanted = !quiet && isatty(STDERR_FILENO), .drawn = seconds_now(), .share = 1};
+    *p = (progress){.wanted = !quiet && system_columns() > 0, .drawn = seconds_now(), .share = 1};
 }
 
 void progress_expect(progress *p, double share)
@@ -28,22 +18,12 @@ void progress_expect(progress *p, double share)
     p->next = share;
 }
 
-static int columns_of_terminal(void)
-{
-#ifdef TIOCGWINSZ
-    struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0)
-        return size.ws_col;
-#endif
-    return 80;
-}
-
 /* "[#####     ]  50 % improve", in fewer columns than the terminal has: the last one may make it go
  * to the next line. Where it is narrow the bar shrinks, then goes, then the stage. */
 static void draw(const char *stage, double share)
 {
     static const char full[] = "##############################";
-    int columns = columns_of_terminal() - 1, name = (int)strlen(stage);
+    int columns = system_columns() - 1, name = (int)strlen(stage);
     int bar = columns - 9 - name;
     bar = bar > (int)sizeof full - 1 ? (int)sizeof full - 1 : bar;
     fputs("\r\033[K", stderr);

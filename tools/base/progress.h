@@ -27,7 +27,4 @@ int32_t progress_show(void *user, const char *stage, double share);
 /* Wipes the bar away. */
 void progress_end(progress *p);
 
-/* Seconds on a clock that only goes forward. */
-double seconds_now(void);
-
 #endif

@@ -6,7 +6,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__) &&                                                                        \
+    !defined(__clang__) /* C99's conversions, not the old system library's */
+#define SAY_FORMAT(string, first) __attribute__((format(gnu_printf, string, first)))
+#elif defined(__GNUC__)
 #define SAY_FORMAT(string, first) __attribute__((format(printf, string, first)))
 #else
 #define SAY_FORMAT(string, first)

@@ -1,22 +1,15 @@
 /* Runs the program tetgen (Si, TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator, 2015),
  * if it is installed, in a folder of its own. -Y keeps the surface as it is: the first vertices
  * that come back are those that went in. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "cage/filling.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-extern char **environ;
 
 /* -p: what a surface encloses; -Y: without new vertices on it; -q1.4: radius-edge ratio; -F: no
  * files of faces; -Q: quiet. */
@@ -27,16 +20,7 @@ static const char *const leftovers[] = {"cage.off",    "cage.1.node", "cage.1.el
 
 bool filling_can_make(void)
 {
-    const char *path = getenv("PATH");
-    char name[4096];
-    while (path != NULL && *path != '\0') {
-        int length = (int)strcspn(path, ":");
-        if (snprintf(name, sizeof name, "%.*s/tetgen", length, path) < (int)sizeof name &&
-            length > 0 && access(name, X_OK) == 0)
-            return true;
-        path += length + (path[length] == ':');
-    }
-    return false;
+    return system_has_program("tetgen");
 }
 
 static FILE *open_in(const char *folder, const char *name, const char *mode)
@@ -66,31 +50,17 @@ static bool write_surface(const cage *c, const char *folder, problem *wrong)
     return good || spoilt(wrong, 0, "%s: %s", folder, strerror(errno));
 }
 
-/* Runs tetgen without a shell, so that no folder's name is taken for a command, and without its
- * output, which is long. */
 static bool run(const char *folder, problem *wrong)
 {
     size_t room = strlen(folder) + sizeof "/cage.off";
     char *path = need(room, 1), program[] = "tetgen", options[] = OPTIONS;
     snprintf(path, room, "%s/cage.off", folder);
     char *arguments[] = {program, options, path, NULL};
-    posix_spawn_file_actions_t actions;
-    pid_t child;
-    int code = posix_spawn_file_actions_init(&actions);
-    for (int output = 1; code == 0 && output <= 2; output++)
-        code = posix_spawn_file_actions_addopen(&actions, output, "/dev/null", O_WRONLY, 0);
-    if (code == 0)
-        code = posix_spawnp(&child, program, &actions, NULL, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    int state = system_run(arguments);
     free(path);
-    if (code != 0)
-        return spoilt(wrong, 0, "tetgen: %s", strerror(code));
-    int state;
-    while (waitpid(child, &state, 0) < 0)
-        if (errno != EINTR)
-            return spoilt(wrong, 0, "tetgen: %s", strerror(errno));
-    return (WIFEXITED(state) && WEXITSTATUS(state) == 0) ||
-           spoilt(wrong, 0, "tetgen cannot fill the surface");
+    if (state < 0)
+        return spoilt(wrong, 0, "tetgen: %s", strerror(errno));
+    return state == 0 || spoilt(wrong, 0, "tetgen cannot fill the surface");
 }
 
 /* A line of `n` numbers behind the number of the item, which counts from `base`. */
@@ -156,22 +126,17 @@ static void remove_folder(const char *folder)
     char *path = need(room, 1);
     for (size_t i = 0; i < sizeof leftovers / sizeof *leftovers; i++) {
         snprintf(path, room, "%s/%s", folder, leftovers[i]);
-        unlink(path);
+        remove(path);
     }
-    rmdir(folder);
+    system_remove_folder(folder);
     free(path);
 }
 
 bool filling_make(filling *out, const cage *c, problem *wrong)
 {
-    const char *parent = getenv("TMPDIR");
-    if (parent == NULL || *parent == '\0')
-        parent = "/tmp";
-    size_t room = strlen(parent) + sizeof "/libicc-XXXXXX";
-    char *folder = need(room, 1);
-    snprintf(folder, room, "%s/libicc-XXXXXX", parent);
+    char *folder = system_make_temporary_folder();
     *out = (filling){.dim = 3};
-    bool good = mkdtemp(folder) != NULL || spoilt(wrong, 0, "%s: %s", folder, strerror(errno));
+    bool good = folder != NULL || spoilt(wrong, 0, "no temporary folder: %s", strerror(errno));
     if (good) {
         good = write_surface(c, folder, wrong) && run(folder, wrong);
         if (good && !read_result(out, c, folder))

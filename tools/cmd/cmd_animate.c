@@ -5,6 +5,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "cage/cage_between.h"
 #include "job/job.h"
 #include "plot/coverage.h"
@@ -71,7 +72,7 @@ static int read_picture(animation *x)
 static char *frame_name(const animation *x)
 {
     const char *name = x->args->operands[1];
-    const char *slash = strrchr(name, '/'), *dot = strrchr(slash != NULL ? slash : name, '.');
+    const char *dot = strrchr(system_last_part(name), '.');
     size_t n_stem = dot != NULL ? (size_t)(dot - name) : strlen(name), n = strlen(name) + 32;
     char *result = need(n, 1);
     snprintf(result, n, "%.*s-%04zu%s", (int)n_stem, name, x->frame, name + n_stem);

@@ -6,6 +6,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "job/point_file.h"
 
 #include <math.h>

@@ -1,18 +1,16 @@
 /* libicc demo: a pair of cages and a picture to try the other commands on, and these commands. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
 #include "base/file.h"
 #include "base/say.h"
+#include "base/system.h"
 #include "cmd/demo_picture.h"
 #include "plot/picture_file.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { N_VERTICES = 12 };
 
@@ -102,7 +100,7 @@ static void print_next(const char *folder)
 int run_demo(const args *a)
 {
     const char *folder = a->n_operands > 0 ? a->operands[0] : "libicc-demo";
-    if (mkdir(folder, 0777) != 0)
+    if (!system_make_folder(folder))
         return failed(folder, 0, "cannot be made: %s%s", strerror(errno),
                       errno == EEXIST ? "; 'libicc demo FOLDER' makes another" : "");
     int result = write_cage(folder, "before.txt", before);

@@ -2,6 +2,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "geo/geo_carry.h"
 #include "job/job.h"
 #include "job/output_name.h"

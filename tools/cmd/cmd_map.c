@@ -2,6 +2,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "job/point_file.h"
 #include "job/ties_file.h"
 #include "job/triangulation.h"

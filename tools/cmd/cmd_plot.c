@@ -2,10 +2,9 @@
  * checkerboard, the function with its curves; then its elevation. One column for the source, one
  * for the target; or one for each of several functions, after one for the source if there is a
  * target. */
-#define _POSIX_C_SOURCE 200809L
-
 #include "cmd/commands.h"
 
+#include "base/system.h"
 #include "job/output_name.h"
 #include "plot/plot.h"
 
@@ -35,9 +34,8 @@ typedef struct plot {
     bool rows[N_ROWS];
     double size;   /* of the longest side of a shape */
     double height; /* of the rows but that of the surface */
-    FILE *svg;
-    char *text; /* what was written to `svg` */
-    size_t n_text;
+    collector drawing;
+    FILE *svg; /* its stream */
 } plot;
 
 /* ------------------------------------------------------------------ layout */
@@ -180,12 +178,11 @@ static int draw(plot *x)
 
 static int make_drawing(plot *x)
 {
-    x->svg = open_memstream(&x->text, &x->n_text);
-    if (x->svg == NULL)
+    if (!collector_begin(&x->drawing))
         return failed(NULL, 0, "not enough memory for the drawing");
+    x->svg = x->drawing.stream;
     int result = draw(x);
-    bool good = !ferror(x->svg);
-    good = fclose(x->svg) == 0 && good;
+    bool good = collector_end(&x->drawing);
     progress_end(&x->job.bar);
     return result == DONE && !good ? failed(NULL, 0, "not enough memory for the drawing") : result;
 }
@@ -195,7 +192,7 @@ static int write_drawing(plot *x)
     outfile file;
     if (!outfile_open(&file, x->job.args->operands[0]))
         return FAILED;
-    fwrite(x->text, 1, x->n_text, file.stream);
+    fwrite(x->drawing.bytes, 1, x->drawing.n, file.stream);
     return outfile_close(&file) ? DONE : FAILED;
 }
 
@@ -279,7 +276,7 @@ int run_plot(const args *a)
         icc_map_free(x.maps[i]);
         icc_chart_free(x.charts[i]);
     }
-    free(x.text);
+    free(x.drawing.bytes);
     job_end(&x.job);
     return result;
 }

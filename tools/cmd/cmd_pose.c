@@ -3,6 +3,7 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
+#include "base/system.h"
 #include "job/output_name.h"
 #include "job/point_file.h"
 #include "kernel/pose_job.h"

@@ -1,6 +1,7 @@
 /* libicc warp: a picture inside a cage follows it. */
 #include "cmd/commands.h"
 
+#include "base/system.h"
 #include "job/job.h"
 #include "plot/coverage.h"
 #include "plot/picture_file.h"

@@ -2,6 +2,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "job/point_file.h"
 #include "kernel/kernel_job.h"
 #include "kernel/weight_plot.h"

@@ -3,6 +3,7 @@
  * setlocale() is never called, so numbers are read and written the same way everywhere. */
 #include "base/file.h"
 #include "base/say.h"
+#include "base/system.h"
 #include "cmd/commands.h"
 #include "cmd/completion.h"
 
@@ -284,6 +285,7 @@ static int help_with(const char *name)
 
 int main(int argc, char **argv)
 {
+    system_begin();
     if (argc < 2)
         return misused(
             NULL, "which command? one of map, encode, decode, warp, animate, mesh, check, info, "

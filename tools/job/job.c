@@ -1,7 +1,6 @@
-#define _POSIX_C_SOURCE 200809L
-
 #include "job/job.h"
 
+#include "base/system.h"
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
 #include "job/fill.h"
@@ -10,22 +9,19 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* What making a chart or a map takes of the time that is left then. */
 static const double MADE = 0.8;
 
 void job_start(job *j, const args *a)
 {
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    size_t processors = system_processors();
     *j = (job){.own = *a, .place = {NO_HOLE, NO_HOLE}, .started = seconds_now()};
     j->args = &j->own;
     j->both = a->source != NULL && a->target != NULL && strcmp(a->source, a->target) == 0;
     progress_start(&j->bar, a->quiet);
     j->env = (icc_env){.size = sizeof j->env, .user = &j->bar, .progress = progress_show};
-    j->env.threads = a->threads > 0                        ? a->threads
-                     : processors > 0 && processors < 1024 ? (int32_t)processors
-                                                           : 1;
+    j->env.threads = a->threads > 0 ? a->threads : processors < 1024 ? (int32_t)processors : 1;
 }
 
 void job_end(job *j)

@@ -2,6 +2,7 @@
 #include "job/job.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "cage/cage_defects.h"
 #include "cage/cage_read.h"
 #include "cage/weld.h"

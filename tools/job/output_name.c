@@ -1,6 +1,7 @@
 #include "job/output_name.h"
 
 #include "base/say.h"
+#include "base/system.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -110,8 +111,7 @@ static bool is_listed(const char *word, const char *list)
 
 const char *output_format(const char *name)
 {
-    const char *slash = strrchr(name, '/'), *base = slash != NULL ? slash + 1 : name;
-    const char *dot = strrchr(base, '.');
+    const char *base = system_last_part(name), *dot = strrchr(base, '.');
     if (dot == NULL || dot == base || dot[1] == '\0')
         return NULL;
     for (size_t i = 0; i < sizeof formats / sizeof *formats; i++)

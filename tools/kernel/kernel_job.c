@@ -1,6 +1,7 @@
 #include "kernel/kernel_job.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 #include "kernel/linear_edges.h"
 
 #include <math.h>

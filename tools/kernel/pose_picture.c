@@ -5,6 +5,7 @@
 
 #include "base/allocate.h"
 #include "base/orientation.h"
+#include "base/system.h"
 #include "plot/picture_file.h"
 #include "plot/picture_sample.h"
 

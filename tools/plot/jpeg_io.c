@@ -127,7 +127,12 @@ static bool decode(reader *r, picture *out, const char *bytes, size_t n)
     jpeg_create_decompress(jpeg);
     r->progress.progress_monitor = count_scans;
     jpeg->progress = &r->progress;
-    jpeg_mem_src(jpeg, (const unsigned char *)bytes, n);
+    unsigned long n_bytes = (unsigned long)n;
+    if (n_bytes != n) {
+        snprintf(r->trouble.message, sizeof r->trouble.message, "it is larger than libjpeg reads");
+        return false;
+    }
+    jpeg_mem_src(jpeg, (const unsigned char *)bytes, n_bytes);
     jpeg_save_markers(jpeg, JPEG_APP0 + 1, 0xffff);
     jpeg_save_markers(jpeg, JPEG_APP0 + 2, 0xffff);
     jpeg_read_header(jpeg, TRUE);

@@ -7,6 +7,7 @@
 #include "plot/plot.h"
 
 #include "base/allocate.h"
+#include "base/system.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,7 @@
 #include "report/info.h"
 #include "report/reason.h"
 
+#include "base/system.h"
 #include "cage/cage_features.h"
 #include "job/option_table.h"
 

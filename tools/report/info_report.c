@@ -1,6 +1,7 @@
 #include "report/info.h"
 #include "report/reason.h"
 
+#include "base/system.h"
 #include "job/option_table.h"
 
 static void report_point(json *j, const char *name, size_t dim, const double *point)
