@@ -93,24 +93,27 @@ bool system_is_same(const char *input, const char *output)
            in.nFileIndexHigh == out.nFileIndexHigh && in.nFileIndexLow == out.nFileIndexLow;
 }
 
+static char *copy(const char *name)
+{
+    return strcpy(need(strlen(name) + 1, 1), name);
+}
+
 char *system_place(const char *name)
 {
     BY_HANDLE_FILE_INFORMATION info;
     HANDLE file = look_at(name);
+    if (file == INVALID_HANDLE_VALUE)
+        return system_exists(name) ? NULL : copy(name);
     char *place = NULL;
     if (is_plain(file, &info)) {
         DWORD room = GetFinalPathNameByHandleA(file, NULL, 0, FILE_NAME_NORMALIZED);
         place = need((size_t)room + 1, 1);
-        if (GetFinalPathNameByHandleA(file, place, room + 1, FILE_NAME_NORMALIZED) == 0)
-            strcpy(place, "");
+        if (GetFinalPathNameByHandleA(file, place, room + 1, FILE_NAME_NORMALIZED) == 0) {
+            free(place);
+            place = copy(name);
+        }
     }
-    if (file != INVALID_HANDLE_VALUE)
-        CloseHandle(file);
-    if ((place == NULL && !system_exists(name)) || (place != NULL && *place == '\0')) {
-        free(place);
-        place = need(strlen(name) + 1, 1);
-        strcpy(place, name);
-    }
+    CloseHandle(file);
     return place;
 }
 
