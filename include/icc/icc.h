@@ -886,6 +886,9 @@ typedef struct icc_match_options {
                             1e-3; < 0: not at all, which takes four to six times as many vertices as
                             both have together, and many thin triangles (what rounding brings
                             together goes, up to 1e-3) */
+    int32_t keep_source; /**< in space, 1: the source keeps all its vertices and edges, which have
+                            more vertices, as the triangles do, where the target would be too far
+                            off; 0: it does not. In the plane it always does */
 } icc_match_options;
 
 /** What icc_match_get_info() reports. */
@@ -954,6 +957,11 @@ typedef struct icc_match_info {
  * drawings are turned so that landmarks come near their partners. Landmarks then are common
  * vertices, whatever places they are in. Vertices that are left have the bits they were given with;
  * facets are listed as seen from outside.
+ *
+ * With icc_match_options::keep_source, in space, the source's surface stays what it is: common
+ * vertices begin with those of the source that have facets, in their order; others are added on its
+ * edges and inside its facets, rounded, and no common facet is a part of two of these. The target
+ * is as near as without. What is thin in the source stays thin.
  *
  * @param[out] out    the match; owned by the caller, see icc_match_free()
  * @param source      a domain of the plane, which may have features, or of space; without a mesh

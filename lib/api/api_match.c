@@ -32,6 +32,9 @@ static icc_status check_options(const icc_match_options *options, icc_error *err
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_match_options.tolerance is %g; it must be at most %g",
                          options->tolerance, max_tolerance);
+    if (options->keep_source < 0 || options->keep_source > 1)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.keep_source is %ld",
+                         (long)options->keep_source);
     return ICC_OK;
 }
 

@@ -16,7 +16,8 @@
 static const double default_tolerance = 1e-3;
 
 /* Edges that come about are at most this part of the diagonal, or so many times as long as those
- * that were given are on average: the map between the surfaces bends at vertices only. */
+ * that were given are on average, or as the longest where the source keeps its own: the map between
+ * the surfaces bends at vertices only. */
 static const double longest_edge = 0.05, times_given = 2;
 
 /* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
@@ -27,14 +28,26 @@ static double diagonal_of(const iccp_body *b)
     return iccp_vec_distance(3, b->domain->lower, b->domain->upper);
 }
 
-static double mean_edge(const iccp_body *b)
+static double edge_length(const iccp_body *b, uint32_t h)
 {
-    const iccp_half_edges *const m = &b->m;
+    return iccp_vec_distance(3, b->x + 3 * (size_t)b->m.origin[h],
+                             b->x + 3 * (size_t)iccp_edge_end(&b->m, h));
+}
+
+static double mean_given(const iccp_body *b)
+{
     double sum = 0;
-    for (uint32_t h = 0; h < 3 * m->n_faces; ++h)
-        sum += iccp_vec_distance(3, b->x + 3 * (size_t)m->origin[h],
-                                 b->x + 3 * (size_t)iccp_edge_end(m, h));
-    return sum / (3 * (double)m->n_faces);
+    for (uint32_t h = 0; h < 3 * b->m.n_faces; ++h)
+        sum += edge_length(b, h);
+    return sum / (3 * (double)b->m.n_faces);
+}
+
+static double longest_given(const iccp_body *b)
+{
+    double longest = 0;
+    for (uint32_t h = 0; h < 3 * b->m.n_faces; ++h)
+        longest = iccp_max(longest, edge_length(b, h));
+    return longest;
 }
 
 static icc_status cut(iccp_common_surface *common, const iccp_body bodies[2], const iccp_env *env,
@@ -132,28 +145,50 @@ static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side
 
 /* ---- from beginning to end ---- */
 
-static icc_status simplify(iccp_common_surface *common, double *off, const iccp_body bodies[2],
-                           size_t n_landmarks, double tolerance, const iccp_env *env)
+/* Landmarks stay on both sides; and all that the source had, if it is kept. */
+static void find_kept(uint8_t *keep, const iccp_common_surface *c, size_t n_landmarks,
+                      const uint32_t *landmarks, bool keep_source)
 {
-    uint8_t *const keep = iccp_alloc_zero(&env->memory, common->n_vertices, sizeof *keep);
-    if (keep == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t v = 0; v < common->n_vertices; ++v)
-        for (size_t k = 0; k < n_landmarks && common->origin[1][v] != ICCP_NO_EDGE; ++k)
-            if (common->origin[0][v] == bodies[0].landmarks[k])
-                keep[v] = 1;
-    iccp_simplify_limits limits = {.keep = keep};
+    for (size_t v = 0; v < c->n_vertices; ++v) {
+        keep[v] = keep_source && c->origin[0][v] != ICCP_NO_EDGE;
+        for (size_t k = 0; k < n_landmarks && c->origin[1][v] != ICCP_NO_EDGE; ++k)
+            if (c->origin[0][v] == landmarks[k])
+                keep[v] = 3;
+    }
+}
+
+/* Leaves as few vertices as are needed, and those that have to stay; a source that is kept stays
+ * what it is, so that the target alone tells how many that are. */
+static icc_status simplify(iccp_common_surface *common, double *off, const iccp_body bodies[2],
+                           size_t n_landmarks, double tolerance, bool keep_source,
+                           const iccp_env *env)
+{
+    const iccp_memory *const memory = &env->memory;
     const double most_off = tolerance > 0 ? tolerance : default_tolerance;
+    iccp_kept_cells cells = {NULL, NULL};
+    uint8_t *const keep = iccp_alloc(memory, common->n_vertices, sizeof *keep);
+    iccp_simplify_limits limits = {.keep = keep, .cells = keep_source ? &cells : NULL};
+    icc_status status = keep != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        find_kept(keep, common, n_landmarks, bodies[0].landmarks, keep_source);
+    if (status == ICC_OK && keep_source &&
+        !iccp_kept_cells_create(&cells, common, bodies[0].domain->facets, bodies[0].split.part_of,
+                                memory))
+        status = ICC_ERR_MEMORY;
     for (int side = 0; side < 2; ++side) {
         const double diagonal = diagonal_of(&bodies[side]);
+        const double given = keep_source
+                                 ? longest_given(&bodies[0]) * diagonal / diagonal_of(&bodies[0])
+                                 : mean_given(&bodies[side]);
         limits.off[side] = most_off * diagonal;
-        limits.edge[side] =
-            iccp_max(longest_edge * diagonal, times_given * mean_edge(&bodies[side]));
+        limits.edge[side] = iccp_max(longest_edge * diagonal, times_given * given);
     }
-    const icc_status status = iccp_simplify_apart(
-        common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
-        (const double *const[]){bodies[0].x, bodies[1].x}, &limits, tolerance < 0, env);
-    iccp_free(&env->memory, keep);
+    if (status == ICC_OK)
+        status = iccp_simplify_apart(
+            common, off, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+            (const double *const[]){bodies[0].x, bodies[1].x}, &limits, tolerance < 0, env);
+    iccp_kept_cells_free(&cells, memory);
+    iccp_free(memory, keep);
     *off *= most_off;
     return status;
 }
@@ -174,7 +209,8 @@ static icc_status run(icc_match *match, iccp_body bodies[2], iccp_common_surface
     if (status != ICC_OK)
         return status;
     match->info.n_overlay = common->n_vertices;
-    status = iccp_explain(err, simplify(common, &off, bodies, n_landmarks, tolerance, &parts[2]));
+    status = iccp_explain(err, simplify(common, &off, bodies, n_landmarks, tolerance,
+                                        options->keep_source != 0, &parts[2]));
     if (status != ICC_OK)
         return status;
     fill_in(&match->info, common, off);

@@ -13,8 +13,9 @@
 /* Most neighbours of a vertex that edges are collapsed to. */
 enum { MOST_NEIGHBOURS = 18 };
 
-/* Triangles may have least angles of this sine, or else this share of the least that was there. */
-static const double fair_sine = 0.2, not_much_worse = 0.7;
+/* Triangles may have least angles of this sine, or else this share of the least that was there.
+ * Where a surface keeps its vertices there are fewer ways, and what is worse is passed through. */
+static const double fair_sine = 0.2, not_much_worse = 0.7, worse_if_kept = 0.1;
 
 /* A normal stays within 60 degrees of that of the given face which the triangle is a part of. */
 static const double least_cosine = 0.5;
@@ -176,11 +177,15 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
     if (m->degree[u] == 0 || m->degree[u] > MOST_NEIGHBOURS ||
         (s->limits->keep != NULL && s->limits->keep[u] != 0))
         return best;
+    const iccp_kept_cells *const cells = s->limits->cells;
     const double thin = thinnest_round(s, u), factor = thin < thin_sine ? readily : 1;
+    const double fair =
+        iccp_min(fair_sine, (cells != NULL ? worse_if_kept : not_much_worse) * thin);
     for (uint32_t k = 0; k < m->degree[u]; ++k, h = iccp_edge_turn(m, h)) {
         const uint32_t v = iccp_edge_end(m, h);
         double sum = 0, off = 0;
-        if (m->degree[u] + m->degree[v] - 4 > MOST_NEIGHBOURS)
+        if (m->degree[u] + m->degree[v] - 4 > MOST_NEIGHBOURS ||
+            (cells != NULL && !iccp_kept_cells_may_go(cells, u, v)))
             continue;
         for (int side = 0; side < 2 && off <= 1; ++side) {
             sum += iccp_vec_distance(3, at(s, side, u), at(s, side, v)) / s->limits->edge[side];
@@ -192,7 +197,7 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
         if (off > 1 || sum >= *cost)
             continue;
         const double after = thinnest_after(s, h);
-        if (after < iccp_min(fair_sine, not_much_worse * thin))
+        if (after < fair)
             continue;
         sum *= 1 + 0.1 / (after + 0.02);
         if (sum < *cost && iccp_edge_collapsible(m, h)) {

@@ -2,13 +2,15 @@
 #ifndef ICCP_SIMPLIFY_H
 #define ICCP_SIMPLIFY_H
 
-#include "surface/common_surface.h"
+#include "surface/kept_cells.h"
 
 typedef struct iccp_simplify_limits {
     double off[2];       /* on either side: how far a vertex that goes may leave the planes of the
                               given surface that it stood for; > 0 */
     double edge[2];      /* on either side: longest edge that comes about */
-    const uint8_t *keep; /* by vertex: not 0: it stays */
+    const uint8_t *keep; /* by vertex: not 0: it stays; 1 and 2, as bits: its place on either
+                              side does */
+    const iccp_kept_cells *cells; /* of the first surface, which keeps its shape; or NULL */
 } iccp_simplify_limits;
 
 /* Collapses edges of both surfaces at a time, so that their triangles stay the same and each

@@ -170,7 +170,7 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
     limits.keep = stays;
     for (size_t v = 0; v < r->whole->n_vertices && keep != NULL && status == ICC_OK; ++v)
         if (keep[v] != 0)
-            stays[r->became[v]] = 1;
+            stays[r->became[v]] = keep[v];
     double rise = HUGE_VAL;
     for (int is_calm = 0; is_calm < 2 && rise > most_rise && status == ICC_OK; ++is_calm) {
         const iccp_env part = iccp_part(env, NULL, 0.5 * is_calm, 0.5 * is_calm + 0.5);

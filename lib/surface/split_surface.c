@@ -12,17 +12,20 @@ bool iccp_split_surface_create(iccp_split_surface *s, const iccp_half_edges *m, 
     s->x = iccp_alloc(memory, n, 3 * sizeof *s->x);
     s->origin = iccp_alloc(memory, n_half, sizeof *s->origin);
     s->twin = iccp_alloc(memory, n_half, sizeof *s->twin);
+    s->part_of = iccp_alloc(memory, m->n_faces, sizeof *s->part_of);
     s->path = iccp_alloc(memory, n_half, sizeof *s->path);
     s->out = iccp_alloc(memory, n, sizeof *s->out);
     s->holder = iccp_alloc(memory, n, sizeof *s->holder);
     s->halves = iccp_alloc(memory, n, sizeof *s->halves);
-    if (s->x == NULL || s->origin == NULL || s->twin == NULL || s->path == NULL || s->out == NULL ||
-        s->holder == NULL || s->halves == NULL)
+    if (s->x == NULL || s->origin == NULL || s->twin == NULL || s->part_of == NULL ||
+        s->path == NULL || s->out == NULL || s->holder == NULL || s->halves == NULL)
         return false;
     memcpy(s->x, x, 3 * n * sizeof *s->x);
     memcpy(s->origin, m->origin, n_half * sizeof *s->origin);
     memcpy(s->twin, m->twin, n_half * sizeof *s->twin);
     memcpy(s->out, m->out, n * sizeof *s->out);
+    for (uint32_t f = 0; f < m->n_faces; ++f)
+        s->part_of[f] = f;
     memset(s->path, 0xff, n_half * sizeof *s->path);
     memset(s->holder, 0xff, n * sizeof *s->holder);
     return true;
@@ -33,6 +36,7 @@ void iccp_split_surface_free(iccp_split_surface *s)
     iccp_free(&s->memory, s->x);
     iccp_free(&s->memory, s->origin);
     iccp_free(&s->memory, s->twin);
+    iccp_free(&s->memory, s->part_of);
     iccp_free(&s->memory, s->path);
     iccp_free(&s->memory, s->out);
     iccp_free(&s->memory, s->holder);
@@ -55,6 +59,7 @@ static bool enlarge(iccp_split_surface *s)
         const size_t n = s->room_faces, room = n + n / 2 + 128;
         if (!iccp_enlarge(&s->memory, &s->origin, n, room, 3 * sizeof *s->origin) ||
             !iccp_enlarge(&s->memory, &s->twin, n, room, 3 * sizeof *s->twin) ||
+            !iccp_enlarge(&s->memory, &s->part_of, n, room, sizeof *s->part_of) ||
             !iccp_enlarge(&s->memory, &s->path, n, room, 3 * sizeof *s->path))
             return false;
         s->room_faces = room;
@@ -73,6 +78,7 @@ static void join(iccp_split_surface *s, uint32_t h, uint32_t g)
 static uint32_t halve_face(iccp_split_surface *s, uint32_t h, uint32_t m)
 {
     const uint32_t next = iccp_after(h), last = iccp_before(h), p = (uint32_t)(3 * s->n_faces++);
+    s->part_of[p / 3] = s->part_of[h / 3];
     s->origin[p] = m;
     s->origin[p + 1] = s->origin[next];
     s->origin[p + 2] = s->origin[last];
@@ -108,6 +114,7 @@ bool iccp_split_halve(iccp_split_surface *s, uint32_t h)
 static void remove_face(iccp_split_surface *s, uint32_t face)
 {
     const uint32_t last = (uint32_t)--s->n_faces;
+    s->part_of[face] = s->part_of[last];
     for (uint32_t i = 0; i < 3 && face != last; ++i) {
         const uint32_t h = 3 * last + i, to = 3 * face + i;
         s->origin[to] = s->origin[h];

@@ -9,12 +9,13 @@ typedef struct iccp_split_surface {
     iccp_memory memory;
     size_t n_vertices, n_faces, n_given; /* vertices that were given come first */
     size_t room_vertices, room_faces;
-    double *x;        /* 3 n_vertices */
-    uint32_t *origin; /* 3 n_faces */
-    uint32_t *twin;   /* 3 n_faces */
-    uint32_t *path;   /* 3 n_faces: of an edge, both ways: what it is a part of; or ICCP_NO_EDGE */
-    uint32_t *out;    /* n_vertices: a half-edge from it; ICCP_NO_EDGE: it has no faces */
-    uint32_t *holder; /* n_vertices: what it belongs to; or ICCP_NO_EDGE */
+    double *x;         /* 3 n_vertices */
+    uint32_t *origin;  /* 3 n_faces */
+    uint32_t *twin;    /* 3 n_faces */
+    uint32_t *part_of; /* n_faces: the given face of which each is a part */
+    uint32_t *path;    /* 3 n_faces: of an edge, both ways: what it is a part of; or ICCP_NO_EDGE */
+    uint32_t *out;     /* n_vertices: a half-edge from it; ICCP_NO_EDGE: it has no faces */
+    uint32_t *holder;  /* n_vertices: what it belongs to; or ICCP_NO_EDGE */
     uint32_t (*halves)[2]; /* n_vertices: of those in the middle of an edge, its ends */
 } iccp_split_surface;
 

@@ -11,11 +11,39 @@
 
 /* The mean energy becomes at most so many times what it was: `calm`, and where the least angle has
  * a sine below `thin` more, in inverse proportion, up to `most_calm`. The fox t08 keeps a tenth
- * more vertices where thin triangles may cost no more than others. */
-static const double calm = 1.01, thin = 0.13, most_calm = 4;
+ * more vertices where thin triangles may cost no more than others. Where a surface keeps its
+ * vertices there are so many that the whole would cost too much, and nothing came of it. */
+static const double calm = 1.01, thin = 0.13, most_calm = 4, most_calm_if_kept = 1.2;
 
 /* Of 1 / sine^2: nothing is thinner. */
 static const double least_sine2 = 1e-12;
+
+bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint32_t v)
+{
+    const uint32_t one = s->at[0][u], other = s->at[0][v];
+    if (side_of_u >= 0 && (s->keep[v] >> side_of_u & 1) != 0)
+        return false;
+    return s->cells == NULL || (side_of_u == 0 ? iccp_kept_cells_may_go(s->cells, other, one)
+                                               : iccp_kept_cells_may_go(s->cells, one, other));
+}
+
+bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint32_t place)
+{
+    const uint32_t from = s->at[0][v];
+    if ((s->keep[v] & sides) != 0)
+        return false;
+    return s->cells == NULL || (sides & 1) == 0 ||
+           (iccp_kept_cells_may_go(s->cells, from, place) &&
+            iccp_kept_cells_may_go(s->cells, place, from));
+}
+
+bool iccp_patch_may_flip(const iccp_patches *s, const uint32_t corners[4])
+{
+    uint32_t places[4];
+    for (int i = 0; i < 4; ++i)
+        places[i] = s->at[0][corners[i]];
+    return s->cells == NULL || iccp_kept_cells_share(s->cells, places);
+}
 
 void iccp_patch_add_ring(const iccp_patches *s, iccp_patch *p, uint32_t v, uint32_t but,
                          uint32_t as)
@@ -117,7 +145,8 @@ static void put(iccp_patches *s, const iccp_patch *p, int side, uint32_t place)
 bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_before)
 {
     const iccp_patch_triangles *const t = &p->after;
-    const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most_calm, thin / least_before));
+    const double most = s->cells != NULL ? most_calm_if_kept : most_calm;
+    const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most, thin / least_before));
     bool is_allowed = energy_of(s, p, t) <= more * energy_of(s, p, &p->before);
     for (int side = 0; side < 2 && is_allowed; ++side) {
         iccp_corners c[ICCP_PATCH_TRIANGLES];

@@ -3,8 +3,8 @@
 #define ICCP_TOUCH_PATCH_H
 
 #include "surface/clearance.h"
-#include "surface/common_surface.h"
 #include "surface/covering.h"
+#include "surface/kept_cells.h"
 
 /* Most neighbours of a vertex that changes; most triangles that one change concerns. */
 enum { ICCP_PATCH_NEIGHBOURS = 18, ICCP_PATCH_TRIANGLES = ICCP_PATCH_NEIGHBOURS + 2 };
@@ -14,7 +14,8 @@ enum { ICCP_PATCH_NEIGHBOURS = 18, ICCP_PATCH_TRIANGLES = ICCP_PATCH_NEIGHBOURS 
 typedef struct iccp_patches {
     iccp_half_edges m;
     const iccp_common_surface *whole; /* the overlay */
-    const uint8_t *keep;              /* by vertex: not 0: it stays where it is */
+    const uint8_t *keep;              /* by vertex, a bit for each side: its place there stays */
+    const iccp_kept_cells *cells;     /* of the first surface; or NULL */
     double edge2[2]; /* on either side: sides are no longer, squared, unless some were before */
     double scale;    /* times which the second has the area of the first */
     bool is_calm;    /* no change may stretch one more to become the other */
@@ -43,6 +44,13 @@ static inline const double *iccp_patch_point(const iccp_patches *s, int side, ui
 {
     return s->whole->x[side] + 3 * (size_t)place;
 }
+
+/* Whether what stays allows that a vertex u becomes one with v, in the place of v but on one side,
+ * 0 or 1, where it is in that of u, or on neither, -1; that v goes to a place on the sides whose
+ * bits are set; or that an edge is flipped, of whose two triangles these are the corners. */
+bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint32_t v);
+bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint32_t place);
+bool iccp_patch_may_flip(const iccp_patches *s, const uint32_t corners[4]);
 
 /* Adds the triangles round a vertex, but for those at `but`. Afterwards they have `as` in its
  * place, and those with that before are gone. Of each the side from corner 0 to 1 comes from it. */

@@ -15,9 +15,10 @@
 /* More make triangles a little rounder, and take as long each. */
 enum { ROUNDS = 2 };
 
-/* Collapses: triangles may have least angles of this sine, or else as those that were there. Flips
- * and moves: what is thinner becomes better, by so much. */
-static const double fair_sine = 0.2, better = 0.98;
+/* Collapses: triangles may have least angles of this sine, or else as those that were there; where
+ * a surface keeps its vertices this share of it, as one after the other may have to come to them.
+ * Flips and moves: what is thinner becomes better, by so much. */
+static const double fair_sine = 0.2, worse_if_kept = 0.1, better = 0.98;
 
 /* Vertices at triangles thinner than this go first, and so many times as readily. */
 static const double thin_sine = 0.12, readily = 0.05;
@@ -36,6 +37,7 @@ typedef struct touching {
 static uint32_t find_cheapest(iccp_patches *s, uint32_t u, iccp_patch *best, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
+    const double share = s->cells != NULL ? worse_if_kept : 1;
     uint32_t found = ICCP_NO_EDGE, h = m->out[u];
     iccp_patch ring = {.vertex = ICCP_NO_EDGE};
     *cost = HUGE_VAL;
@@ -53,21 +55,22 @@ static uint32_t find_cheapest(iccp_patches *s, uint32_t u, iccp_patch *best, dou
         if (m->degree[u] + m->degree[v] - 4 > ICCP_PATCH_NEIGHBOURS || length * readily >= *cost ||
             !iccp_edge_collapsible(m, h))
             continue;
-        iccp_patch_shape before;
+        iccp_patch_shape before = round_u, after;
         /* Both places from v; or one from u. */
-        for (int from_u = -1; from_u < (s->keep[v] == 0 ? 2 : 0); ++from_u) {
+        for (int from_u = -1; from_u < 2; ++from_u) {
+            if (!iccp_patch_may_unite(s, from_u, u, v))
+                continue;
             iccp_patch p = {.vertex = v, .place = {s->at[0][v], s->at[1][v]}};
-            iccp_patch_shape after;
             iccp_patch_add_ring(s, &p, u, ICCP_NO_EDGE, v);
             if (from_u >= 0) {
                 p.place[from_u] = s->at[from_u][u];
                 iccp_patch_add_ring(s, &p, v, u, v);
             }
-            if (from_u <= 0)
-                before = from_u < 0 ? round_u : iccp_patch_before(s, &p);
+            if (from_u == 0 || (from_u > 0 && !iccp_patch_may_unite(s, 0, u, v)))
+                before = iccp_patch_before(s, &p);
             if ((from_u >= 0 && before.least > fair_sine) ||
-                !iccp_patch_after(s, &p, &before, iccp_min(fair_sine, before.least), HUGE_VAL,
-                                  &after))
+                !iccp_patch_after(s, &p, &before, iccp_min(fair_sine, share * before.least),
+                                  HUGE_VAL, &after))
                 continue;
             const double sum = length * (before.least < thin_sine ? readily : 1) *
                                (1 + 0.1 / (after.least + 0.02));
@@ -125,7 +128,7 @@ static bool flip_all(iccp_patches *s)
         const uint32_t b = m->origin[iccp_before(h)], a = m->origin[iccp_before(g)];
         /* Triangles that are gone have a corner that is. */
         if (g < h || m->degree[u] < 4 || m->degree[v] < 4 || m->degree[b] == 0 ||
-            iccp_are_neighbours(m, a, b))
+            iccp_are_neighbours(m, a, b) || !iccp_patch_may_flip(s, (const uint32_t[]){u, v, a, b}))
             continue;
         const iccp_patch p = {.before = {2, {h / 3, g / 3}, {{u, v, b}, {v, u, a}}},
                               .after = {2, {h / 3, g / 3}, {{b, a, v}, {a, b, u}}},
@@ -157,6 +160,8 @@ static bool move(iccp_patches *s, uint32_t v, uint32_t sides)
         for (uint32_t i = points->first[p.before.number[t]]; i != ICCP_NO_EDGE;
              i = points->next[i]) {
             iccp_patch_shape after;
+            if (!iccp_patch_may_move(s, v, sides, i))
+                continue;
             for (uint32_t side = 0; side < 2; ++side)
                 if ((sides >> side & 1) != 0)
                     p.place[side] = i;
@@ -177,7 +182,7 @@ static bool move_all(iccp_patches *s)
     bool any = false;
     for (uint32_t v = 0; v < s->m.n_vertices; ++v)
         for (uint32_t sides = 1; sides <= 3; ++sides)
-            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS && s->keep[v] == 0)
+            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS)
                 any = move(s, v, sides) || any;
     return any;
 }
@@ -276,7 +281,8 @@ icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *
                          const iccp_half_edges *const given[2], const double *const x[2],
                          const iccp_simplify_limits *limits, const iccp_env *env)
 {
-    touching t = {.s = {.whole = whole, .keep = limits->keep, .is_calm = is_calm}};
+    touching t = {
+        .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .is_calm = is_calm}};
     icc_status status = iccp_half_edges_create(&t.s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     for (int side = 0; side < 2; ++side)

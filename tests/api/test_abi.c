@@ -161,13 +161,14 @@ AT(icc_domain_info, n_features, 136);
 AT(icc_domain_info, n_mesh_vertices, 144);
 AT(icc_domain_info, n_mesh_simplices, 152);
 
-SIZE(icc_match_options, 40);
+SIZE(icc_match_options, 48);
 AT(icc_match_options, size, 0);
 AT(icc_match_options, turning, 8);
 AT(icc_match_options, between, 12);
 AT(icc_match_options, least_sure, 16);
 AT(icc_match_options, drop, 24);
 AT(icc_match_options, tolerance, 32);
+AT(icc_match_options, keep_source, 40);
 
 SIZE(icc_match_info, 120);
 AT(icc_match_info, size, 0);

@@ -1,5 +1,5 @@
-/* Two surfaces with different triangles made one with the other: usage: bench_match_surfaces
- * N_LANDMARKS TOLERANCE SHARE SOURCE.obj TARGET.obj [OUT]. The files have vertices that correspond;
+/* Two surfaces with different triangles made one with the other: usage: bench_match_surfaces [keep]
+ * N_LANDMARKS TOLERANCE SHARE SOURCE.obj TARGET.obj [OUT]; keep: the source's mesh. The files have vertices that correspond;
  * of the target's that share is left, landmarks are farthest points among these (0: none).
  * Processor time; the energy s^2 + t^2 + 1 / s^2 + 1 / t^2 of the common triangles, 4 for none, the
  * areas being made the same: mean by area of the source, median and 99 % quantile of that area, the
@@ -230,12 +230,16 @@ static size_t n_vertices_of(const icc_domain *domain)
 int main(int argc, char **argv)
 {
     obj source, target;
+    const bool keep = argc > 1 && strcmp(argv[1], "keep") == 0;
+    argc -= keep;
+    argv += keep;
     if (argc < 6 || !obj_read(&source, argv[4]) || !obj_read(&target, argv[5]))
-        fail("usage: bench_match_surfaces N_LANDMARKS TOLERANCE SHARE SOURCE.obj TARGET.obj "
+        fail("usage: bench_match_surfaces [keep] N_LANDMARKS TOLERANCE SHARE SOURCE.obj TARGET.obj "
              "[OUT]");
     const size_t n = strtoul(argv[1], NULL, 10);
     const char *const slash = strrchr(argv[4], '/');
-    const icc_match_options options = {.size = sizeof options, .tolerance = strtod(argv[2], NULL)};
+    const icc_match_options options = {
+        .size = sizeof options, .tolerance = strtod(argv[2], NULL), .keep_source = keep};
     if (strtod(argv[3], NULL) < 1)
         thin(&target, strtod(argv[3], NULL));
     double *const pairs = bench_alloc(n + 1, 6 * sizeof *pairs);

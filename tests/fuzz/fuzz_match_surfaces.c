@@ -2,8 +2,8 @@
  * the bits of every vertex that is left, or that is refused for a reason.
  *
  * Byte 0 chooses the tolerance (bits 0, 1) and how many landmarks there are (bits 2, 3: none, one,
- * three, six; with bit 7 in other orders on both sides); byte 1, what part of the rest is the
- * source's. */
+ * three, six; with bit 7 in other orders on both sides), and whether the source keeps its mesh (bit
+ * 4); byte 1, what part of the rest is the source's. */
 #include "bodies.h"
 #include "fuzz.h"
 #include "icc/icc.h"
@@ -37,9 +37,25 @@ static void check_side(const icc_domain *common, const surface *given, size_t n,
     }
 }
 
-static void check_match(const icc_match *match, const surface *given, double tolerance,
-                        size_t n_landmarks)
+/* All that have facets come first. */
+static void check_kept(const surface *given, size_t n, const uint32_t *origin)
 {
+    static uint8_t is_used[MOST_VERTICES];
+    size_t n_kept = 0;
+    memset(is_used, 0, given->n_vertices);
+    for (size_t c = 0; c < 3 * given->n_faces; ++c)
+        is_used[given->faces[c]] = 1;
+    for (uint32_t v = 0; v < given->n_vertices; ++v)
+        if (is_used[v])
+            require(n_kept < n && origin[n_kept++] == v);
+    for (size_t i = n_kept; i < n; ++i)
+        require(origin[i] == UINT32_MAX);
+}
+
+static void check_match(const icc_match *match, const surface *given,
+                        const icc_match_options *options, size_t n_landmarks)
+{
+    const double tolerance = options->tolerance;
     static uint32_t origin[2][MOST_VERTICES], faces[2][6 * MOST_VERTICES];
     icc_match_info info = {.size = sizeof info};
     require(icc_match_get_info(match, &info) == ICC_OK);
@@ -50,6 +66,8 @@ static void check_match(const icc_match *match, const surface *given, double tol
     require(icc_match_get_origins(match, origin[0], origin[1]) == ICC_OK);
     check_side(icc_match_source(match), &given[0], info.n_vertices, origin[0], faces[0]);
     check_side(icc_match_target(match), &given[1], info.n_vertices, origin[1], faces[1]);
+    if (options->keep_source != 0)
+        check_kept(&given[0], info.n_vertices, origin[0]);
     require(memcmp(faces[0], faces[1], 3 * (2 * info.n_vertices - 4) * sizeof **faces) == 0);
 }
 
@@ -77,12 +95,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                        3 * sizeof *landmarks);
             }
         const icc_match_options options = {.size = sizeof options,
-                                           .tolerance = tolerances[data[0] & 3]};
+                                           .tolerance = tolerances[data[0] & 3],
+                                           .keep_source = data[0] >> 4 & 1};
         const icc_status status = icc_match_create(&match, domain[0], domain[1], n_landmarks,
                                                    landmarks, &options, NULL, &err);
         require((match != NULL) == (status == ICC_OK));
         if (status == ICC_OK)
-            check_match(match, given, options.tolerance, n_landmarks);
+            check_match(match, given, &options, n_landmarks);
         else
             require((status == ICC_ERR_ARGUMENT || status == ICC_ERR_BOUNDARY ||
                      status == ICC_ERR_RESOLUTION) &&

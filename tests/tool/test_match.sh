@@ -147,6 +147,10 @@ printf '1 1 1 0 0 1\n' >corners.lm
 run 0 match -s cube.obj -t other.obj --landmarks corners.lm -o a.obj --target-output b.obj
 [ "$(grep '^v' a.obj | grep -nx 'v 1 1 1')" = "$(grep '^v' b.obj | grep -nx 'v 0 0 1' | sed 's/0 0 1/1 1 1/')" ] ||
     complain 'the one landmark is not at its partner'
+run 0 match -s cube.obj -t other.obj --keep-source -o a.obj --target-output b.obj
+[ "$(grep '^v' cube.obj)" = "$(grep '^v' a.obj | head -n 8)" ] || complain 'the source has not kept its vertices'
+run 2 check -s cube.obj -t cube.obj --keep-source
+says '--keep-source goes with --match'
 printf '0 0 0 0\n' >corners.lm
 run 1 match -s cube.obj -t other.obj --landmarks corners.lm
 says "landmarks are \`x y z x' y' z'\`"

@@ -47,8 +47,8 @@ typedef struct args {
     double slice[ICC_MAX_DIM], view[ICC_MAX_DIM];
     size_t n_slice, n_view;
     /* what to do */
-    bool fill, fill_holes, inverse, repair_mesh, geojson, quiet, json, elevation, triangles, y_down,
-        compression, has_background, welds;
+    bool fill, fill_holes, keep_source, inverse, repair_mesh, geojson, quiet, json, elevation,
+        triangles, y_down, compression, has_background, welds;
     unsigned char background[4];
     int32_t lines;
 } args;

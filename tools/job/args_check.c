@@ -172,8 +172,12 @@ static int check_views(const args *a, const command *c)
 /* What goes with --match only, and what does not. */
 static int check_match(const args *a, const command *c)
 {
-    if (a->match == NULL && (a->landmarks != NULL || a->turning != 0))
-        return misused(c->name, "--%s goes with --match", a->landmarks ? "landmarks" : "turning");
+    const char *matched_only = a->landmarks != NULL ? "landmarks"
+                               : a->turning != 0    ? "turning"
+                               : a->keep_source     ? "keep-source"
+                                                    : NULL;
+    if (a->match == NULL && matched_only != NULL)
+        return misused(c->name, "--%s goes with --match", matched_only);
     if (a->match != NULL && (a->mesh != NULL || a->target_mesh != NULL))
         return misused(c->name, "--match is for outlines, not for --mesh");
     if (a->match != NULL && a->repair != NULL)

@@ -134,7 +134,8 @@ int match_cages(job *j)
     table landmarks = {0};
     if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks, job_dim(j)) != DONE)
         return FAILED;
-    icc_match_options options = {.size = sizeof options, .turning = a->turning};
+    icc_match_options options = {
+        .size = sizeof options, .turning = a->turning, .keep_source = a->keep_source};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;
     icc_error err = {.size = sizeof err, .index = -1};
     progress_expect(&j->bar, MATCHED);

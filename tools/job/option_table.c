@@ -89,6 +89,12 @@ const option options[] = {
      .choices = turnings,
      .value = "NAME",
      .help = "match: upright (default; rather turned little) or free (any rotation is as good)"},
+    {.name = "keep-source",
+     .kind = OPTION_FLAG,
+     .commands = TAKES_TARGET,
+     .offset = AT(keep_source),
+     .help = "match, in space: the source keeps its vertices and edges, with more where the target "
+             "needs them"},
     {.name = "weld",
      .kind = OPTION_WITH_LENGTH,
      .commands = FOR_ALL,

@@ -63,6 +63,16 @@ test('a map takes points there and back, follows its target, and is saved', () =
   assert.ok(a * d - b * c > 0);
 });
 
+test('a surface that is matched keeps its mesh if asked', () => {
+  const corners = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
+  const faces = [0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5];
+  const turned = corners.map((x, i) => (i % 3 === 0 ? .8 * x - .6 * corners[i + 1]
+    : i % 3 === 1 ? .6 * corners[i - 1] + .8 * x : x));
+  const match = new icc.Match(icc.Domain.surface(corners, faces), icc.Domain.surface(turned, faces), [], { keepSource: 1 });
+  assert.deepEqual([...match.origins().source].slice(0, 6), [0, 1, 2, 3, 4, 5]);
+  assert.deepEqual([...match.source.boundary().vertices].slice(0, 18), corners);
+});
+
 test('outlines that do not correspond are matched', () => {
   const match = new icc.Match(SQUARE, [[5, 5], [5, 9], [1, 9], [1, 5], [3, 5]]);
   assert.equal(match.info.nVertices, 5);

@@ -29,7 +29,7 @@ foliation_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n
 shelling_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size harmonic_share:f64 order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 seconds_centre:f64 seconds_solve:f64 seconds_order:f64 seconds_certify:f64 seconds_leaves:f64
 disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
-match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64
+match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64 keep_source:i32
 match_info dim:i32 mirrored:i32 n_vertices:size n_landmarks:size n_joined:size cost:f64 second:f64 sure:f64 turn:f64 least_slope:f64 most_slope:f64 energy:f64 off:f64 least_angle:f64 n_overlay:size
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr

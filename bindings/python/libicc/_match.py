@@ -44,6 +44,8 @@ class Match(Saved):
         drop: share of the perimeter within which vertices become one
         tolerance: in space, how far the common surfaces may be off those given, as a share of the diagonal; None:
             1e-3; 0: not at all
+        keep_source: in space, the source keeps all its vertices and edges, with more vertices where the target needs
+            them: ``match.source`` begins with the source's vertices
         progress, threads: as for `Domain`
 
     Raises:
@@ -57,12 +59,13 @@ class Match(Saved):
 
     def __init__(self, source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None, *,
                  turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
-                 drop: float = 0, tolerance: Optional[float] = None, progress: Optional[Progress] = None,
-                 threads: Optional[int] = None):
+                 drop: float = 0, tolerance: Optional[float] = None, keep_source: bool = False,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domain(source), as_domain(target)
         options = new("match_options", turning=choose(turning, TURNING, "turning"),
                       between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop,
-                      tolerance=0 if tolerance is None else tolerance if tolerance > 0 else -1)
+                      tolerance=0 if tolerance is None else tolerance if tolerance > 0 else -1,
+                      keep_source=int(keep_source))
         given = np.reshape(np.asarray([] if landmarks is None else landmarks, dtype=float), (-1, 2 * source.dim))
         pairs = floats(given, given.shape, "landmarks")
         self._take(create(lib.match_create, source, target, len(pairs), address(pairs),

@@ -69,3 +69,15 @@ def test_landmarks_that_are_off():
     with pytest.raises(libicc.ArgumentError) as error:
         libicc.Match(HOOK, HOOK, [[0, 0, 0, 0], [9, 9, 1, 1]])
     assert error.value.index == 1
+
+
+def test_a_source_that_keeps_its_mesh():
+    faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
+    corners = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
+    turn = np.array([[0.8, 0.6, 0], [-0.6, 0.8, 0], [0, 0, 1]])
+    source, target = libicc.Domain(corners, faces), libicc.Domain(corners @ turn, faces)
+    match = libicc.Match(source, target, keep_source=True)
+    assert np.array_equal(match.source.vertices[:6], corners)
+    assert match.origins()[0][:6].tolist() == list(range(6))
+    with pytest.raises(libicc.ArgumentError, match="keep_source"):
+        libicc.Match(source, target, keep_source=2)

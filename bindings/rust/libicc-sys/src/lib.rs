@@ -737,6 +737,8 @@ pub struct icc_match_options {
     pub drop: f64,
     /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
     pub tolerance: f64,
+    /// in space, 1: the source keeps all its vertices and edges
+    pub keep_source: i32,
 }
 sized!(icc_match_options);
 

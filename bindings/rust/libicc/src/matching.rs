@@ -80,6 +80,8 @@ pub struct MatchOptions {
     pub drop: f64,
     /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
     pub tolerance: f64,
+    /// in space, the source keeps all its vertices and edges, with more vertices where the target needs them
+    pub keep_source: bool,
 }
 
 impl Match {
@@ -103,6 +105,7 @@ impl Match {
             least_sure: options.least_sure,
             drop: options.drop,
             tolerance: options.tolerance,
+            keep_source: options.keep_source.into(),
             ..Default::default()
         };
         Match::make(env, |out, env, err| {
