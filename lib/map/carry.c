@@ -23,7 +23,7 @@ static const double BLOCKED = 0.35;
 enum { MOST_HALVINGS = 30 };
 
 /* After each part. */
-static const iccp_descent CORRECTION = {2, 1e-2, 0, false};
+static const iccp_descent CORRECTION = {0, 2, 1e-2, 0, false};
 
 typedef struct carry {
     const iccp_carriage *as;
@@ -127,7 +127,7 @@ static icc_status advance(carry *c, double *share, double *limit, const iccp_env
     const iccp_simplicial_map map = c->as->see(c->map);
     iccp_newton newton;
     *share = *limit = 0;
-    icc_status status = iccp_newton_create(&newton, &map, NULL, false, env);
+    icc_status status = iccp_newton_create(&newton, &map, NULL, NULL, env);
     if (status != ICC_OK)
         return status;
     status = iccp_newton_answer(&newton, c->motion, c->rest, env);

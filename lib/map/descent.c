@@ -29,11 +29,12 @@ static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
     improvement->is_converged = false;
     if (!iccp_work_fits(work, map->n_simplices))
         return ICC_OK;
+    const iccp_energy first = descent->majorised > 0 ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
     iccp_env part = iccp_round(env, 0, TYPICAL_STEPS);
     uint8_t *movable;
     icc_status status = iccp_movable_create(&movable, map, env);
     if (status == ICC_OK)
-        status = iccp_newton_create(newton, map, movable, true, &part);
+        status = iccp_newton_create(newton, map, movable, &first, &part);
     iccp_free(&env->memory, movable);
     if (status != ICC_OK)
         return status;
@@ -44,17 +45,21 @@ static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
                        iccp_work_take(work, map->n_simplices);
          ++k) {
+        const iccp_energy model =
+            k < descent->majorised ? ICCP_DIRICHLET_MAJORISED : ICCP_DIRICHLET;
         double slope;
         part = iccp_round(env, k + 1, TYPICAL_STEPS);
         status = iccp_progress(&part, "improve", 0);
         if (status == ICC_OK)
-            status = iccp_newton_solve(newton, ICCP_DIRICHLET, 0, &slope, &part);
+            status = iccp_newton_solve(newton, model, 0, &slope, &part);
         if (status != ICC_OK)
             break;
-        const double after = iccp_newton_move(newton, ICCP_DIRICHLET, 0, energy, slope);
+        const double after = iccp_newton_move(newton, model, 0, energy, slope);
         const double gain = energy - after;
         energy = after;
         ++improvement->n_iterations;
+        if (k < descent->majorised)
+            continue;
         n_slow = gain <= descent->slow * energy ? n_slow + 1 : 0;
         improvement->is_converged = gain <= descent->tolerance * energy;
         if (n_slow == (descent->is_hasty ? 1 : 2) || improvement->is_converged)

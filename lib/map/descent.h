@@ -14,6 +14,7 @@ typedef struct iccp_improvement {
 
 /* When steps on one mesh end. */
 typedef struct iccp_descent {
+    size_t majorised;  /* the first steps are by SLIM's model */
     size_t iterations; /* at most so many, */
     double tolerance;  /* until one gains no more than this share of the energy, */
     double slow;       /* or two in turn no more than this share each, */

@@ -1,4 +1,6 @@
-/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019. */
+/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019;
+ * M. Rabinovich, R. Poranne, D. Panozzo, O. Sorkine-Hornung, Scalable locally injective mappings
+ * (SLIM), 2017. */
 #include "map/dirichlet.h"
 
 #include "base/minmax.h"
@@ -76,10 +78,35 @@ static void set_newton3(const double *element, const iccp_singular *s, double *h
     iccp_modes_hessian(element, &h, s, hessian);
 }
 
+/* SLIM's weights: |W (J - R)|^2 has the energy's gradient; W^2 = u diag(m) u^T. */
+static ICCP_INLINE void add_majorant(size_t dim, const double *element, const iccp_singular *s,
+                                     double *hessian)
+{
+    const size_t n = dim * (dim + 1);
+    double m[9] = {0};
+    for (size_t k = 0; k < dim; ++k) {
+        const double i = 1 / s->sigma[k], weight = 1 + i + i * i + i * i * i;
+        for (size_t r = 0; r < dim; ++r)
+            for (size_t c = 0; c < dim; ++c)
+                m[dim * r + c] += weight * s->u[k][r] * s->u[k][c];
+    }
+    for (size_t a = 0; a <= dim; ++a)
+        for (size_t b = 0; b <= dim; ++b) {
+            double dot = 0;
+            for (size_t k = 0; k < dim; ++k)
+                dot += element[1 + dim * a + k] * element[1 + dim * b + k];
+            dot *= 2 * element[0];
+            for (size_t r = 0; r < dim; ++r)
+                for (size_t c = 0; c < dim; ++c)
+                    hessian[n * (dim * a + r) + dim * b + c] += dot * m[dim * r + c];
+        }
+}
+
 /* By J the gradient is the sum of h'(sigma_k) u_k v_k^T. */
 static ICCP_INLINE void set_local(size_t dim, const double *element, const double *const *image,
-                                  iccp_local *local)
+                                  bool majorise, iccp_local *local)
 {
+    const size_t n = dim * (dim + 1);
     double j[9], by_j[9];
     iccp_singular s;
     (void)iccp_element_jacobian(dim, element, image, j);
@@ -94,40 +121,43 @@ static ICCP_INLINE void set_local(size_t dim, const double *element, const doubl
             }
         }
     iccp_pull_back(dim, element, by_j, element[0], local->gradient);
-    if (dim == 3) {
+    if (dim == 3 && !majorise) {
         set_newton3(element, &s, local->hessian);
         return;
     }
-    memset(local->hessian, 0, 36 * sizeof *local->hessian);
-    add_newton_modes(2, element, &s, local->hessian);
+    memset(local->hessian, 0, n * n * sizeof *local->hessian);
+    if (majorise)
+        add_majorant(dim, element, &s, local->hessian);
+    else
+        add_newton_modes(dim, element, &s, local->hessian);
 }
 
 void iccp_dirichlet_local(size_t dim, const double *element, const double *const *image,
-                          iccp_local *local)
+                          bool majorise, iccp_local *local)
 {
     if (dim == 2)
-        set_local(2, element, image, local);
+        set_local(2, element, image, majorise, local);
     else
-        set_local(3, element, image, local);
+        set_local(3, element, image, majorise, local);
 }
 
-void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch,
+void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
                            iccp_local *local)
 {
 #ifdef ICCP_HAS_SIMD
     if (level >= ICCP_SIMD_AVX2) {
-        iccp_dirichlet_locals_avx2(batch, local);
+        iccp_dirichlet_locals_avx2(batch, majorise, local);
         return;
     }
 #else
     (void)level;
 #endif
 #ifdef ICCP_HAS_WASM_SIMD
-    iccp_dirichlet_locals_wasm(batch, local);
+    iccp_dirichlet_locals_wasm(batch, majorise, local);
 #else
     for (size_t l = 0; l < ICCP_DIRICHLET_LANES; ++l) {
         const double *const image[3] = {batch->image[0][l], batch->image[1][l], batch->image[2][l]};
-        set_local(2, batch->element[l], image, &local[l]);
+        set_local(2, batch->element[l], image, majorise, &local[l]);
     }
 #endif
 }

@@ -20,9 +20,10 @@ static ICCP_INLINE double iccp_dirichlet_energy2(const double *element, const do
     return det > 0 ? element[0] * iccp_squared_norm(2, j) * (1 + 1 / (det * det)) : HUGE_VAL;
 }
 
-/* Negative curvature is left out of the Hessian. The image must be positive. */
+/* With `majorise`, the Hessian is that of SLIM's quadratic model, which copes with a bad start;
+ * otherwise the energy's own. The image must be positive. */
 void iccp_dirichlet_local(size_t dim, const double *element, const double *const *image,
-                          iccp_local *local);
+                          bool majorise, iccp_local *local);
 
 /* Triangles that are looked at side by side, some of which may be one: their elements, and the
  * images of corner k of each. */
@@ -33,9 +34,11 @@ typedef struct iccp_dirichlet_batch {
 
 /* What iccp_dirichlet_local() gives for each triangle of a batch, and the same bits, with the
  * instructions of that level; with those of AVX2; and with WebAssembly's vectors. */
-void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch,
+void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
                            iccp_local *local);
-void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, iccp_local *local);
-void iccp_dirichlet_locals_wasm(const iccp_dirichlet_batch *batch, iccp_local *local);
+void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, bool majorise,
+                                iccp_local *local);
+void iccp_dirichlet_locals_wasm(const iccp_dirichlet_batch *batch, bool majorise,
+                                iccp_local *local);
 
 #endif

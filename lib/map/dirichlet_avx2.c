@@ -31,9 +31,10 @@ TARGET static ICCP_INLINE void store(const reals x[4], double *const *to)
     _mm256_storeu_pd(to[3], _mm256_permute2f128_pd(b, d, 0x31));
 }
 
-TARGET void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, iccp_local *local)
+TARGET void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, bool majorise,
+                                       iccp_local *local)
 {
-    set_locals(batch, 0, local);
+    set_locals(batch, 0, majorise, local);
 }
 
 #endif

@@ -134,6 +134,23 @@ TARGET static ICCP_INLINE void add_newton_modes(triangles *t)
     add_modes(t, modes, weight);
 }
 
+TARGET static ICCP_INLINE void add_majorant(triangles *t)
+{
+    const reals *g = t->element + 1, twice = 2 * t->element[0];
+    reals m[4] = {{0}};
+    for (size_t k = 0; k < 2; ++k) {
+        const reals i = 1 / t->sigma[k], weight = 1 + i + i * i + i * i * i;
+        for (size_t e = 0; e < 4; ++e)
+            m[e] += weight * t->u[k][e / 2] * t->u[k][e % 2];
+    }
+    for (size_t a = 0; a < 3; ++a)
+        for (size_t b = 0; b < 3; ++b) {
+            const reals dot = (g[2 * a] * g[2 * b] + g[2 * a + 1] * g[2 * b + 1]) * twice;
+            for (size_t e = 0; e < 4; ++e)
+                t->hessian[6 * (2 * a + e / 2) + 2 * b + e % 2] += dot * m[e];
+        }
+}
+
 /* Of the six numbers of a gradient, the two in the middle are stored twice. */
 TARGET static ICCP_INLINE void give(const triangles *t, iccp_local *local)
 {
@@ -152,7 +169,7 @@ TARGET static ICCP_INLINE void give(const triangles *t, iccp_local *local)
 
 /* What iccp_dirichlet_local() gives for triangles first, ..., first + LANES - 1 of a batch. */
 TARGET static ICCP_INLINE void set_locals(const iccp_dirichlet_batch *batch, size_t first,
-                                          iccp_local *local)
+                                          bool majorise, iccp_local *local)
 {
     triangles t;
     take(&t, batch, first);
@@ -160,7 +177,10 @@ TARGET static ICCP_INLINE void set_locals(const iccp_dirichlet_batch *batch, siz
     set_gradient(&t);
     for (size_t i = 0; i < 36; ++i)
         t.hessian[i] = (reals){0};
-    add_newton_modes(&t);
+    if (majorise)
+        add_majorant(&t);
+    else
+        add_newton_modes(&t);
     give(&t, local + first);
 }
 

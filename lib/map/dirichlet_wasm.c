@@ -30,10 +30,10 @@ TARGET static ICCP_INLINE void store(const reals x[4], double *const *to)
     }
 }
 
-void iccp_dirichlet_locals_wasm(const iccp_dirichlet_batch *batch, iccp_local *local)
+void iccp_dirichlet_locals_wasm(const iccp_dirichlet_batch *batch, bool majorise, iccp_local *local)
 {
     for (size_t first = 0; first < ICCP_DIRICHLET_LANES; first += LANES)
-        set_locals(batch, first, local);
+        set_locals(batch, first, majorise, local);
 }
 
 #endif

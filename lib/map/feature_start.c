@@ -32,7 +32,7 @@ static const double GOOD = 8, FAIR = 100, STRAIGHT = 1.2;
 static const double TOO_MANY = 3;
 
 /* Steps on both sides of a start that is GOOD. */
-static const iccp_descent DESCENT = {10, 1e-3, 0.02, true};
+static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
 
 /* By one way to cut, as it comes. ICC_ERR_CERTIFICATE when rounding spoils it. */
 static icc_status start_from(iccp_plmap *map, const iccp_scene *scene, const iccp_cuts *cuts,

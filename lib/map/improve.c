@@ -5,11 +5,14 @@
 #include "base/sort.h"
 #include "base/threads.h"
 #include "map/dirichlet.h"
-#include "map/ease.h"
 #include "map/flips.h"
 #include "math/vec.h"
 
 #include <math.h>
+
+/* First steps with SLIM's model, which gets far from a bad start; then Newton's, which
+ * converges. */
+enum { MAJORISED_STEPS = 3 };
 
 /* Half of all descents, as far as progress goes. */
 static const double TYPICAL_LEVELS = 2;
@@ -174,18 +177,15 @@ static icc_status unlock(iccp_plmap *map, const iccp_env *env)
 icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_work *work,
                         iccp_improvement *improvement, const iccp_env *env)
 {
-    static const iccp_profile PLANE = {.least_gain = LEAST_GAIN,
+    static const iccp_profile PLANE = {.majorised = MAJORISED_STEPS,
+                                       .least_gain = LEAST_GAIN,
                                        .count = count,
                                        .energy = energy_of,
                                        .descend = descend,
                                        .refine = refine_and_flip};
     const bool starts = schedule->levels > 0 && !schedule->is_relaxed;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 9}, env);
-    icc_status status = starts ? unlock(map, env) : ICC_OK;
-    if (status == ICC_OK && starts)
-        status = iccp_ease(map, work, &part[0]);
-    return status == ICC_OK ? iccp_improve_by(&PLANE, map, schedule, work, improvement, &part[1])
+    const icc_status status = starts ? unlock(map, env) : ICC_OK;
+    return status == ICC_OK ? iccp_improve_by(&PLANE, map, schedule, work, improvement, env)
                             : status;
 }
 
@@ -212,7 +212,7 @@ static icc_status refine_often(const iccp_profile *profile, void *map,
                                iccp_improvement *improvement, const iccp_env *env)
 {
     const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
-    const iccp_descent descent = {most, schedule->tolerance, slow, schedule->is_relaxed};
+    const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
     size_t n_in_vain = 0;
     double gain_before = 0;
     icc_status status = ICC_OK;
@@ -242,8 +242,9 @@ icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_sc
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const double slow = iccp_max(SLOW, schedule->tolerance);
-    const iccp_descent last = {schedule->iterations, schedule->tolerance, 0, false};
-    iccp_descent first = {schedule->iterations, schedule->tolerance, slow, false};
+    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
+    iccp_descent first = {profile->majorised, schedule->iterations, schedule->tolerance, slow,
+                          false};
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 2, 1}, env);
     *improvement = (iccp_improvement){0};

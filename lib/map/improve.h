@@ -16,6 +16,7 @@ typedef struct iccp_schedule {
 
 /* What maps in the plane and in space do in their own ways. */
 typedef struct iccp_profile {
+    size_t majorised;  /* the first steps are by SLIM's model */
     double least_gain; /* a refinement is in vain when it gains less than this share */
     size_t (*count)(const void *map); /* of simplices */
     double (*energy)(const void *map, const iccp_env *env);

@@ -33,19 +33,21 @@ static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_
     if (k == 0)
         return iccp_newton_order(&s->assembly, &s->factor, env);
     (void)find_elements(s, 0, s->assembly.n_elements);
-    iccp_newton_sum_ahead(s);
+    iccp_newton_sum_ahead(s, s->ahead);
     return ICC_OK;
 }
 
 /* In the plane the order of elimination takes one thread longer than the first Hessian: others make
- * that meanwhile. */
-static icc_status begin(iccp_newton *s, bool descends, bool has_order, const iccp_env *env)
+ * that meanwhile, if it is known of which energy. */
+static icc_status begin(iccp_newton *s, const iccp_energy *first, bool has_order,
+                        const iccp_env *env)
 {
     const size_t n = s->assembly.n_elements;
-    s->is_ahead =
-        descends && !has_order && s->map.dim == 2 && n > ICCP_NEWTON_GRAIN && iccp_has_threads(env);
+    s->is_ahead = first != NULL && !has_order && s->map.dim == 2 && n > ICCP_NEWTON_GRAIN &&
+                  iccp_has_threads(env);
     icc_status status = ICC_OK;
     if (s->is_ahead) {
+        s->ahead = *first;
         status = iccp_side_by_side(env, 2, begin_side, s, NULL);
     } else {
         status = iccp_for_chunks(&s->threads, "improve", n, ICCP_NEWTON_GRAIN, find_elements, s);
@@ -58,7 +60,7 @@ static icc_status begin(iccp_newton *s, bool descends, bool has_order, const icc
 }
 
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
-                              const uint8_t *movable, bool descends, const iccp_env *env)
+                              const uint8_t *movable, const iccp_energy *first, const iccp_env *env)
 {
     iccp_newton *s = newton;
     *s = (iccp_newton){.map = *map, .threads = *env};
@@ -91,7 +93,7 @@ icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *ma
     if (status == ICC_OK && plan != NULL)
         iccp_ldlt_share(&s->factor, &plan->factor, &env->memory);
     if (status == ICC_OK)
-        status = begin(s, descends, plan != NULL, env);
+        status = begin(s, first, plan != NULL, env);
     if (status != ICC_OK)
         iccp_newton_free(s);
     return status;
@@ -169,7 +171,7 @@ static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pul
         }
     if (!(most > 0))
         return;
-    iccp_dirichlet_local(dim, element, image, &local);
+    iccp_dirichlet_local(dim, element, image, false, &local);
     for (size_t i = 0; i < n; ++i) {
         const uint32_t slot = s->assembly.slot[v[i / dim]];
         for (size_t k = 0; k < n && slot != UINT32_MAX; ++k)

@@ -6,7 +6,8 @@
 #include "math/ldlt.h"
 
 typedef enum iccp_energy {
-    ICCP_DIRICHLET, /* symmetric */
+    ICCP_DIRICHLET,           /* symmetric Dirichlet, its own Hessian */
+    ICCP_DIRICHLET_MAJORISED, /* the same with SLIM's */
     ICCP_UNTANGLE
 } iccp_energy;
 
@@ -20,7 +21,8 @@ typedef struct iccp_newton {
     iccp_local *local; /* of some elements, in space with threads */
     iccp_env threads;  /* for loops over the elements, which report nothing */
     iccp_ldlt factor;  /* in the plane */
-    bool is_ahead;     /* the first Hessian is there already */
+    bool is_ahead;     /* the first Hessian is there already, */
+    iccp_energy ahead; /* of this energy */
 } iccp_newton;
 
 /* What depends on the mesh and its fixed points alone, not on the images: where the entries of the
@@ -37,10 +39,12 @@ void iccp_newton_plan_release(iccp_newton_plan *plan);
 bool iccp_newton_plan_fits(const iccp_newton_plan *plan, const iccp_simplicial_map *map);
 
 /* For the points with movable[v] != 0 that are not fixed; all of them when `movable` is NULL, and
- * then by map->plan if that fits, which must live longer. `descends`: the step that will be solved
- * for first is one of ICCP_DIRICHLET, from the images as they are now. */
+ * then by map->plan if that fits, which must live longer. `first`: the energy whose step will be
+ * solved for first, from the images as they are now, where that is known; not ICCP_UNTANGLE; or
+ * NULL. */
 icc_status iccp_newton_create(iccp_newton *newton, const iccp_simplicial_map *map,
-                              const uint8_t *movable, bool descends, const iccp_env *env);
+                              const uint8_t *movable, const iccp_energy *first,
+                              const iccp_env *env);
 void iccp_newton_free(iccp_newton *newton);
 
 double iccp_newton_energy(const iccp_newton *newton, iccp_energy energy, double epsilon);

@@ -45,7 +45,7 @@ icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor,
 /* The gradient and the Hessian at the images as they are, unless they have been summed ahead: by
  * this thread alone, before there are parts. */
 void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon);
-void iccp_newton_sum_ahead(iccp_newton *newton);
+void iccp_newton_sum_ahead(iccp_newton *newton, iccp_energy energy);
 
 /* Whether one simplex has more than half of the Dirichlet energy. Sets the terms. */
 bool iccp_newton_has_worst(const iccp_newton *newton);

@@ -84,7 +84,7 @@ static void find_local(const loop *l, size_t e, iccp_local *local)
     if (l->energy == ICCP_UNTANGLE)
         iccp_untangling_local(dim, element, image, l->epsilon, local);
     else
-        iccp_dirichlet_local(dim, element, image, local);
+        iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
 }
 
 /* In the plane, and not while it is untangled, several side by side. */
@@ -102,7 +102,7 @@ static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *loca
         for (size_t k = 0; k < 3; ++k)
             batch.image[k][i] = image[k];
     }
-    iccp_dirichlet_locals(iccp_simd(), &batch, local);
+    iccp_dirichlet_locals(iccp_simd(), &batch, l->energy == ICCP_DIRICHLET_MAJORISED, local);
 }
 
 /* Elements list[begin] .. list[end - 1], or begin .. end - 1. */
@@ -155,10 +155,10 @@ static void assemble_some(loop *l)
         iccp_assembly_add(&l->s->assembly, ICCP_ALL_PARTS, l->first + k, &l->s->local[k]);
 }
 
-void iccp_newton_sum_ahead(iccp_newton *newton)
+void iccp_newton_sum_ahead(iccp_newton *newton, iccp_energy energy)
 {
     iccp_newton *s = newton;
-    const loop l = {s, ICCP_DIRICHLET, 0, 0};
+    const loop l = {s, energy, 0, 0};
     iccp_assembly_begin(&s->assembly, 0, s->assembly.n_free);
     add_elements(&l, ICCP_ALL_PARTS, NULL, 0, s->assembly.n_elements);
     iccp_assembly_end(&s->assembly);
@@ -168,7 +168,7 @@ void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon)
 {
     iccp_newton *s = newton;
     loop l = {s, energy, epsilon, 0};
-    const bool is_done = s->is_ahead && energy == ICCP_DIRICHLET;
+    const bool is_done = s->is_ahead && s->ahead == energy;
     s->is_ahead = false;
     if (is_done)
         return;

@@ -24,7 +24,7 @@ static const double LEAST_GAIN = 0.05;
 static const double CROSSING = 4;
 
 /* Of a round, on each side. */
-static const iccp_descent DESCENT = {10, 1e-3, 0, false};
+static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
 
 /* The overlay of the cages' own corners. */
 static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_domain *target,

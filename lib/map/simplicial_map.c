@@ -114,22 +114,6 @@ bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex)
     return false;
 }
 
-/* Ring by ring: what has a corner in the last one is in the next. */
-void iccp_simplicial_grow(const iccp_simplicial_map *map, int rings, uint8_t *marks)
-{
-    const size_t n = map->dim + 1;
-    for (int ring = 1; ring < rings; ++ring)
-        for (size_t s = 0; s < map->n_simplices; ++s) {
-            const uint32_t *v = map->corners + n * s;
-            bool touches = false;
-            for (size_t k = 0; k < n; ++k)
-                touches |= marks[v[k]] == ring;
-            for (size_t k = 0; touches && k < n; ++k)
-                if (marks[v[k]] == 0)
-                    marks[v[k]] = (uint8_t)(ring + 1);
-        }
-}
-
 bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map)
 {
     for (size_t s = 0; s < map->n_simplices; ++s)

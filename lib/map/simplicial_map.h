@@ -53,9 +53,6 @@ size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_
 /* Whether the image of a corner is not fixed. */
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex);
 
-/* Marks neighbours of points that are marked with 1 by 2, theirs by 3, and so on to `rings`. */
-void iccp_simplicial_grow(const iccp_simplicial_map *map, int rings, uint8_t *marks);
-
 /* Whether the image of a simplex whose corners are all fixed is not positive: no repair can help
  * it. Only the images of fixed points are looked at. */
 bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map);

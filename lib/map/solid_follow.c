@@ -137,7 +137,7 @@ static void place(const void *map, const icc_domain *target, size_t point, doubl
 static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
 {
     const journey *j = map;
-    static const iccp_descent REST = {3, 1e-2, 0, false};
+    static const iccp_descent REST = {0, 3, 1e-2, 0, false};
     const bool cuts =
         (double)j->map->mesh->n_simplices < MOST_GROWTH * (double)j->source->mesh->n_simplices;
     size_t n_changes;

@@ -33,7 +33,7 @@ enum { RINGS = 2 };
 static const double RISE = 0.06;
 
 /* On each side. */
-static const iccp_descent RELAXATION = {1, 1e-2, 0, false};
+static const iccp_descent RELAXATION = {0, 1, 1e-2, 0, false};
 
 static double density_of(const iccp_simplicial_map *map, size_t triangle)
 {

@@ -49,6 +49,7 @@ static size_t count_tasks(const iccp_simplicial_map *map)
     return n;
 }
 
+/* Ring by ring: what has a corner in the last one is in the next. */
 void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *marks)
 {
     const size_t n = map->dim + 1;
@@ -57,7 +58,16 @@ void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *mark
         if (is_task(map, s))
             for (size_t k = 0; k < n; ++k)
                 marks[map->corners[n * s + k]] = 1;
-    iccp_simplicial_grow(map, rings, marks);
+    for (int ring = 1; ring < rings; ++ring)
+        for (size_t s = 0; s < map->n_simplices; ++s) {
+            const uint32_t *v = map->corners + n * s;
+            bool touches = false;
+            for (size_t k = 0; k < n; ++k)
+                touches |= marks[v[k]] == ring;
+            for (size_t k = 0; touches && k < n; ++k)
+                if (marks[v[k]] == 0)
+                    marks[v[k]] = (uint8_t)(ring + 1);
+        }
 }
 
 /* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
@@ -102,7 +112,7 @@ static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t
                                    const iccp_env *env)
 {
     iccp_newton newton;
-    icc_status status = iccp_newton_create(&newton, map, movable, false, env);
+    icc_status status = iccp_newton_create(&newton, map, movable, NULL, env);
     if (status != ICC_OK)
         return status;
     status = descend(&newton, round, trial, work, env);

@@ -286,7 +286,7 @@ START_TEST(steps_go_down)
             for (size_t v = 0; v < c.mesh->n_points; ++v)
                 bend(c.mesh->dim, c.mesh->points + c.mesh->dim * v, c.images + c.mesh->dim * v);
             ck_assert_uint_eq(count_inverted(&c), 0);
-            ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, false, &env), ICC_OK);
+            ck_assert_int_eq(iccp_newton_create(&newton, &map, NULL, NULL, &env), ICC_OK);
             ck_assert_uint_eq(newton.assembly.n_free, c.mesh->n_points - c.mesh->n_boundary);
             ck_assert_int_eq(iccp_newton_solve(&newton, (iccp_energy)kind, 0.1, &slope, &env),
                              ICC_OK);
@@ -318,7 +318,7 @@ START_TEST(shaken_maps_become_fair)
             for (size_t i = c.mesh->dim * c.mesh->n_boundary; i < c.size / sizeof *c.images; ++i)
                 c.images[i] += random_between(&r, -0.02, 0.02);
             const double before = iccp_simplicial_energy(&map);
-            const iccp_descent descent = {steps, 1e-13, 0, false};
+            const iccp_descent descent = {3, steps, 1e-13, 0, false};
             iccp_work work = iccp_work_unlimited();
             ck_assert_int_eq(iccp_improve_images(&map, &descent, &work, &improvement, &env),
                              ICC_OK);
