@@ -1,11 +1,13 @@
 /* Each surface is drawn on the sphere (surface/sphere.h), one drawing is turned to lie on the other
  * (surface/rotation.h), and each is moved on the other (surface/relax.h). With landmarks both are
- * drawn by way of the same few triangles (surface/landmark_sphere.h). */
+ * drawn by way of the same few triangles (surface/landmark_sphere.h). Equal ones are drawn in the
+ * same way (surface/equal_surfaces.h). */
 #include "match/bodies.h"
 
 #include "base/error.h"
 #include "math/vec.h"
 #include "surface/close_vertices.h"
+#include "surface/equal_surfaces.h"
 #include "surface/helpers.h"
 #include "surface/landmark_paths.h"
 #include "surface/landmark_sphere.h"
@@ -13,6 +15,8 @@
 #include "surface/relax.h"
 #include "surface/rotation.h"
 #include "surface/sphere.h"
+
+#include <string.h>
 
 /* In which drawings are moved on one another where there are no landmarks. */
 enum { ROUNDS = 30 };
@@ -68,14 +72,24 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
     return status;
 }
 
-static icc_status draw(iccp_body bodies[2], const iccp_env *env, icc_error *err)
+/* Draws both; equal ones, of which `partner` has what belongs to a vertex of the first, in the same
+ * way, the others each alone, and moves them on one another. */
+static icc_status draw(iccp_body bodies[2], const uint32_t *partner, const iccp_env *env,
+                       icc_error *err)
 {
     icc_status status = ICC_OK;
     for (int side = 0; side < 2 && status == ICC_OK; ++side) {
         iccp_body *const b = &bodies[side];
-        b->directions = iccp_alloc(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
+        b->directions = iccp_alloc_zero(&env->memory, b->m.n_vertices, 3 * sizeof *b->directions);
         if (b->directions == NULL)
             return iccp_fail_memory(err);
+        if (side == 1 && partner != NULL) {
+            for (size_t v = 0; v < bodies[0].m.n_vertices; ++v)
+                if (bodies[0].m.degree[v] > 0)
+                    memcpy(b->directions + 3 * (size_t)partner[v], bodies[0].directions + 3 * v,
+                           3 * sizeof(double));
+            return ICC_OK;
+        }
         const iccp_env part = iccp_part(env, NULL, 0.25 * side, 0.25 * side + 0.25);
         status = iccp_sphere_draw(b->directions, b->m.n_vertices, b->x, b->m.n_faces, b->m.origin,
                                   &part, err);
@@ -130,8 +144,8 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
 
 /* Draws both surfaces with landmarks in the same places; their edges may be halved then. Where
  * landmarks are few others are found beside them, of which nothing more is asked. */
-static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double *given,
-                                    const iccp_env *env, icc_error *err)
+static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_env *env,
+                                    icc_error *err)
 {
     size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
     iccp_env parts[3];
@@ -140,10 +154,7 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const double 
     iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
     double *directions[2] = {NULL, NULL};
     icc_status status = ICC_OK;
-    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
-        status = find_landmarks(&bodies[side], n, given, side, &env->memory, err);
-    }
-    if (status == ICC_OK && n < n_all)
+    if (n < n_all)
         status =
             iccp_helpers_find((uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n,
                               n_all, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
@@ -183,8 +194,27 @@ icc_status iccp_bodies_create(iccp_body bodies[2], const icc_domain *source,
 icc_status iccp_bodies_draw(iccp_body bodies[2], size_t n_landmarks, const double *landmarks,
                             const iccp_env *env, icc_error *err)
 {
-    return n_landmarks == 0 ? draw(bodies, env, err)
-                            : draw_by_landmarks(bodies, n_landmarks, landmarks, env, err);
+    bool is_equal = false;
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2 && status == ICC_OK; ++side)
+        status = find_landmarks(&bodies[side], n_landmarks, landmarks, side, &env->memory, err);
+    if (status != ICC_OK)
+        return status;
+    uint32_t *const partner = iccp_alloc(&env->memory, bodies[0].m.n_vertices, sizeof *partner);
+    status =
+        partner == NULL
+            ? ICC_ERR_MEMORY
+            : iccp_equal_surfaces_find(
+                  partner, &is_equal, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+                  (const double *const[]){bodies[0].x, bodies[1].x}, n_landmarks,
+                  (const uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks},
+                  &env->memory);
+    status = iccp_explain(err, status);
+    if (status == ICC_OK)
+        status = is_equal || n_landmarks == 0 ? draw(bodies, is_equal ? partner : NULL, env, err)
+                                              : draw_by_landmarks(bodies, n_landmarks, env, err);
+    iccp_free(&env->memory, partner);
+    return status;
 }
 
 void iccp_bodies_free(iccp_body bodies[2], const iccp_memory *memory)
