@@ -30,8 +30,6 @@ bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint
 bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint32_t place)
 {
     const uint32_t from = s->at[0][v];
-    if ((s->keep[v] & sides) != 0)
-        return false;
     return s->cells == NULL || (sides & 1) == 0 ||
            (iccp_kept_cells_may_go(s->cells, from, place) &&
             iccp_kept_cells_may_go(s->cells, place, from));

@@ -47,7 +47,8 @@ static inline const double *iccp_patch_point(const iccp_patches *s, int side, ui
 
 /* Whether what stays allows that a vertex u becomes one with v, in the place of v but on one side,
  * 0 or 1, where it is in that of u, or on neither, -1; that v goes to a place on the sides whose
- * bits are set; or that an edge is flipped, of whose two triangles these are the corners. */
+ * bits are set, none of which `keep` has; or that an edge is flipped, of whose two triangles these
+ * are the corners. */
 bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint32_t v);
 bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint32_t place);
 bool iccp_patch_may_flip(const iccp_patches *s, const uint32_t corners[4]);

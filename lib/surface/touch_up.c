@@ -182,7 +182,8 @@ static bool move_all(iccp_patches *s)
     bool any = false;
     for (uint32_t v = 0; v < s->m.n_vertices; ++v)
         for (uint32_t sides = 1; sides <= 3; ++sides)
-            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS)
+            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS &&
+                (s->keep[v] & sides) == 0)
                 any = move(s, v, sides) || any;
     return any;
 }
