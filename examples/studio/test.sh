@@ -25,6 +25,7 @@ poses=
 for program in "$PWD"/build/*/tests/poses; do
     [ ! -x "$program" ] || poses=$program
 done
-STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package CHROMIUM=$(command -v chromium) \
+STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package \
+    TUTORIAL=$PWD/docs/tutorials/browser.md CHROMIUM=$(command -v chromium) \
     SHOTS=$folder/shots LIVE=$PWD/docs/live.js POSES=$poses \
     node --test --test-reporter=spec "$folder"/*.test.js

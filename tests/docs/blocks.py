@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-RUN = ("c", "cpp", "js", "python", "rust", "sh", "cmake")
+RUN = ("c", "cpp", "html", "js", "python", "rust", "sh", "cmake")
 SHOWN = ("text", "json")
 COMMENT = re.compile(r"<!-- (?:(output)|(file|in|needs|not run|check|live): (\S.*?)) -->\s*$")
 # Commands in a block that is only indented would go untested.

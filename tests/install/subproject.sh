@@ -1,5 +1,5 @@
 #!/bin/sh
-# add_subdirectory(libicc): the kind of library follows BUILD_SHARED_LIBS.
+# FetchContent(libicc): the kind of library follows BUILD_SHARED_LIBS.
 # usage: subproject.sh CMAKE STAGE WORK_DIR CC C_FLAGS
 set -eu
 cmake=$1 stage=$2 work=$3 cc=$4 flags=$5

@@ -1,4 +1,5 @@
-// The package in a page of one's own: AsyncIcc over its worker in Chromium. Needs STUDIO_PACKAGE and CHROMIUM.
+// The package in a page of one's own: AsyncIcc over its worker in Chromium, and the page of the tutorial. Needs
+// STUDIO_PACKAGE, TUTORIAL (docs/tutorials/browser.md) and CHROMIUM.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
@@ -6,16 +7,16 @@ import path from 'node:path';
 import { test } from 'node:test';
 import { launch } from './browser.js';
 
-const { STUDIO_PACKAGE, CHROMIUM } = process.env;
+const { STUDIO_PACKAGE, TUTORIAL, CHROMIUM } = process.env;
 const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
 // With these two a page gets memory that its threads share, and can stop a call in the worker.
 const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 
-/** Serves the package at /, and an empty page at /page.html; on this machine only. */
-const serve = (headers) => new Promise((ready) => {
+/** Serves the package at / and where npm puts it, and a page at /page.html; on this machine only. */
+const serve = (headers, html = '<!doctype html><title>empty</title>') => new Promise((ready) => {
   const server = http.createServer(({ url }, response) => {
-    const file = path.join(STUDIO_PACKAGE, path.normalize(url));
-    const body = url === '/page.html' ? '<!doctype html><title>empty</title>' : fs.existsSync(file) && fs.readFileSync(file);
+    const file = path.join(STUDIO_PACKAGE, path.normalize(url).replace('/node_modules/libicc', ''));
+    const body = url === '/page.html' ? html : fs.existsSync(file) && fs.readFileSync(file);
     if (!body) { response.writeHead(404).end(); return; }
     response.writeHead(200, { 'Content-Type': TYPES[path.extname(url)], ...headers }).end(body);
   }).listen(0, '127.0.0.1', () => ready(server));
@@ -78,3 +79,29 @@ for (const [name, headers] of [['plain', {}], ['isolated', ISOLATED]])
       server.close();
     }
   });
+
+test('the page of the tutorial: its corner is dragged, and stays where the cage would cross itself', async () => {
+  const [, html] = /^```html\n([^]*?)^```$/m.exec(fs.readFileSync(TUTORIAL, 'utf8'));
+  const server = await serve({}, html), browser = await launch(CHROMIUM), wrong = [];
+  try {
+    const page = await browser.newPage();
+    page.on('pageerror', (error) => wrong.push(error.message));
+    await page.goto(`http://127.0.0.1:${server.address().port}/page.html`);
+    await page.waitForFunction('canvas.onpointermove', { timeout: 60000 });
+    const { x, y } = await (await page.$('canvas')).boundingBox();
+    const covered = () => page.evaluate('[...canvas.getContext("2d").getImageData(0, 0, 400, 400).data]'
+      + '.filter((value, i) => i % 4 === 3 && value).length');
+    const drag = async (to) => { await page.mouse.move(x + to[0], y + to[1]); return covered(); };
+    assert.equal(await covered(), 40000);
+    await page.mouse.move(x + 300, y + 300);
+    await page.mouse.down();
+    assert.ok(Math.abs(await drag([350, 350]) - 50000) < 300);
+    const held = await drag([250, 250]);
+    assert.ok(Math.abs(held - 30000) < 300);
+    assert.equal(await drag([50, 50]), held);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await browser.close();
+    server.close();
+  }
+});
