@@ -4,7 +4,7 @@
 # - the program of golden hashes prints the lines of tests/golden,
 # - what it saves is loaded here, and what is saved here is loaded there, with the same hashes.
 # What is linked to comes from Debian's packages for that machine, unpacked into a folder: nothing foreign is installed.
-# Windows is one of them: built by mingw-w64, run by Wine, with tests/plain in place of Check.
+# Windows is one of them: built by mingw-w64, run by Wine, with tests/plain in place of Check, and a test of Rust's crate.
 # usage: sh tests/ports.sh [--long] [arm64|armhf|i386|riscv64|s390x|windows ...]
 # Without --long: the unit tests labelled `ports`, with 1 % of the cases of long sweeps instead of 4 %. Without
 # machines: all. Logs are in build/ports/MACHINE.
@@ -80,7 +80,7 @@ unit_tests() {
 # Nothing to unpack: mingw-w64 has the headers, and Wine the libraries. Wine makes its folder here, since two programs
 # that both find none stand in each other's way.
 make_root_windows() {
-    need gcc-mingw-w64-x86-64-posix wine wine64
+    need gcc-mingw-w64-x86-64-posix wine wine64 cargo rustc libstd-rust-dev-windows
     wine wineboot --init
     sh cmake/mingw_libraries.sh "$work/libraries"
 }
@@ -113,6 +113,11 @@ unit_tests_windows() {
         echo "tool/test_$name"
         sh "tests/tool/test_$name.sh" "$work/libicc" "$work/scratch"
     done
+    # Rust's crate, by Debian's Rust, which has what programs for Windows are made with.
+    LIBICC_DIR=$work/build LIBICC_STATIC=1 CARGO_TARGET_DIR=$work/rust RUSTC=/usr/bin/rustc \
+        CARGO_TARGET_X86_64_PC_WINDOWS_GNU_LINKER=x86_64-w64-mingw32-gcc-posix \
+        CARGO_TARGET_X86_64_PC_WINDOWS_GNU_RUNNER=wine /usr/bin/cargo test --offline --quiet \
+        --manifest-path bindings/rust/Cargo.toml --target x86_64-pc-windows-gnu --test map
 }
 
 # Hashes of both kinds there; then objects of either side on the other one.

@@ -1,6 +1,7 @@
 //! Finds libicc and tells Cargo how to link it.
 //!
-//! - the feature `vendored`: compiled here from the sources in the folder `c`, by CMake and a C compiler, and linked in.
+//! - the feature `vendored`: compiled here from the sources in the folder `c`, by CMake and a C compiler, and linked in;
+//!   for other machines CMake takes `CMAKE_TOOLCHAIN_FILE`.
 //! - `LIBICC_DIR`: a folder with the library, or a prefix that it was installed to. Without it the command
 //!   `pkg-config` (or `PKG_CONFIG`) is asked.
 //! - `LIBICC_STATIC=1`, or the feature `static`: libicc.a instead of libicc.so.
@@ -13,8 +14,14 @@ use std::path::{Path, PathBuf};
 use std::process::{exit, Command};
 
 const VERSION: &str = "0.1.0";
-const VARIABLES: [&str; 5] =
-    ["LIBICC_DIR", "LIBICC_STATIC", "LIBICC_PRIVATE_LIBS", "PKG_CONFIG", "PKG_CONFIG_PATH"];
+const VARIABLES: [&str; 6] = [
+    "LIBICC_DIR",
+    "LIBICC_STATIC",
+    "LIBICC_PRIVATE_LIBS",
+    "PKG_CONFIG",
+    "PKG_CONFIG_PATH",
+    "CMAKE_TOOLCHAIN_FILE",
+];
 
 fn main() {
     for name in VARIABLES {
@@ -80,7 +87,10 @@ fn link_folder(dir: &Path, linked_in: bool) {
     println!("cargo:rustc-link-search=native={}", folder.display());
     link_itself(linked_in);
     if linked_in {
-        let private = env::var("LIBICC_PRIVATE_LIBS").unwrap_or_else(|_| "m pthread".to_string());
+        /* Rust's own part of a program for Windows has the static pthread in it, which must not come twice. */
+        let windows = env::var("TARGET").map_or(false, |target| target.ends_with("-windows-gnu"));
+        let usual = if windows { "m static:-bundle=pthread" } else { "m pthread" };
+        let private = env::var("LIBICC_PRIVATE_LIBS").unwrap_or_else(|_| usual.to_string());
         for name in private.split_whitespace() {
             println!("cargo:rustc-link-lib={}", name);
         }
