@@ -2,7 +2,14 @@
 #ifndef ICCP_COMPATIBLE_H
 #define ICCP_COMPATIBLE_H
 
+#include "map/overlay.h"
 #include "map/plmap.h"
+
+/* The overlay of triangulations by diagonals of two polygons with n corners. ICC_ERR_BOUNDARY when
+ * one of them is not simple and counter-clockwise; ICC_ERR_RESOLUTION as in map/overlay.h. The
+ * overlay is to be freed on failure, too. */
+icc_status iccp_compatible_overlay(iccp_overlay *overlay, size_t n, const double *points,
+                                   const double *images, const iccp_env *env);
 
 /* Maps the polygon of the boundary vertices of `base`, a mesh of `source`, to that of their images:
  * a triangulation of the one and of the other with the same connectivity, the same corners and

@@ -11,7 +11,7 @@
 #include "map/compatible.h"
 #include "map/descent.h"
 #include "map/flips.h"
-#include "map/repair.h"
+#include "map/untangle.h"
 
 #include <math.h>
 

@@ -45,8 +45,8 @@ icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangl
     return ICC_OK;
 }
 
-static void fill(iccp_plmap *map, const double *points, const double *images,
-                 const uint32_t *vertex, const uint32_t *twin)
+void iccp_plmap_fill(iccp_plmap *map, const double *points, const double *images,
+                     const uint32_t *vertex, const uint32_t *twin)
 {
     const size_t n_vertices = map->n_vertices, n_triangles = map->corners.n_triangles;
     memcpy(map->points, points, 2 * n_vertices * sizeof *points);
@@ -61,8 +61,8 @@ icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc
     const icc_status status =
         iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles, stretch, memory);
     if (status == ICC_OK)
-        fill(map, mesh->points, images != NULL ? images : mesh->points, mesh->triangles,
-             mesh->twins);
+        iccp_plmap_fill(map, mesh->points, images != NULL ? images : mesh->points, mesh->triangles,
+                        mesh->twins);
     for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
         map->fixed[v] = v < mesh->n_boundary ? iccp_plmap_sense(domain) : ICCP_FREE;
         map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;
@@ -76,7 +76,8 @@ icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_
     const icc_status status = iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles,
                                                other->stretch, memory);
     if (status == ICC_OK) {
-        fill(map, other->points, other->images, other->corners.vertex, other->corners.twin);
+        iccp_plmap_fill(map, other->points, other->images, other->corners.vertex,
+                        other->corners.twin);
         memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
         memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
         memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);
@@ -214,4 +215,17 @@ icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
                   map->corners.vertex[before]);
     iccp_cut_edge(&map->corners, corner, (uint32_t)m);
     return ICC_OK;
+}
+
+icc_status iccp_cut_chords(iccp_plmap *map)
+{
+    icc_status status = ICC_OK;
+    for (uint32_t c = 0; status == ICC_OK && c < 3 * map->corners.n_triangles; ++c) {
+        bool done;
+        if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR &&
+            map->fixed[map->corners.vertex[iccp_after(c)]] &&
+            map->fixed[map->corners.vertex[iccp_before(c)]] && !iccp_plmap_is_line(map, c))
+            status = iccp_plmap_cut(map, c, &done);
+    }
+    return status;
 }

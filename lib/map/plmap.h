@@ -38,6 +38,10 @@ typedef struct iccp_plmap {
 icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
                             const iccp_memory *memory);
 
+/* Fills in the mesh and the images; what holds vertices is still to be said. */
+void iccp_plmap_fill(iccp_plmap *map, const double *points, const double *images,
+                     const uint32_t *vertex, const uint32_t *twin);
+
 /* Copies the mesh of a domain. `images`: 2 n_vertices, or NULL for the points themselves. */
 icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
                              const double *images, double stretch, const iccp_memory *memory);
@@ -131,5 +135,9 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
 /* Cuts the edge that a corner faces at its middle, before and after the map, unless rounding would
  * make a triangle that is positive now, before or after, not positive. Makes room as needed. */
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);
+
+/* Cuts the inner edges between two fixed vertices at their middle, which gives them something to
+ * move. All triangles keep their signs. */
+icc_status iccp_cut_chords(iccp_plmap *map);
 
 #endif

@@ -4,6 +4,8 @@
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "map/candidate.h"
+#include "map/redraw.h"
+#include "map/untangle.h"
 #include "math/predicates.h"
 
 /* Rounds of refinement. */
@@ -13,9 +15,6 @@ enum { ROUNDS = 4 };
  * larger patches have never helped on random pairs of shapes: another start is called for. And
  * refinement helps where A_FEW and one in FEW are stuck, at most. */
 enum { A_FEW = 10, MANY = 20, FEW = 50 };
-
-/* Rounds of untangling that move small patches only. */
-enum { SMALL_ROUNDS = 2 };
 
 /* Where a few rounds multiply the triangles by more than this, refinement is not what is
  * missing. */
@@ -145,25 +144,21 @@ static icc_status untangle_round(iccp_plmap *map, size_t k, const iccp_trial *tr
     return status;
 }
 
-/* Refines a copy round what is left, and untangles small patches there: the map becomes the copy
- * if that is enough. */
+/* Draws a copy anew where something is left: the map becomes the copy if that is enough. */
 static icc_status mend(iccp_plmap *map, iccp_work *work, size_t *n_left, const iccp_env *env)
 {
-    iccp_plmap finer;
-    size_t n = *n_left;
-    icc_status status = iccp_plmap_copy(&finer, map, &env->memory);
-    if (status != ICC_OK)
-        return status;
-    status = refine_round(&finer, map, env);
-    for (size_t k = 0; status == ICC_OK && n > 0 && k < SMALL_ROUNDS; ++k)
-        status = untangle_round(&finer, k, NULL, work, &n, env);
+    iccp_plmap other;
+    size_t n;
+    icc_status status = iccp_plmap_copy(&other, map, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_redraw(&other, work, &n, env);
     if (status == ICC_OK && n == 0) {
         const iccp_plmap tangled = *map;
-        *map = finer;
-        finer = tangled;
+        *map = other;
+        other = tangled;
         *n_left = 0;
     }
-    iccp_plmap_free(&finer);
+    iccp_plmap_free(&other);
     return status;
 }
 
@@ -176,25 +171,12 @@ static icc_status untangle_patches(iccp_plmap *map, double trial_work, iccp_work
     const iccp_trial trial = {A_FEW + map->corners.n_triangles / MANY, trial_work};
     *n_left = iccp_plmap_count_inverted(map);
     for (size_t k = 0; status == ICC_OK && *n_left > 0 && k < ICCP_PLANE_ROUNDS; ++k) {
-        if (k + 1 == ICCP_PLANE_ROUNDS && *n_left <= A_FEW)
+        if (k > 1 && *n_left <= A_FEW)
             status = mend(map, work, n_left, env);
         if (status == ICC_OK && *n_left > 0)
             status = untangle_round(map, k, k == 0 ? &trial : NULL, work, n_left, env);
         if (*n_left > trial.most)
             break;
-    }
-    return status;
-}
-
-icc_status iccp_cut_chords(iccp_plmap *map)
-{
-    icc_status status = ICC_OK;
-    for (uint32_t c = 0; status == ICC_OK && c < 3 * map->corners.n_triangles; ++c) {
-        bool done;
-        if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR &&
-            map->fixed[map->corners.vertex[iccp_after(c)]] &&
-            map->fixed[map->corners.vertex[iccp_before(c)]] && !iccp_plmap_is_line(map, c))
-            status = iccp_plmap_cut(map, c, &done);
     }
     return status;
 }

@@ -4,7 +4,7 @@
 #define ICCP_REPAIR_H
 
 #include "map/plmap.h"
-#include "map/untangle.h"
+#include "map/work.h"
 
 /* Flips edges, untangles patches and then everything; where that is not enough, refines the mesh
  * round what is left and begins again. Gives up early where many triangles are inverted, still
@@ -13,9 +13,5 @@
  * failed. */
 icc_status iccp_repair(iccp_plmap *map, double trial_work, iccp_work *work, size_t *n_left,
                        const iccp_env *env);
-
-/* Cuts the inner edges between two fixed vertices at their middle, which gives them something to
- * move. All triangles keep their signs. */
-icc_status iccp_cut_chords(iccp_plmap *map);
 
 #endif

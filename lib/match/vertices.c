@@ -12,12 +12,17 @@
 #include <math.h>
 #include <string.h>
 
-/* How far a pairing may lie from the given one, in places; with 32 twice as many triangles fold on
- * development pair d15 as with 64, with 128 as many. */
-enum { BAND = 64, WIDTH = 2 * BAND + 1, BASE = ICCP_CHORD + 1 };
+/* How far a pairing may lie from the given one, in places: between these, and for all vertices of
+ * one side together no more than PAIRS. */
+enum { LEAST_BAND = 64, MOST_BAND = 192, PAIRS = 1000000 };
+enum { MOST_WIDTH = 2 * MOST_BAND + 1, BASE = ICCP_CHORD + 1 };
 
 /* Outlines with fewer vertices have edges of many samples, which the given pairing has resolved. */
 enum { LEAST_VERTICES = ICCP_MATCH_SAMPLES / 8 };
+
+/* Where vertices are closer than samples, the directions round them are better known after a first
+ * time, and what was out of the band's reach may be in it. */
+enum { PASSES = 2 };
 
 /* What stretching costs by what turning does; and how many times more or less than round there an
  * edge may be stretched, first and where there is no other way, as roots. */
@@ -34,8 +39,9 @@ typedef struct search {
     iccp_places places[2];
     size_t *low; /* the first column of each row, */
     size_t *end; /* and the one behind the last */
-    float best[BASE][WIDTH];
-    int32_t step[WIDTH];
+    size_t band, width;
+    float best[BASE][MOST_WIDTH];
+    int32_t step[MOST_WIDTH];
     unsigned char *from; /* of all rows */
 } search;
 
@@ -53,6 +59,12 @@ static void release(search *s, const iccp_memory *memory)
     iccp_free(memory, s);
 }
 
+static size_t band_for(size_t n)
+{
+    const size_t band = PAIRS / n;
+    return band < LEAST_BAND ? LEAST_BAND : band < MOST_BAND ? band : MOST_BAND;
+}
+
 static search *prepare(const iccp_pairing_knots *knots, const iccp_outline *source,
                        const iccp_outline *target, size_t n_landmarks, const iccp_memory *memory)
 {
@@ -63,11 +75,13 @@ static search *prepare(const iccp_pairing_knots *knots, const iccp_outline *sour
     s->outline[0] = source;
     s->outline[1] = target;
     s->knots = knots;
+    s->band = band_for(source->n > target->n ? source->n : target->n);
+    s->width = 2 * s->band + 1;
     s->inverse.knot = iccp_alloc(memory, 2 * knots->n, sizeof *s->inverse.knot);
     s->out.knot = iccp_alloc(memory, 2 * (rows + 2 * n_landmarks + knots->n), sizeof *s->out.knot);
     s->low = iccp_alloc(memory, rows, sizeof *s->low);
     s->end = iccp_alloc(memory, rows, sizeof *s->end);
-    s->from = iccp_alloc(memory, rows, WIDTH);
+    s->from = iccp_alloc(memory, rows, s->width);
     if (iccp_places_create(&s->places[0], source, target, memory) != ICC_OK ||
         iccp_places_create(&s->places[1], target, source, memory) != ICC_OK ||
         s->inverse.knot == NULL || s->out.knot == NULL || s->low == NULL || s->end == NULL ||
@@ -90,9 +104,9 @@ static void place_band(search *s)
         const double image = iccp_knots_at(s->knots, a->share[i]);
         while (at + 1 < b->n && b->share[at] < image)
             ++at;
-        while (low < b->n && (low + BAND < at || b->share[low] < image - iccp_near))
+        while (low < b->n && (low + s->band < at || b->share[low] < image - iccp_near))
             ++low;
-        while (end < b->n && end < at + BAND + 1 && b->share[end] < image + iccp_near)
+        while (end < b->n && end < at + s->band + 1 && b->share[end] < image + iccp_near)
             ++end;
         s->low[i] = low;
         s->end[i] = end > low ? end : low;
@@ -131,10 +145,10 @@ static void offer(search *s, size_t i, size_t p, size_t q, float limit)
 static void lower(search *s, size_t i)
 {
     float most = -HUGE_VALF;
-    for (size_t k = 0; k < WIDTH; ++k)
+    for (size_t k = 0; k < s->width; ++k)
         most = s->best[i % BASE][k] > most ? s->best[i % BASE][k] : most;
     for (size_t row = 0; row < BASE && most > -HUGE_VALF; ++row)
-        for (size_t k = 0; k < WIDTH; ++k)
+        for (size_t k = 0; k < s->width; ++k)
             s->best[row][k] -= most;
 }
 
@@ -143,7 +157,7 @@ static bool find_path(search *s, float limit)
 {
     const size_t n = s->places[0].n, m = s->places[1].n;
     for (size_t i = 0; i < n; ++i) {
-        for (size_t k = 0; k < WIDTH; ++k) {
+        for (size_t k = 0; k < s->width; ++k) {
             s->best[i % BASE][k] = -HUGE_VALF;
             s->step[k] = 0;
         }
@@ -152,8 +166,8 @@ static bool find_path(search *s, float limit)
         for (size_t p = 1; p <= ICCP_CHORD && p <= i; ++p)
             for (size_t q = 1; q <= ICCP_CHORD; ++q)
                 offer(s, i, p, q, limit);
-        for (size_t k = 0; k < WIDTH; ++k)
-            s->from[i * WIDTH + k] = (unsigned char)s->step[k];
+        for (size_t k = 0; k < s->width; ++k)
+            s->from[i * s->width + k] = (unsigned char)s->step[k];
         if (i % 64 == 63)
             lower(s, i);
     }
@@ -166,7 +180,7 @@ static void read_path(search *s)
     double *const out = s->out.knot + 2 * s->out.n;
     size_t n = 0;
     for (size_t i = s->places[0].n - 1, j = s->places[1].n - 1; i > 0; ++n) {
-        const unsigned char step = s->from[i * WIDTH + (j - s->low[i])];
+        const unsigned char step = s->from[i * s->width + (j - s->low[i])];
         i -= step / BASE;
         j -= step % BASE;
         out[2 * n] = s->places[0].share[i];
@@ -233,12 +247,10 @@ static void find_first(search *s, double *first)
     s->out.n = 0;
 }
 
-icc_status iccp_pair_vertices(iccp_pairing_knots *knots, const iccp_outline *source,
-                              const iccp_outline *target, size_t n_landmarks,
-                              const double *landmarks, const iccp_env *env)
+static icc_status pair_once(iccp_pairing_knots *knots, const iccp_outline *source,
+                            const iccp_outline *target, size_t n_landmarks, const double *landmarks,
+                            const iccp_env *env)
 {
-    if (source->n < LEAST_VERTICES || target->n < LEAST_VERTICES)
-        return ICC_OK;
     search *const s = prepare(knots, source, target, n_landmarks, &env->memory);
     if (s == NULL)
         return ICC_ERR_MEMORY;
@@ -264,5 +276,19 @@ icc_status iccp_pair_vertices(iccp_pairing_knots *knots, const iccp_outline *sou
         s->out.knot = old;
     }
     release(s, &env->memory);
+    return status;
+}
+
+icc_status iccp_pair_vertices(iccp_pairing_knots *knots, const iccp_outline *source,
+                              const iccp_outline *target, size_t n_landmarks,
+                              const double *landmarks, const iccp_env *env)
+{
+    const size_t fewest = source->n < target->n ? source->n : target->n;
+    const int passes = fewest < LEAST_VERTICES ? 0 : fewest < ICCP_MATCH_SAMPLES ? 1 : PASSES;
+    icc_status status = ICC_OK;
+    for (int k = 0; k < passes && status == ICC_OK; ++k) {
+        const iccp_env part = iccp_part(env, NULL, (double)k / passes, (double)(k + 1) / passes);
+        status = pair_once(knots, source, target, n_landmarks, landmarks, &part);
+    }
     return status;
 }

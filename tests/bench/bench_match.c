@@ -3,10 +3,10 @@
  * the starts turned, for each side apart, and icc_match_create() has to find the pairs again. Error:
  * distance to the true partner, in % of the target's perimeter, mean along the source's.
  * `map`: also what it costs to map what was found, by what it costs to map the files as they are,
- * with the triangles that were to be repaired and the energies of both. */
+ * the least of three by turns, with the triangles that were to be repaired and the energies of both. */
 #include "bench.h"
 
-enum { MOST = 100000, PLACES = 2000 };
+enum { MOST = 100000, PLACES = 2000, RUNS = 3 };
 
 static uint64_t state;
 
@@ -168,8 +168,13 @@ static void compare_maps(const icc_match *match, const ring *files)
     icc_map_info found = {.size = sizeof found}, truth = {.size = sizeof truth};
     icc_domain *const source = bench_domain(files[0].n, files[0].xy);
     icc_domain *const target = bench_domain(files[1].n, files[1].xy);
-    const double cost = map_of(&found, icc_match_source(match), icc_match_target(match));
-    const double least = map_of(&truth, source, target);
+    double cost = HUGE_VAL, least = HUGE_VAL;
+    for (int k = 0; k < RUNS; ++k) {
+        const double a = map_of(&found, icc_match_source(match), icc_match_target(match));
+        const double b = map_of(&truth, source, target);
+        cost = a < cost ? a : cost;
+        least = b < least ? b : least;
+    }
     printf("%34s map %.2f s by %.3f s = %.2f, repaired %zu by %zu, energy %.2f by %.2f\n", "", cost,
            least, cost / least, found.n_inverted, truth.n_inverted, found.energy, truth.energy);
     icc_domain_free(source);
