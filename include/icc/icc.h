@@ -879,8 +879,9 @@ typedef struct icc_match_options {
                             0: 1.06; 1: none is */
     double drop;       /**< where vertices of the two outlines are paired with points that lie
                             within this share of the perimeter of each other, both vertices become
-                            one pair and the two added points are dropped; at most 0.01; 0: only
-                            where they lie within 0.3 of the shorter edge at them */
+                            one pair and the two added points are dropped, unless what is between
+                            neighbours would become three times longer or shorter by it; at most
+                            0.01; 0: only where they lie within 0.3 of the shorter edge at them */
     double tolerance;  /**< in space, how far the common surfaces may be off those that were given,
                             as a share of the diagonal of each one's bounding box: at most 0.1; 0:
                             1e-3; < 0: not at all, which takes four to six times as many vertices as

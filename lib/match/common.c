@@ -84,7 +84,8 @@ static void open(iccp_weave *w, const iccp_pairing_knots *knots)
     }
 }
 
-/* The pairing through all joins: these, and the knots between that keep away from them. */
+/* The pairing through all joins: between two of them it is stretched along the target, but for
+ * knots that lie next to one. */
 static void bend(iccp_weave *w)
 {
     double *last = w->bent;
@@ -92,11 +93,16 @@ static void bend(iccp_weave *w)
     size_t knot = 1;
     for (size_t k = 0; k <= w->n_joins; ++k) {
         const double *const next = k < w->n_joins ? w->join[k].at : w->knot + 2 * (w->n_knots - 1);
+        const double from[2] = {last[0], last[1]};
+        const double image = iccp_weave_follow(w->knot, w->n_knots, 0, from[0]);
+        const double width = iccp_weave_follow(w->knot, w->n_knots, 0, next[0]) - image;
+        const double stretch = width > 0 ? (next[1] - from[1]) / width : 1;
         for (; knot + 1 < w->n_knots && w->knot[2 * knot] < next[0]; ++knot) {
-            const double *const p = w->knot + 2 * knot;
+            const double p[2] = {w->knot[2 * knot],
+                                 from[1] + stretch * (w->knot[2 * knot + 1] - image)};
             if (p[0] > last[0] + clear && p[1] > last[1] + clear && p[0] < next[0] - clear &&
                 p[1] < next[1] - clear)
-                memcpy(last += 2, p, 2 * sizeof *p);
+                memcpy(last += 2, p, sizeof p);
         }
         memcpy(last += 2, next, 2 * sizeof *next);
     }

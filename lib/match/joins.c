@@ -11,6 +11,10 @@
  * shares of the perimeter, that an edge between them would be lost. */
 static const double reach = .3, least_edge = 1e-9;
 
+/* Where vertices join that are farther apart, `drop`, two neighbours do only if what is between
+ * them becomes no more than so many times longer or shorter than the pairing makes it. */
+static const double most_uneven = 3;
+
 static int by_distance(const void *a, const void *b)
 {
     const iccp_event *const p = a, *const q = b;
@@ -61,8 +65,10 @@ static void propose(iccp_weave *w, double drop)
             const double da = fabs(a[i] - iccp_weave_follow(w->knot, w->n_knots, 1, b[j]));
             const double db = fabs(b[j] - image);
             const double d = da / w->edge[i] > db / edge_b[j] ? da / w->edge[i] : db / edge_b[j];
-            if (d < reach || da < least_edge || db < least_edge || (da < drop && db < drop))
-                w->join[w->n_joins++] = (iccp_event){{a[i], b[j]}, {i, j}, d, false};
+            const bool must_join = d < reach || da < least_edge || db < least_edge;
+            if (must_join || (da < drop && db < drop))
+                w->join[w->n_joins++] =
+                    (iccp_event){{a[i], b[j]}, {i, j}, must_join && d > reach ? reach : d, false};
         }
     }
 }
@@ -88,8 +94,33 @@ static void add_landmarks(iccp_weave *w, size_t n, const double *landmarks)
     }
 }
 
+/* Whether two joins that follow one another may both be, as far as stretching goes. */
+static bool is_even(const iccp_weave *w, const iccp_event *p, const iccp_event *q)
+{
+    const double given = iccp_weave_follow(w->knot, w->n_knots, 0, q->at[0]) -
+                         iccp_weave_follow(w->knot, w->n_knots, 0, p->at[0]);
+    const double joined = q->at[1] - p->at[1];
+    return (p->d <= reach && q->d <= reach) ||
+           (joined <= most_uneven * given && given <= most_uneven * joined);
+}
+
+/* Whether the last of the joins kept must go for one that comes after it along the source. */
+static bool gives_way(const iccp_weave *w, const iccp_event *last, const iccp_event *join)
+{
+    const bool is_in_order = join->at[1] > last->at[1];
+    if (last->is_fixed)
+        return false;
+    return is_in_order ? !is_even(w, last, join) && last->d >= join->d : join->is_fixed;
+}
+
+static bool may_follow(const iccp_weave *w, const iccp_event *last, const iccp_event *join)
+{
+    return join->at[1] > last->at[1] && join->at[0] > last->at[0] &&
+           (join->is_fixed || is_even(w, last, join));
+}
+
 /* Of the proposed joins, the nearest first, those that use each vertex once; then, along the
- * source, those that are in order along the target. */
+ * source, those that are in order along the target, and even. */
 static void select(iccp_weave *w)
 {
     iccp_sort(w->join, w->n_joins, sizeof *w->join, by_distance);
@@ -108,12 +139,11 @@ static void select(iccp_weave *w)
     iccp_sort(w->join, n, sizeof *w->join, iccp_event_by_source);
     size_t kept = 0;
     for (size_t k = 0; k < n; ++k) {
-        while (kept > 0 && w->join[k].is_fixed && !w->join[kept - 1].is_fixed &&
-               w->join[k].at[1] <= w->join[kept - 1].at[1])
+        const iccp_event join = w->join[k];
+        while (kept > 0 && gives_way(w, &w->join[kept - 1], &join))
             --kept;
-        if (kept == 0 || (w->join[k].at[1] > w->join[kept - 1].at[1] &&
-                          w->join[k].at[0] > w->join[kept - 1].at[0]))
-            w->join[kept++] = w->join[k];
+        if (kept == 0 || may_follow(w, &w->join[kept - 1], &join))
+            w->join[kept++] = join;
     }
     w->n_joins = kept;
 }

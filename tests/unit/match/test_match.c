@@ -348,6 +348,33 @@ START_TEST(pairs_vertices_with_vertices)
 }
 END_TEST
 
+/* What is dropped makes outlines simpler, and stretches no edge more than three times as much as the
+ * pairing itself does. */
+START_TEST(drops_what_stretches_little)
+{
+    enum { N = 1500 };
+    static double a[2 * N], b[2 * N];
+    for (size_t without = 2; without < 6; ++without) {
+        const size_t n = thinned(a, coast, N, 0, 3), m = thinned(b, coast, N, .2, without + 2);
+        icc_match_info info[2];
+        for (int k = 0; k < 2; ++k) {
+            icc_match *match = NULL;
+            icc_error err = {.size = sizeof err};
+            const icc_match_options options = {.size = sizeof options, .drop = k * .003};
+            const icc_status status = match_of(&match, n, a, m, b, 0, NULL, &options, &err);
+            ck_assert_msg(status == ICC_OK, "%s", err.message);
+            check_exact(match, n, a, m, b);
+            info[k] = (icc_match_info){.size = sizeof info[k]};
+            ck_assert_int_eq(icc_match_get_info(match, &info[k]), ICC_OK);
+            icc_match_free(match);
+        }
+        ck_assert_uint_lt(info[1].n_vertices, info[0].n_vertices);
+        ck_assert_double_ge(3 * info[1].least_slope, info[0].least_slope);
+        ck_assert_double_le(info[1].most_slope, 3 * info[0].most_slope);
+    }
+}
+END_TEST
+
 /* A strip with rough sides, straight or, if `bend` is not 0, bent by so many radians. */
 static void strip(double *xy, size_t k, size_t n, double random, double bend)
 {
@@ -453,6 +480,7 @@ int main(void)
     tcase_add_test(tests, unlike_pieces_keep_the_limit);
     tcase_add_test(tests, names_bad_landmarks);
     tcase_add_test(tests, pairs_vertices_with_vertices);
+    tcase_add_test(tests, drops_what_stretches_little);
     tcase_add_test(tests, follows_what_is_bent);
     tcase_add_test(tests, matched_outlines_stay);
     tcase_add_test(tests, fails_cleanly);
