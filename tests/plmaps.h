@@ -131,4 +131,28 @@ static inline void check_certified(const iccp_plmap *map)
     ck_assert_uint_eq(iccp_plmap_count_inverted(map), 0);
 }
 
+/* n triangles round a vertex in the middle of a regular polygon. */
+static inline iccp_plmap wheel(uint32_t n)
+{
+    const iccp_env env = default_env();
+    iccp_plmap map;
+    ck_assert_int_eq(iccp_plmap_begin(&map, n + 1, n, 1, &env.memory), ICC_OK);
+    memset(map.along, 0, (n + 1) * sizeof *map.along);
+    for (uint32_t v = 0; v <= n; ++v) {
+        const double a = 6.28318530717958647692 * (double)v / (double)n, r = v < n;
+        map.points[2 * v] = map.images[2 * v] = r * cos(a);
+        map.points[2 * v + 1] = map.images[2 * v + 1] = r * sin(a);
+        map.fixed[v] = v < n;
+        map.facet[v] = v < n ? v : 0;
+    }
+    for (uint32_t t = 0; t < n; ++t) {
+        const uint32_t vertex[3] = {n, t, (t + 1) % n};
+        const uint32_t twin[3] = {ICCP_NO_NEIGHBOUR, 3 * ((t + 1) % n) + 2,
+                                  3 * ((t + n - 1) % n) + 1};
+        memcpy(map.corners.vertex + 3 * (size_t)t, vertex, sizeof vertex);
+        memcpy(map.corners.twin + 3 * (size_t)t, twin, sizeof twin);
+    }
+    return map;
+}
+
 #endif

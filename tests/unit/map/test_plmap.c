@@ -341,7 +341,7 @@ static void break_map(iccp_plmap *map, int how, random_source *r)
     }
 }
 
-/* The boundary, which comes first, stays where it was. */
+/* The boundary, which comes first, stays where it was, and all else is free. */
 static void check_boundary(const iccp_plmap *map, const iccp_plmap *broken)
 {
     size_t n_faults = 0, v = 0;
@@ -350,6 +350,8 @@ static void check_boundary(const iccp_plmap *map, const iccp_plmap *broken)
                     memcmp(map->points + 2 * v, broken->points + 2 * v, 2 * sizeof(double)) != 0 ||
                     memcmp(map->images + 2 * v, broken->images + 2 * v, 2 * sizeof(double)) != 0;
     ck_assert_uint_gt(v, 2);
+    for (; v < map->n_vertices; ++v)
+        n_faults += map->fixed[v] != ICCP_FREE;
     ck_assert_uint_eq(n_faults, 0);
 }
 

@@ -93,30 +93,11 @@ START_TEST(what_is_positive_stays)
 }
 END_TEST
 
-/* A fan of triangles in a regular polygon, whose corners go to those of another one. */
+/* A wheel whose rim goes to another polygon. */
 static iccp_plmap fan(const shape *to)
 {
-    const iccp_env env = default_env();
-    const uint32_t n = (uint32_t)to->n;
-    iccp_plmap map;
-    ck_assert_int_eq(iccp_plmap_begin(&map, n + 1, n, 1, &env.memory), ICC_OK);
-    memset(map.along, 0, (n + 1) * sizeof *map.along);
-    for (uint32_t v = 0; v <= n; ++v) {
-        const double a = 6.28318530717958647692 * (double)v / (double)n, r = v < n;
-        map.points[2 * v] = r * cos(a);
-        map.points[2 * v + 1] = r * sin(a);
-        map.fixed[v] = v < n ? ICCP_ALONG : ICCP_FREE;
-        map.facet[v] = v < n ? v : 0;
-    }
-    memcpy(map.images, to->xy, 2 * n * sizeof *map.images);
-    memset(map.images + 2 * (size_t)n, 0, 2 * sizeof *map.images);
-    for (uint32_t t = 0; t < n; ++t) {
-        const uint32_t vertex[3] = {n, t, (t + 1) % n};
-        const uint32_t twin[3] = {ICCP_NO_NEIGHBOUR, 3 * ((t + 1) % n) + 2,
-                                  3 * ((t + n - 1) % n) + 1};
-        memcpy(map.corners.vertex + 3 * (size_t)t, vertex, sizeof vertex);
-        memcpy(map.corners.twin + 3 * (size_t)t, twin, sizeof twin);
-    }
+    iccp_plmap map = wheel((uint32_t)to->n);
+    memcpy(map.images, to->xy, 2 * to->n * sizeof *map.images);
     return map;
 }
 
