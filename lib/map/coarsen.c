@@ -31,8 +31,8 @@ typedef struct coarsening {
 /* The triangles round an inner vertex, counter-clockwise. */
 typedef struct star {
     size_t n;
-    uint32_t corner[MOST_NEIGHBOURS]; /* at the vertex */
-    uint32_t ring[MOST_NEIGHBOURS];   /* the vertex after it */
+    uint32_t corner[MOST_NEIGHBOURS];   /* at the vertex */
+    uint32_t ring[2 * MOST_NEIGHBOURS]; /* the vertex after it; then all of them once more */
 } star;
 
 static bool find_star(const iccp_corners *c, uint32_t corner, star *s)
@@ -46,6 +46,7 @@ static bool find_star(const iccp_corners *c, uint32_t corner, star *s)
         s->ring[s->n++] = c->vertex[iccp_after(at)];
         at = iccp_after(c->twin[iccp_after(at)]);
     } while (at != corner);
+    memcpy(s->ring + s->n, s->ring, s->n * sizeof *s->ring);
     return true;
 }
 
@@ -74,14 +75,14 @@ static uint32_t dequeue(coarsening *o)
 static bool may_merge(const coarsening *o, const star *s, size_t j)
 {
     const iccp_plmap *map = o->map;
-    const uint32_t to = s->ring[j];
-    for (size_t k = 1; k + 1 < s->n; ++k) {
-        const uint32_t a = s->ring[(j + k) % s->n], b = s->ring[(j + k + 1) % s->n];
-        if ((k > 1 && ((map->fixed[to] && map->fixed[a]) ||
-                       iccp_plmap_length2(map, to, a) > o->longest * o->longest)) ||
-            !iccp_candidate_is_positive(map, to, a, b))
+    const uint32_t *ring = s->ring + j, to = ring[0];
+    const bool is_bounded = o->longest < HUGE_VAL;
+    for (size_t k = 1; k + 1 < s->n; ++k)
+        if ((k > 1 &&
+             ((map->fixed[to] && map->fixed[ring[k]]) ||
+              (is_bounded && iccp_plmap_length2(map, to, ring[k]) > o->longest * o->longest))) ||
+            !iccp_candidate_is_positive(map, to, ring[k], ring[k + 1]))
             return false;
-    }
     return true;
 }
 
@@ -89,9 +90,9 @@ static bool may_merge(const coarsening *o, const star *s, size_t j)
 static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
 {
     iccp_candidate merged = iccp_no_candidate();
+    const uint32_t *ring = s->ring + j;
     for (size_t k = 1; k + 1 < s->n; ++k) {
-        iccp_candidate_add(&merged, o->map, s->ring[j], s->ring[(j + k) % s->n],
-                           s->ring[(j + k + 1) % s->n]);
+        iccp_candidate_add(&merged, o->map, ring[0], ring[k], ring[k + 1]);
         if (!(merged.energy <= most && merged.roundness >= least))
             return HUGE_VAL;
     }
@@ -110,7 +111,7 @@ static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s
         return s->n;
     iccp_candidate now = iccp_no_candidate();
     for (size_t k = 0; k < s->n; ++k)
-        iccp_candidate_add(&now, o->map, vertex, s->ring[k], s->ring[(k + 1) % s->n]);
+        iccp_candidate_add(&now, o->map, vertex, s->ring[k], s->ring[k + 1]);
     const double least = iccp_min(now.roundness, LEAST_ROUNDNESS);
     double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
     for (size_t j = 0; j < s->n; ++j) {

@@ -262,16 +262,31 @@ static void emit_cell(overlay *o, uint32_t from, uint32_t to)
     o->next[from] = to;
 }
 
-static int by_triangle(const void *a, const void *b)
-{
-    const piece *x = a, *y = b;
-    return (x->triangle > y->triangle) - (x->triangle < y->triangle);
-}
-
 static int by_span(const void *a, const void *b)
 {
     const piece *x = a, *y = b;
     return (x->span > y->span) - (x->span < y->span);
+}
+
+/* By triangle, with a counting sort; the pieces of triangle t end at end[t]. */
+static icc_status sort_pieces(overlay *o, size_t *end)
+{
+    piece *sorted = iccp_alloc(o->memory, o->n_pieces, sizeof *sorted);
+    if (sorted == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t k = 0; k < o->n_pieces; ++k)
+        ++end[o->pieces[k].triangle];
+    size_t total = 0;
+    for (size_t t = 0; t < (size_t)o->n - 2; ++t) {
+        const size_t own = end[t];
+        end[t] = total;
+        total += own;
+    }
+    for (size_t k = 0; k < o->n_pieces; ++k)
+        sorted[end[o->pieces[k].triangle]++] = o->pieces[k];
+    iccp_free(o->memory, o->pieces);
+    o->pieces = sorted;
+    return ICC_OK;
 }
 
 /* Cuts off the cell behind the shortest piece first: what lies behind a longer one is cut off by
@@ -291,7 +306,7 @@ static void cut_triangle(overlay *o, uint32_t triangle, piece *pieces, size_t n)
     emit_cell(o, 0, n_border - 1);
 }
 
-/* Cuts the target's triangles one by one; the pieces are sorted by triangle for that. */
+/* Cuts the target's triangles one by one. */
 static icc_status cut_all(overlay *o, const iccp_env *env)
 {
     const size_t n_vertices = o->n + o->n_crossings;
@@ -304,16 +319,17 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
     if (o->place == NULL || o->next == NULL || o->border == NULL || o->result.vertex == NULL ||
         o->result.twin == NULL)
         return ICC_ERR_MEMORY;
-    iccp_sort(o->pieces, o->n_pieces, sizeof *o->pieces, by_triangle);
-    size_t p = 0;
-    for (uint32_t t = 0; t < o->n - 2; ++t) {
-        const size_t begin = p;
-        while (p < o->n_pieces && o->pieces[p].triangle == t)
-            ++p;
-        cut_triangle(o, t, o->n_pieces > 0 ? o->pieces + begin : NULL, p - begin);
+    size_t *end = iccp_alloc_zero(o->memory, o->n - 2, sizeof *end);
+    icc_status status = end != NULL ? sort_pieces(o, end) : ICC_ERR_MEMORY;
+    for (uint32_t t = 0; status == ICC_OK && t < o->n - 2; ++t) {
+        const size_t begin = t > 0 ? end[t - 1] : 0;
+        cut_triangle(o, t, o->pieces + begin, end[t] - begin);
     }
+    iccp_free(o->memory, end);
+    if (status != ICC_OK)
+        return status;
     bool is_manifold;
-    const icc_status status = iccp_find_twins(&o->result, n_vertices, &is_manifold, env);
+    status = iccp_find_twins(&o->result, n_vertices, &is_manifold, env);
     return status == ICC_OK && !is_manifold ? ICC_ERR_TOPOLOGY : status;
 }
 
