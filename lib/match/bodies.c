@@ -61,7 +61,7 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
     icc_status status =
         iccp_relaxation_create(&r, side, (const uint8_t *const[]){NULL, NULL}, &env->memory);
     if (status == ICC_OK)
-        status = iccp_relax(&r, ICCP_LONGER, ROUNDS, &left, env);
+        status = iccp_relax(&r, ICCP_LONGER, true, ROUNDS, &left, env);
     iccp_relaxation_free(&r, &env->memory);
     status = iccp_explain(err, status);
     if (status == ICC_OK)

@@ -290,7 +290,7 @@ double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3])
         const double e =
             (g[0] * h[2] - 2 * g[1] * h[1] + g[2] * h[0]) * (1 / (u * u) + 1 / (v * v));
         star->weight += area * (u + v);
-        sum += area * (u + v) * e * sqrt(e);
+        sum += area * (u + v) * e * (star->is_severe ? sqrt(e) : 1);
     }
     return sum;
 }

@@ -43,6 +43,7 @@ typedef struct iccp_composed_star {
     double radius;         /* the least distance from the vertex to the ring's edges */
     double farthest;       /* the greatest one to its corners */
     double weight;         /* the areas, once there is an energy */
+    bool is_severe;        /* what is stretched most counts more */
 } iccp_composed_star;
 
 /* For stars on surfaces of so many faces. False if there is no memory; to be freed in any case. */
@@ -60,9 +61,10 @@ icc_status iccp_composed_star_gather(iccp_composed_star *star, const iccp_drawn_
 /* How a direction near the vertex is seen from it. */
 void iccp_composed_star_see(double seen[3], const iccp_composed_star *star, const double q[3]);
 
-/* The sum, over what triangles of both have in common, of the area on both surfaces times E^1.5,
- * where E = (s^2 + t^2)(1 + 1 / (s t)^2) for the singular values s and t of the map from one to the
- * other there, the vertex being at `seen`: as seen from where it is, within the ring. */
+/* The sum, over what triangles of both have in common, of the area on both surfaces times E, or
+ * E^1.5 if star->is_severe, where E = (s^2 + t^2)(1 + 1 / (s t)^2) for the singular values s and t
+ * of the map from one to the other there, the vertex being at `seen`: as seen from where it is,
+ * within the ring. */
 double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3]);
 
 #endif

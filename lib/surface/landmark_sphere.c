@@ -23,7 +23,7 @@ static const double lengths[2] = {ICCP_LONGER, 1.25};
 
 /* Where some landmarks are only likely there are several beginnings, each without so many of these
  * more; the one that has the least energy with so many vertices goes on. On t04 with 4 landmarks
- * that is 30 (8: an isometry), or 67 and more, and at the end 5.3 (4), or 9.5 and more. */
+ * they end at 5.38, 5.25, which goes on, and 13.1 (4: an isometry). */
 enum { FEWER = 4, MOST_FEWER = 2, LEAST = 4, CHOICE = 300 };
 
 typedef struct beginning {
@@ -42,7 +42,7 @@ typedef struct problem {
 } problem;
 
 /* Moves drawings of few vertices, from where they are, in several ways; the best one stays. */
-static icc_status relax_few(iccp_relaxation *r, const iccp_env *env)
+static icc_status relax_few(iccp_relaxation *r, bool is_severe, const iccp_env *env)
 {
     enum { N = sizeof lengths / sizeof *lengths };
     const iccp_memory *const memory = &env->memory;
@@ -64,7 +64,7 @@ static icc_status relax_few(iccp_relaxation *r, const iccp_env *env)
         double energy = HUGE_VAL;
         for (int side = 0; side < 2; ++side)
             memcpy(r->side[side].directions, kept[side], n[side] * sizeof *kept[side]);
-        status = iccp_relax(r, lengths[k], ROUNDS_OF_FEW, &energy, &part);
+        status = iccp_relax(r, lengths[k], is_severe, ROUNDS_OF_FEW, &energy, &part);
         for (int side = 0; side < 2 && energy < least; ++side)
             memcpy(kept[side] + n[side], r->side[side].directions, n[side] * sizeof *kept[side]);
         least = iccp_min(least, energy);
@@ -79,13 +79,16 @@ static icc_status relax_few(iccp_relaxation *r, const iccp_env *env)
 
 /* Both drawings get more and more vertices, and each is moved on the other whenever there are so
  * many times as many, until there are `until`, or all: how limbs come to lie is decided while
- * there are few. Landmarks that are only likely stay while there are very few. */
+ * there are few. Landmarks that are only likely stay while there are very few; where there are some
+ * what is stretched most counts more only in the end: limbs that nobody holds find better places by
+ * the energy itself. */
 static icc_status grow(beginning *b, const problem *p, double until, const iccp_env *env,
                        icc_error *err)
 {
     iccp_half_edges *const m = b->base.m;
     const size_t all[2] = {m[0].n_left + m[0].n_collapsed, m[1].n_left + m[1].n_collapsed};
     const double most = iccp_max((double)all[0], (double)all[1]), end = iccp_min(until, most);
+    const bool is_sure = p->n == p->n_fixed;
     icc_status status = ICC_OK;
     while (b->level < end && status == ICC_OK) {
         const bool is_first = !(b->level > 0);
@@ -99,12 +102,13 @@ static icc_status grow(beginning *b, const problem *p, double until, const iccp_
                                       p->scale[side], b->is_fixed[side], !is_first, n, &part, err);
         }
         if (status == ICC_OK && is_first)
-            status = iccp_explain(err, relax_few(&b->r, &part));
+            status = iccp_explain(err, relax_few(&b->r, is_sure, &part));
         for (int side = 0; side < 2; ++side)
             for (size_t k = p->n_fixed; k < p->n; ++k)
                 b->is_fixed[side][p->vertices[side][k]] = 0;
         if (status == ICC_OK && (!is_first || p->n > p->n_fixed))
-            status = iccp_explain(err, iccp_relax(&b->r, ICCP_LONGER, ROUNDS, &b->energy, &part));
+            status = iccp_explain(err, iccp_relax(&b->r, ICCP_LONGER, is_sure || b->level >= most,
+                                                  ROUNDS, &b->energy, &part));
     }
     return status;
 }

@@ -15,9 +15,9 @@
 enum { TRIALS = 5 };
 static const double shorter = 0.4;
 
-/* Vertices whose triangles have a mean energy, to the power 1.5, above this may jump, unless they
- * have very many neighbours. */
-static const double bad = 90;
+/* Vertices whose triangles have a mean energy above this, or one to the power 1.5, may jump, unless
+ * they have very many neighbours. */
+static const double bad = 20, severely_bad = 90;
 enum { MOST_NEIGHBOURS = 64 };
 
 /* Rounds end when one lowers the energy by less than this share. */
@@ -154,17 +154,19 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
         step[0] *= shorter;
         step[1] *= shorter;
     }
-    if (least > bad * star->weight && star->n <= MOST_NEIGHBOURS)
+    if (least > (star->is_severe ? severely_bad : bad) * star->weight && star->n <= MOST_NEIGHBOURS)
         least = jump(r, star, p, least);
     *gain += here - least;
     return ICC_OK;
 }
 
-icc_status iccp_relax(iccp_relaxation *r, double longer, int most_rounds, double *left,
-                      const iccp_env *env)
+icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, int most_rounds,
+                      double *left, const iccp_env *env)
 {
     icc_status status = ICC_OK;
     *left = HUGE_VAL;
+    for (int s = 0; s < 2; ++s)
+        r->star[s].is_severe = is_severe;
     for (int round = 0; round < most_rounds && status == ICC_OK; ++round) {
         double energy = 0, gain = 0;
         for (int s = 0; s < 2; ++s) {
