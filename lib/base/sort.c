@@ -65,6 +65,18 @@ void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, 
         iccp_sort_next(items, n, size, compare);
 }
 
+void iccp_list_groups(uint32_t *groups, uint32_t *first, size_t n_keys, const uint32_t *keys,
+                      size_t n, size_t size)
+{
+    for (size_t i = 0; i < size * n; ++i)
+        ++first[keys[i]];
+    for (size_t k = 0; k < n_keys; ++k)
+        first[k + 1] += first[k];
+    for (size_t group = n; group-- > 0;)
+        for (size_t i = size * group; i < size * (group + 1); ++i)
+            groups[--first[keys[i]]] = (uint32_t)group;
+}
+
 /* One pass of a radix sort. */
 static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shift)
 {

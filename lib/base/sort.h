@@ -16,6 +16,33 @@ void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, 
  * room for n. O(n). */
 void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift);
 
+/* The counting sort: items by their keys below n_keys, which are their first members, uint32_t.
+ * Those with key k become sorted[first[k]] up to first[k + 1], in the order they had; `first` is
+ * n_keys + 1 zeros before. Inlined: items of a known size are copied fast. O(n + n_keys). */
+static ICCP_INLINE void iccp_sort_by_count(void *sorted, uint32_t *first, size_t n_keys,
+                                           const void *items, size_t n, size_t size)
+{
+    const unsigned char *const from = items;
+    unsigned char *const to = sorted;
+    uint32_t key;
+    for (size_t i = 0; i < n; ++i) {
+        memcpy(&key, from + size * i, sizeof key);
+        ++first[key];
+    }
+    for (size_t k = 0; k < n_keys; ++k)
+        first[k + 1] += first[k];
+    /* From the ends, which leaves `first` at the beginnings. */
+    for (size_t i = n; i-- > 0;) {
+        memcpy(&key, from + size * i, sizeof key);
+        memcpy(to + size * --first[key], from + size * i, size);
+    }
+}
+
+/* By the same sort, which of n groups of `size` keys below n_keys have each: for key k, once for
+ * each time that they do, groups[first[k]] up to first[k + 1], rising. `first` is zeros before. */
+void iccp_list_groups(uint32_t *groups, uint32_t *first, size_t n_keys, const uint32_t *keys,
+                      size_t n, size_t size);
+
 /* Of n items, one that none is greater than comes first; and the first of them becomes the last,
  * one of the greatest among the others the first. O(n) and O(log n): where a few are enough. */
 void iccp_sort_begin(void *items, size_t n, size_t size,

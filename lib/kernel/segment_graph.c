@@ -1,5 +1,6 @@
 #include "kernel/segment_graph.h"
 
+#include "base/sort.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -20,12 +21,7 @@ icc_status iccp_segment_graph_create(iccp_segment_graph *graph, size_t dim, size
         iccp_segment_graph_free(graph);
         return ICC_ERR_MEMORY;
     }
-    for (size_t i = 0; i < 2 * n_segments; ++i)
-        ++graph->first[segments[i]];
-    for (size_t v = 0; v < n_vertices; ++v)
-        graph->first[v + 1] += graph->first[v];
-    for (size_t i = 2 * n_segments; i-- > 0;)
-        graph->incident[--graph->first[segments[i]]] = (uint32_t)(i / 2);
+    iccp_list_groups(graph->incident, graph->first, n_vertices, segments, n_segments, 2);
     return ICC_OK;
 }
 

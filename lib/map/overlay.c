@@ -197,12 +197,7 @@ static icc_status sort_crossings(overlay *o)
         iccp_free(o->memory, sorted);
         return ICC_ERR_MEMORY;
     }
-    for (size_t k = 0; k < o->n_crossings; ++k)
-        ++o->first[o->crossings[k].edge];
-    for (size_t c = 0; c < n_corners; ++c)
-        o->first[c + 1] += o->first[c];
-    for (size_t k = o->n_crossings; k-- > 0;)
-        sorted[--o->first[o->crossings[k].edge]] = o->crossings[k];
+    iccp_sort_by_count(sorted, o->first, n_corners, o->crossings, o->n_crossings, sizeof *sorted);
     iccp_free(o->memory, o->crossings);
     o->crossings = sorted;
     for (size_t c = 0; c < n_corners; ++c)
@@ -268,22 +263,13 @@ static int by_span(const void *a, const void *b)
     return (x->span > y->span) - (x->span < y->span);
 }
 
-/* By triangle, with a counting sort; the pieces of triangle t end at end[t]. */
-static icc_status sort_pieces(overlay *o, size_t *end)
+/* By triangle, where those of each begin. */
+static icc_status sort_pieces(overlay *o, uint32_t *first)
 {
     piece *sorted = iccp_alloc(o->memory, o->n_pieces, sizeof *sorted);
     if (sorted == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t k = 0; k < o->n_pieces; ++k)
-        ++end[o->pieces[k].triangle];
-    size_t total = 0;
-    for (size_t t = 0; t < (size_t)o->n - 2; ++t) {
-        const size_t own = end[t];
-        end[t] = total;
-        total += own;
-    }
-    for (size_t k = 0; k < o->n_pieces; ++k)
-        sorted[end[o->pieces[k].triangle]++] = o->pieces[k];
+    iccp_sort_by_count(sorted, first, o->n - 2, o->pieces, o->n_pieces, sizeof *sorted);
     iccp_free(o->memory, o->pieces);
     o->pieces = sorted;
     return ICC_OK;
@@ -319,13 +305,11 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
     if (o->place == NULL || o->next == NULL || o->border == NULL || o->result.vertex == NULL ||
         o->result.twin == NULL)
         return ICC_ERR_MEMORY;
-    size_t *end = iccp_alloc_zero(o->memory, o->n - 2, sizeof *end);
-    icc_status status = end != NULL ? sort_pieces(o, end) : ICC_ERR_MEMORY;
-    for (uint32_t t = 0; status == ICC_OK && t < o->n - 2; ++t) {
-        const size_t begin = t > 0 ? end[t - 1] : 0;
-        cut_triangle(o, t, o->pieces + begin, end[t] - begin);
-    }
-    iccp_free(o->memory, end);
+    uint32_t *first = iccp_alloc_zero(o->memory, o->n - 1, sizeof *first);
+    icc_status status = first != NULL ? sort_pieces(o, first) : ICC_ERR_MEMORY;
+    for (uint32_t t = 0; status == ICC_OK && t < o->n - 2; ++t)
+        cut_triangle(o, t, o->pieces + first[t], first[t + 1] - first[t]);
+    iccp_free(o->memory, first);
     if (status != ICC_OK)
         return status;
     bool is_manifold;

@@ -1,6 +1,7 @@
 #include "map/solid_edit.h"
 
 #include "base/minmax.h"
+#include "base/sort.h"
 #include "map/dirichlet.h"
 #include "math/predicates.h"
 #include "math/vec.h"
@@ -49,20 +50,14 @@ icc_status iccp_solid_edit_begin(iccp_solid_edit *edit)
 {
     const iccp_simplices *mesh = mesh_of(edit);
     const iccp_memory *memory = &edit->map->memory;
-    const size_t n = 4 * mesh->n_simplices;
     free_pass(edit);
     edit->n_simplices = mesh->n_simplices;
     edit->first = iccp_alloc_zero(memory, mesh->n_points + 1, sizeof *edit->first);
-    edit->star = iccp_alloc(memory, n, sizeof *edit->star);
+    edit->star = iccp_alloc(memory, mesh->n_simplices, 4 * sizeof *edit->star);
     edit->is_gone = iccp_alloc_zero(memory, mesh->n_simplices, 1);
     if (edit->first == NULL || edit->star == NULL || edit->is_gone == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t c = 0; c < n; ++c)
-        ++edit->first[mesh->corners[c]];
-    for (size_t v = 0; v < mesh->n_points; ++v)
-        edit->first[v + 1] += edit->first[v];
-    for (size_t c = n; c-- > 0;)
-        edit->star[--edit->first[mesh->corners[c]]] = (uint32_t)(c / 4);
+    iccp_list_groups(edit->star, edit->first, mesh->n_points, mesh->corners, mesh->n_simplices, 4);
     return ICC_OK;
 }
 
@@ -132,7 +127,7 @@ static bool bring(iccp_ring *ring, uint32_t *after, size_t k, uint32_t point)
 bool iccp_solid_ring(const iccp_solid_edit *edit, uint32_t a, uint32_t b, iccp_ring *ring)
 {
     const uint32_t *corners = mesh_of(edit)->corners;
-    const size_t *first = edit->first;
+    const uint32_t *first = edit->first;
     const uint32_t at = first[a + 1] - first[a] <= first[b + 1] - first[b] ? a : b;
     uint32_t after[ICCP_MOST_RING], p, q;
     ring->n = 0;

@@ -14,7 +14,7 @@ enum { ICCP_MOST_RING = 32 };
 typedef struct iccp_solid_edit {
     iccp_solid_map *map; /* whose mesh is its own */
     size_t n_simplices;  /* when the pass began: */
-    size_t *first;       /* n_points + 1: where the tetrahedra of each point begin in `star`, */
+    uint32_t *first;     /* n_points + 1: where the tetrahedra of each point begin in `star`, */
     uint32_t *star;      /* rising */
     uint8_t *is_gone;    /* of each */
     uint8_t *is_new;     /* of each, those that wait included: made since flips were looked for */

@@ -1,5 +1,7 @@
 #include "mesh/walls.h"
 
+#include "base/sort.h"
+
 icc_status iccp_walls_create(iccp_walls *walls, size_t n_points, size_t n_walls,
                              const uint32_t *pairs, const iccp_memory *memory)
 {
@@ -9,13 +11,9 @@ icc_status iccp_walls_create(iccp_walls *walls, size_t n_points, size_t n_walls,
         iccp_walls_free(walls, memory);
         return ICC_ERR_MEMORY;
     }
+    iccp_list_groups(walls->other, walls->first, n_points, pairs, 2 * n_walls, 1);
     for (size_t k = 0; k < 2 * n_walls; ++k)
-        ++walls->first[pairs[k]];
-    for (size_t v = 0; v < n_points; ++v)
-        walls->first[v + 1] += walls->first[v];
-    /* From the ends of the lists, which leaves `first` at their beginnings. */
-    for (size_t k = 2 * n_walls; k-- > 0;)
-        walls->other[--walls->first[pairs[k]]] = pairs[k ^ 1];
+        walls->other[k] = pairs[walls->other[k] ^ 1];
     return ICC_OK;
 }
 

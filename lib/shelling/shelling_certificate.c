@@ -2,6 +2,7 @@
  * of vertices; each is looked at from its first vertex, among the simplices there. */
 #include "shelling/shelling_certificate.h"
 
+#include "base/sort.h"
 #include "icc/icc.h"
 #include "math/orient.h"
 
@@ -195,18 +196,14 @@ static icc_status list_around(checker *c, const iccp_memory *memory)
     const iccp_simplices *mesh = c->mesh;
     const size_t n_sides = (mesh->dim + 1) * mesh->n_simplices;
     size_t most = 0;
-    c->first = iccp_alloc_zero(memory, mesh->n_points + 2, sizeof *c->first);
+    c->first = iccp_alloc_zero(memory, mesh->n_points + 1, sizeof *c->first);
     c->around = iccp_alloc(memory, n_sides, sizeof *c->around);
     if (c->first == NULL || c->around == NULL)
         return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < n_sides; ++i)
-        ++c->first[mesh->corners[i] + 2];
-    for (size_t v = 0; v < mesh->n_points; ++v) {
-        most = c->first[v + 2] > most ? c->first[v + 2] : most;
-        c->first[v + 2] += c->first[v + 1];
-    }
-    for (size_t i = 0; i < n_sides; ++i)
-        c->around[c->first[mesh->corners[i] + 1]++] = (uint32_t)(i / (mesh->dim + 1));
+    iccp_list_groups(c->around, c->first, mesh->n_points, mesh->corners, mesh->n_simplices,
+                     mesh->dim + 1);
+    for (size_t v = 0; v < mesh->n_points; ++v)
+        most = c->first[v + 1] - c->first[v] > most ? c->first[v + 1] - c->first[v] : most;
     /* At most 2^dim faces of a simplex have a given first vertex. */
     for (c->capacity = 16; c->capacity < most << mesh->dim;)
         c->capacity *= 2;

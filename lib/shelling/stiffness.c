@@ -1,6 +1,7 @@
 #include "shelling/stiffness.h"
 
 #include "base/minmax.h"
+#include "base/sort.h"
 #include "math/vec.h"
 #include "shelling/element.h"
 
@@ -15,41 +16,24 @@ static const double LEAST_WEIGHT = 0.02;
  * gradients times the root of its volume. */
 typedef struct assembly {
     const iccp_simplices *mesh;
-    size_t *first;  /* n_points + 1: where the sides of each begin */
-    uint32_t *side; /* opposite to it, rising */
+    uint32_t *first; /* n_points + 1: where the sides of each begin */
+    uint32_t *side;  /* opposite to it, rising */
     double *gradient;
     uint32_t
         *place; /* of each point: its entry in the row in the making, from the row's beginning */
 } assembly;
 
-/* Counting moves the beginning of each vertex's sides to its end, where the next one's begin. */
-static void list_sides(assembly *a)
-{
-    const size_t n = a->mesh->n_points, n_sides = (a->mesh->dim + 1) * a->mesh->n_simplices;
-    for (size_t v = 0; v <= n; ++v)
-        a->first[v] = 0;
-    for (size_t s = 0; s < n_sides; ++s)
-        ++a->first[a->mesh->corners[s] + 1];
-    for (size_t v = 0; v < n; ++v)
-        a->first[v + 1] += a->first[v];
-    for (uint32_t s = 0; s < n_sides; ++s)
-        a->side[a->first[a->mesh->corners[s]]++] = s;
-    for (size_t v = n; v > 0; --v)
-        a->first[v] = a->first[v - 1];
-    a->first[0] = 0;
-}
-
 static icc_status prepare(assembly *a, const iccp_simplices *mesh, const iccp_env *env)
 {
     const size_t dim = mesh->dim, n_sides = (dim + 1) * mesh->n_simplices;
     *a = (assembly){.mesh = mesh};
-    a->first = iccp_alloc(&env->memory, mesh->n_points + 1, sizeof *a->first);
+    a->first = iccp_alloc_zero(&env->memory, mesh->n_points + 1, sizeof *a->first);
     a->side = iccp_alloc(&env->memory, n_sides, sizeof *a->side);
     a->gradient = iccp_alloc(&env->memory, n_sides, dim * sizeof *a->gradient);
     a->place = iccp_alloc(&env->memory, mesh->n_points, sizeof *a->place);
     if (a->first == NULL || a->side == NULL || a->gradient == NULL || a->place == NULL)
         return ICC_ERR_MEMORY;
-    list_sides(a);
+    iccp_list_groups(a->side, a->first, mesh->n_points, mesh->corners, n_sides, 1);
     for (size_t t = 0; t < mesh->n_simplices; ++t) {
         double *gradient = a->gradient + dim * (dim + 1) * t;
         const double root = sqrt(iccp_element_gradients(mesh, t, gradient));

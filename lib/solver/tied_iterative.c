@@ -10,6 +10,7 @@
  * next to known ones always belong to it. */
 #include "base/clock.h"
 #include "base/minmax.h"
+#include "base/sort.h"
 #include "solver/tied.h"
 #include "solver/tied_cg.h"
 
@@ -54,20 +55,6 @@ typedef struct shell {
     double *x, *r, *q;
     int32_t exponent; /* x is in units of 2^exponent */
 } shell;
-
-/* Rows by their tops, stable: a counting sort. */
-static void sort_unknowns(shells *s)
-{
-    const size_t n = s->unknowns->n;
-    for (size_t k = 0; k < n; ++k)
-        ++s->cluster[s->ties->top[k]];
-    for (size_t k = 0, sum = 0; k <= n; ++k) {
-        sum += s->cluster[k];
-        s->cluster[k] = (uint32_t)sum; /* the end of the cluster */
-    }
-    for (size_t k = n; k-- > 0;)
-        s->order[--s->cluster[s->ties->top[k]]] = (uint32_t)k;
-}
 
 static void add_cluster(shells *s, uint32_t top)
 {
@@ -409,7 +396,7 @@ icc_status iccp_tied_iterative(const iccp_unknowns *unknowns, const iccp_ties *t
     s.unknown = iccp_alloc(m, unknowns->n, sizeof *s.unknown);
     icc_status status = ICC_ERR_MEMORY;
     if (s.order != NULL && s.cluster != NULL && s.state != NULL && s.unknown != NULL) {
-        sort_unknowns(&s);
+        iccp_list_groups(s.order, s.cluster, unknowns->n, ties->top, unknowns->n, 1);
         status = add_all(&s);
     }
     while (status == ICC_OK && s.n > 0) {
