@@ -62,6 +62,7 @@ static elastic *prepare(const iccp_outline *source, const iccp_outline *target,
     double share[N];
     for (int k = 0; k < N; ++k)
         share[k] = (double)k / N;
+    e->samples.are_fine = source->n >= N && target->n >= N;
     iccp_descriptors(e->samples.a, source, N, share, 1.0 / N);
     iccp_descriptors(e->samples.b, target, N, share, 1.0 / N);
     return e;

@@ -6,6 +6,8 @@
 #include "match/elastic.h"
 #include "match/lattice_path.h"
 
+#include <stdbool.h>
+
 typedef struct iccp_elastic_candidate {
     double score, rotation[2];
     float
@@ -17,6 +19,7 @@ typedef struct iccp_elastic_candidate {
 /* The samples of both outlines, and memory for the costs of their pairs. */
 typedef struct iccp_samples {
     iccp_descriptor a[ICCP_MATCH_SAMPLES], b[ICCP_MATCH_SAMPLES];
+    bool are_fine; /* vertices are closer than samples on both sides */
     float *cost;
     iccp_lattice lattice;
     iccp_lattice_path path; /* scratch */
