@@ -12,7 +12,8 @@
 #include <string.h>
 
 /* Landmarks where paths may begin are tried until no path is so many times as long on one surface
- * as on the other, or the best one of so many is taken. */
+ * as on the other, or the best one of so many is taken. For even paths it matters
+ * little, and the first one is. */
 static const double good_ratio = 1.5;
 enum { TRIES = 6 };
 
@@ -72,11 +73,13 @@ static icc_status shrink(iccp_half_edges m[2], iccp_split_surface s[2], size_t n
  * surfaces, which shows in their lengths. */
 static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *const given[2],
                              const double *const x[2], const double scale[2], size_t n,
-                             const uint32_t *const vertices[2], uint32_t (*ends)[2],
-                             uint8_t *joined, const iccp_env *env, icc_error *err)
+                             const uint32_t *const vertices[2], double most_ratio,
+                             uint32_t (*ends)[2], uint8_t *joined, double *worst,
+                             const iccp_env *env, icc_error *err)
 {
-    const size_t tries = n < TRIES ? n : TRIES;
-    double least = HUGE_VAL;
+    const bool is_even = most_ratio < HUGE_VAL;
+    const size_t tries = is_even ? 0 : n < TRIES ? n : TRIES;
+    double least = most_ratio;
     uint32_t best = 0, root = 0;
     iccp_paths_report report;
     icc_status status = ICC_OK;
@@ -89,8 +92,8 @@ static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *con
             if (!iccp_split_surface_create(&s[side], given[side], x[side], &env->memory))
                 return iccp_fail_memory(err);
         }
-        status = iccp_landmark_paths(s, n, vertices, scale, root, k == tries ? HUGE_VAL : least,
-                                     ends, joined, &report, &part);
+        status = iccp_landmark_paths(s, n, vertices, scale, root, is_even,
+                                     k == tries ? most_ratio : least, ends, joined, &report, &part);
         if (status == ICC_OK && report.worst < least) {
             least = report.worst;
             best = root;
@@ -99,6 +102,7 @@ static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *con
             (status != ICC_OK && status != ICC_ERR_RESOLUTION))
             break;
     }
+    *worst = report.worst;
     if (status != ICC_ERR_RESOLUTION)
         return iccp_explain(err, status);
     status = iccp_fail_at(err, status, ICC_ITEM_POINT, report.landmark,
@@ -129,8 +133,8 @@ static icc_status draw(iccp_landmark_base *b, double scale, size_t n,
 
 icc_status iccp_landmark_base_create(iccp_landmark_base *b, const iccp_half_edges *const given[2],
                                      const double *const x[2], const double scale[2], size_t n,
-                                     const uint32_t *const vertices[2], const iccp_env *env,
-                                     icc_error *err)
+                                     const uint32_t *const vertices[2], double most_ratio,
+                                     const iccp_env *env, icc_error *err)
 {
     const iccp_memory *const memory = &env->memory;
     iccp_env parts[3];
@@ -139,10 +143,10 @@ icc_status iccp_landmark_base_create(iccp_landmark_base *b, const iccp_half_edge
     iccp_split(parts, 3, (const double[]){4, 4, 1}, env);
     uint32_t(*const ends)[2] = iccp_alloc(memory, 3 * n - 6, sizeof *ends);
     uint8_t *const joined = iccp_alloc(memory, n * n, sizeof *joined);
-    icc_status status =
-        ends == NULL || joined == NULL
-            ? iccp_fail_memory(err)
-            : find_paths(b->s, given, x, scale, n, vertices, ends, joined, &parts[0], err);
+    icc_status status = ends == NULL || joined == NULL
+                            ? iccp_fail_memory(err)
+                            : find_paths(b->s, given, x, scale, n, vertices, most_ratio, ends,
+                                         joined, &b->worst, &parts[0], err);
     if (status == ICC_OK)
         status = shrink(b->m, b->s, n, (const uint32_t(*)[2])ends, joined, &parts[1], err);
     if (status == ICC_OK && !is_same_base(b->m, b->s, n, vertices))

@@ -171,9 +171,9 @@ static icc_status run(iccp_landmark_web *w, const iccp_env *env)
 }
 
 icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t *const vertices[2],
-                               const double scale[2], uint32_t root, double most_ratio,
-                               uint32_t (*ends)[2], uint8_t *joined, iccp_paths_report *report,
-                               const iccp_env *env)
+                               const double scale[2], uint32_t root, bool is_even,
+                               double most_ratio, uint32_t (*ends)[2], uint8_t *joined,
+                               iccp_paths_report *report, const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
     iccp_landmark_web w = {.s = s,
@@ -181,6 +181,7 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
                            .most_paths = 3 * n - 6,
                            .vertices = vertices,
                            .root = root,
+                           .is_even = is_even,
                            .scale = scale,
                            .report = {.worst = 1},
                            .most_ratio = most_ratio,

@@ -17,15 +17,15 @@ typedef struct iccp_paths_report {
  * ICCP_LANDMARK + k. ends: the landmarks that each path joins. joined: n * n, whether there is a
  * path between two landmarks.
  *
- * Short paths first, by the sum of both lengths, each times `scale`, the first one from landmark
- * `root`. Where report->worst is far above 1 a path goes round something on one surface that it
- * does not go round on the other. ICC_ERR_RESOLUTION if it would be above most_ratio, or more than
- * 20 times as many vertices would be added as there are, ICC_ERR_MEMORY, ICC_ERR_CANCELLED,
- * without a text. O(n^2 m log m) for m vertices. */
+ * Short paths first, by the sum of both lengths, each times `scale`, and if `is_even` by how much
+ * they differ, too; the first one from landmark `root`. Where report->worst is far above 1 a path
+ * goes round something on one surface that it does not go round on the other. ICC_ERR_RESOLUTION if
+ * it would be above most_ratio, or more than 20 times as many vertices would be added as there are,
+ * ICC_ERR_MEMORY, ICC_ERR_CANCELLED, without a text. O(n^2 m log m) for m vertices. */
 icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t *const vertices[2],
-                               const double scale[2], uint32_t root, double most_ratio,
-                               uint32_t (*ends)[2], uint8_t *joined, iccp_paths_report *report,
-                               const iccp_env *env);
+                               const double scale[2], uint32_t root, bool is_even,
+                               double most_ratio, uint32_t (*ends)[2], uint8_t *joined,
+                               iccp_paths_report *report, const iccp_env *env);
 
 enum { ICCP_MOST_SURFACE_LANDMARKS = 128 };
 #define ICCP_LANDMARK ((uint32_t)1 << 31)

@@ -26,6 +26,10 @@ static const double lengths[2] = {ICCP_LONGER, 1.25};
  * they end at 5.38, 5.25, which goes on, and 13.1 (4: an isometry). */
 enum { FEWER = 4, MOST_FEWER = 2, LEAST = 4, CHOICE = 300 };
 
+/* Where a path is so many times as long on one surface as on the other it may go round something on
+ * one of them alone, and there is a beginning by paths whose lengths differ little. */
+static const double uneven = 2;
+
 typedef struct beginning {
     iccp_landmark_base base;
     uint8_t *is_fixed[2];
@@ -41,13 +45,15 @@ typedef struct problem {
     size_t n, n_fixed;
 } problem;
 
-/* Moves drawings of few vertices, from where they are, in several ways; the best one stays. */
-static icc_status relax_few(iccp_relaxation *r, bool is_severe, const iccp_env *env)
+/* Moves drawings of few vertices, from where they are, in several ways; the best one stays, which
+ * has the energy *least. */
+static icc_status relax_few(iccp_relaxation *r, bool is_severe, double *least, const iccp_env *env)
 {
     enum { N = sizeof lengths / sizeof *lengths };
     const iccp_memory *const memory = &env->memory;
-    double *kept[2], least = HUGE_VAL;
+    double *kept[2];
     size_t n[2];
+    *least = HUGE_VAL;
     icc_status status = ICC_OK;
     for (int side = 0; side < 2; ++side) {
         n[side] = 3 * r->side[side].m->n_vertices;
@@ -65,12 +71,12 @@ static icc_status relax_few(iccp_relaxation *r, bool is_severe, const iccp_env *
         for (int side = 0; side < 2; ++side)
             memcpy(r->side[side].directions, kept[side], n[side] * sizeof *kept[side]);
         status = iccp_relax(r, lengths[k], is_severe, ROUNDS_OF_FEW, &energy, &part);
-        for (int side = 0; side < 2 && energy < least; ++side)
+        for (int side = 0; side < 2 && energy < *least; ++side)
             memcpy(kept[side] + n[side], r->side[side].directions, n[side] * sizeof *kept[side]);
-        least = iccp_min(least, energy);
+        *least = iccp_min(*least, energy);
     }
     for (int side = 0; side < 2; ++side) {
-        if (least < HUGE_VAL)
+        if (*least < HUGE_VAL)
             memcpy(r->side[side].directions, kept[side] + n[side], n[side] * sizeof *kept[side]);
         iccp_free(memory, kept[side]);
     }
@@ -102,7 +108,7 @@ static icc_status grow(beginning *b, const problem *p, double until, const iccp_
                                       p->scale[side], b->is_fixed[side], !is_first, n, &part, err);
         }
         if (status == ICC_OK && is_first)
-            status = iccp_explain(err, relax_few(&b->r, is_sure, &part));
+            status = iccp_explain(err, relax_few(&b->r, is_sure, &b->energy, &part));
         for (int side = 0; side < 2; ++side)
             for (size_t k = p->n_fixed; k < p->n; ++k)
                 b->is_fixed[side][p->vertices[side][k]] = 0;
@@ -114,14 +120,15 @@ static icc_status grow(beginning *b, const problem *p, double until, const iccp_
 }
 
 /* With so many of the landmarks. */
-static icc_status begin(beginning *b, const problem *p, size_t n, const iccp_env *env,
+static icc_status begin(beginning *b, const problem *p, size_t n, bool is_even, const iccp_env *env,
                         icc_error *err)
 {
     iccp_drawn_surface drawn[2];
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
-    icc_status status = iccp_landmark_base_create(&b->base, p->given, p->x, p->scale, n,
-                                                  p->vertices, &parts[0], err);
+    icc_status status =
+        iccp_landmark_base_create(&b->base, p->given, p->x, p->scale, n, p->vertices,
+                                  is_even ? uneven : HUGE_VAL, &parts[0], err);
     if (status == ICC_ERR_RESOLUTION && n > p->n_fixed)
         return iccp_fail(err, status,
                          "the paths between landmarks, and others that were found beside them, "
@@ -154,18 +161,25 @@ static void give_up(beginning *b, const iccp_memory *memory)
     *b = (beginning){.level = 0};
 }
 
-/* Begins with all landmarks and with fewer and fewer; the best beginning, and no other is left.
- * Those for which there is no room are passed over, unless it is the last one. */
+/* Begins with all landmarks and with fewer and fewer, and where paths between all were uneven last
+ * by even ones, if there are; the best beginning, and no other is left. Those for which there is no
+ * room are passed over, unless none is left. */
 static icc_status begin_somehow(beginning *tries, size_t n_tries, size_t *best, const problem *p,
                                 const iccp_env *env, icc_error *err)
 {
     icc_status status = ICC_OK;
+    double worst = HUGE_VAL;
     *best = n_tries;
     for (size_t k = 0; k < n_tries && status == ICC_OK; ++k) {
         const iccp_env part =
             iccp_part(env, NULL, (double)k / (double)n_tries, (double)(k + 1) / (double)n_tries);
-        const bool is_needed = k + 1 == n_tries && *best == n_tries;
-        status = begin(&tries[k], p, p->n - FEWER * k, &part, is_needed ? err : NULL);
+        const bool is_even = k + 1 == n_tries, is_needed = k + 2 == n_tries && *best == n_tries;
+        if (is_even && worst <= uneven)
+            break;
+        status = begin(&tries[k], p, is_even ? p->n : p->n - FEWER * k, is_even, &part,
+                       is_needed ? err : NULL);
+        if (k == 0 && status == ICC_OK)
+            worst = tries[k].base.worst;
         if (status == ICC_OK && (*best == n_tries || tries[k].energy < tries[*best].energy)) {
             if (*best < n_tries)
                 give_up(&tries[*best], &env->memory);
@@ -193,8 +207,8 @@ icc_status iccp_landmark_sphere_draw(double *directions[2], iccp_half_edges m[2]
         .n = n,
         .n_fixed = n_fixed};
     const size_t least = n_fixed < LEAST ? LEAST : n_fixed, n_more = (n - least) / FEWER;
-    const size_t n_tries = 1 + (n_more < MOST_FEWER ? n_more : MOST_FEWER);
-    beginning tries[1 + MOST_FEWER] = {{.level = 0}};
+    const size_t n_tries = 2 + (n_more < MOST_FEWER ? n_more : MOST_FEWER);
+    beginning tries[2 + MOST_FEWER] = {{.level = 0}};
     size_t best;
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){(double)n_tries, 20}, env);

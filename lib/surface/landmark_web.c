@@ -2,6 +2,7 @@
  * of a landmark to sectors. */
 #include "surface/landmark_web.h"
 
+#include "base/minmax.h"
 #include "math/vec.h"
 
 static bool is_landmark(uint32_t holder)
@@ -96,13 +97,17 @@ void iccp_web_search(iccp_landmark_web *w, int side, uint32_t from, double most)
 void iccp_web_find_costs(iccp_landmark_web *w, uint32_t from, double most)
 {
     double *const row = w->cost + w->n_sectors * from;
+    iccp_web_search(w, 0, from, most);
     for (size_t k = 0; k < w->n_sectors; ++k)
-        row[k] = 0;
-    for (int side = 0; side < 2; ++side) {
-        iccp_web_search(w, side, from, most);
-        for (size_t k = 0; k < w->n_sectors; ++k)
-            row[k] += w->scale[side] * w->arrival[k];
-    }
-    for (size_t k = 0; k < w->n_sectors; ++k)
+        row[k] = w->scale[0] * w->arrival[k];
+    iccp_web_search(w, 1, from, most);
+    for (size_t k = 0; k < w->n_sectors; ++k) {
+        const double first = row[k], second = w->scale[1] * w->arrival[k];
+        row[k] += second;
+        if (w->is_even && row[k] < HUGE_VAL) {
+            const double ratio = iccp_max(first, second) / iccp_min(first, second);
+            row[k] *= ratio * ratio;
+        }
         w->cost[w->n_sectors * k + from] = row[k];
+    }
 }

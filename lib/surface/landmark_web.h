@@ -16,7 +16,8 @@ typedef struct iccp_landmark_web {
     uint8_t *joined;     /* n * n */
     bool *is_in;         /* by landmark: it has a path */
     bool *is_stale;      /* by sector: its costs have changed */
-    double *cost;        /* n_sectors^2: of a path from one to another, both lengths */
+    double *cost;        /* n_sectors^2: of a path from one to another, by both lengths */
+    bool is_even;        /* paths cost more whose lengths differ */
     uint32_t root;       /* landmark */
     const double *scale; /* of lengths, by side */
     double most_ratio;   /* of a path's lengths */
@@ -40,7 +41,8 @@ bool iccp_web_make_room(iccp_landmark_web *w, size_t n, const iccp_memory *memor
  * long, each side's lengths times `scale`: `distance`, `via`, `arrival` and `entered`. */
 void iccp_web_search(iccp_landmark_web *w, int side, uint32_t from, double most);
 
-/* What paths from a sector to all others cost, if that is at most so much; both ways. */
+/* What paths from a sector to all others cost, if that is at most so much; both ways. Cost: the sum
+ * of both lengths; where w->is_even times their ratio squared, the greater one by the other. */
 void iccp_web_find_costs(iccp_landmark_web *w, uint32_t from, double most);
 
 #endif

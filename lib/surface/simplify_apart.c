@@ -157,8 +157,8 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Touches up what is done, and anew, calmly, if the energy rises too much; if it still does it
- * stays as it was. */
+/* Touches up what is done, and anew, with more and more caution, if the energy rises too much; if
+ * it still does it stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
@@ -172,13 +172,14 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
         if (keep[v] != 0)
             stays[r->became[v]] = keep[v];
     double rise = HUGE_VAL;
-    for (int is_calm = 0; is_calm < 2 && rise > most_rise && status == ICC_OK; ++is_calm) {
-        const iccp_env part = iccp_part(env, NULL, 0.5 * is_calm, 0.5 * is_calm + 0.5);
+    for (iccp_patch_caution k = ICCP_PATCH_BOLD;
+         k <= ICCP_PATCH_CALM && rise > most_rise && status == ICC_OK; ++k) {
+        const iccp_env part = iccp_round(env, k, 1);
         iccp_common_surface fine;
         status = iccp_common_surface_copy(&fine, c, memory);
         if (status == ICC_OK)
-            status = iccp_touch_up(&fine, became, &rise, is_calm != 0, r->whole, r->became,
-                                   r->given, r->x, &limits, &part);
+            status = iccp_touch_up(&fine, became, &rise, k, r->whole, r->became, r->given, r->x,
+                                   &limits, &part);
         if (status == ICC_OK && rise <= most_rise)
             status = take_if_near(r, c, &fine, memory);
         iccp_common_surface_free(&fine, memory);

@@ -15,6 +15,10 @@
  * vertices there are so many that the whole would cost too much, and nothing came of it. */
 static const double calm = 1.01, thin = 0.13, most_calm = 4, most_calm_if_kept = 1.2;
 
+/* There sides may become longer, too: so many times as long, squared, as the longest one before,
+ * or else a thin triangle at a long side has no way out. */
+static const double longer2 = 1.5;
+
 /* Of 1 / sine^2: nothing is thinner. */
 static const double least_sine2 = 1e-12;
 
@@ -106,10 +110,11 @@ iccp_patch_shape iccp_patch_before(const iccp_patches *s, const iccp_patch *p)
 bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_patch_shape *before,
                       double least, double most, iccp_patch_shape *after)
 {
+    const double grown2 = s->caution < ICCP_PATCH_SHORT && before->least < thin ? longer2 : 1;
     bool is_good = look(s, p, &p->after, least, most, after);
     for (int side = 0; side < 2; ++side)
-        is_good =
-            is_good && after->longest2[side] <= iccp_max(s->edge2[side], before->longest2[side]);
+        is_good = is_good && after->longest2[side] <=
+                                 iccp_max(s->edge2[side], grown2 * before->longest2[side]);
     return is_good;
 }
 
@@ -144,7 +149,8 @@ bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_befor
 {
     const iccp_patch_triangles *const t = &p->after;
     const double most = s->cells != NULL ? most_calm_if_kept : most_calm;
-    const double more = s->is_calm ? 1 : iccp_max(calm, iccp_min(most, thin / least_before));
+    const double more =
+        s->caution == ICCP_PATCH_CALM ? 1 : iccp_max(calm, iccp_min(most, thin / least_before));
     bool is_allowed = energy_of(s, p, t) <= more * energy_of(s, p, &p->before);
     for (int side = 0; side < 2 && is_allowed; ++side) {
         iccp_corners c[ICCP_PATCH_TRIANGLES];

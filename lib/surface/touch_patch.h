@@ -9,6 +9,13 @@
 /* Most neighbours of a vertex that changes; most triangles that one change concerns. */
 enum { ICCP_PATCH_NEIGHBOURS = 18, ICCP_PATCH_TRIANGLES = ICCP_PATCH_NEIGHBOURS + 2 };
 
+/* What changes may not do, each what those before it may not either. */
+typedef enum iccp_patch_caution {
+    ICCP_PATCH_BOLD,
+    ICCP_PATCH_SHORT, /* make sides longer than they may be, and than those before */
+    ICCP_PATCH_CALM   /* stretch one surface more to become the other */
+} iccp_patch_caution;
+
 /* Vertices are in places of those of the overlay that all of this has come from, on either side by
  * themselves. */
 typedef struct iccp_patches {
@@ -18,9 +25,9 @@ typedef struct iccp_patches {
     const iccp_kept_cells *cells;     /* of the first surface; or NULL */
     double edge2[2]; /* on either side: sides are no longer, squared, unless some were before */
     double scale;    /* times which the second has the area of the first */
-    bool is_calm;    /* no change may stretch one more to become the other */
-    uint32_t *at[2]; /* by vertex: the one of the whole in whose place it is */
-    double *x[2];    /* by vertex: that place */
+    iccp_patch_caution caution; /* against what changes may do else */
+    uint32_t *at[2];            /* by vertex: the one of the whole in whose place it is */
+    double *x[2];               /* by vertex: that place */
     iccp_covering covering[2];
     iccp_clearance clearance[2];
 } iccp_patches;
@@ -60,7 +67,8 @@ void iccp_patch_add_ring(const iccp_patches *s, iccp_patch *p, uint32_t v, uint3
 
 iccp_patch_shape iccp_patch_before(const iccp_patches *s, const iccp_patch *p);
 
-/* False if an angle's sine is below `least`, the sum above `most`, or a side too long. */
+/* False if an angle's sine is below `least`, the sum above `most`, or a side too long; where
+ * triangles were thin one may become a little longer, unless s->caution is against it. */
 bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_patch_shape *before,
                       double least, double most, iccp_patch_shape *after);
 
@@ -69,7 +77,8 @@ void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corn
                            double scale);
 
 /* Whether both surfaces are near enough afterwards, neither meets itself, and one is not stretched
- * more to become the other; unless s->is_calm a little more where the least sine has been small. */
+ * more to become the other; a little more where the least sine has been small, unless s->caution
+ * is against it. */
 bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_before);
 
 /* Moves the vertex and what is beside the triangles; s->m is the caller's to change. */

@@ -8,7 +8,6 @@
 #include "base/heap.h"
 #include "base/minmax.h"
 #include "surface/corner_angle.h"
-#include "surface/touch_patch.h"
 
 #include <string.h>
 
@@ -277,13 +276,14 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
     return status;
 }
 
-icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *rise, bool is_calm,
-                         const iccp_common_surface *whole, const uint32_t *left,
-                         const iccp_half_edges *const given[2], const double *const x[2],
-                         const iccp_simplify_limits *limits, const iccp_env *env)
+icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *rise,
+                         iccp_patch_caution caution, const iccp_common_surface *whole,
+                         const uint32_t *left, const iccp_half_edges *const given[2],
+                         const double *const x[2], const iccp_simplify_limits *limits,
+                         const iccp_env *env)
 {
     touching t = {
-        .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .is_calm = is_calm}};
+        .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .caution = caution}};
     icc_status status = iccp_half_edges_create(&t.s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     for (int side = 0; side < 2; ++side)
