@@ -23,7 +23,7 @@ enum {
  * and 1, with 12, 16, 24 and 32 samples on each side, .8 and 16 had the least energy on bent
  * development pairs of few vertices. Coasts have details that tell places apart within short
  * patches, and may be stretched too unevenly for long ones: of 3 to 24 samples, 5 to 16 and .8 to
- * 1, these found the limbs of a swirl in 9 of 10 draws. */
+ * 1, these found the limbs of a swirl most often. */
 typedef struct closeness {
     int32_t patch, reach;
     double tangents;
@@ -34,8 +34,10 @@ static const closeness smooth = {16, 16, .8, 1}, fine = {6, 10, .92, 2};
 
 /* A pairing whose rotations round all samples have a mean shorter than this is followed with these.
  * Of the development pairs (tests/bench/bench_match.c) bent limbs, a swirl and a coast in two
- * projections, for most draws, have .95 to .966; pairs that one rotation serves better, .978 up. */
-static const double bent = .97;
+ * projections, for most draws, have .95 to .966; pairs that one rotation serves better, .978 up. In
+ * between it is done if widths change so many times as unevenly then: .5 for a draw of the swirl
+ * with .976, .98 and more for others below .99. */
+static const double bent = .97, perhaps_bent = .985, fairer = .7;
 
 /* Its first column in a row, and between in proportion. */
 void iccp_elastic_candidate_place(iccp_elastic_candidate *c)
@@ -184,16 +186,9 @@ void iccp_elastic_candidate_follow(iccp_elastic_candidate *c, iccp_samples *s)
 /* Where the target is bent, large scales mislead, and so do rotations along a path that they have
  * led astray. So they count for little once the path is near, and the first of these passes
  * knows of no rotation. */
-void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_samples *s)
+static void follow_near(iccp_elastic_candidate *c, iccp_samples *s, double (*rotation)[2])
 {
     const closeness near = s->are_fine ? fine : smooth;
-    double rotation[N][2];
-    if (rotations_along(rotation, s, c, WIDE) >= bent)
-        return;
-    for (int pass = 0; pass < N_BENT; ++pass) {
-        follow(s, c, rotation, iccp_tangents);
-        (void)rotations_along(rotation, s, c, WIDE);
-    }
     for (int round = 0; round < near.rounds; ++round) {
         follow(s, c, rotation, 0);
         for (int pass = 0; pass < N_BENT; ++pass) {
@@ -201,4 +196,35 @@ void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_samples *s)
             follow(s, c, rotation, near.tangents);
         }
     }
+}
+
+static void copy(iccp_elastic_candidate *to, const iccp_elastic_candidate *from)
+{
+    int32_t *const points = to->path.points;
+    *to = *from;
+    to->path.points = points;
+    memcpy(points, from->path.points, 2 * (size_t)from->path.n_points * sizeof *points);
+}
+
+/* From where it is, and by way of large scales if it is surely bent; widths choose. */
+void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_elastic_candidate *spare,
+                                 iccp_samples *s, const iccp_widths *widths)
+{
+    double rotation[N][2];
+    const double straight = rotations_along(rotation, s, c, WIDE);
+    if (straight >= perhaps_bent)
+        return;
+    copy(spare, c);
+    follow_near(spare, s, rotation);
+    double most = fairer * iccp_widths_change(widths, c->place);
+    if (straight < bent) {
+        for (int pass = 0; pass < N_BENT; ++pass) {
+            follow(s, c, rotation, iccp_tangents);
+            (void)rotations_along(rotation, s, c, WIDE);
+        }
+        follow_near(c, s, rotation);
+        most = iccp_widths_change(widths, c->place);
+    }
+    if (iccp_widths_change(widths, spare->place) < most)
+        copy(c, spare);
 }

@@ -5,6 +5,7 @@
 #include "match/descriptor.h"
 #include "match/elastic.h"
 #include "match/lattice_path.h"
+#include "match/widths.h"
 
 #include <stdbool.h>
 
@@ -32,7 +33,9 @@ void iccp_elastic_candidate_place(iccp_elastic_candidate *candidate);
 void iccp_elastic_candidate_follow(iccp_elastic_candidate *candidate, iccp_samples *samples);
 
 /* Where it turns by other angles here than there, as bent limbs do: follows it once more, with the
- * rotation round each sample. Its score and the rotation of the whole stay as they were. */
-void iccp_elastic_candidate_bend(iccp_elastic_candidate *candidate, iccp_samples *samples);
+ * rotation round each sample, in two ways, and takes the one that changes widths more evenly. Its
+ * score and the rotation of the whole stay as they were. `spare` has room for a path. */
+void iccp_elastic_candidate_bend(iccp_elastic_candidate *candidate, iccp_elastic_candidate *spare,
+                                 iccp_samples *samples, const iccp_widths *widths);
 
 #endif
