@@ -1,10 +1,13 @@
-/* Outlines that do not correspond: usage: bench_match [map] SEED ... < FILES, pairs of lines SOURCE
- * and TARGET. The vertices of each pair correspond; 30 % more are put at random places on edges and
- * the starts turned, for each side apart, and icc_match_create() has to find the pairs again. Error:
- * distance to the true partner, in % of the target's perimeter, mean along the source's.
- * `map`: also what it costs to map what was found, by what it costs to map the files as they are,
- * the least of three by turns, with the triangles that were to be repaired and the energies of both. */
+/* Outlines that do not correspond: usage: bench_match [map] [drop D] SEED ... < FILES, pairs of
+ * lines SOURCE and TARGET. The vertices of each pair correspond; 30 % more are put at random places
+ * on edges and the starts turned, for each side apart, and icc_match_create() has to find the pairs
+ * again. Error: distance to the true partner, in % of the target's perimeter, mean along the
+ * source's. `map`: also what it costs to map what was found, by what it costs to map the files as
+ * they are, the least of three by turns, with the triangles that were to be repaired and the
+ * energies of both. `drop`: the option of that name. */
 #include "bench.h"
+
+#include <stdbool.h>
 
 enum { MOST = 100000, PLACES = 2000, RUNS = 3 };
 
@@ -184,8 +187,14 @@ static void compare_maps(const icc_match *match, const ring *files)
 int main(int argc, char **argv)
 {
     const char *slash;
-    const int first = argc > 1 && strcmp(argv[1], "map") == 0 ? 2 : 1;
+    icc_match_options options = {.size = sizeof options, .least_sure = 1};
+    const bool maps = argc > 1 && strcmp(argv[1], "map") == 0;
+    const int next = maps ? 2 : 1;
+    const bool drops = next + 1 < argc && strcmp(argv[next], "drop") == 0;
+    const int first = drops ? next + 2 : next;
     char paths[2][1024];
+    if (drops)
+        options.drop = strtod(argv[next + 1], NULL);
     while (scanf("%1023s %1023s", paths[0], paths[1]) == 2) {
         ring files[2] = {ring_read(paths[0]), ring_read(paths[1])};
         slash = strrchr(paths[0], '/');
@@ -196,7 +205,6 @@ int main(int argc, char **argv)
             for (int e = 0; e < 2; ++e)
                 domain[e] = bench_domain(given[e].n, given[e].xy);
             icc_match *match = NULL;
-            icc_match_options options = {.size = sizeof options, .least_sure = 1};
             icc_error error = {.size = sizeof error};
             const double begin = bench_processor_seconds();
             const icc_status status =
@@ -214,7 +222,7 @@ int main(int argc, char **argv)
                        100 * error_of(match, files, given), info.cost, info.sure, info.turn,
                        info.least_slope, info.most_slope, info.mirrored ? " mirrored" : "",
                        seconds);
-                if (first == 2)
+                if (maps)
                     compare_maps(match, files);
             }
             icc_match_free(match);
