@@ -22,7 +22,6 @@ static const double upright = .05, far = .05 * N, noise = .05;
 
 typedef struct elastic {
     iccp_samples samples;
-    iccp_widths widths;
     iccp_elastic_candidate candidates[N_CANDIDATES];
     size_t n_candidates;
     iccp_lattice_path paths[N_STARTS];
@@ -64,9 +63,10 @@ static elastic *prepare(const iccp_outline *source, const iccp_outline *target,
     for (int k = 0; k < N; ++k)
         share[k] = (double)k / N;
     e->samples.are_fine = source->n >= N && target->n >= N;
+    e->samples.source = source;
+    e->samples.target = target;
     iccp_descriptors(e->samples.a, source, N, share, 1.0 / N);
     iccp_descriptors(e->samples.b, target, N, share, 1.0 / N);
-    iccp_widths_measure(&e->widths, source, target);
     return e;
 }
 
@@ -213,7 +213,7 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     if (status == ICC_OK) {
         iccp_elastic_candidate *const best = choose(e, report);
         iccp_elastic_candidate *const spare = &e->candidates[best == e->candidates ? 1 : 0];
-        iccp_elastic_candidate_bend(best, spare, &e->samples, &e->widths);
+        iccp_elastic_candidate_bend(best, spare, &e->samples);
         read_knots(knots, best);
         report->is_mirrored = mirrored + noise < .67 * (least + noise);
     }
@@ -243,7 +243,7 @@ icc_status iccp_elastic_bend(iccp_pairing_knots *knots, const iccp_outline *sour
     iccp_elastic_candidate *const c = &e->candidates[0];
     for (int k = 0; k < N; ++k)
         c->place[k] = (float)(N * iccp_knots_at(knots, (double)k / N));
-    iccp_elastic_candidate_bend(c, &e->candidates[1], &e->samples, &e->widths);
+    iccp_elastic_candidate_bend(c, &e->candidates[1], &e->samples);
     if (c->path.n_points > 0 && passes(c, n, landmarks))
         read_knots(knots, c);
     release(e, memory);

@@ -3,6 +3,7 @@
  * Euclidean spaces, 2011): cut open at its surest place, then the best path near by. */
 #include "match/elastic_candidate.h"
 
+#include "match/widths.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -208,23 +209,25 @@ static void copy(iccp_elastic_candidate *to, const iccp_elastic_candidate *from)
 
 /* From where it is, and by way of large scales if it is surely bent; widths choose. */
 void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_elastic_candidate *spare,
-                                 iccp_samples *s, const iccp_widths *widths)
+                                 iccp_samples *s)
 {
+    iccp_widths widths;
     double rotation[N][2];
     const double straight = rotations_along(rotation, s, c, WIDE);
     if (straight >= perhaps_bent)
         return;
+    iccp_widths_measure(&widths, s->source, s->target);
     copy(spare, c);
     follow_near(spare, s, rotation);
-    double most = fairer * iccp_widths_change(widths, c->place);
+    double most = fairer * iccp_widths_change(&widths, c->place);
     if (straight < bent) {
         for (int pass = 0; pass < N_BENT; ++pass) {
             follow(s, c, rotation, iccp_tangents);
             (void)rotations_along(rotation, s, c, WIDE);
         }
         follow_near(c, s, rotation);
-        most = iccp_widths_change(widths, c->place);
+        most = iccp_widths_change(&widths, c->place);
     }
-    if (iccp_widths_change(widths, spare->place) < most)
+    if (iccp_widths_change(&widths, spare->place) < most)
         copy(c, spare);
 }

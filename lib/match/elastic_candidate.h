@@ -5,7 +5,6 @@
 #include "match/descriptor.h"
 #include "match/elastic.h"
 #include "match/lattice_path.h"
-#include "match/widths.h"
 
 #include <stdbool.h>
 
@@ -19,6 +18,7 @@ typedef struct iccp_elastic_candidate {
 
 /* The samples of both outlines, and memory for the costs of their pairs. */
 typedef struct iccp_samples {
+    const iccp_outline *source, *target; /* borrowed */
     iccp_descriptor a[ICCP_MATCH_SAMPLES], b[ICCP_MATCH_SAMPLES];
     bool are_fine; /* vertices are closer than samples on both sides */
     float *cost;
@@ -36,6 +36,6 @@ void iccp_elastic_candidate_follow(iccp_elastic_candidate *candidate, iccp_sampl
  * rotation round each sample, in two ways, and takes the one that changes widths more evenly. Its
  * score and the rotation of the whole stay as they were. `spare` has room for a path. */
 void iccp_elastic_candidate_bend(iccp_elastic_candidate *candidate, iccp_elastic_candidate *spare,
-                                 iccp_samples *samples, const iccp_widths *widths);
+                                 iccp_samples *samples);
 
 #endif

@@ -45,12 +45,12 @@ void iccp_widths_measure(iccp_widths *w, const iccp_outline *source, const iccp_
 }
 
 /* Between samples. */
-static void point_at(double out[2], double (*point)[2], double at)
+static void point_at(double out[2], const iccp_widths *w, int side, double at)
 {
     const double whole = floor(at), f = at - whole;
     const int32_t k = (int32_t)(whole - N * floor(whole / N)) % N;
     for (int e = 0; e < 2; ++e)
-        out[e] = (1 - f) * point[k][e] + f * point[(k + 1) % N][e];
+        out[e] = (1 - f) * w->point[side][k][e] + f * w->point[side][(k + 1) % N][e];
 }
 
 /* Where the source's samples have to be for the target's to be paired with them. */
@@ -77,8 +77,8 @@ double iccp_widths_change(const iccp_widths *w, const float *place)
             double p[2], q[2];
             if (i < 0)
                 continue;
-            point_at(p, (double(*)[2])w->point[1 - side], (double)to[k]);
-            point_at(q, (double(*)[2])w->point[1 - side], (double)to[i]);
+            point_at(p, w, 1 - side, (double)to[k]);
+            point_at(q, w, 1 - side, (double)to[i]);
             const double before = iccp_vec_distance2(2, w->point[side][k], w->point[side][i]);
             const double after = iccp_vec_distance2(2, p, q);
             if (!(before > 0 && after > 0))
