@@ -29,7 +29,21 @@ for option in $(echo "$page" | grep -oE -- '--[a-z]+(-[a-z]+)*' | sort -u); do
     esac
 done
 
+# Words that a page runs together: prose behind .BR and its like, which drop the blanks between their words. A word of
+# more than 25 letters is one unless it has a character that only names and synopses have.
+run_together() {
+    groff -man -Tutf8 -rLL=120n "$1" | sed 's/\x1b\[[0-9;]*m//g; s/.\x08//g' | tr -s '[:space:]' '\n' |
+        grep -E '.{26}' | grep -vE '[][|<>"#{}()/_=-]' | grep -vE '^[a-z]+,[a-z]+:[a-z]+,[a-z]+$' || :
+}
+
 for file in "$folder"/*.[13]; do
+    if command -v groff >/dev/null; then
+        words=$(run_together "$file")
+        [ -z "$words" ] || complain "$file runs words together: $words"
+        ! grep -nE '^\.(BR|RB|IR|RI|BI|IB) .* [.,;:)]+ [A-Za-z]' "$file" || complain "$file: prose on a line of its macro"
+    else
+        echo "$file: left out: groff is missing"
+    fi
     if command -v mandoc >/dev/null; then
         mandoc -T lint -W warning "$file" || complain "mandoc: $file"
     else

@@ -7,18 +7,29 @@ make_cages
 run 0 --version
 grep -q '^libicc [0-9]*\.[0-9]*\.[0-9]*$' out || complain "no version: $(cat out)"
 run 0 --help
-for command in map encode decode warp animate mesh check info plot weights pose; do
+for command in map encode decode warp animate mesh check info plot match weights pose; do
     run 0 --help
     holds out "  $command "
     run 0 "$command" --help
     holds out "Usage: libicc $command"
     holds out "--source FILE"
     [ ! -s err ] || complain "$command --help writes to stderr"
+    # Below an option nothing begins at the left but the next group's heading.
+    awk -v c="$command" 'option && /^[^ ]/ && !/^Options/ { print c ": at the left: " $0; bad = 1 }
+        /^ +(-.|--)/ { option = 1 } END { exit bad }' out || complain "$command --help is broken off"
     run 0 "$command" -h
     run 2 "$command"
     says "(see 'libicc $command --help')"
     run 2 "$command" --nonsense
     says "--nonsense"
+done
+
+
+# Lines fit into a terminal.
+for command in '' map encode decode warp animate mesh check info plot match weights pose demo; do
+    # shellcheck disable=SC2086 # one word or none
+    run 0 $command --help
+    awk 'length > 80 { print; bad = 1 } END { exit bad }' out || complain "$command --help is wider than 80 columns"
 done
 
 run 2

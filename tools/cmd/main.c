@@ -19,7 +19,7 @@ static const command commands[] = {
      .needs_target = true,
      .run = run_map,
      .usage = "--source FILE --target FILE [OPTION]... < POINTS > IMAGES\n"
-              "       libicc map --source FILE --target FILE --geojson [OPTION]... IN OUT",
+              "--source FILE --target FILE --geojson [OPTION]... IN OUT",
      .summary = "Carries points along with their cage",
      .details =
          "Reads one point per line, `x y` in the plane and `x y z` in space, and writes its image "
@@ -94,7 +94,8 @@ static const command commands[] = {
      .n_operands = 2,
      .needs_target = true,
      .run = run_mesh,
-     .usage = "--source FILE --target FILE [OPTION]... IN OUT, or mesh --fill SURFACE OUT",
+     .usage = "--source FILE --target FILE [OPTION]... IN OUT\n"
+              "--fill [OPTION]... SURFACE OUT",
      .summary = "Carries the vertices of a mesh along, or fills a surface",
      .details =
          "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format "
@@ -174,17 +175,16 @@ static const command commands[] = {
     {.name = "weights",
      .bit = FOR_WEIGHTS,
      .run = run_weights,
-     .usage = "[--source FILE] --handles FILE [OPTION]... < POINTS > WEIGHTS",
+     .usage = "[--source FILE] --handles FILE [OPTION]... < POINTS > OUT",
      .summary = "Blends handles: kernel coordinates of points, or a figure of them",
      .details =
          "Reads one point per line and writes its weight for each handle. Weights sum to 1, "
          "reproduce the\n"
          "point from the handles, and are 1 and 0 at the handles. The handles' file is JSON:\n\n"
          "  {\"handles\": [[x, y], ..],         or [x, y, z]; all else may be left out\n"
-         "   \"edges\": [[0, 1], ..],           handles between which weights are linear at the "
-         "start\n"
+         "   \"edges\": [[0, 1], ..],           weights start linear between these handles\n"
          "   \"lines\": [{\"from\": [x, y], \"to\": [x, y], \"parallel\": 0}, ..],\n"
-         "                                    stay straight, and parallel to an earlier line\n"
+         "                                    straight, and parallel to an earlier line\n"
          "   \"regions\": [[[x, y], ..], ..],   polygons that belong to the shape, too\n"
          "   \"curves\": {\"vertices\": [[x, y], ..], \"segments\": [[0, 1], ..]},\n"
          "   \"rigid\": [{\"region\": [[x, y], ..], \"rigidity\": 1}, ..]}\n"
@@ -196,7 +196,8 @@ static const command commands[] = {
      .bit = FOR_POSE,
      .n_operands = 2,
      .run = run_pose,
-     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT",
+     .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT\n"
+              "--binding FILE --pose FILE [OPTION]... OUT",
      .summary = "Moves points, meshes and pictures with their handles",
      .details =
          "IN is a list of points, a mesh (OBJ, OFF, PLY, Medit, VTK) or a picture (as warp), "
@@ -233,11 +234,12 @@ static void print_help(void)
          "Carries everything inside a shape along when its boundary moves.\n\nCommands:");
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
-    puts("\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version;\n"
-         "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them.\n"
-         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
-         "some\n"
-         "points have no image.\n(Not related to ICC colour profiles.)");
+    help_paragraphs(
+        "\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version;\n"
+        "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them.\n"
+        "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
+        "some\n"
+        "points have no image.\n\n(Not related to ICC colour profiles.)\n");
 }
 
 static int run_command(const command *c, int argc, char **argv)

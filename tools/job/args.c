@@ -238,35 +238,3 @@ int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
         return result;
     return args_check(out, c);
 }
-
-static void print_option(const option *o)
-{
-    char left[64], letter[8] = "    ";
-    if (o->letter != '\0' && !o->quiet_letter)
-        snprintf(letter, sizeof letter, "-%c, ", o->letter);
-    snprintf(left, sizeof left, "%s--%s%s%s", letter, o->name, option_takes_word(o) ? " " : "",
-             o->value ? o->value : "");
-    printf("  %-30s %s\n", left, o->help);
-}
-
-/* One group of a command's options; nothing if it has none of them. */
-static void print_group(const command *c, bool papers, const char *heading)
-{
-    for (size_t i = 0; i < n_options; i++) {
-        const option *o = &options[i];
-        if (!(o->commands & c->bit) || o->papers != papers)
-            continue;
-        printf("%s", heading);
-        heading = "";
-        print_option(o);
-    }
-}
-
-void args_help(const command *c)
-{
-    printf("Usage: libicc %s %s\n%s.\n\n%s", c->name, c->usage, c->summary, c->details);
-    print_group(c, false, "\nOptions:\n");
-    print_group(c, true,
-                c->bit & FOR_KERNEL ? "\nOptions of the thesis' method:\n"
-                                    : "\nOptions of the papers' method (--method gradient):\n");
-}

@@ -91,9 +91,9 @@ typedef struct command {
     size_t n_operands_more;    /* so many more are taken, too */
     bool needs_target;
     int (*run)(const args *a);
-    const char *usage;   /* what follows the name */
+    const char *usage;   /* what follows the name: one line for each way to call the command */
     const char *summary; /* one line */
-    const char *details; /* paragraphs for --help */
+    const char *details; /* paragraphs for --help, which breaks lines that begin without a blank */
 } command;
 
 /* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a line on stderr. *help is set
@@ -106,7 +106,10 @@ int args_check(args *a, const command *c);
 /* The operand that names the result; NULL where none does. */
 const char *args_result(const args *a, const command *c);
 
-/* Prints the help of a command on stdout. */
+/* Prints the help of a command on stdout, in lines of at most 80 columns. */
 void args_help(const command *c);
+
+/* Prints paragraphs so. Lines that begin with a blank, and empty ones, stay as they are. */
+void help_paragraphs(const char *text);
 
 #endif

@@ -81,7 +81,8 @@ static int check_operands(const args *a, const command *c)
     if (a->n_operands < n_operands && a->geojson)
         return misused(c->name, "--geojson needs two files, IN and OUT");
     if (a->n_operands < n_operands)
-        return misused(c->name, "usage: libicc %s %s", c->name, c->usage);
+        return misused(c->name, "usage: libicc %s %.*s", c->name, (int)strcspn(c->usage, "\n"),
+                       c->usage);
     if (a->n_operands > n_operands && has_bound(a, c))
         return misused(c->name, "--binding has its points; it takes one file, OUT");
     if (a->n_operands > n_operands + c->n_operands_more)

@@ -493,7 +493,7 @@ const option options[] = {
      .kind = OPTION_FUNCTIONS,
      .commands = FOR_CHARTS,
      .value = "NAME",
-     .help = "gradient: decay (default), distance, laplace, bilaplace, clamped or\n"
+     .help = "gradient: decay (default), distance, laplace, bilaplace, clamped or "
              "harmonic (laplace with zeros on the boundary itself)"},
     {.name = "constrained",
      .papers = true,
