@@ -159,6 +159,49 @@ run 0 mesh -s source.txt -t target.txt overlap.obj out.obj
 holds out '2 keep their orientation'
 holds out 'not certified, nor is the boundary simple'
 
+run 1 mesh -s source.txt -t target.txt --require certified overlap.obj out.obj
+# The outer two corners of a triangle lie on the outline, and so does the third: no vertex can be moved.
+printf '0 0\n10 0\n10 10\n0 10\n' >square.txt
+printf '0 0\n10 0\n3 2\n0 10\n' >dart.txt
+printf 'v 0 0\nv 10 0\nv 10 10\nv 0 10\nf 1 2 4\nf 2 3 4\n' >ear.obj
+for option in '' --untangle; do
+    # shellcheck disable=SC2086 # an option or none
+    run 4 mesh -s square.txt -t dart.txt $option ear.obj out.obj
+    holds out '2 triangles: 1 keep their orientation, 1 inverted'
+    holds err '1 of 2 triangles is inverted or collapsed (numbers from 0: 1): all three corners lie on the boundary'
+    [ -e out.obj ] || complain "nothing was written"
+done
+run 4 mesh -s square.txt -t dart.txt --json=report.json ear.obj out.obj
+tr -d ' \n' <report.json >flat.json
+holds flat.json '"turned":[1],"turned_on_boundary":[1]'
+cp out.obj dart.obj
+run 1 mesh -s square.txt -t dart.txt --require certified --untangle ear.obj out.obj
+run 1 mesh -s square.txt -t dart.txt --require certified --inverse dart.obj out.obj
+holds err "not certified from target to source"
+
+make_cubes
+# --require certified: refused is what is not certified, and 4 becomes 1.
+rm -f images
+run 1 map -s square.txt -t dart.txt -m gradient --require certified -p points.txt -o images
+says 'the map is not certified, so nothing is written'
+[ ! -e images ] || complain "the images of a map that is not certified were written"
+run 0 map -s square.txt -t dart.txt --require certified -p points.txt -o images
+printf '1 1\n50 50\n' >far.txt
+run 4 map -s square.txt -t dart.txt -p far.txt -o images
+run 1 map -s square.txt -t dart.txt --require certified -p far.txt -o images
+printf '{"type": "Point", "coordinates": [50, 50]}' >far.geojson
+run 4 map -s square.txt -t dart.txt --geojson far.geojson out.geojson
+run 1 map -s square.txt -t dart.txt --geojson --require certified far.geojson out.geojson
+run 1 map -s square.txt -t dart.txt -m gradient --geojson --require certified far.geojson out.geojson
+run 0 check -s square.txt -t dart.txt --require certified
+run 1 check -s square.txt -t dart.txt --require certified -m gradient
+run 1 check -s cube.obj --require certified
+holds err 'no map or chart was asked for that could be certified'
+run 0 check -s cube.obj --require certified -m foliation
+run 2 check -s square.txt -t dart.txt --require exact
+says "it may be: certified"
+run 2 warp -s square.txt -t dart.txt --require certified in.png out.png
+
 # A mesh that is sampled from a one-to-one map can invert; --repair moves its inner vertices.
 awk -v n=20 'BEGIN { h = 10 / n
     for (j = 0; j <= n; j++) for (i = 0; i <= n; i++) if (i <= n / 2 || j <= n / 2) {
@@ -167,9 +210,16 @@ awk -v n=20 'BEGIN { h = 10 / n
         printf "f %d %d %d\nf %d %d %d\n", id[i, j], id[i + 1, j], id[i + 1, j + 1],
             id[i, j], id[i + 1, j + 1], id[i, j + 1] }' >grid.obj
 printf '0 0\n1 -3\n2 9\n9 9\n3 12\n-6 2\n' >bent.txt
-run 0 mesh -s source.txt -t bent.txt grid.obj out.obj
+run 4 mesh -s source.txt -t bent.txt grid.obj out.obj
 holds out '; not certified'
+holds err '--untangle moves inner vertices'
 grep -q ' 0 inverted' out && complain "nothing to repair: $(cat out)"
+rm out.obj
+run 1 mesh -s source.txt -t bent.txt --require certified grid.obj out.obj
+holds err 'the mesh and its image are not certified, so nothing was written'
+[ ! -e out.obj ] || complain "what is not certified was written"
+run 0 mesh -s source.txt -t bent.txt --require certified --untangle grid.obj out.obj
+[ -e out.obj ] || complain "what is certified was not written"
 run 0 mesh -s source.txt -t bent.txt --repair grid.obj out.obj
 holds out '600 triangles: 600 keep their orientation, 0 inverted, 0 collapsed'
 holds out 'mesh and image are certified one-to-one'

@@ -93,10 +93,11 @@ END
 pose 0 rest.json mesh.obj out.obj
 holds out '2 triangles: 2 keep their orientation, 0 inverted'
 [ "$(grep -c '^v .* 7$' out.obj)" -eq 6 ] || complain "the third coordinate is lost"
-pose 0 mirror.json mesh.obj out.obj --json
+pose 4 mirror.json mesh.obj out.obj --json
 holds out '"inverted": 1'
-pose 0 mirror.json mesh.obj -
+pose 4 mirror.json mesh.obj -
 holds err '1 inverted'
+holds err '1 of 2 triangles is inverted or collapsed (numbers from 0: 1): all three corners lie on the boundary'
 holds out 'f 4 5 6'
 printf 'v 1 1 7\nf 1 2 3\n' >bad.obj
 pose 1 rest.json bad.obj out.obj
@@ -139,8 +140,10 @@ nan nan" ] || complain "not nan: $(cat out)"
 sed 's/^v 9.1/v 99/' mesh.obj >far.obj
 pins 1 pass.json --certified far.obj images
 says 'far.obj: vertex 4 is outside the shape, so nothing was written'
-pins 0 pass.json --certified mesh.obj out.obj
+pins 0 pass.json --certified --require certified mesh.obj out.obj
 holds out ', 0 inverted'
+pins 1 pass.json --require certified mesh.obj out.obj
+says '--certified makes them one-to-one'
 # A handle on the outline is a vertex of it; the outline may be a region of the handles' file.
 echo '{"handles": [[0, 5], [10, 0], [3, 3], [0, 0]], "regions": [[[0, 0], [10, 0], [10, 10], [0, 10]]]}' >region.json
 echo '{"moves": [{"handle": 0, "move": [1, 0]}, {"handle": 2, "move": [4, 1]}]}' >one.json

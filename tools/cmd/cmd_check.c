@@ -95,6 +95,10 @@ static int verdict_on_method(check *c)
     if (!c->job.args->json)
         print_found(c);
     char text[240];
+    if (check_domain_only(c) && c->job.args->require != 0)
+        return failed(c->job.args->source, 0,
+                      "valid, but no map or chart was asked for that could be certified; give "
+                      "--target, or of a surface --method foliation");
     return first_doubtful(c)->certified || check_domain_only(c)
                ? DONE
                : failed(c->job.args->source, 0, "%s", check_reason(text, first_doubtful(c)));

@@ -6,6 +6,7 @@
 #include "geo/geo_carry.h"
 #include "job/job.h"
 #include "job/output_name.h"
+#include "job/require.h"
 #include "job/ties_file.h"
 #include "job/triangulation.h"
 
@@ -173,6 +174,8 @@ int run_geojson(const args *a)
         result = ties_check(&j);
     if (result == DONE)
         result = job_make_map(&j);
+    if (result == DONE)
+        result = require_maps(&j);
     if (result == DONE)
         result = carry_file(&j);
     job_end(&j);

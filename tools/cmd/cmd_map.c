@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "base/system.h"
 #include "job/point_file.h"
+#include "job/require.h"
 #include "job/ties_file.h"
 #include "job/triangulation.h"
 
@@ -91,6 +92,8 @@ int run_map(const args *a)
         result = ties_check(&j);
     if (result == DONE)
         result = job_make_map(&j);
+    if (result == DONE)
+        result = require_maps(&j);
     if (result == DONE) {
         table_form form = rows_of_points(job_dim(&j));
         result = rows_read(&points, a->points, &form);

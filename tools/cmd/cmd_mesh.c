@@ -1,5 +1,6 @@
-/* libicc mesh: carries the vertices of a mesh along, and reports what became of its triangles or
- * tetrahedra; or fills a surface with tetrahedra: cmd_fill.c. What lies outside the cage stays where it is, or nothing is written. */
+/* libicc mesh: carries the vertices of a mesh along, and reports what became of its elements; or
+ * fills a surface with tetrahedra: cmd_fill.c. The exit code tells whether an element is inverted or
+ * a vertex lies outside the cage. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -114,8 +115,59 @@ static int tell_outside(job *j, const mesh_file *m, const icc_status *status, si
     return PARTIAL;
 }
 
-/* Maps the vertices, certifies the simplices, then writes. A vertex outside stops the output
- * unless --outside keep asks for it; the report names it all the same. */
+/* Why elements with a corner inside are inverted. */
+static const char *why_inner(const job *j, const icc_certificate *certificate)
+{
+    return j->args->inverse        ? "the mesh is too coarse for what the map does there"
+           : !j->args->repair_mesh ? "the mesh is too coarse for what the map does there; "
+                                     "--untangle moves inner vertices"
+           : certificate->size > 0 && !certificate->boundary_simple
+               ? "only a mesh whose boundary is simple, before and after, can be untangled"
+               : "no places were found for the inner vertices";
+}
+
+/* Says what is not as it should be of a mesh that was written. */
+static int tell(job *j, const mesh_file *m, const double *images, const icc_status *status,
+                size_t n_failed, const tally *t, const icc_certificate *certificate)
+{
+    tally_tell(t, m, images, j->args->operands[0], why_inner(j, certificate));
+    int result = tell_outside(j, m, status, n_failed);
+    return result == DONE && tally_spoilt(t) > 0 ? PARTIAL : result;
+}
+
+/* With --require nothing is written but what is certified. */
+static int refuse(job *j, const mesh_file *m, const double *images, const tally *t,
+                  const icc_certificate *certificate)
+{
+    tally_tell(t, m, images, j->args->operands[0], why_inner(j, certificate));
+    return failed(j->args->operands[0], 0,
+                  "the mesh and its image are not certified%s, so nothing "
+                  "was written",
+                  j->args->inverse        ? " from target to source"
+                  : certificate->size > 0 ? ""
+                  : m->floats             ? " where images are rounded to floats"
+                  : m->dim == 3           ? "; only meshes of tetrahedra can be"
+                                          : "; only meshes of triangles can be");
+}
+
+/* Counts, writes, reports. A vertex outside stops the output unless --outside keep asks for it; the
+ * report names it all the same. */
+static int finish(job *j, const mesh_file *m, const double *images, const icc_status *status,
+                  size_t n_failed, const icc_certificate *certificate)
+{
+    bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
+    bool refused = j->args->require != 0 && (certificate->size == 0 || !certificate->certified);
+    tally t = tally_count(m, images);
+    int result = writes && !refused ? write_mesh(j, m, images, status) : DONE;
+    if (result == DONE && (writes || j->args->json))
+        result = report_tally(j, m, images, &t, n_failed, certificate);
+    if (result != DONE || (refused && writes))
+        return result != DONE ? result : refuse(j, m, images, &t, certificate);
+    return writes ? tell(j, m, images, status, n_failed, &t, certificate)
+                  : tell_outside(j, m, status, n_failed);
+}
+
+/* Maps the vertices and certifies the simplices before anything is written. */
 static int map_mesh(job *j, const mesh_file *m)
 {
     size_t n = m->n_vertices, n_failed = 0;
@@ -127,16 +179,9 @@ static int map_mesh(job *j, const mesh_file *m)
     int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
     if (result == DONE)
         result = round_images(j, m, images, &certificate);
-    bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
     progress_end(&j->bar);
-    if (result == DONE && writes)
-        result = write_mesh(j, m, images, status);
-    if (result == DONE && (writes || j->args->json)) {
-        tally t = tally_count(m, images);
-        result = report_tally(j, m, images, &t, n_failed, &certificate);
-    }
     if (result == DONE)
-        result = tell_outside(j, m, status, n_failed);
+        result = finish(j, m, images, status, n_failed, &certificate);
     free(images);
     free(status);
     return result;

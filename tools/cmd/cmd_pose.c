@@ -100,21 +100,42 @@ static int check_images(pose *p, const mesh_file *m, double *images)
                         vertex, m->format);
 }
 
-static int report_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
-                       double seconds)
+static int report_mesh(pose *p, const mesh_file *m, const double *images, const tally *counts,
+                       size_t n_failed, double seconds)
 {
     char text[256];
     report r;
-    tally t = tally_count(m, images);
     if (!p->kernel.job.args->json) {
-        tally_print(&t, m, text, sizeof text);
+        tally_print(counts, m, text, sizeof text);
         pose_say(p, text);
         return DONE;
     }
     if (pose_report_open(&r, p, m->n_vertices, m->points, n_failed, seconds) != DONE)
         return FAILED;
-    tally_report(&t, m, images, &r.json);
+    tally_report(counts, m, images, &r.json);
     return report_close(&r) ? DONE : FAILED;
+}
+
+static int write_images(const pose *p, const mesh_file *m, const double *images)
+{
+    outfile file;
+    if (!outfile_open(&file, pose_output(p)))
+        return FAILED;
+    mesh_write(m, images, file.stream);
+    return outfile_close(&file) ? DONE : FAILED;
+}
+
+/* Says which elements are inverted. With --require these are refused. */
+static int tell_mesh(const pose *p, const mesh_file *m, const double *images, const tally *t)
+{
+    const args *a = p->kernel.job.args;
+    tally_tell(t, m, images, a->operands[0],
+               a->certified ? "the mesh is too coarse for what the map does there"
+                            : "the pose folds there, or the mesh is too coarse for it");
+    return tally_spoilt(t) == 0 ? DONE
+           : a->require == 0
+               ? PARTIAL
+               : failed(a->operands[0], 0, "elements are inverted, so nothing was written");
 }
 
 /* Poses the vertices of a mesh and writes it with the same simplices. */
@@ -125,17 +146,17 @@ static int write_mesh(pose *p, const mesh_file *m)
     double began = seconds_now();
     int result = pose_points(p, m->n_vertices, m->points, images, NULL, &n_failed);
     double seconds = seconds_now() - began;
-    outfile file;
     if (result == DONE)
         result = check_images(p, m, images);
+    tally t = {0};
     if (result == DONE)
-        result = outfile_open(&file, pose_output(p)) ? DONE : FAILED;
-    if (result == DONE) {
-        mesh_write(m, images, file.stream);
-        result = outfile_close(&file) ? DONE : FAILED;
-    }
+        t = tally_count(m, images);
+    if (result == DONE && (p->kernel.job.args->require == 0 || tally_spoilt(&t) == 0))
+        result = write_images(p, m, images);
     if (result == DONE)
-        result = report_mesh(p, m, images, n_failed, seconds);
+        result = report_mesh(p, m, images, &t, n_failed, seconds);
+    if (result == DONE)
+        result = tell_mesh(p, m, images, &t);
     free(images);
     return result == DONE ? partial(p, n_failed, m->n_vertices, "vertices") : result;
 }
@@ -188,6 +209,9 @@ static int pose_shape(pose *p)
     size_t n = 0;
     char *text = NULL;
     int result = kernel_job_read(&p->kernel);
+    if (result == DONE && p->kernel.job.args->require != 0 && !certified)
+        result = failed(p->kernel.job.args->pose, 0,
+                        "poses by weights are not certified; --certified makes them one-to-one");
     if (result == DONE && certified)
         result = pose_certified_check(p);
     if (result == DONE)
@@ -242,6 +266,8 @@ static int write_bound(pose *p, const icc_binding *binding)
 
 static int pose_binding(pose *p)
 {
+    if (p->kernel.job.args->require != 0)
+        return failed(p->kernel.job.args->binding, 0, "poses by weights are not certified");
     const char *name = p->kernel.job.args->binding;
     size_t n;
     char *bytes = file_read(name, &n);

@@ -107,7 +107,8 @@ static const command commands[] = {
          "keep their orientation, how many invert or collapse, and whether the mesh and its image "
          "are\n"
          "one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need not "
-         "be.\n"},
+         "be: the exit\n"
+         "code is 4 while elements are inverted or collapsed, and the first of them are named.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,
@@ -239,7 +240,8 @@ static void print_help(void)
         "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them.\n"
         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
         "some\n"
-        "points have no image.\n\n(Not related to ICC colour profiles.)\n");
+        "points have no image, or some elements of a mesh are inverted.\n\n(Not related to ICC "
+        "colour profiles.)\n");
 }
 
 static int run_command(const command *c, int argc, char **argv)
@@ -251,7 +253,7 @@ static int run_command(const command *c, int argc, char **argv)
         args_help(c);
     else if (result == DONE)
         result = c->run(&a);
-    return result;
+    return result == PARTIAL && a.require != 0 ? FAILED : result;
 }
 
 /* Whatever was printed must have arrived. */

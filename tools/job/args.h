@@ -26,6 +26,7 @@ typedef struct args {
     double min_fall;
     double tolerance; /* 0: the command's choice */
     int32_t outside;  /* one of the policies below; 0: the command's choice */
+    int32_t require;  /* what must hold, or nothing is written; 0: nothing */
     int32_t quality;  /* of JPEG; 0: not given */
     int32_t turning;  /* of outlines that are matched; 0: the library's choice */
     double snap;      /* below 0: the command's choice */
@@ -58,6 +59,9 @@ enum { MESHER_OWN = 1, MESHER_TETGEN };
 
 /* What becomes of what lies outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
+
+/* What a result must be. */
+enum { REQUIRE_CERTIFIED = 1 };
 
 /* Bits of the commands. */
 enum {

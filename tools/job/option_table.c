@@ -34,6 +34,8 @@ const choice outsides[] = {{"keep", OUTSIDE_KEEP},
                            {"fail", OUTSIDE_FAIL},
                            {NULL, 0}};
 
+const choice requirements[] = {{"certified", REQUIRE_CERTIFIED}, {NULL, 0}};
+
 const choice turnings[] = {{"upright", ICC_TURNING_UPRIGHT}, {"free", ICC_TURNING_FREE}, {NULL, 0}};
 
 const char *choice_name(const choice *choices, int32_t value)
@@ -234,6 +236,13 @@ const option options[] = {
      .choices = outsides,
      .value = "NAME",
      .help = "vertices outside the cage: fail (default; nothing is written) or keep (they stay)"},
+    {.name = "require",
+     .kind = OPTION_CHOICE,
+     .commands = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_POSE,
+     .offset = AT(require),
+     .choices = requirements,
+     .value = "certified",
+     .help = "exit with 1, and write nothing, unless the result is certified one-to-one"},
     {.name = "snap",
      .kind = OPTION_LENGTH,
      .commands = FOR_MAP,

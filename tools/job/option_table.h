@@ -40,7 +40,7 @@ typedef struct option {
 } option;
 
 extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
-    weightings[], kernels[], initials[], outsides[], turnings[];
+    weightings[], kernels[], initials[], outsides[], turnings[], requirements[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);

@@ -1,0 +1,24 @@
+/* The boundary of a mesh of triangles or tetrahedra: the facets that only one element has. */
+#ifndef MESH_BOUNDARY_H
+#define MESH_BOUNDARY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct mesh_boundary {
+    size_t n, dim;
+    uint32_t *facets; /* n * dim vertices, in the order in which their elements list them */
+    size_t *elements; /* whose facet each is, ascending */
+    size_t n_shared;  /* facets that more than two elements have */
+} mesh_boundary;
+
+/* Facets as edges (a, b), (b, c), (c, a) of triangles, and as faces of tetrahedra that look outward
+ * where the determinant of b - a, c - a, d - a is positive. Sorts, so the time is n log n. */
+void mesh_boundary_find(mesh_boundary *out, size_t dim, size_t n, const uint32_t *elements);
+void mesh_boundary_free(mesh_boundary *b);
+
+/* Which of n vertices are on it; to be freed. */
+bool *mesh_boundary_vertices(const mesh_boundary *b, size_t n);
+
+#endif
