@@ -26,8 +26,10 @@ static void check_features(const cage *c, size_t size)
     }
     for (size_t i = 0; i < c->n_ties; i++)
         require(c->ties[i].n >= 2 && (i == 0 || c->ties[i].number > c->ties[i - 1].number));
-    for (size_t i = 0; i < c->n_more; i++)
-        require(c->more[i].n >= 3 && c->more[i].n_more == 0);
+    for (size_t i = 0; i < c->n_more; i++) {
+        require(c->more[i].dim == 2 && c->more[i].n >= 3 && c->more[i].n_more == 0);
+        check_features(&c->more[i], size);
+    }
     require(strlen(cage_inside_text(text, c)) < sizeof text);
 }
 
@@ -36,6 +38,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = text_of(data, size);
     if (text == NULL)
         return 0;
+    static const char *const names[] = {"name=b", NULL, "2", NULL};
     cage cages[2] = {{0}, {0}};
     problem wrong = {.text = ""};
     for (int role = CAGE_SOURCE; role <= CAGE_TARGET; role++) {
@@ -43,7 +46,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         wrong.text[0] = '\0';
         const cage_choice choice = {
             .role = (cage_role)role,
-            .named = role == CAGE_TARGET && size % 2 == 0 ? "name=b" : NULL,
+            .named = role == CAGE_TARGET ? names[size % 4] : NULL,
             .flat = {role == CAGE_TARGET ? 0.25 : 0, cages[0].n_curves, cages[0].curve_edges}};
         bool good = cage_read(c, &choice, 2, text, size, &wrong);
         require(good ? c->cells != NULL || c->n > c->dim : c->dim == 0 && c->points == NULL);

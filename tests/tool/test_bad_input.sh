@@ -135,8 +135,10 @@ printf '<svg><path d="M0 0L1 0' | rejects ' ' 'no complete <path>, <polygon>'
 printf '<svg><path d="M0 0L1 0 1 1z"/><polygon points="0 0 1 0 1 1"/></svg>' | rejects ' ' '0 of the 2 shapes'
 printf '<svg>\n<path d="M0 0L1 0\n1 one z"/></svg>' | rejects 3: "'one'"
 printf '<svg><path d="M0 0L9 0 9 9zL2 1 2 2z"/></svg>' | rejects 1: 'continues after Z'
-printf '<svg><path d="M0 0L9 0 9 9zz"/></svg>' | rejects 1: 'nothing to close'
-printf '<svg><path d="M0 0L9 0 9 9M1 1\nM2 1 2 2z"/></svg>' | rejects 1: 'hole 1 has 1 vertex;'
+printf '<svg><path d="M0 0L9 0 9 9M1 1\nM2 1 2 2z"/></svg>' | rejects 2: 'contour 2 of the path has 2 vertices'
+printf '<svg><path d="M0 0L9 0z"/></svg>' | rejects ' ' '2 vertices; a cage has at least 3'
+printf '<svg><path d="M5 5zm1 1M3 3h0v0z"/></svg>' | rejects 1: 'the path draws nothing'
+printf '<svg><path d="z"/></svg>' | rejects 1: 'does not begin with M'
 printf '<svg><path d="M0 0A1 1 0 0 5 5z"/></svg>' | rejects 1: "'5' in the path where 0 or 1 is expected"
 printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'
 printf '<svg><path d="M0 0B1 1"/></svg>' | rejects 1: "'B' is not a command"

@@ -48,6 +48,28 @@ run 1 map -s 'bare.json#name=Kent' -t target.txt -p points.txt
 says 'there is no list of features in which to look for name "Kent"'
 run 0 map -s bare.json -t target.txt -p points.txt
 
+# Shapes of SVG without ids, by number in the order of the file, whatever they are; an id that looks like one comes first.
+polygon() { printf '<polygon points="%s"%s/>' "$(paste -s -d ' ' "$1")" "$2"; }
+{ printf '<svg><g>\n' && polygon source.txt && printf '</g><rect width="3" height="2"/>' && polygon target.txt && printf '</svg>\n'; } >drawing.svg
+run 0 map -s 'drawing.svg#1' -t 'drawing.svg#3' -p points.txt
+same out expected 'shapes by number'
+run 0 map -s '-#1' -t 'drawing.svg#3' -p points.txt <drawing.svg
+same out expected 'from standard input'
+run 0 info -s 'drawing.svg#2'
+holds out 'cage        4 vertices'
+for number in 0 4 01 +1 1.0 99999999999999999999999; do
+    run 1 map -s "drawing.svg#$number" -t target.txt -p points.txt
+    says "libicc: drawing.svg#$number: 0 of the 3 shapes have the id \"$number\"; exactly one must, or choose by number: FILE#1 to FILE#3"
+done
+run 1 info -s drawing.svg
+says 'libicc: drawing.svg: 0 of the 3 shapes have the id or label "source"; exactly one must, or choose by number: FILE#1 to FILE#3'
+sed 's/<rect/<rect id="3"/' drawing.svg >numbered.svg
+run 0 info -s 'numbered.svg#3'
+holds out 'cage        4 vertices'
+{ printf '<svg>' && polygon source.txt && printf '</svg>'; } >lone.svg
+run 1 info -s 'lone.svg#b'
+says 'libicc: lone.svg#b: the only shape does not have the id "b"; leave #.. out'
+
 # A layer as a sequence: each text is carried as it would be in a list, and what is between them stays.
 point() { printf '{"type":"Feature","properties":{"n":%s},"geometry":{"type":"Point","coordinates":[%s,%s]}}' "$3" "$1" "$2"; }
 {

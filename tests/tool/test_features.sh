@@ -68,7 +68,7 @@ refuses 'source: vertex 1 of line 4 is not a pair' "$source" "$target" "$(featur
 refuses 'target: vertex 0 of point 4 is not a pair' "$source" "$target" "$(feature target Point '[]' 4)"
 refuses 'source: more than one of the 3 features is a Polygon' "$source" "$target" "$source"
 refuses 'target: none of the 2 features is a Polygon' "$source" "$partner"
-refuses 'source: the MultiPolygon has 2 parts' "$(feature source MultiPolygon "[[$square, $hole], [[[2.5,2.5],[3,2.5],[3,3]]]]")" "$target"
+refuses 'source: the shape has 2 parts' "$(feature source MultiPolygon "[[$square, $hole], [[[2.5,2.5],[3,2.5],[3,3]]]]")" "$target"
 
 # Ties.
 refuses "target: tie 1 of the source has no partner" "$source" "$target" "$(feature source-tie LineString '[[0,0],[2,2]]' 1)"

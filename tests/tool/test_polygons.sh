@@ -110,8 +110,8 @@ refuses() { # MESSAGE FEATURE...
 two() { # ROLE X: two squares, the second at X
     feature "$1" MultiPolygon "[[$(square 5 5 4)], [$(square "$2" 5 2)]]"
 }
-refuses 'source: the MultiPolygon has 2 parts, but the target 1' "$(two source 15)" "$(feature target Polygon "[$(square 5 5 4)]")"
-refuses 'target: the MultiPolygon has 2 parts, but the source 1' "$(two target 15)" "$(feature source Polygon "[$(square 5 5 4)]")"
+refuses 'source: the shape has 2 parts, but the target 1' "$(two source 15)" "$(feature target Polygon "[$(square 5 5 4)]")"
+refuses 'target: the shape has 2 parts, but the source 1' "$(two target 15)" "$(feature source Polygon "[$(square 5 5 4)]")"
 refuses 'target: polygon 2 meets another one' "$(two source 15)" "$(two target 8)"
 refuses 'source: polygon 2 meets another one' "$(two source 5)" "$(two target 15)"
 refuses 'target: point 1 is in another polygon than in the source' "$(two source 15)" "$(two target 15)" \
@@ -131,9 +131,9 @@ refuses 'polygon 2 has 2 vertices; it has at least 3' "$(two target 15)" \
 refuses 'the MultiPolygon has no polygons' "$(two target 15)" "$(feature source MultiPolygon '[]')"
 feature source MultiPolygon "[[$(square 5 5 4)], [$(square 15 5 2)]]" >one.geojson
 run 1 check -s one.geojson
-says 'the MultiPolygon has 2 parts; only maps take several, and --target FILE is missing'
+says 'the shape has 2 parts; only maps take several, and --target FILE is missing'
 run 1 info -s case.geojson -t case.geojson
-says 'the MultiPolygon has 3 parts; make one map per part for libicc info'
+says 'the shape has 3 parts; make one map per part for libicc info'
 run 1 map -s case.geojson -p points.txt --ties ties.geojson
 says '--ties is for cages of a single polygon'
 run 1 check -s case.geojson --repair mended.geojson
@@ -141,4 +141,65 @@ says '--repair is for cages'
 printf '0 0\n4 0\n4 4\n0 4\n' >text.txt
 printf '1 1\n' >points.txt
 run 0 map -s text.txt -t text.txt --fill-holes -p points.txt
+
+# A path of SVG: contours beside one another are polygons, those inside are holes and islands, in whatever order they come.
+# What is a single place draws nothing: at the beginning, in between, at the end, and twice closed.
+svg() { # NAME PATH..
+    printf '<svg><path d="%s"/></svg>\n' "$2" >"$1.svg"
+}
+box() { # X Y R, and the other way round: a contour round (X, Y)
+    awk -v x="$1" -v y="$2" -v r="$3" 'BEGIN { printf "M%g %gh%gv%gh%gz", x - r, y - r, 2 * r, 2 * r, -2 * r }'
+}
+xob() {
+    awk -v x="$1" -v y="$2" -v r="$3" 'BEGIN { printf "M%g %gv%gh%gv%gz", x - r, y - r, 2 * r, 2 * r, -2 * r }'
+}
+areas() { # what `check` says of the polygons of a drawing, each with as many holes
+    cp "$1.svg" target.svg
+    run 0 check -s "$1.svg" -t target.svg
+    sed -n "/^$1/s/.*, area \([0-9.]*\), with \([0-9]*\) hole.*/\1-\2/p; t; /^$1/s/.*, area \([0-9.]*\)\$/\1/p" out | paste -s -d ' '
+}
+expects() { # AREAS NAME
+    got=$(areas "$2")
+    [ "$got" = "$1" ] || complain "$2.svg has the polygons $got, not $1"
+}
+for d in 'M0 0H10V10H0Z m 12 12' 'M0 0H10V10H0Z m 12 12z' 'M5 5 m -5 -5 H10 V10 H0 Z' 'm3 3M9 9zM0 0H10V10H0Z' 'M0 0H10V10H0ZZz' \
+    'M0 0H10V10H0Zm2 2h0v0l0 0zm0 0c0 0 0 0 0 0zM1 1'; do
+    svg dots "$d"
+    expects 100 dots
+done
+svg dots 'M0 0H10V10H0Z M7 7z M2 2 V4 H4 V2 Z M 7 7 z'
+expects 96-1 dots
+svg beside "$(box 5 5 5)$(box 25 5 4)"
+expects '100 64' beside
+svg beside "$(box 5 5 5)$(xob 25 5 4)$(box 5 25 3)$(xob 25 5 2)$(box 5 5 1)"
+expects '96-1 48-1 36' beside
+svg hole "$(xob 5 5 1)$(box 5 5 5)"
+expects 96-1 hole
+svg islands "$(box 10 10 1)$(box 10 10 2)$(box 10 10 3)$(xob 10 10 4)$(xob 10 10 5)$(box 30 10 1)"
+expects '4 20-1 36-1 4' islands
+# In a notch, where boxes overlap.
+svg notch 'M0 0H10V2H2V10H0Z M4 4h2v2h-2z M0.5 0.5v1h1v-1z'
+expects '35-1 4' notch
+printf '1 1\n15 15\n7 5\n25 7\n' >points.txt
+svg before "$(box 5 5 5)$(box 25 5 4)$(xob 5 5 1)"
+{ printf '<svg><g transform="translate(0, 2)">' && sed 's/<svg>//; s/<.svg>//' before.svg && printf '</g></svg>'; } >after.svg
+run 4 map -s before.svg -t after.svg -p points.txt
+printf '1 3\nnan nan\n7 7\n25 9\n' >expected
+grep -v nan expected >there
+grep -v nan out >got
+close_to got there 1e-9
+run 1 info -s beside.svg
+says 'libicc: beside.svg: the shape has 3 parts; only maps take several, and --target FILE is missing'
+svg other "$(box 5 5 5)$(box 25 5 4)"
+run 1 check -s beside.svg -t other.svg
+says 'the shape has 3 parts, but the target 2; they correspond one by one'
+# Contours that cross are refused, whichever comes first.
+for d in "$(box 5 5 5)$(box 8 8 5)" "$(box 8 8 5)$(box 5 5 5)"; do
+    svg cross "$d"
+    run 1 check -s cross.svg -t cross.svg
+done
+# Many: the time is that of sorting.
+awk 'BEGIN { printf "<svg><path d=\""; n = 20000; for (i = 0; i < n; i++) printf "M%d %dh%dv%dh%dz", i, i, w = 4 * n - 2 * i, w, -w; print "\"/></svg>" }' >deep.svg
+run 1 info -s deep.svg
+says 'the shape has 10000 parts'
 finish

@@ -1,5 +1,5 @@
-/* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative, the first of which
- * is the outline and the others are holes.
+/* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative. Each is a contour, an
+ * outline or a hole in one; those of a single place draw nothing and are left out.
  *
  * Each curve becomes edges at equal steps of its parameter, each arc such of its angle. Without a
  * tolerance there are CURVE_EDGES and ARC_EDGES, whatever the size: so the same path with moved points
@@ -9,10 +9,11 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
-#include "cage/cage_features.h"
+#include "cage/contours.h"
 #include "cage/svg_arc.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { CURVE_EDGES = 16, MOST_EDGES = 1024 };
@@ -22,6 +23,8 @@ typedef struct pen {
     const char *at, *end;
     size_t line;
     size_t first;              /* vertex of the subpath */
+    size_t n_contours, room;   /* subpaths that draw something */
+    size_t *contours;          /* their first vertices */
     bool closed;               /* nothing has been drawn since Z */
     double x, y;               /* where the pen is */
     double start_x, start_y;   /* of the subpath */
@@ -214,16 +217,32 @@ static void make_absolute(const pen *p, char command, size_t n, double *v)
         v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
 }
 
+/* Vertices of the subpath: without a last one that repeats the first, and none if it draws nothing. */
+static size_t count_drawn(const pen *p)
+{
+    const cage *c = p->out;
+    const double *begin = c->points + 2 * p->first;
+    size_t n = c->n - p->first, same = 0, last = n;
+    for (size_t i = 0; i < n; i++)
+        same += begin[2 * i] == begin[0] && begin[2 * i + 1] == begin[1];
+    if (n > 1)
+        last -= begin[2 * n - 2] == begin[0] && begin[2 * n - 1] == begin[1];
+    return same == n ? 0 : last;
+}
+
 /* The next subpath begins behind the vertices that the cage has then; relative commands go on from
  * where this one began. */
-static bool end_subpath(pen *p)
+static void end_subpath(pen *p)
 {
-    bool good = cage_end_ring(p->out, p->first, p->wrong);
-    p->first = p->out->n;
+    size_t n = count_drawn(p);
+    if (n > 0) {
+        p->contours = grow(p->contours, &p->room, p->n_contours + 1, sizeof *p->contours);
+        p->contours[p->n_contours++] = p->first;
+    }
+    p->first = p->out->n = p->first + n;
     p->closed = true;
     p->x = p->handle_x = p->start_x;
     p->y = p->handle_y = p->start_y;
-    return good;
 }
 
 /* One command with all the groups of numbers that follow it. */
@@ -236,11 +255,11 @@ static bool read_command(pen *p, char letter, char *previous)
                       letter > 32 && letter < 127 ? letter : '?');
     if (command != 'M' && p->closed)
         return spoilt(p->wrong, p->line,
-                      p->out->n == 0
+                      *previous == '\0'
                           ? "the path does not begin with M"
                           : "the path continues after Z without M; a hole begins with M");
-    if (command == 'M' && !p->closed && !end_subpath(p))
-        return false;
+    if (command == 'M' && !p->closed)
+        end_subpath(p);
     p->closed = false;
     bool relative = letter >= 'a';
     do {
@@ -258,6 +277,37 @@ static bool read_command(pen *p, char letter, char *previous)
     return true;
 }
 
+static bool read_commands(pen *p)
+{
+    char previous = '\0';
+    for (skip_separators(p); p->at < p->end; skip_separators(p)) {
+        char letter = *p->at++;
+        bool ends = letter == 'Z' || letter == 'z';
+        if (ends && previous == '\0')
+            return spoilt(p->wrong, p->line, "the path does not begin with M");
+        if (ends && !p->closed)
+            end_subpath(p);
+        else if (!ends && !read_command(p, letter, &previous))
+            return false;
+    }
+    if (!p->closed)
+        end_subpath(p);
+    return true;
+}
+
+/* Of several contours each has to enclose something; of a single one the cage says so. */
+static bool check_contours(const pen *p)
+{
+    for (size_t k = 0; p->n_contours > 1 && k < p->n_contours; k++) {
+        size_t end = k + 1 < p->n_contours ? p->contours[k + 1] : p->out->n;
+        if (end - p->contours[k] < 3)
+            return spoilt(p->wrong, p->out->lines[p->contours[k]],
+                          "contour %zu of the path has 2 vertices; a contour has at least 3",
+                          k + 1);
+    }
+    return p->n_contours > 0 || spoilt(p->wrong, p->line, "the path draws nothing");
+}
+
 bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
                     const flattening *flat, problem *wrong)
 {
@@ -268,14 +318,9 @@ bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
              .closed = true,
              .flat = flat,
              .wrong = wrong};
-    char previous = '\0';
-    for (skip_separators(&p); p.at < p.end; skip_separators(&p)) {
-        char letter = *p.at++;
-        bool ends = letter == 'Z' || letter == 'z';
-        if (ends && p.closed)
-            return spoilt(wrong, p.line, "the path has a Z where there is nothing to close");
-        if (!(ends ? end_subpath(&p) : read_command(&p, letter, &previous)))
-            return false;
-    }
-    return p.closed || end_subpath(&p);
+    bool good = read_commands(&p) && check_contours(&p);
+    if (good)
+        cage_take_contours(out, p.n_contours, p.contours);
+    free(p.contours);
+    return good;
 }

@@ -2,8 +2,8 @@
  * outermost <svg>, y downwards as in every picture.
  *
  * An element with the id, or the inkscape:label, "source" or "target" is chosen by the role of the
- * cage, or any by what was named; else the file must have one path or polygon only, or without such
- * one other shape. */
+ * cage, or any by what was named, which may be its number, from 1 in the order of the file; else the
+ * file must have one path or polygon only, or without such one other shape. */
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"
@@ -29,9 +29,11 @@ typedef struct shape {
     size_t n;
 } shape;
 
-/* Of paths and polygons, of other shapes, and of those that are called as wanted. */
+/* Of paths and polygons, of other shapes, of those that are called as wanted, and of that whose number
+ * was named. */
 typedef struct shapes {
-    shape outlines, others, chosen;
+    shape outlines, others, chosen, numbered;
+    size_t n;
 } shapes;
 
 /* By its id, or by what Inkscape's panel of objects shows; or as it was named. */
@@ -43,6 +45,14 @@ static bool is_chosen(const tag *t, const cage_choice *choice)
         return tag_has(t, key, n, key + n + 1);
     value = key != NULL ? key : value;
     return tag_has(t, "id", 2, value) || tag_has(t, "inkscape:label", 14, value);
+}
+
+/* Whether shape `number` was named by that. */
+static bool is_number(const char *named, size_t number)
+{
+    char digits[24];
+    snprintf(digits, sizeof digits, "%zu", number);
+    return named != NULL && strcmp(named, digits) == 0;
 }
 
 static void note_shape(shape *s, const tag *t, const frame *f)
@@ -63,6 +73,8 @@ static void note_tag(shapes *found, const tag *t, const frame *f, const cage_cho
     note_shape(outline ? &found->outlines : &found->others, t, f);
     if (is_chosen(t, choice))
         note_shape(&found->chosen, t, f);
+    if (is_number(choice->named, ++found->n))
+        note_shape(&found->numbered, t, f);
 }
 
 static frame frame_of(const tag *t, const frame *around)
@@ -221,6 +233,8 @@ static bool move_all(cage *c, const transform *t)
     bool good = move(c->n, c->points, t);
     for (size_t i = 0; good && i < c->n_features; i++)
         good = move(c->features[i].n, c->features[i].points, t);
+    for (size_t i = 0; good && i < c->n_more; i++)
+        good = move_all(&c->more[i], t);
     return good;
 }
 
@@ -232,19 +246,26 @@ bool cage_svg_has(cage_role role, const char *text)
 /* The shape to read, or NULL. */
 static const shape *choose(const shapes *found, const cage_choice *choice, problem *wrong)
 {
-    size_t n_all = found->outlines.n + found->others.n;
     const shape *only = found->outlines.n > 0 ? &found->outlines : &found->others;
-    char shown[64], called[64];
+    char shown[64], called[64], number[80] = "";
     snprintf(called, sizeof called, "the id or label \"%s\"", cage_role_name(choice->role));
-    if (n_all == 0)
+    if (found->n > 1)
+        snprintf(number, sizeof number,
+                 "; exactly one must, or choose by number: FILE#1 to FILE#%zu", found->n);
+    if (found->n == 0)
         spoilt(wrong, 0, "there is no complete <path>, <polygon> or other shape in this SVG");
     else if (found->chosen.n == 1)
         return &found->chosen;
+    else if (found->chosen.n == 0 && found->numbered.n == 1)
+        return &found->numbered;
     else if (found->chosen.n == 0 && only->n == 1 && choice->named == NULL)
         return only;
+    else if (found->n == 1)
+        spoilt(wrong, 0, "the only shape does not have %s; leave #.. out",
+               choice_text(shown, choice->named));
     else
-        spoilt(wrong, 0, "%zu of the %zu shapes have %s; exactly one must", found->chosen.n, n_all,
-               choice->named != NULL ? choice_text(shown, choice->named) : called);
+        spoilt(wrong, 0, "%zu of the %zu shapes have %s%s", found->chosen.n, found->n,
+               choice->named != NULL ? choice_text(shown, choice->named) : called, number);
     return NULL;
 }
 

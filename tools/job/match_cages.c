@@ -20,7 +20,7 @@ int match_check(const job *j)
                           job_side(where, j, side), c->dim, c->dim == 1 ? "" : "s");
         if (c->n_more > 0)
             return failed(job_file(j, side), 0,
-                          "%sthe MultiPolygon has %zu parts; --match takes one polygon",
+                          "%sthe shape has %zu parts; --match takes one polygon",
                           job_side(where, j, side), 1 + c->n_more);
     }
     return DONE;

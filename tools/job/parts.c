@@ -26,20 +26,17 @@ static int check_cages(const job *j)
     if (a->target == NULL)
         return failed(
             a->source, 0,
-            "the MultiPolygon has %zu parts; only maps take several, and --target FILE is "
-            "missing",
-            n[0]);
+            "the shape has %zu parts; only maps take several, and --target FILE is missing", n[0]);
     if (n[0] != n[1]) {
         size_t side = n[1] > n[0];
-        return failed(
-            job_file(j, (int)side + 1), 0,
-            "%sthe MultiPolygon has %zu parts, but the %s %zu; they correspond one by one",
-            job_side(where, j, (int)side + 1), n[side], side == 0 ? "target" : "source", n[!side]);
+        return failed(job_file(j, (int)side + 1), 0,
+                      "%sthe shape has %zu parts, but the %s %zu; they correspond one by one",
+                      job_side(where, j, (int)side + 1), n[side], side == 0 ? "target" : "source",
+                      n[!side]);
     }
     if (!a->takes_parts)
-        return failed(a->source, 0,
-                      "the MultiPolygon has %zu parts; make one map per part for libicc %s", n[0],
-                      a->command);
+        return failed(a->source, 0, "the shape has %zu parts; make one map per part for libicc %s",
+                      n[0], a->command);
     if (j->cages[0].n_ties > 0)
         return failed(a->source, 0, "ties are for cages of a single polygon");
     return DONE;
