@@ -8,6 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The first n characters of a text; free() them. */
+static char *text_copy(const char *text, size_t n)
+{
+    char *copy = need(n + 1, 1);
+    memcpy(copy, text, n);
+    copy[n] = '\0';
+    return copy;
+}
+
 static char *read_stream(FILE *stream, size_t *n)
 {
     char *text = NULL;
@@ -43,22 +52,33 @@ char *file_read(const char *name, size_t *n)
     return text;
 }
 
-char *file_read_chosen(const char *name, size_t *n, const char **choice)
+/* What stands behind the first # before which a file is named; NULL: the whole name is one. */
+static const char *choice_in(const char *name)
 {
-    *choice = NULL;
     for (const char *mark = strchr(name, '#'); mark != NULL && !system_exists(name);
          mark = strchr(mark + 1, '#')) {
-        size_t n_file = (size_t)(mark - name);
-        char *file = need(n_file + 1, 1);
-        memcpy(file, name, n_file);
+        char *file = text_copy(name, (size_t)(mark - name));
         bool found = strcmp(file, "-") == 0 || system_exists(file);
-        char *text = found ? file_read(file, n) : NULL;
         free(file);
-        *choice = found ? mark + 1 : NULL;
         if (found)
-            return text;
+            return mark + 1;
     }
-    return file_read(name, n);
+    return NULL;
+}
+
+char *file_chosen_name(const char *name)
+{
+    const char *choice = choice_in(name);
+    return text_copy(name, choice != NULL ? (size_t)(choice - 1 - name) : strlen(name));
+}
+
+char *file_read_chosen(const char *name, size_t *n, const char **choice)
+{
+    char *file = file_chosen_name(name);
+    *choice = choice_in(name);
+    char *text = file_read(file, n);
+    free(file);
+    return text;
 }
 
 bool file_is_same(const char *input, const char *output)

@@ -7,6 +7,7 @@
 #include "base/allocate.h"
 #include "base/system.h"
 #include "cage/cage_between.h"
+#include "job/call_files.h"
 #include "job/job.h"
 #include "plot/coverage.h"
 #include "plot/picture_file.h"
@@ -68,17 +69,6 @@ static int read_picture(animation *x)
                           : result;
 }
 
-/* OUT with the number of the frame before its extension; free() it. */
-static char *frame_name(const animation *x)
-{
-    const char *name = x->args->operands[1];
-    const char *dot = strrchr(system_last_part(name), '.');
-    size_t n_stem = dot != NULL ? (size_t)(dot - name) : strlen(name), n = strlen(name) + 32;
-    char *result = need(n, 1);
-    snprintf(result, n, "%.*s-%04zu%s", (int)n_stem, name, x->frame, name + n_stem);
-    return result;
-}
-
 /* The progress of one more call for a frame. */
 static void expect_frame(animation *x)
 {
@@ -95,7 +85,7 @@ static int write_frame(animation *x, const icc_map *map)
     icc_status status = picture_warp(map, &x->from, &to, &facts->n_failed, &j->env, &err);
     int result = DONE;
     if (status == ICC_OK) {
-        char *name = frame_name(x);
+        char *name = frame_name(x->args->operands[1], x->frame);
         result = picture_save(&to, &x->style, name);
         free(name);
     } else {
@@ -159,7 +149,7 @@ static void report_frames(animation *x, json *j)
     json_open(j, "frames", '[');
     for (x->frame = 0; x->frame < x->n_frames; x->frame++) {
         const frame_facts *facts = &x->frames[x->frame];
-        char reason[REASON_LENGTH], *name = frame_name(x);
+        char reason[REASON_LENGTH], *name = frame_name(x->args->operands[1], x->frame);
         json_open(j, NULL, '{');
         json_text(j, "file", name);
         json_flag(j, "certified", facts->map.certified != 0);
@@ -204,7 +194,7 @@ static int finish(animation *x)
 int run_animate(const args *a)
 {
     animation x = {.args = a, .n_keys = a->n_operands - 2};
-    x.n_frames = (x.n_keys - 1) * n_steps(a) + 1;
+    x.n_frames = frames_count(a);
     x.keys = need(x.n_keys, sizeof *x.keys);
     x.frames = need(x.n_frames, sizeof *x.frames);
     int result = read_keys(&x);

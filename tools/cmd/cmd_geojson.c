@@ -93,12 +93,12 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
 {
     const char *in = j->args->operands[0], *to = j->args->operands[1];
     char names[MAX_NAMED * (NAME_ROOM + 16) + 64] = "";
-    bool lost = r->n_faults > 0, over = lost && file_is_same(in, to);
+    bool lost = r->n_faults > 0, over = file_is_same(in, to);
     name_faults(r, text, names, sizeof names);
     int result = report_all(j, r, text, seconds);
     if (result == DONE && lost && j->args->outside == OUTSIDE_FAIL)
         return failed(in, 0, "not all of it lies in the cage, so nothing is written: %s", names);
-    if (result == DONE && over)
+    if (result == DONE && lost && over)
         return failed(
             in, 0,
             "would be overwritten, and not all of it can be carried: %s; write to another file",
@@ -113,6 +113,8 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     edits_write(&r->edits, text, n, file.stream);
     if (!outfile_close(&file))
         return FAILED;
+    if (over)
+        note("%s: the layer is replaced by its image", to);
     if (!lost)
         return DONE;
     note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: %s",

@@ -44,9 +44,10 @@ static int write_points(job *j, const table *points, double *images, const icc_s
 {
     const char *out = j->args->output ? j->args->output : "-";
     size_t n_failed = 0;
+    bool over = file_is_same(j->args->points, out);
     for (size_t i = 0; i < points->n; i++)
         n_failed += status[i] != ICC_OK;
-    if (n_failed > 0 && (j->args->outside == OUTSIDE_FAIL || file_is_same(j->args->points, out)))
+    if (n_failed > 0 && (j->args->outside == OUTSIDE_FAIL || over))
         return refuse(j, points, status, n_failed);
     settle_outside(j, points, images, status);
     int result = triangulation_write(j);
@@ -54,6 +55,8 @@ static int write_points(job *j, const table *points, double *images, const icc_s
         result = ties_write(j);
     if (result == DONE)
         result = rows_write(out, points->n, points->columns, images);
+    if (result == DONE && over)
+        note("%s: the points are replaced by their images", out);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
     return result == DONE ? job_partial(j, points->n, status, "points") : result;

@@ -1,6 +1,7 @@
 /* Options that need or exclude each other, and what they stand for. */
 #include "base/say.h"
 #include "job/args.h"
+#include "job/call_files.h"
 #include "job/option_table.h"
 #include "job/output_name.h"
 
@@ -65,12 +66,6 @@ static void settle_functions(args *a)
             a->functions[i].constraints = a->constrained     ? ICC_CONSTRAINTS_ALL
                                           : a->unconstrained ? ICC_CONSTRAINTS_NONE
                                                              : 0;
-}
-
-/* A binding has its points, so that `pose` needs no file with them. */
-static bool has_bound(const args *a, const command *c)
-{
-    return c->bit & FOR_POSE && a->binding != NULL;
 }
 
 /* Files and options that exclude each other, before any file is read. The number of files depends
@@ -212,26 +207,6 @@ static int check_animate(const args *a, const command *c)
                : DONE;
 }
 
-static int check_inputs(const args *a, const command *c)
-{
-    bool has_input = (c->n_operands >= 2 || a->geojson) && !has_bound(a, c);
-    const char *inputs[] = {a->source,
-                            a->target,
-                            a->points ? a->points : a->coords,
-                            a->handles,
-                            a->pose,
-                            has_bound(a, c) ? a->binding : NULL,
-                            a->landmarks,
-                            has_input ? a->operands[0] : NULL};
-    size_t n_standard = 0;
-    for (size_t i = 0; i < sizeof inputs / sizeof *inputs; i++)
-        n_standard +=
-            inputs[i] != NULL && (strcmp(inputs[i], "-") == 0 || strncmp(inputs[i], "-#", 2) == 0);
-    if (n_standard > 1)
-        return misused(c->name, "only one input can be standard input");
-    return DONE;
-}
-
 /* What no single option shows. */
 static int check_together(const args *a, const command *c)
 {
@@ -243,8 +218,10 @@ static int check_together(const args *a, const command *c)
     if (result == DONE && c->bit & FOR_ANIMATE)
         result = check_animate(a, c);
     if (result == DONE)
-        result = check_inputs(a, c);
-    return result == DONE ? output_names_check(a, c) : result;
+        result = call_inputs_check(a, c);
+    if (result == DONE)
+        result = output_names_check(a, c);
+    return result == DONE ? call_outputs_check(a, c) : result;
 }
 
 /* Matching is by shape unless it is said otherwise; `--match FILE` is that with landmarks. */

@@ -2,6 +2,7 @@
 
 #include "base/say.h"
 #include "base/system.h"
+#include "job/call_files.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -140,37 +141,11 @@ int output_fits(const char *of, const char *name, const char *list)
     return misused(of, "'%.200s' is a name for %s, but what is written is %s", name, found, list);
 }
 
-/* What the last operand may be, before its input has been looked at. */
-static const char *formats_of_operand(const args *a, const command *c)
-{
-    return a->geojson                          ? "GeoJSON, GeoJSONSeq, JSON"
-           : c->bit & (FOR_WARP | FOR_ANIMATE) ? PICTURES
-           : a->fill                           ? "Medit, VTK"
-           : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
-           : c->bit & FOR_PLOT                 ? "SVG, PNG, VTK"
-           : c->bit & FOR_POSE && a->binding   ? "text"
-           : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, " PICTURES
-                               : NULL;
-}
-
 int output_names_check(const args *a, const command *c)
 {
-    const struct {
-        const char *name, *formats;
-    } outputs[] = {{a->output, c->bit & FOR_MATCH ? "text, GeoJSON, JSON, " SURFACES : "text"},
-                   {a->target_output, "text, GeoJSON, JSON, " SURFACES},
-                   {a->triangulation, "JSON"},
-                   {a->ties, "GeoJSON, JSON"},
-                   {a->repair, "text, GeoJSON, JSON, " SURFACES ", NumPy"},
-                   {a->boundary, "text, " SURFACES},
-                   {a->picture, "SVG"},
-                   {c->bit & FOR_WEIGHTS ? a->binding : NULL, "libicc's own"},
-                   {a->json ? a->json_file : NULL, "JSON"}};
+    call_file out;
     int result = DONE;
-    for (size_t i = 0; i < sizeof outputs / sizeof *outputs && result == DONE; i++)
-        result = output_fits(c->name, outputs[i].name, outputs[i].formats);
-    const char *of_operand = formats_of_operand(a, c);
-    if (result == DONE && of_operand != NULL)
-        result = output_fits(c->name, args_result(a, c), of_operand);
+    for (size_t i = 0; result == DONE && call_output(&out, a, c, i); i++)
+        result = output_fits(c->name, out.name, out.formats);
     return result;
 }
