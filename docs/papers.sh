@@ -14,11 +14,15 @@ library=build/examples/library
 mkdir -p "$out"
 : >"$out/table.txt"
 
-# made NAME COMMAND... runs a command, whose output goes to $out/NAME.txt, and adds its seconds to the table.
+# Programs in Python print by lines, as the benchmarks do: a file shows how far its program is.
+export PYTHONUNBUFFERED=1
+
+# made NAME COMMAND... says that it runs a command, whose output goes to $out/NAME.txt, and adds its seconds to the table.
 made() {
     name=$1
     shift
     begin=$(date +%s.%N)
+    echo "$name: running; tail -f $out/$name.txt shows how far it is"
     "$@" >"$out/$name.txt"
     date +%s.%N | awk -v begin="$begin" -v name="$name" -v file="$out/$name.txt" \
         '{ printf "%-20s %6.1f s  %s\n", name, $1 - begin, file }' | tee -a "$out/table.txt"

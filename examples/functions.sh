@@ -20,7 +20,7 @@ member() {
 # row CAGE FUNCTION
 row() {
     "$libicc" info --method gradient --source "$1" --function "$2" --json="$out/functions.json"
-    printf '%-8s %-24s %9d %6d %11d %8.1f %% %8.1f %% %6d %d %d\n' "$(basename "$1" .txt | tail -c 8)" "$2" \
+    printf '%-12s %-24s %9d %6d %11d %8.1f %% %8.1f %% %6d %d %d\n' "$(basename "$1" .txt)" "$2" \
         "$(member expansion_edges)" "$(member expansion_edges_inside)" "$(member compression_edges)" \
         "$(member uncovered | awk '{ print 100 * $1 }')" "$(member collapsed | awk '{ print 100 * $1 }')" \
         "$(member maxima)" "$(member minima)" "$(member saddles)"
@@ -31,7 +31,7 @@ row() {
 "$libicc" plot --method gradient --source "$source" \
     --function laplace:unconstrained,bilaplace:unconstrained "$out/unconstrained.svg"
 
-echo "cage     function                 expansion inside compression  uncovered  collapsed critical"
+echo "cage         function                 expansion inside compression  uncovered  collapsed critical"
 for cage in "$source" "$target"; do
     for function in distance bilaplace:constrained laplace:constrained laplace:unconstrained bilaplace:unconstrained; do
         row "$cage" "$function"

@@ -109,6 +109,7 @@ int main(int argc, char **argv)
     fprintf(svg, "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d'>\n",
             2 * SIDE + 3 * GAP, 2 * SIDE + 3 * GAP);
     fprintf(svg, "<style>.dark{stroke:#4a78b5}.light{stroke:#f4d58d}"
+                 ".dark,.light{shape-rendering:crispEdges}"
                  "polyline{fill:none;stroke:#b03a2e;stroke-width:.7}</style>\n");
     for (int row = 0; row < 2; ++row) {
         const icc_chart_options chart = {

@@ -25,7 +25,7 @@ same out drawing.svg "on standard output"
 
 # A certified method has leaves from every boundary point, and nothing without coordinates (rose).
 for method in foliation disc; do
-    run 0 plot -s source.txt -t target.txt -m "$method" --lines 77 drawing.svg
+    run 0 plot -s source.txt -t target.txt -m "$method" --map curves --lines 77 drawing.svg
     for part in 'source: integral curves' 'target: checkerboard' 'target: uv map'; do
         holds drawing.svg "$part"
     done
@@ -36,9 +36,19 @@ for method in foliation disc; do
     says '--elevation needs --method gradient'
 done
 
-run 0 plot -s source.txt -t target.txt --triangles drawing.svg
-holds drawing.svg 'target: triangles'
-well_formed drawing.svg
+# What is drawn is the map that `map` makes: of a mesh its triangles, and no curves of the charts it began with.
+for options in '' '--triangles' '-m foliation' '--improve 0'; do
+    # shellcheck disable=SC2086 # words
+    run 0 plot -s source.txt -t target.txt $options drawing.svg
+    holds drawing.svg 'target: triangles of the map'
+    if grep -qE 'stroke="#1d4ed8"|integral curves' drawing.svg; then complain "curves of a mesh map: plot $options"; fi
+    well_formed drawing.svg
+    cp drawing.svg "drawn$options.svg"
+done
+same 'drawn--triangles.svg' drawn.svg
+if cmp -s 'drawn--improve 0.svg' drawn.svg; then complain "--improve changes nothing"; fi
+run 2 plot -s source.txt -t target.txt --lines 7 drawing.svg
+says '--lines are integral curves, and this map is a mesh; with --map curves they are drawn'
 
 run 0 plot -s source.txt -t target.txt -m gradient --elevation --compression --y-down --lines 20 drawing.svg
 for part in 'source: checkerboard' 'target: uv map' 'target: elevation' 'source: function'; do
@@ -113,7 +123,14 @@ cubes='-s cube.obj -t moved.obj'
     refuses 2 '--y-down is for pictures of the plane' $cubes --y-down
 }
 refuses 2 'a picture in space is of a map: --target FILE' -s cube.obj
-refuses 2 'in the plane OUT is an SVG or a VTK file' -s source.txt
+refuses 2 "of OUT.svg 'rsvg-convert OUT.svg -o OUT.png' makes a PNG" -s source.txt
+if command -v rsvg-convert >/dev/null; then
+    rsvg-convert drawing.svg -o remedy.png
+    [ "$(head -c 4 remedy.png | tail -c 3)" = PNG ] || complain "the remedy makes no PNG"
+fi
+# One column's captions do not reach into the next: 280 pixels and the margin hold some 40 letters.
+run 0 plot -s source.txt -t target.txt -m gradient -f laplace,distance drawing.svg
+grep -oE '>[^<]*</text>' drawing.svg | awk 'length > 50 { print; bad = 1 } END { exit bad }' || complain "wide captions"
 refuses 2 '--slice is for shapes in space' -s source.txt --slice 1,0,0
 refuses 2 '--view is for shapes in space' -s source.txt --view 1,0,0
 

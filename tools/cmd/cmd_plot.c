@@ -15,7 +15,7 @@
 enum { ROW_UV, ROW_CHECKERBOARD, ROW_SHAPE, ROW_SURFACE, N_ROWS };
 enum { MAX_COLUMNS = MAX_FUNCTIONS + 1 };
 
-static const double margin = 36, caption = 30;
+static const double margin = 36, caption = 30, line = 20;
 
 typedef struct column {
     stages stages;
@@ -68,11 +68,18 @@ static double row_height(const plot *x, int what)
     return what == ROW_SURFACE ? 0.7 * x->size : x->height;
 }
 
+/* A row and what stands below it: of a function up to three lines. */
+static double row_extent(const plot *x, int what)
+{
+    bool function = what == ROW_SHAPE && x->columns[x->n_columns - 1].stages.field != NULL;
+    return row_height(x, what) + caption + margin + (function ? line : 0);
+}
+
 static double row_top(const plot *x, int what)
 {
     double top = x->n_functions > 1 ? margin + caption : margin;
     for (int above = 0; above < what; above++)
-        top += x->rows[above] ? row_height(x, above) + caption + margin : 0;
+        top += x->rows[above] ? row_extent(x, above) : 0;
     return top;
 }
 
@@ -108,16 +115,19 @@ static void write_captions(const plot *x, int what, const column *c, bool triang
              x->n_columns != 2 || x->n_functions > 1 ? ""
              : c->side == 1                          ? "source: "
                                                      : "target: ",
-             bare ? (triangles ? "triangles" : "integral curves") : captions[what]);
+             bare ? (triangles ? "triangles of the map" : "integral curves") : captions[what]);
     svg_label(x->svg, middle, below, text);
     if (s->field == NULL || what < ROW_SHAPE)
         return;
     if (s->logarithmic)
         snprintf(scale, sizeof scale, "logarithm, over %.0f decades", (s->high - s->low) / log(10));
     if (what == ROW_SHAPE)
-        snprintf(text, sizeof text, "%zu expansion edges, %zu inside%s%s", s->n_expansion,
-                 s->n_inner_expansion, *scale ? "; " : "", scale);
-    svg_label(x->svg, middle, below + 20, what == ROW_SHAPE ? text : scale);
+        snprintf(text, sizeof text, "%zu expansion edges, %zu inside", s->n_expansion,
+                 s->n_inner_expansion);
+    if (what == ROW_SHAPE)
+        svg_label(x->svg, middle, below += line, text);
+    if (s->logarithmic)
+        svg_label(x->svg, middle, below + line, scale);
 }
 
 /* Several functions stand above their columns. */
@@ -136,7 +146,7 @@ static int draw_panel(plot *x, int what, size_t i, places *from)
     job *j = &x->job;
     panel p = make_panel(x, what, i);
     int result = DONE;
-    write_captions(x, what, c, panel_shows_triangles(&p, j));
+    write_captions(x, what, c, shows_triangles(&c->stages, j));
     plot_clip(&p, &j->cages[c->side == 2]);
     if (what == ROW_SHAPE)
         return plot_shape(&p, j);
@@ -245,13 +255,17 @@ static int plot_plane(plot *x)
         return misused(a->command, "--%s is for shapes in space",
                        a->n_slice > 0 ? "slice" : "view");
     if (format != NULL && strcmp(format, "PNG") == 0)
-        return misused(a->command, "in the plane OUT is an SVG or a VTK file, not a PNG");
+        return misused(a->command, "in the plane OUT is an SVG or a VTK file; of OUT.svg "
+                                   "'rsvg-convert OUT.svg -o OUT.png' makes a PNG");
     int result = job_read_plane(&x->job, "an SVG (unlike OUT.vtk)");
     if (result == DONE && a->triangles && a->target == NULL)
         result =
             misused(a->command, "--triangles needs a map of kind mesh: --target FILE --map mesh");
     if (result == DONE)
         result = make_columns(x);
+    if (result == DONE && a->lines > 0 && shows_triangles(&x->columns[0].stages, &x->job))
+        result = misused(a->command, "--lines are integral curves, and this map is a mesh; with "
+                                     "--map curves they are drawn");
     if (result == DONE)
         result = make_drawing(x);
     return result == DONE ? write_drawing(x) : result;

@@ -136,12 +136,14 @@ static const command commands[] = {
      .bit = FOR_PLOT,
      .n_operands = 1,
      .run = run_plot,
-     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.png|OUT.vtk",
-     .summary = "Draws cage, integral curves, maximum and what they are made of",
+     .usage = "--source FILE [--target FILE] [OPTION]... OUT.svg|OUT.vtk\n"
+              "--source FILE --target FILE [OPTION]... OUT.png (in space)",
+     .summary = "Draws a shape with its integral curves, or a map",
      .details =
-         "With a target: both shapes side by side, and a u v map and a checkerboard that "
-         "the target\n"
-         "inherits. --function takes several names here, with commas between, and "
+         "In the plane, with a target: both shapes side by side, a u v map and a checkerboard that "
+         "the target inherits, and the triangles of the map. Integral curves are drawn of a map of "
+         "kind curves, and without a target. --function takes several names here, with commas "
+         "between, and "
          "each may end\n"
          "in :constrained or :unconstrained; then there is a column for each.\n\n"
          "In space, with a target: both bodies cut by a plane, with a grid on the cut that the "

@@ -31,9 +31,9 @@ void plot_cage(const panel *p, const job *j);
 /* Numbers at places of the outlines that go together, where these were matched. */
 void plot_pairs(const panel *p, const job *j);
 
-/* Whether the shape is drawn with the triangles of the map: where that is asked for, and where
- * there is no chart with curves. */
-bool panel_shows_triangles(const panel *p, const job *j);
+/* Whether the shape is drawn with the triangles of the map: where it has them, or they are asked
+ * for. Curves of its charts would not be those that it carries along. */
+bool shows_triangles(const stages *s, const job *j);
 
 /* Function as shades, tree, expansion edges, integral curves, maximum. */
 int plot_shape(const panel *p, job *j);

@@ -340,14 +340,17 @@ static int draw_triangles(const panel *p)
     return DONE;
 }
 
-bool panel_shows_triangles(const panel *p, const job *j)
+bool shows_triangles(const stages *s, const job *j)
 {
-    return j->args->triangles || p->stages->chart == NULL;
+    icc_map_info info = {.size = sizeof info};
+    if (s->map != NULL)
+        icc_map_get_info(s->map, &info);
+    return j->args->triangles || info.kind == ICC_MAP_MESH;
 }
 
 int plot_shape(const panel *p, job *j)
 {
-    bool has_tree = p->stages->tree != NULL, triangles = panel_shows_triangles(p, j);
+    bool has_tree = p->stages->tree != NULL, triangles = shows_triangles(p->stages, j);
     int result = triangles ? DONE : draw_shades(p, j);
     fprintf(p->svg, "<g clip-path=\"url(#%s)\">\n", p->clip);
     if (has_tree)
