@@ -58,7 +58,11 @@ size_t system_processors(void); /* at least 1 */
 /* How many columns the terminal has that stderr is; 0: it is none. */
 int system_columns(void);
 
-/* ---- other programs */
+/* ---- this program, and others */
+
+/* What calls this program again, from any folder: the name that it was called by, where that is
+ * looked for in PATH, or else its place. free() it. */
+char *system_program(const char *called);
 
 bool system_has_program(const char *name);
 

@@ -130,6 +130,30 @@ int system_columns(void)
     return 80;
 }
 
+/* NULL: it cannot be told. */
+static char *current_folder(void)
+{
+    for (size_t room = 256;; room *= 2) {
+        char *name = need(room, 1);
+        if (getcwd(name, room) != NULL)
+            return name;
+        free(name);
+        if (errno != ERANGE)
+            return NULL;
+    }
+}
+
+char *system_program(const char *called)
+{
+    bool relative = called[0] != '/' && strchr(called, '/') != NULL;
+    char *folder = relative ? current_folder() : NULL;
+    size_t n = (folder != NULL ? strlen(folder) : 0) + strlen(called) + 2;
+    char *name = need(n, 1);
+    snprintf(name, n, "%s%s%s", folder != NULL ? folder : "", folder != NULL ? "/" : "", called);
+    free(folder);
+    return name;
+}
+
 bool system_has_program(const char *name)
 {
     const char *path = getenv("PATH");

@@ -213,6 +213,18 @@ int system_columns(void)
     return info.dwSize.X > 0 ? info.dwSize.X : 80;
 }
 
+char *system_program(const char *called)
+{
+    if (system_last_part(called) == called)
+        return copy(called);
+    DWORD room = GetFullPathNameA(called, 0, NULL, NULL);
+    char *place = need((size_t)room + 1, 1);
+    if (room > 0 && GetFullPathNameA(called, room, place, NULL) > 0)
+        return place;
+    free(place);
+    return copy(called);
+}
+
 bool system_has_program(const char *name)
 {
     return SearchPathA(NULL, name, ".exe", 0, NULL, NULL) > 0;

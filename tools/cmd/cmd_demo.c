@@ -70,31 +70,41 @@ static void print_word(const char *text)
     putchar('\'');
 }
 
-/* What to try next: within the folder, so that the commands are short. */
-static void print_next(const char *folder)
+/* A line of what to try, with this program in front of its arguments. */
+static void print_call(const char *program, const char *lead, const char *arguments)
+{
+    printf("  %s", lead);
+    print_word(program);
+    printf(" %s\n", arguments);
+}
+
+/* What to try next: within the folder, so that the commands are short. They call this program as it
+ * was called. */
+static void print_next(const char *folder, const char *program)
 {
     fputs("In ", stdout);
     print_word(folder);
-    fputs(
-        " are a picture, fish.png, and two cages: a polygon round the fish, before.txt, and where\n"
-        "its corners go, after.txt. To try next:\n\n"
-        "  cd ",
-        stdout);
+    puts(" are a picture, fish.png, and two cages: a polygon round the fish,\n"
+         "before.txt, and where its corners go, after.txt. To try next:\n");
+    fputs("  cd ", stdout);
     print_word(folder);
-    puts("\n\nIs the map from one cage to the other one-to-one?\n"
-         "  libicc check -s before.txt -t after.txt\n\n"
-         "Bend the fish; look at bent.png:\n"
-         "  libicc warp -s before.txt -t after.txt --background 78b9d7 fish.png bent.png\n\n"
-         "See what becomes of a checkerboard; look at map.svg:\n"
-         "  libicc plot -s before.txt -t after.txt --y-down map.svg\n\n"
-         "Where does the eye go, and back?\n"
-         "  echo 358 140 | libicc map -s before.txt -t after.txt >eye.txt; cat eye.txt\n"
-         "  libicc map -s before.txt -t after.txt --inverse <eye.txt\n\n"
-         "Make a film of it, from before to after in 24 steps; look at film-0000.png and so on:\n"
-         "  libicc animate -s before.txt --steps 24 --background 78b9d7 fish.png film.png "
-         "before.txt after.txt\n\n"
-         "Move corners in after.txt, a text file, and warp again. 'libicc help' lists what else "
-         "there is.");
+    puts("\n\nIs the map from one cage to the other one-to-one?");
+    print_call(program, "", "check -s before.txt -t after.txt");
+    puts("\nBend the fish; look at bent.png:");
+    print_call(program, "",
+               "warp -s before.txt -t after.txt --background 78b9d7 fish.png bent.png");
+    puts("\nSee what becomes of a checkerboard; look at map.svg:");
+    print_call(program, "", "plot -s before.txt -t after.txt --y-down map.svg");
+    puts("\nWhere does the eye go, and back?");
+    print_call(program, "echo 358 140 | ", "map -s before.txt -t after.txt >eye.txt; cat eye.txt");
+    print_call(program, "", "map -s before.txt -t after.txt --inverse <eye.txt");
+    puts(
+        "\nMake a film of it, from before to after in 24 steps; look at film-0000.png and\nso on:");
+    print_call(program, "",
+               "animate -s before.txt --steps 24 --background 78b9d7 fish.png film.png "
+               "before.txt after.txt");
+    puts("\nMove corners in after.txt, a text file, and warp again. See what else there is:");
+    print_call(program, "", "help");
 }
 
 int run_demo(const args *a)
@@ -108,7 +118,10 @@ int run_demo(const args *a)
         result = write_cage(folder, "after.txt", after);
     if (result == DONE)
         result = write_picture(folder);
-    if (result == DONE)
-        print_next(folder);
+    if (result == DONE) {
+        char *program = system_program(a->program);
+        print_next(folder, program);
+        free(program);
+    }
     return result;
 }

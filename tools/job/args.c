@@ -220,7 +220,8 @@ static int take_operand(reading *r, char *text)
 
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
 {
-    *out = (args){.command = c->name, .operands = argv + 2, .improve = -1, .snap = -1};
+    *out = (args){
+        .program = argv[0], .command = c->name, .operands = argv + 2, .improve = -1, .snap = -1};
     *help = false;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
     bool only_operands = false;

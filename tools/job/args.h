@@ -10,6 +10,7 @@
 #include <stdint.h>
 
 typedef struct args {
+    const char *program; /* as it was called */
     const char *command;
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
