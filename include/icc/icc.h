@@ -1184,6 +1184,12 @@ typedef struct icc_map_info {
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
  * same barycentric coordinates.
  *
+ * A boundary that moves affinely takes its inside along by the same affine map: if all vertices,
+ * those of features too, lie within 1e-13 of the largest coordinate of the affine map that fits
+ * them best, a map of kind mesh is that affine map, up to rounding (1e-12 of the size). Vertices go
+ * to their partners as given. Exceptions: options with `iterations` -1, and features whose ties ask
+ * for another isotopy class.
+ *
  * Both charts are built together. Foliation and disc cut both boundaries alike. The maxima are
  * paired:
  * - by foliation, the target's is where the disc maps take the source's;

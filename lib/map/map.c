@@ -2,13 +2,17 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_create.h"
 #include "domain/features_check.h"
+#include "map/affine.h"
 #include "map/digits.h"
 #include "map/filled_pair.h"
 #include "map/follow.h"
 #include "map/solid_follow.h"
+
+#include <string.h>
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
@@ -161,6 +165,46 @@ icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env)
     return status;
 }
 
+static iccp_simplicial_map simplicial_of(const icc_map *map)
+{
+    return map->mesh != NULL ? iccp_plmap_simplicial(&map->mesh->pl)
+                             : iccp_solid_simplicial(map->solid);
+}
+
+/* Makes a map affine inside if its boundary is; but not if features would then lie another way
+ * round one another. */
+static icc_status settle(icc_map *map, int32_t iterations, double *energy, const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    if (iterations < 0 || (map->mesh == NULL && map->solid == NULL))
+        return ICC_OK;
+    const iccp_simplicial_map simplicial = simplicial_of(map);
+    double *before;
+    icc_status status =
+        iccp_affine_settle(&simplicial, map->source_domain, map->target_domain, &before, &quiet);
+    if (status != ICC_OK || before == NULL)
+        return status;
+    iccp_isotopy *const own = map->isotopy;
+    const icc_map_info info = map->info;
+    map->isotopy = NULL;
+    status = iccp_map_tell_features(map, &quiet);
+    if (status == ICC_OK && map->source_domain->features != NULL &&
+        !iccp_isotopy_same(own, map->isotopy)) {
+        memcpy(simplicial.images, before, simplicial.dim * simplicial.n_points * sizeof *before);
+        iccp_isotopy_free(map->isotopy);
+        map->isotopy = own;
+        map->info = info;
+    } else {
+        iccp_isotopy_free(own);
+        /* There is none less: more than before is rounding. */
+        *energy = iccp_min(*energy, iccp_simplicial_energy_at_once(&simplicial, &quiet));
+    }
+    iccp_free(&env->memory, before);
+    return status == ICC_OK && map->solid != NULL ? iccp_solid_map_replant(map->solid, &quiet)
+                                                  : status;
+}
+
 /* Maps of domains with features have no charts. */
 static icc_status create_with_features(icc_map **out, const icc_domain *source,
                                        const icc_domain *target, const icc_map_options *options,
@@ -174,6 +218,8 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
                                                err);
     if (status == ICC_OK)
         status = iccp_map_tell_features(map, env);
+    if (status == ICC_OK)
+        status = settle(map, options->iterations, &map->info.energy, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
@@ -218,6 +264,8 @@ static icc_status create_from(icc_map **out, const icc_chart *source, const icc_
         status = add_mesh(map, options->iterations, overlay, env, err);
     else if (status == ICC_OK)
         status = iccp_map_check_digits(map, env);
+    if (status == ICC_OK)
+        status = settle(map, options->iterations, &map->info.energy, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
@@ -396,6 +444,11 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     icc_map *better = NULL;
     if (map->mesh == NULL && map->solid == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be improved");
+    /* An affine map has the least energy, so a finer mesh would gain nothing. */
+    static const icc_improve_options NO_MORE = {.iterations = 1, .levels = -1};
+    const iccp_simplicial_map simplicial = simplicial_of(map);
+    if (iccp_affine_is_settled(&simplicial, map->source_domain, map->target_domain))
+        options = &NO_MORE;
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);
@@ -414,6 +467,8 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         if (map->mesh != NULL)
             status = iccp_map_tell_features(better, env);
     }
+    if (status == ICC_OK)
+        status = settle(better, 0, &report->energy, env);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
@@ -506,6 +561,8 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     iccp_without_team(&with, env);
     if (status == ICC_OK)
         status = iccp_map_tell_features(next, env);
+    if (status == ICC_OK)
+        status = settle(next, iterations, &next->info.energy, env);
     if (status == ICC_OK && map->info.class_kept) {
         bool kept;
         status = iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &next->mesh->pl,

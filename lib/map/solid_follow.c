@@ -4,6 +4,7 @@
 #include "map/solid_follow.h"
 
 #include "base/clock.h"
+#include "map/affine.h"
 #include "map/carry.h"
 #include "map/mesh_repair.h"
 #include "map/solid_improve.h"
@@ -44,64 +45,23 @@ typedef struct journey {
 
 /* ---- what all of the surface does in common ---- */
 
-/* y = matrix (x - from) + to. */
-typedef struct affine {
-    double from[3], to[3], matrix[9];
-} affine;
-
-static void find_means(affine *a, size_t n, const double *x, const double *y)
-{
-    for (size_t i = 0; i < 3 * n; ++i) {
-        a->from[i % 3] += x[i] / (double)n;
-        a->to[i % 3] += y[i] / (double)n;
-    }
-}
-
-/* The least squares' one; false where there is none that keeps orientation. */
-static bool fit_affine(affine *a, size_t n, const double *x, const double *y)
-{
-    double second[9] = {0}, mixed[9] = {0}, cofactor[9], det;
-    *a = (affine){{0}, {0}, {0}};
-    find_means(a, n, x, y);
-    for (size_t i = 0; i < n; ++i)
-        for (size_t r = 0; r < 3; ++r)
-            for (size_t c = 0; c < 3; ++c) {
-                const double d = x[3 * i + c] - a->from[c];
-                second[3 * r + c] += (x[3 * i + r] - a->from[r]) * d;
-                mixed[3 * r + c] += (y[3 * i + r] - a->to[r]) * d;
-            }
-    iccp_cofactors(3, second, cofactor);
-    det = iccp_vec_dot(3, second, cofactor);
-    if (!(det > 0))
-        return false;
-    for (size_t r = 0; r < 3; ++r)
-        for (size_t c = 0; c < 3; ++c)
-            a->matrix[3 * r + c] = iccp_vec_dot(3, mixed + 3 * r, cofactor + 3 * c) / det;
-    iccp_cofactors(3, a->matrix, cofactor);
-    return iccp_vec_dot(3, a->matrix, cofactor) > 0;
-}
-
-static void apply_affine(const affine *a, const double *x, double *y)
-{
-    double d[3];
-    for (size_t k = 0; k < 3; ++k)
-        d[k] = x[k] - a->from[k];
-    for (size_t k = 0; k < 3; ++k)
-        y[k] = a->to[k] + iccp_vec_dot(3, a->matrix + 3 * k, d);
-}
-
 /* Where that is most of the motion, and rounding lets it. */
 static icc_status move_in_common(journey *j, const iccp_env *env)
 {
     const iccp_simplices *mesh = j->map->mesh;
     const double *places = j->target->vertices;
     const iccp_simplicial_map now = iccp_solid_simplicial(j->map);
+    const iccp_simplicial_map surface = {.dim = 3,
+                                         .n_points = mesh->n_boundary,
+                                         .n_fixed = mesh->n_boundary,
+                                         .points = now.images,
+                                         .images = j->target->vertices};
     double before = 0, after = 0, place[3];
-    affine a;
-    if (!fit_affine(&a, mesh->n_boundary, now.images, places))
+    iccp_affine a;
+    if (!iccp_affine_fit(&a, &surface))
         return ICC_OK;
     for (size_t v = 0; v < mesh->n_boundary; ++v) {
-        apply_affine(&a, now.images + 3 * v, place);
+        iccp_affine_apply(&a, now.images + 3 * v, place);
         before += iccp_vec_distance2(3, now.images + 3 * v, places + 3 * v);
         after += iccp_vec_distance2(3, place, places + 3 * v);
     }
@@ -112,7 +72,7 @@ static icc_status move_in_common(journey *j, const iccp_env *env)
     if (then.images == NULL)
         return ICC_ERR_MEMORY;
     for (size_t v = 0; v < mesh->n_points; ++v)
-        apply_affine(&a, now.images + 3 * v, then.images + 3 * v);
+        iccp_affine_apply(&a, now.images + 3 * v, then.images + 3 * v);
     iccp_simplicial_round(3 * mesh->n_points, then.images);
     const bool good = iccp_simplicial_count_at_once(&then, env) == 0;
     iccp_free(&j->map->memory, good ? now.images : then.images);

@@ -88,6 +88,13 @@ icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const 
     return plant(map, env);
 }
 
+icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env)
+{
+    iccp_facet_tree_free(&map->before, &map->memory);
+    iccp_facet_tree_free(&map->after, &map->memory);
+    return plant(map, env);
+}
+
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, int32_t iterations, icc_map_info *info,
                                  const iccp_env *env)

@@ -47,6 +47,9 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
 /* The rest of a map that is there: what finds points. Fills in what `info` says of the size. */
 icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env);
 
+/* After its images have changed, they are found again. */
+icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env);
+
 /* ---- all of it ---- */
 
 /* A better one from a copy; see icc_map_improve(). */
