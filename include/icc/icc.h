@@ -1377,18 +1377,22 @@ typedef struct icc_certificate {
     size_t size;             /**< set by the caller: `sizeof(icc_certificate)` */
     int32_t certified;       /**< 1: every simplex keeps its orientation and both boundaries are
                                   simple, so the mesh and its image are one-to-one */
-    int32_t boundary_simple; /**< 1: icc_domain_create_mesh() would accept the mesh, and the image
-                                  of its boundary is a simple polygon or surface */
+    int32_t boundary_simple; /**< 1: no part of the boundary meets itself or another part, and the
+                                  mesh lies on one side of it; the same is true of the images */
     size_t n_inverted;       /**< simplices whose image has the opposite orientation */
     size_t n_flat;           /**< simplices without volume, or whose image has none */
     size_t n_no_image;       /**< vertices that have no image */
     int64_t first;           /**< the first simplex at fault, or -1 */
+    char message[256];       /**< why it is not certified, one line of English; empty if it is */
 } icc_certificate;
 
 /**
  * Maps the vertices of a caller-supplied mesh of triangles (2-D) or tetrahedra (3-D) and checks,
  * exactly, whether the image is a mesh too. It need not be, even though the map is one-to-one: its
  * simplices are straight where the map bends.
+ *
+ * The mesh may have holes, voids and handles, and may be in several pieces. A facet has one simplex
+ * or two, and no vertex or edge belongs to two parts of the boundary.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -1413,8 +1417,8 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  *
  * Simplices and the images of boundary vertices do not change, so this cannot always succeed (a
  * simplex with all its corners on the boundary stays as the map makes it): check `certificate`. If
- * it fails, if icc_domain_create_mesh() would not accept the mesh, or if a vertex of its boundary
- * has no image, the images are the best that were found.
+ * it fails, the images are the best that were found. A mesh that could not be certified itself, or
+ * a vertex of whose boundary has no image, is not repaired.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26

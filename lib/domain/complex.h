@@ -5,6 +5,8 @@
 
 #include "base/env.h"
 
+#include <stdbool.h>
+
 /* n_facets facets of dim corners each. */
 typedef struct iccp_complex {
     size_t dim, n_vertices, n_facets;
@@ -22,9 +24,15 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err);
 icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *err);
 
 /* ICC_ERR_BOUNDARY unless the facets at each vertex are connected across ridges at it; in 3-D they
- * then form one cycle. ICC_ERR_TOPOLOGY unless all facets are connected and, in 3-D, form a
- * sphere. */
+ * then form one cycle. */
+icc_status iccp_complex_check_vertices(const iccp_complex *c, const iccp_env *env, icc_error *err);
+
+/* The same, and ICC_ERR_TOPOLOGY unless all facets are connected and, in 3-D, form a sphere. */
 icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err);
+
+/* Lists the facets that are connected to the first one, itself included, and marks them by
+ * reached[facet]; returns how many. The queue has room for all facets not reached before. */
+size_t iccp_complex_flood(const iccp_complex *c, size_t first, bool *reached, uint32_t *queue);
 
 /* What a facet and a ridge are called: "face" and "edge" in 3-D. */
 const char *iccp_complex_facet(size_t dim);

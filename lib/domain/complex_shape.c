@@ -75,21 +75,18 @@ static ICCP_INLINE icc_status check_vertices(flood *f, uint32_t dim, icc_error *
     return ICC_OK;
 }
 
-/* How many facets are connected to facet 0, itself included; reached[] says which. */
-static size_t flood_facets(flood *f)
+size_t iccp_complex_flood(const iccp_complex *c, size_t first, bool *reached, uint32_t *queue)
 {
-    const iccp_complex *c = f->c;
     size_t n = 0, done = 0;
-    memset(f->reached, 0, c->n_facets * sizeof *f->reached);
-    f->queue[n++] = 0;
-    f->reached[0] = true;
+    queue[n++] = (uint32_t)first;
+    reached[first] = true;
     while (done < n) {
-        const size_t facet = f->queue[done++];
+        const size_t facet = queue[done++];
         for (size_t i = 0; i < c->dim; ++i) {
             const uint32_t other = c->across[c->dim * facet + i];
-            if (!f->reached[other]) {
-                f->reached[other] = true;
-                f->queue[n++] = other;
+            if (!reached[other]) {
+                reached[other] = true;
+                queue[n++] = other;
             }
         }
     }
@@ -100,7 +97,8 @@ static icc_status check_connected(flood *f, icc_error *err)
 {
     const iccp_complex *c = f->c;
     const char *name = iccp_complex_facet(c->dim);
-    const size_t n = flood_facets(f);
+    memset(f->reached, 0, c->n_facets * sizeof *f->reached);
+    const size_t n = iccp_complex_flood(c, 0, f->reached, f->queue);
     size_t other = 0;
     while (other < c->n_facets && f->reached[other])
         ++other;
@@ -127,7 +125,8 @@ static icc_status check_genus(const flood *f, icc_error *err)
                      "the surface has genus %zu: it must be a sphere, without handles", genus);
 }
 
-icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err)
+/* All of it, or only what can be said of each vertex. */
+static icc_status check(const iccp_complex *c, bool whole, const iccp_env *env, icc_error *err)
 {
     const iccp_memory *memory = &env->memory;
     flood f = {.c = c};
@@ -140,12 +139,22 @@ icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, 
     if (status == ICC_OK)
         status =
             c->dim == 3 ? check_vertices(&f, 3, err) : check_vertices(&f, (uint32_t)c->dim, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK && whole)
         status = check_connected(&f, err);
-    if (status == ICC_OK && c->dim == 3)
+    if (status == ICC_OK && whole && c->dim == 3)
         status = check_genus(&f, err);
     iccp_free(memory, f.at);
     iccp_free(memory, f.queue);
     iccp_free(memory, f.reached);
     return status;
+}
+
+icc_status iccp_complex_check_vertices(const iccp_complex *c, const iccp_env *env, icc_error *err)
+{
+    return check(c, false, env, err);
+}
+
+icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err)
+{
+    return check(c, true, env, err);
 }

@@ -17,8 +17,6 @@ typedef struct builder {
     iccp_simplices *mesh; /* in the caller's numbers, until renumber() */
     iccp_frame frame;
     uint32_t *number; /* n_given: the new number of each of the caller's points, or NONE */
-    double *boundary; /* mesh->n_boundary * dim: points as given */
-    uint32_t *facets; /* mesh->n_facets * dim: new numbers of points */
 } builder;
 
 static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
@@ -88,8 +86,7 @@ static icc_status renumber(builder *b)
     number_points(b);
     double *points = iccp_alloc(&mesh->memory, mesh->n_points, size);
     mesh->given = iccp_alloc(&mesh->memory, mesh->n_points, sizeof *mesh->given);
-    b->boundary = iccp_alloc(&mesh->memory, mesh->n_boundary, size);
-    if (points == NULL || mesh->given == NULL || b->boundary == NULL) {
+    if (points == NULL || mesh->given == NULL) {
         iccp_free(&mesh->memory, points);
         return ICC_ERR_MEMORY;
     }
@@ -99,8 +96,6 @@ static icc_status renumber(builder *b)
             continue;
         mesh->given[to] = v;
         memcpy(points + mesh->dim * to, mesh->points + mesh->dim * v, size);
-        if (to < mesh->n_boundary)
-            memcpy(b->boundary + mesh->dim * to, b->given + mesh->dim * v, size);
     }
     iccp_free(&mesh->memory, mesh->points);
     mesh->points = points;
@@ -109,24 +104,69 @@ static icc_status renumber(builder *b)
     return ICC_OK;
 }
 
-/* Facets that the caller did not give have their points in ascending order as far as their
- * orientation allows. */
-static icc_status list_facets(builder *b, const uint32_t *facets)
+icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, size_t n_vertices,
+                          const double *vertices, size_t n_simplices, const uint32_t *simplices,
+                          size_t n_facets, const uint32_t *facets, const iccp_env *env,
+                          icc_error *err)
 {
-    const iccp_simplices *mesh = b->mesh;
-    const size_t dim = mesh->dim;
-    b->facets = iccp_alloc(&mesh->memory, mesh->n_facets, dim * sizeof *b->facets);
-    if (b->facets == NULL)
-        return ICC_ERR_MEMORY;
-    if (facets != NULL) {
-        for (size_t i = 0; i < dim * mesh->n_facets; ++i)
-            b->facets[i] = b->number[facets[i]];
-        return ICC_OK;
+    builder b = {.given = vertices, .n_given = n_vertices};
+    icc_status status = iccp_explain(err, copy_mesh(&b, dim, n_simplices, simplices, env));
+    if (status == ICC_OK)
+        status = check_mesh(&b, n_facets, facets, env, err);
+    if (status == ICC_OK)
+        status = iccp_explain(err, iccp_progress(env, "check", 0.6));
+    if (status == ICC_OK)
+        status = iccp_explain(err, renumber(&b));
+    iccp_free(&env->memory, b.number);
+    if (status != ICC_OK) {
+        iccp_simplices_free(b.mesh);
+        b.mesh = NULL;
     }
+    *out = b.mesh;
+    *frame = b.frame;
+    return status;
+}
+
+/* ---- domains ---- */
+
+/* The boundary's points as the caller has them. */
+static double *list_points(const iccp_simplices *mesh, const double *given)
+{
+    const size_t size = mesh->dim * sizeof *given;
+    double *points = iccp_alloc(&mesh->memory, mesh->n_boundary, size);
+    for (size_t v = 0; points != NULL && v < mesh->n_boundary; ++v)
+        memcpy(points + mesh->dim * v, given + mesh->dim * mesh->given[v], size);
+    return points;
+}
+
+/* The new number of a point on the boundary. */
+static uint32_t number_of(const iccp_simplices *mesh, uint32_t given)
+{
+    size_t low = 0, high = mesh->n_boundary;
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (mesh->given[middle] <= given)
+            low = middle;
+        else
+            high = middle;
+    }
+    return (uint32_t)low;
+}
+
+/* The boundary's facets in the new numbers. Those that the caller did not give have their points in
+ * ascending order as far as their orientation allows. */
+static uint32_t *list_facets(const iccp_simplices *mesh, const uint32_t *given)
+{
+    const size_t dim = mesh->dim;
+    uint32_t *facets = iccp_alloc(&mesh->memory, mesh->n_facets, dim * sizeof *facets);
+    for (size_t i = 0; facets != NULL && given != NULL && i < dim * mesh->n_facets; ++i)
+        facets[i] = number_of(mesh, given[i]);
+    if (facets == NULL || given != NULL)
+        return facets;
     for (size_t side = 0; side < (dim + 1) * mesh->n_simplices; ++side) {
         if (!(mesh->across[side] & ICCP_ON_BOUNDARY))
             continue;
-        uint32_t *to = b->facets + dim * (mesh->across[side] & ~ICCP_ON_BOUNDARY);
+        uint32_t *to = facets + dim * (mesh->across[side] & ~ICCP_ON_BOUNDARY);
         iccp_simplices_side(mesh, side, to);
         if (iccp_sort_vertices(dim, to)) {
             const uint32_t swap = to[dim - 2];
@@ -134,30 +174,14 @@ static icc_status list_facets(builder *b, const uint32_t *facets)
             to[dim - 1] = swap;
         }
     }
-    return ICC_OK;
-}
-
-static icc_status build_mesh(builder *b, size_t n_facets, const uint32_t *facets,
-                             const iccp_env *env, icc_error *err)
-{
-    icc_status status = check_mesh(b, n_facets, facets, env, err);
-    if (status != ICC_OK)
-        return status;
-    status = iccp_progress(env, "check", 0.6);
-    if (status == ICC_OK)
-        status = renumber(b);
-    if (status == ICC_OK)
-        status = list_facets(b, facets);
-    if (status != ICC_OK)
-        return iccp_explain(err, status);
-    return iccp_simplices_check_shape(b->mesh, err);
+    return facets;
 }
 
 /* An inner vertex that sticks out of the box of the boundary would need another frame; where
  * orientations are exact they have excluded it. */
-static icc_status check_frame(const builder *b, const icc_domain *domain, icc_error *err)
+static icc_status check_frame(const iccp_frame *frame, const icc_domain *domain, icc_error *err)
 {
-    if (memcmp(&b->frame, &domain->frame, sizeof b->frame) == 0)
+    if (memcmp(frame, &domain->frame, sizeof *frame) == 0)
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_BOUNDARY, "a vertex lies outside the boundary of the mesh");
 }
@@ -167,28 +191,36 @@ icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_verti
                                    const uint32_t *simplices, size_t n_facets,
                                    const uint32_t *facets, const iccp_env *env, icc_error *err)
 {
-    builder b = {.given = vertices, .n_given = n_vertices};
+    iccp_simplices *mesh;
+    iccp_frame frame;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){2, 1}, env);
     *out = NULL;
-    icc_status status = iccp_explain(err, copy_mesh(&b, (size_t)dim, n_simplices, simplices, env));
+    icc_status status = iccp_mesh_read(&mesh, &frame, (size_t)dim, n_vertices, vertices,
+                                       n_simplices, simplices, n_facets, facets, &part[0], err);
     if (status == ICC_OK)
-        status = build_mesh(&b, n_facets, facets, &part[0], err);
+        status = iccp_simplices_check_shape(mesh, err);
+    if (status != ICC_OK) {
+        iccp_simplices_free(mesh);
+        return status;
+    }
+    double *points = list_points(mesh, vertices);
+    uint32_t *own = list_facets(mesh, facets);
+    if (points == NULL || own == NULL)
+        status = iccp_fail_memory(err);
     if (status == ICC_OK)
-        status = iccp_domain_create(out, dim, b.mesh->n_boundary, b.boundary, b.mesh->n_facets,
-                                    b.facets, &part[1], err);
+        status = iccp_domain_create(out, dim, mesh->n_boundary, points, mesh->n_facets, own,
+                                    &part[1], err);
     if (status == ICC_OK)
-        status = check_frame(&b, *out, err);
-    if (status == ICC_OK) {
-        (*out)->mesh = b.mesh;
-        b.mesh = NULL;
-    } else {
+        status = check_frame(&frame, *out, err);
+    iccp_free(&env->memory, points);
+    iccp_free(&env->memory, own);
+    if (status == ICC_OK)
+        (*out)->mesh = mesh;
+    else {
+        iccp_simplices_free(mesh);
         iccp_domain_release(*out);
         *out = NULL;
     }
-    iccp_free(&env->memory, b.number);
-    iccp_free(&env->memory, b.boundary);
-    iccp_free(&env->memory, b.facets);
-    iccp_simplices_free(b.mesh);
     return status;
 }

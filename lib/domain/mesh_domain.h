@@ -5,6 +5,14 @@
 #include "domain/domain.h"
 #include "domain/simplices.h"
 
+/* A caller's mesh of any shape in local coordinates of its own. ICC_ERR_BOUNDARY unless its
+ * simplices have volume and each facet has one of them or two, on opposite sides. The facets of the
+ * boundary may be NULL. */
+icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, size_t n_vertices,
+                          const double *vertices, size_t n_simplices, const uint32_t *simplices,
+                          size_t n_facets, const uint32_t *facets, const iccp_env *env,
+                          icc_error *err);
+
 /* See icc_domain_create_mesh(); arguments have been checked for NULL, the range of dim and of the
  * counts. */
 icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,

@@ -1,15 +1,17 @@
 /* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the
- * image of the boundary is a simple polygon or surface (the degree of the map is then 1 inside it
- * and 0 outside). */
+ * image of the boundary is simple and winds round each point once or not at all: as many simplices
+ * have a point in their images. The same is asked of the mesh itself (domain/boundary_parts.h). */
 #include "map/certify.h"
 
 #include "base/error.h"
+#include "domain/boundary_parts.h"
 #include "domain/mesh_domain.h"
 #include "map/apply.h"
 #include "map/mesh_repair.h"
 #include "math/orient.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct mesh_check {
@@ -120,46 +122,97 @@ static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_e
 
 /* ---- the boundary ---- */
 
-/* Whether the boundary's image is that of a domain. */
-static icc_status check_boundary(const mesh_check *m, const icc_domain *domain, const iccp_env *env)
-{
-    const size_t size = m->dim * sizeof(double);
-    double *images = iccp_alloc(&env->memory, domain->n_vertices, size);
-    if (images == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t v = 0; v < domain->n_vertices; ++v)
-        memcpy(images + m->dim * v, m->images + m->dim * domain->mesh->given[v], size);
-    icc_domain *image;
-    const icc_status status = iccp_domain_create(&image, domain->dim, domain->n_vertices, images,
-                                                 domain->n_facets, domain->facets, env, NULL);
-    iccp_domain_release(image);
-    iccp_free(&env->memory, images);
-    return status;
-}
-
 static bool is_about_shape(icc_status status)
 {
     return status == ICC_ERR_BOUNDARY || status == ICC_ERR_TOPOLOGY;
 }
 
-/* Repairs if asked to and possible, and judges. */
-static icc_status check_mesh(mesh_check *m, bool repaired, const double *vertices,
-                             const iccp_env *env)
+/* The first reason stays. */
+static void give_reason(mesh_check *m, const char *where, const char *why)
 {
-    icc_domain *domain;
+    char *message = m->result->message;
+    if (message[0] == 0)
+        (void)snprintf(message, sizeof m->result->message, "%s%.200s", where, why);
+}
+
+static void count_reasons(mesh_check *m)
+{
+    const icc_certificate *c = m->result;
+    const char *name = iccp_simplices_name(m->dim);
+    char why[160];
+    if (c->first < 0)
+        return;
+    (void)snprintf(why, sizeof why,
+                   "images: %zu inverted, %zu flat, and %zu vertices have none; the first %s at "
+                   "fault is %lld",
+                   c->n_inverted, c->n_flat, c->n_no_image, name, (long long)c->first);
+    give_reason(m, "", why);
+}
+
+/* Whether the mesh itself is one-to-one, and where its boundary is. */
+static icc_status check_before(mesh_check *m, iccp_boundary_parts *boundary,
+                               const iccp_simplices *mesh, const iccp_env *env)
+{
+    icc_error own = {.size = sizeof own};
+    icc_status status = iccp_boundary_parts_create(boundary, mesh, m->n_vertices, env, &own);
+    if (status == ICC_OK)
+        status = iccp_boundary_parts_check(boundary, m->before, env, &own);
+    if (is_about_shape(status))
+        give_reason(m, "the boundary of the mesh: ", own.message);
+    return status;
+}
+
+static icc_status check_after(mesh_check *m, const iccp_boundary_parts *boundary,
+                              const iccp_simplices *mesh, const iccp_env *env)
+{
+    icc_error own = {.size = sizeof own};
+    icc_status status = ICC_OK;
+    for (size_t v = 0; status == ICC_OK && v < mesh->n_boundary; ++v)
+        if (!is_finite(m->dim, m->images + m->dim * mesh->given[v]))
+            status = iccp_fail(&own, ICC_ERR_BOUNDARY, "vertex %lu has none",
+                               (unsigned long)mesh->given[v]);
+    if (status == ICC_OK)
+        status = iccp_boundary_parts_check(boundary, m->after, env, &own);
+    if (is_about_shape(status))
+        give_reason(m, "the image of the boundary: ", own.message);
+    return status;
+}
+
+/* Repairs if asked to and possible, and judges. */
+static icc_status check_joined(mesh_check *m, const iccp_simplices *mesh, bool repaired,
+                               const iccp_env *env)
+{
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 3, 1}, env);
-    check_simplices(m);
-    icc_status status =
-        iccp_domain_create_mesh(&domain, (int32_t)m->dim, m->n_vertices, vertices, m->n_simplices,
-                                m->simplices, 0, NULL, &part[0], NULL);
-    if (status == ICC_OK && repaired && can_repair(m, domain->mesh)) {
-        status = repair(m, domain->mesh, &part[1]);
+    iccp_boundary_parts boundary;
+    icc_status status = check_before(m, &boundary, mesh, &part[0]);
+    if (status == ICC_OK && repaired && can_repair(m, mesh)) {
+        status = repair(m, mesh, &part[1]);
         check_simplices(m);
     }
     if (status == ICC_OK)
-        status = check_boundary(m, domain, &part[2]);
-    iccp_domain_release(domain);
+        status = check_after(m, &boundary, mesh, &part[2]);
+    count_reasons(m);
+    iccp_boundary_parts_free(&boundary);
+    return status;
+}
+
+static icc_status check_mesh(mesh_check *m, bool repaired, const double *vertices,
+                             const iccp_env *env)
+{
+    icc_error own = {.size = sizeof own};
+    iccp_simplices *mesh;
+    iccp_frame frame;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 4}, env);
+    check_simplices(m);
+    icc_status status = iccp_mesh_read(&mesh, &frame, m->dim, m->n_vertices, vertices,
+                                       m->n_simplices, m->simplices, 0, NULL, &part[0], &own);
+    if (is_about_shape(status))
+        give_reason(m, "", own.message);
+    if (status == ICC_OK)
+        status = check_joined(m, mesh, repaired, &part[1]);
+    iccp_simplices_free(mesh);
     m->result->boundary_simple = status == ICC_OK;
     m->result->certified = status == ICC_OK && m->result->first < 0;
     return is_about_shape(status) ? ICC_OK : status;

@@ -4,8 +4,7 @@
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "domain/polygon_check.h"
-#include "domain/sweep.h"
+#include "domain/outlines.h"
 
 #include <stdatomic.h>
 #include <string.h>
@@ -30,103 +29,32 @@ static bool link_boundary(const iccp_corners *corners, size_t n_vertices, uint32
     return is_clear;
 }
 
-/* Takes the ring through a vertex out of `next` and lists it; 0 when it does not close. */
-static size_t take_ring(uint32_t *next, uint32_t first, uint32_t *ring)
-{
-    size_t n = 0;
-    uint32_t v = first;
-    while (next[v] != UINT32_MAX) {
-        const uint32_t after = next[v];
-        next[v] = UINT32_MAX;
-        ring[n++] = v;
-        v = after;
-    }
-    return v == first ? n : 0;
-}
+typedef struct sides {
+    iccp_outlines outlines;
+    const double *places[2]; /* of all vertices */
+} sides;
 
-/* The boundary's vertices ring by ring. */
-typedef struct outlines {
-    size_t n;
-    iccp_chain *ring;        /* room for n_vertices / 3 + 1 */
-    uint32_t *vertex;        /* of all rings, each with its first vertex once more */
-    double *points;          /* and their places, on either side; `room` on each */
-    iccp_chain_place *place; /* as many as rings, on either side */
-    size_t room, ring_room;
-    const double *all[2]; /* the places of all vertices */
-} outlines;
-
-/* False when the half-edges without twins do not form rings. */
-static bool list_rings(outlines *o, const iccp_plmap *map, uint32_t *next)
+static icc_status check_side(void *argument, size_t side, const iccp_env *env, icc_error *err)
 {
-    uint32_t n = 0;
-    if (!link_boundary(&map->corners, map->n_vertices, next))
-        return false;
-    for (uint32_t v = 0; v < map->n_vertices; ++v) {
-        if (next[v] == UINT32_MAX)
-            continue;
-        const size_t n_own = take_ring(next, v, o->vertex + n);
-        if (n_own < 3)
-            return false;
-        o->ring[o->n++] = (iccp_chain){n, (uint32_t)n_own, true};
-        n += (uint32_t)n_own;
-        o->vertex[n++] = v;
-    }
-    return o->n > 0;
-}
-
-/* ICC_ERR_BOUNDARY unless the rings are simple, apart from each other, and one, with the inside on
- * its left, is round the others, which have it on their left, too. */
-static icc_status check_rings(void *argument, size_t side, const iccp_env *env, icc_error *err)
-{
-    const outlines *o = argument;
-    iccp_chain_place *place = o->place + side * o->ring_room;
-    double *own = o->points + 2 * side * o->room;
-    const double *points = o->all[side];
+    const sides *s = argument;
     (void)err;
-    const iccp_chain *last = &o->ring[o->n - 1];
-    const size_t n = last->first + last->n + 1;
-    iccp_defect found;
-    size_t n_outer = 0;
-    if (o->n == 1)
-        return iccp_polygon_check_points(last->n, points, o->vertex, &iccp_frame_identity, env,
-                                         NULL);
-    for (size_t k = 0; k < n; ++k)
-        memcpy(own + 2 * k, points + 2 * (size_t)o->vertex[k], 2 * sizeof *points);
-    const iccp_chains chains = {n, own, o->n, o->ring};
-    icc_status status = iccp_sweep_chains(&found, place, &chains, env);
-    if (status == ICC_OK && found.kind != 0)
-        status = ICC_ERR_BOUNDARY;
-    for (size_t k = 0; status == ICC_OK && k < o->n; ++k) {
-        const bool is_outer = place[k].around == ICCP_NO_CHAIN;
-        n_outer += is_outer;
-        if (place[k].orientation != (is_outer ? 1 : -1) ||
-            (!is_outer && place[place[k].around].around != ICCP_NO_CHAIN))
-            status = ICC_ERR_BOUNDARY;
-    }
-    return status == ICC_OK && n_outer != 1 ? ICC_ERR_BOUNDARY : status;
+    return iccp_outlines_check(&s->outlines, s->places[side], env, NULL);
 }
 
 static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const iccp_env *env)
 {
-    const iccp_memory *memory = &env->memory;
-    const size_t n = map->n_vertices;
-    uint32_t *next = iccp_alloc(memory, n, sizeof *next);
-    outlines o = {.room = n + n / 3 + 1, .ring_room = n / 3 + 1, .all = {map->points, map->images}};
-    o.ring = iccp_alloc(memory, o.ring_room, sizeof *o.ring);
-    o.place = iccp_alloc(memory, o.ring_room, 2 * sizeof *o.place);
-    o.vertex = iccp_alloc(memory, o.room, sizeof *o.vertex);
-    o.points = iccp_alloc(memory, o.room, 4 * sizeof *o.points);
-    icc_status status = ICC_ERR_MEMORY;
-    if (next != NULL && o.place != NULL && o.ring != NULL && o.vertex != NULL && o.points != NULL)
-        status = list_rings(&o, map, next) ? ICC_OK : ICC_ERR_BOUNDARY;
+    sides s = {.places = {map->points, map->images}};
+    uint32_t *next = iccp_alloc(&env->memory, map->n_vertices, sizeof *next);
+    if (next == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = ICC_ERR_BOUNDARY;
+    if (link_boundary(&map->corners, map->n_vertices, next))
+        status = iccp_outlines_create(&s.outlines, map->n_vertices, next, &env->memory);
     if (status == ICC_OK)
-        status = iccp_side_by_side(env, 2, check_rings, &o, NULL);
-    *n_rings = o.n;
-    iccp_free(memory, next);
-    iccp_free(memory, o.place);
-    iccp_free(memory, o.ring);
-    iccp_free(memory, o.vertex);
-    iccp_free(memory, o.points);
+        status = iccp_side_by_side(env, 2, check_side, &s, NULL);
+    *n_rings = s.outlines.n;
+    iccp_free(&env->memory, next);
+    iccp_outlines_free(&s.outlines);
     return status;
 }
 

@@ -385,7 +385,7 @@ AT(icc_improve_report, n_simplices, 32);
 AT(icc_improve_report, n_levels, 40);
 AT(icc_improve_report, cancelled, 44);
 
-SIZE(icc_certificate, 48);
+SIZE(icc_certificate, 304);
 AT(icc_certificate, size, 0);
 AT(icc_certificate, certified, 8);
 AT(icc_certificate, boundary_simple, 12);
@@ -393,6 +393,7 @@ AT(icc_certificate, n_inverted, 16);
 AT(icc_certificate, n_flat, 24);
 AT(icc_certificate, n_no_image, 32);
 AT(icc_certificate, first, 40);
+AT(icc_certificate, message, 48);
 
 SIZE(icc_picture, 64);
 AT(icc_picture, size, 0);

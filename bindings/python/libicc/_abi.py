@@ -37,7 +37,7 @@ map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices
 tie_info vertex:u32[2] n_source:size n_target:size length:f64[2]
 improve_options iterations:i32 levels:i32 tolerance:f64
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
-certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64
+certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64 message:char[256]
 picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 stride:size pixels:ptr interpolation:i32 has_nodata:i32 nodata:f64
 grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_inside:size n_stray:size cells:i32
 tree_options form:i32 axis_order:ptr

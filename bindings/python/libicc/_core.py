@@ -179,7 +179,7 @@ def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
             continue
         if isinstance(value, ctypes.Array):
             value = np.array(value[:dim] if len(value) == 6 else value[:])
-        members[name] = value
+        members[name] = value.decode("utf-8", "replace") if isinstance(value, bytes) else value
     return SimpleNamespace(**members)
 
 

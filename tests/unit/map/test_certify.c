@@ -192,7 +192,7 @@ START_TEST(vertices_without_an_image_are_counted)
 }
 END_TEST
 
-START_TEST(meshes_that_are_no_disc)
+START_TEST(meshes_that_are_none)
 {
     const shape square = shape_square();
     icc_map *map = map_between(&square, &square, 0);
@@ -202,25 +202,18 @@ START_TEST(meshes_that_are_no_disc)
         const char *name;
         size_t n_triangles;
         uint32_t triangles[12];
-    } CASES[] = {{"two components", 2, {0, 1, 2, 4, 5, 6}},
-                 {"an edge of three triangles", 3, {0, 1, 2, 1, 3, 2, 1, 2, 7}},
+    } CASES[] = {{"an edge of three triangles", 3, {0, 1, 2, 1, 3, 2, 1, 2, 7}},
                  {"twice the same triangle beside another", 3, {0, 1, 2, 4, 5, 6, 4, 5, 6}},
                  {"twice the same triangle", 2, {0, 1, 2, 0, 1, 2}},
                  {"twice, once turned", 2, {0, 1, 2, 0, 2, 1}},
-                 {"two triangles that share a corner", 2, {0, 1, 2, 3, 4, 5}},
+                 {"two triangles that share a corner", 2, {0, 1, 2, 1, 4, 3}},
                  {"two triangles on the same side of an edge", 2, {0, 1, 2, 0, 1, 3}},
                  {"triangles that overlap", 3, {0, 1, 2, 1, 8, 2, 8, 9, 0}}};
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; ++k) {
         const icc_certificate c = certify(map, 10, xy, CASES[k].n_triangles, CASES[k].triangles);
-        if (c.boundary_simple || c.certified)
+        if (c.boundary_simple || c.certified || c.message[0] == 0)
             ck_abort_msg("%s: certified", CASES[k].name);
     }
-    /* A ring of triangles has two boundaries. */
-    const double ring[16] = {0, 0, 1, 0, 1, 1, 0, 1, .3, .3, .7, .3, .7, .7, .3, .7};
-    const uint32_t around[24] = {0, 1, 4, 1, 5, 4, 1, 2, 5, 2, 6, 5,
-                                 2, 3, 6, 3, 7, 6, 3, 0, 7, 0, 4, 7};
-    const icc_certificate c = certify(map, 8, ring, 8, around);
-    ck_assert(c.n_inverted == 0 && c.n_flat == 0 && c.first == -1 && c.boundary_simple == 0);
     icc_map_free(map);
 }
 END_TEST
@@ -289,7 +282,7 @@ START_TEST(meshes_are_repaired)
 }
 END_TEST
 
-/* What is no disc, has flat triangles or no image is only certified. */
+/* A mesh that is none, has flat triangles or no image is only certified. */
 START_TEST(other_meshes_are_left_alone)
 {
     icc_map *map = square_to_dart();
@@ -420,7 +413,7 @@ int main(void)
     tcase_add_test(tests, a_triangle_across_a_reflex_corner_is_inverted);
     tcase_add_test(tests, flat_triangles_are_counted);
     tcase_add_test(tests, vertices_without_an_image_are_counted);
-    tcase_add_test(tests, meshes_that_are_no_disc);
+    tcase_add_test(tests, meshes_that_are_none);
     tcase_add_test(tests, every_kind_and_size);
     tcase_add_test(tests, meshes_are_repaired);
     tcase_add_test(tests, other_meshes_are_left_alone);

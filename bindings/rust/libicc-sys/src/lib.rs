@@ -980,8 +980,8 @@ pub struct icc_certificate {
     /// 1: every simplex keeps its orientation and both boundaries are simple,
     /// so the mesh and its image are one-to-one
     pub certified: i32,
-    /// 1: the mesh is one that `icc_domain_create_mesh()` takes, and the image of
-    /// its boundary is a simple polygon or surface
+    /// 1: no part of the boundary meets itself or another part, and the mesh lies
+    /// on one side of it; the same is true of the images
     pub boundary_simple: i32,
     /// simplices whose image has the other orientation
     pub n_inverted: usize,
@@ -991,6 +991,8 @@ pub struct icc_certificate {
     pub n_no_image: usize,
     /// the first simplex at fault, or -1
     pub first: i64,
+    /// why it is not certified, one line of English; empty if it is
+    pub message: [c_char; 256],
 }
 sized!(icc_certificate);
 
@@ -1754,8 +1756,8 @@ extern "C" {
     /// vertices, then moves the images of inner ones until every simplex keeps its orientation. Inner vertices
     /// that have no image get one. Simplices and the images of boundary vertices stay, so it cannot always
     /// succeed (a simplex with all its corners on the boundary is as the map makes it); the certificate tells.
-    /// Where it does not, and where the mesh is not one that `icc_domain_create_mesh()` takes or a vertex of its
-    /// boundary has no image, the images are the best that there are.
+    /// Where it does not, the images are the best that there are. A mesh that could not be certified itself, or a
+    /// vertex of whose boundary has no image, is not repaired.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
     /// - `n_vertices`: vertices of the mesh, fewer than 2^26
