@@ -24,6 +24,22 @@ static void require_ascending(const mesh_file *m)
     require(done <= m->n_text);
 }
 
+/* Nothing becomes of elements that stay; what was positive is positive. */
+static void require_tally(const mesh_file *m)
+{
+    tally t;
+    size_t n = 0;
+    tally_make(&t, m, m->points);
+    for (const tally_kind *k = t.kinds; k < t.kinds + n_element_kinds; k++) {
+        n += k->all;
+        require(k->inverted + k->collapsed + k->without_image == 0);
+        require(k->undecided == 0 || k->kind->shape == SHAPE_OTHER);
+        require(k->kind->dim != m->dim || k->kept + k->flat_before + k->undecided == k->all);
+    }
+    require(n == m->n_elements);
+    tally_free(&t);
+}
+
 static void require_sound(const mesh_file *m)
 {
     require(m->n_vertices > 0 && (m->n_spans == 1 || m->n_spans == m->dim));
@@ -35,8 +51,11 @@ static void require_sound(const mesh_file *m)
     for (size_t i = 0; i < 4 * m->n_tetrahedra; i++)
         require(m->tetrahedra[i] < m->n_vertices);
     require(m->n_faces <= m->n_triangles);
-    tally t = tally_count(m, m->points);
-    require(t.kept + t.flat_before == t.all && t.inverted + t.collapsed + t.without_image == 0);
+    for (size_t i = 0; i < m->n_elements; i++)
+        require(m->node_starts[i] <= m->node_starts[i + 1]);
+    for (size_t k = 0; m->n_elements > 0 && k < m->node_starts[m->n_elements]; k++)
+        require(m->nodes[k] < m->n_vertices);
+    require_tally(m);
 }
 
 /* What mesh_write() writes, of exactly n bytes and a '\0'. */
@@ -64,7 +83,8 @@ static void require_written(const mesh_file *m, problem *wrong)
     require(mesh_read(&back, m->dim, text, n, wrong));
     require_sound(&back);
     require(back.n_vertices == m->n_vertices && back.n_triangles == m->n_triangles &&
-            back.n_tetrahedra == m->n_tetrahedra && strcmp(back.format, m->format) == 0);
+            back.n_tetrahedra == m->n_tetrahedra && back.n_elements == m->n_elements &&
+            strcmp(back.format, m->format) == 0);
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         require(back.points[i] <= m->points[i] && back.points[i] >= m->points[i]);
     char *again = write_mesh(&back, &n_again);

@@ -146,7 +146,8 @@ same got expected "what is no vertex"
 holds out.obj ' 7 1.0'
 printf 'OFF # plane\n4 2 0\n5 0 0\n10 0 0\n10 2.5 0\n7.5 5 0\n3 0 1 2 255 0 0\n4 0 1 2 3\n' >mesh.off
 run 0 mesh -s source.txt -t target.txt mesh.off out.off
-holds out '3 triangles: 3 keep their orientation'
+holds out '1 triangles: 1 keep their orientation'
+holds out '1 quadrilaterals: 1 positive, 0 inverted, 0 undecided, 0 not positive before, 0 without image'
 printf 'v 5 0\nv 10 0\nv 10 0\nv 8 8\nf 1 2 3\nf 1 2 4\n' >flat.obj
 run 4 mesh -s source.txt -t target.txt --outside keep flat.obj out.obj
 holds out '0 keep their orientation, 0 inverted, 0 collapsed, 1 flat before, 1 without image'

@@ -7,7 +7,7 @@ carry() { run "$1" mesh -s cube.obj -t moved.obj -m field -n 8 "$2" "$3"; }
 
 # What OBJ gives, the vertices of the cage.
 carry 0 cube.obj out.obj
-holds out '12 faces carried; only tetrahedra can be certified'
+holds out '12 triangles carried; only tetrahedra can be certified'
 sed -n 's/^v //p' out.obj >expected
 
 # PLY as text: the coordinates are replaced, in whatever order they stand; all else stays.
@@ -20,7 +20,7 @@ head=$head'property list uchar int l\nproperty float32 x\nproperty double y\nele
     awk '{ print 3, $2 - 1, $3 - 1, $4 - 1 }' faces
 } >in.ply
 carry 0 in.ply out.ply
-holds out '12 faces carried'
+holds out '12 triangles carried'
 sed -n '13,20p' out.ply | awk '{ print $6, $7, $2 }' >got
 same got expected 'the coordinates of PLY'
 sed -n '13,20p' out.ply | awk '{ print $1, $3, $4, $5 }' | sort -u >rest

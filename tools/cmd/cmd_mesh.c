@@ -13,18 +13,20 @@
 #include <string.h>
 
 /* What the library says of a mesh as a whole, which may have its images repaired; from target to
- * source it has nothing to say. */
+ * source it has nothing to say, nor of a mesh with elements of other kinds. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
     size_t n = m->dim == 2 ? m->n_triangles : m->n_tetrahedra;
-    if (j->args->inverse || n == 0)
+    bool whole = tally_is_simplicial(m);
+    if (j->args->inverse || n == 0 || !(whole || j->args->repair_mesh))
         return DONE;
     certificate->size = sizeof *certificate;
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
         j->map, m->n_vertices, m->points, n, m->dim == 2 ? m->triangles : m->tetrahedra, images,
         certificate, &j->env, &err);
     progress_end(&j->bar);
+    certificate->size = whole ? certificate->size : 0;
     return ran == ICC_OK ? DONE : job_failed(j, &err);
 }
 
@@ -42,28 +44,39 @@ static int round_images(const job *j, const mesh_file *m, double *images,
                         vertex, m->format);
 }
 
-static void print_tally(const job *j, const char *text, const icc_certificate *certificate)
+static const char *verdict(const mesh_file *m, const icc_certificate *certificate)
 {
-    const char *verdict = certificate->size == 0   ? ""
-                          : certificate->certified ? "; mesh and image are certified one-to-one"
-                                                   : "; not certified";
-    const char *why =
-        certificate->size > 0 && !certificate->boundary_simple ? certificate->message : "";
-    const char *colon = why[0] != 0 ? ": " : "";
-    if (strcmp(j->args->operands[1], "-") == 0)
-        note("%s%s%s%s", text, verdict, colon, why);
-    else
-        printf("%s%s%s%s\n", text, verdict, colon, why);
+    return certificate->size > 0 && certificate->certified
+               ? "; mesh and image are certified one-to-one"
+           : certificate->size > 0 ? "; not certified"
+           : m->dim == 3 && (m->n_tetrahedra == 0 || !tally_is_simplicial(m))
+               ? "; only tetrahedra can be certified"
+           : !tally_is_simplicial(m) ? "; only triangles and polygons can be certified"
+                                     : "";
 }
 
-/* With --json one object, otherwise lines of text. `images`: a point per vertex of m. */
-static int report_tally(const job *j, const mesh_file *m, const double *images, const tally *t,
-                        size_t n_failed, const icc_certificate *certificate)
+/* A line for each kind of element; the first also has the verdict. */
+static void print_tally(const job *j, const mesh_file *m, const tally *t,
+                        const icc_certificate *certificate)
 {
-    char text[256];
-    tally_print(t, m, text, sizeof text);
+    char text[512];
+    for (size_t i = 0; tally_line(t, m, i, text, sizeof text); i++) {
+        const char *more = i == 0 ? verdict(m, certificate) : "";
+        const char *why = i == 0 && !certificate->boundary_simple ? certificate->message : "";
+        const char *colon = why[0] != 0 ? ": " : "";
+        if (strcmp(j->args->operands[1], "-") == 0)
+            note("%s%s%s%s", text, more, colon, why);
+        else
+            printf("%s%s%s%s\n", text, more, colon, why);
+    }
+}
+
+/* With --json one object, otherwise lines of text. */
+static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed,
+                        const icc_certificate *certificate)
+{
     if (!j->args->json) {
-        print_tally(j, text, certificate);
+        print_tally(j, m, t, certificate);
         return DONE;
     }
     report r;
@@ -73,7 +86,7 @@ static int report_tally(const job *j, const mesh_file *m, const double *images, 
     json_count(&r.json, "without_image", n_failed);
     if (m->dim == 3)
         json_count(&r.json, "faces", m->n_faces);
-    tally_report(t, m, images, &r.json);
+    tally_report(t, m, &r.json);
     if (certificate->size > 0) {
         json_flag(&r.json, "boundary_simple", certificate->boundary_simple != 0);
         json_flag(&r.json, "certified", certificate->certified != 0);
@@ -130,44 +143,53 @@ static const char *why_inner(const job *j, const icc_certificate *certificate)
 }
 
 /* Says what is not as it should be of a mesh that was written. */
-static int tell(job *j, const mesh_file *m, const double *images, const icc_status *status,
-                size_t n_failed, const tally *t, const icc_certificate *certificate)
+static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_failed,
+                const tally *t, const icc_certificate *certificate)
 {
-    tally_tell(t, m, images, j->args->operands[0], why_inner(j, certificate));
+    tally_tell(t, m, j->args->operands[0], why_inner(j, certificate));
     int result = tell_outside(j, m, status, n_failed);
     return result == DONE && tally_spoilt(t) > 0 ? PARTIAL : result;
 }
 
 /* With --require nothing is written but what is certified. */
-static int refuse(job *j, const mesh_file *m, const double *images, const tally *t,
+static int refuse(const job *j, const mesh_file *m, const tally *t,
                   const icc_certificate *certificate)
 {
-    tally_tell(t, m, images, j->args->operands[0], why_inner(j, certificate));
+    tally_tell(t, m, j->args->operands[0], why_inner(j, certificate));
     return failed(j->args->operands[0], 0,
-                  "the mesh and its image are not certified%s, so nothing "
-                  "was written",
-                  j->args->inverse        ? " from target to source"
-                  : certificate->size > 0 ? ""
-                  : m->floats             ? " where images are rounded to floats"
-                  : m->dim == 3           ? "; only meshes of tetrahedra can be"
-                                          : "; only meshes of triangles can be");
+                  "the mesh and its image are not certified%s, so nothing was written",
+                  j->args->inverse         ? " from target to source"
+                  : m->floats              ? " where images are rounded to floats"
+                  : certificate->size == 0 ? verdict(m, certificate)
+                                           : "");
 }
 
-/* Counts, writes, reports. A vertex outside stops the output unless --outside keep asks for it; the
- * report names it all the same. */
+/* Writes, unless --require forbids it, and reports. A vertex outside stops the output unless
+ * --outside keep asks for it; the report names it all the same. */
 static int finish(job *j, const mesh_file *m, const double *images, const icc_status *status,
-                  size_t n_failed, const icc_certificate *certificate)
+                  size_t n_failed, const tally *t, const icc_certificate *certificate)
 {
     bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
     bool refused = j->args->require != 0 && (certificate->size == 0 || !certificate->certified);
-    tally t = tally_count(m, images);
     int result = writes && !refused ? write_mesh(j, m, images, status) : DONE;
     if (result == DONE && (writes || j->args->json))
-        result = report_tally(j, m, images, &t, n_failed, certificate);
-    if (result != DONE || (refused && writes))
-        return result != DONE ? result : refuse(j, m, images, &t, certificate);
-    return writes ? tell(j, m, images, status, n_failed, &t, certificate)
-                  : tell_outside(j, m, status, n_failed);
+        result = report_tally(j, m, t, n_failed, certificate);
+    return result != DONE ? result
+           : !writes      ? tell_outside(j, m, status, n_failed)
+           : refused      ? refuse(j, m, t, certificate)
+                          : tell(j, m, status, n_failed, t, certificate);
+}
+
+/* Counts elements. A certificate is about triangles, and not about larger faces. */
+static int count_and_finish(job *j, const mesh_file *m, const double *images,
+                            const icc_status *status, size_t n_failed, icc_certificate *certificate)
+{
+    tally t;
+    tally_make(&t, m, images);
+    certificate->certified = certificate->certified && tally_spoilt(&t) == 0;
+    int result = finish(j, m, images, status, n_failed, &t, certificate);
+    tally_free(&t);
+    return result;
 }
 
 /* Maps the vertices and certifies the simplices before anything is written. */
@@ -184,7 +206,7 @@ static int map_mesh(job *j, const mesh_file *m)
         result = round_images(j, m, images, &certificate);
     progress_end(&j->bar);
     if (result == DONE)
-        result = finish(j, m, images, status, n_failed, &certificate);
+        result = count_and_finish(j, m, images, status, n_failed, &certificate);
     free(images);
     free(status);
     return result;

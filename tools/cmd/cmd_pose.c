@@ -100,19 +100,19 @@ static int check_images(pose *p, const mesh_file *m, double *images)
                         vertex, m->format);
 }
 
-static int report_mesh(pose *p, const mesh_file *m, const double *images, const tally *counts,
-                       size_t n_failed, double seconds)
+static int report_mesh(pose *p, const mesh_file *m, const tally *counts, size_t n_failed,
+                       double seconds)
 {
-    char text[256];
+    char text[512];
     report r;
     if (!p->kernel.job.args->json) {
-        tally_print(counts, m, text, sizeof text);
-        pose_say(p, text);
+        for (size_t i = 0; tally_line(counts, m, i, text, sizeof text); i++)
+            pose_say(p, text);
         return DONE;
     }
     if (pose_report_open(&r, p, m->n_vertices, m->points, n_failed, seconds) != DONE)
         return FAILED;
-    tally_report(counts, m, images, &r.json);
+    tally_report(counts, m, &r.json);
     return report_close(&r) ? DONE : FAILED;
 }
 
@@ -126,10 +126,10 @@ static int write_images(const pose *p, const mesh_file *m, const double *images)
 }
 
 /* Says which elements are inverted. With --require these are refused. */
-static int tell_mesh(const pose *p, const mesh_file *m, const double *images, const tally *t)
+static int tell_mesh(const pose *p, const mesh_file *m, const tally *t)
 {
     const args *a = p->kernel.job.args;
-    tally_tell(t, m, images, a->operands[0],
+    tally_tell(t, m, a->operands[0],
                a->certified ? "the mesh is too coarse for what the map does there"
                             : "the pose folds there, or the mesh is too coarse for it");
     return tally_spoilt(t) == 0 ? DONE
@@ -138,7 +138,24 @@ static int tell_mesh(const pose *p, const mesh_file *m, const double *images, co
                : failed(a->operands[0], 0, "elements are inverted, so nothing was written");
 }
 
-/* Poses the vertices of a mesh and writes it with the same simplices. */
+/* Writes a mesh, unless --require forbids it, and says what became of its elements. */
+static int finish_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
+                       double seconds)
+{
+    tally t;
+    tally_make(&t, m, images);
+    int result = DONE;
+    if (p->kernel.job.args->require == 0 || tally_spoilt(&t) == 0)
+        result = write_images(p, m, images);
+    if (result == DONE)
+        result = report_mesh(p, m, &t, n_failed, seconds);
+    if (result == DONE)
+        result = tell_mesh(p, m, &t);
+    tally_free(&t);
+    return result;
+}
+
+/* Poses the vertices of a mesh and writes it with the same elements. */
 static int write_mesh(pose *p, const mesh_file *m)
 {
     size_t n_failed;
@@ -148,15 +165,8 @@ static int write_mesh(pose *p, const mesh_file *m)
     double seconds = seconds_now() - began;
     if (result == DONE)
         result = check_images(p, m, images);
-    tally t = {0};
     if (result == DONE)
-        t = tally_count(m, images);
-    if (result == DONE && (p->kernel.job.args->require == 0 || tally_spoilt(&t) == 0))
-        result = write_images(p, m, images);
-    if (result == DONE)
-        result = report_mesh(p, m, images, &t, n_failed, seconds);
-    if (result == DONE)
-        result = tell_mesh(p, m, images, &t);
+        result = finish_mesh(p, m, images, n_failed, seconds);
     free(images);
     return result == DONE ? partial(p, n_failed, m->n_vertices, "vertices") : result;
 }

@@ -98,17 +98,14 @@ static const command commands[] = {
               "--fill [OPTION]... SURFACE OUT",
      .summary = "Carries the vertices of a mesh along, or fills a surface",
      .details =
-         "OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY also as binary; OUT has the format "
-         "of "
-         "IN.\n"
+         "OBJ, OFF and Medit (.mesh) as text, legacy VTK, PLY and STL also as binary; OUT has the "
+         "format of IN.\n"
          "Nothing is written when a vertex lies outside the cage, unless --outside keep leaves it "
          "where it is.\n"
-         "Says how many triangles (in space: tetrahedra)\n"
-         "keep their orientation, how many invert or collapse, and whether the mesh and its image "
-         "are\n"
-         "one-to-one, with exact signs. A mesh that is sampled from a one-to-one map need not "
-         "be: the exit\n"
-         "code is 4 while elements are inverted or collapsed, and the first of them are named.\n"},
+         "Says how many elements of each kind keep their orientation, how many invert or collapse, "
+         "and whether the mesh and its image are one-to-one, with exact signs. A mesh that is "
+         "sampled from a one-to-one map need not be: the exit code is 4 while elements are "
+         "inverted, collapsed or undecided, and the first of them are named.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,

@@ -1,5 +1,6 @@
 #include "mesh/mesh_file.h"
 
+#include "base/bytes.h"
 #include "base/foreign.h"
 #include "mesh/mesh_lines.h"
 
@@ -16,7 +17,7 @@ typedef struct format {
 } format;
 
 /* OBJ has no mark of its own. */
-static const format formats[] = {{"VTK", "# vtk DataFile", false, false, mesh_read_vtk},
+static const format formats[] = {{"VTK", "# vtk DataFile", false, true, mesh_read_vtk},
                                  {"PLY", "ply", true, true, mesh_read_ply},
                                  {"Medit", "MeshVersion", false, false, mesh_read_medit},
                                  {"OFF", "OFF", true, false, mesh_read_off},
@@ -57,8 +58,7 @@ static bool read_bytes(lines *r)
     const format *f = find_format(r, m->n_text);
     m->format = f->name;
     if (!f->binary && strlen(m->text) != m->n_text)
-        return spoilt(r->wrong, 0,
-                      "this is not a text file; OBJ, OFF, Medit and VTK are read as text");
+        return spoilt(r->wrong, 0, "this is not a text file; OBJ, OFF and Medit are read as text");
     return f->read(r);
 }
 
@@ -85,6 +85,9 @@ void mesh_free(mesh_file *m)
     free(m->triangles);
     free(m->triangle_lines);
     free(m->tetrahedra);
+    free(m->kinds);
+    free(m->node_starts);
+    free(m->nodes);
     *m = (mesh_file){0};
 }
 
@@ -169,6 +172,10 @@ static void write_rest(const mesh_file *m, const double *points, size_t done, FI
         else
             write_number(m, point[m->order[i % m->n_spans]], stream);
         done = m->spans[2 * i + 1];
+        if (m->has_rest) {
+            write_number(m, (double)big_endian_float(m->text + done), stream);
+            done += 4;
+        }
     }
     fwrite(m->text + done, 1, m->n_text - done, stream);
 }

@@ -1,10 +1,10 @@
-/* Meshes in the plane and in space: OBJ, OFF, Medit (.mesh) and legacy VTK as text, PLY and STL as
+/* Meshes in the plane and in space: OBJ, OFF and Medit (.mesh) as text, legacy VTK, PLY and STL as
  * text or binary, binary glTF.
  *
  * The file is kept as it is; only the first coordinates of each vertex, as many as the mesh has
- * dimensions, are looked at and, on writing, replaced. Faces with more than three corners are
- * looked at as fans of triangles. Other elements than triangles and tetrahedra are carried along
- * unseen; but the normals of STL are computed again, in space. */
+ * dimensions, are looked at and, on writing, replaced. All elements are known by their kinds; faces
+ * with more than three corners are also there as fans of triangles. The normals of STL are computed
+ * again, in space. */
 #ifndef MESH_FILE_H
 #define MESH_FILE_H
 
@@ -35,6 +35,7 @@ typedef struct mesh_file {
     size_t *spans, n_spans;
     unsigned char order[3];
     size_t types[3][2], n_types; /* words before them: how precise the numbers are (VTK, PLY) */
+    bool has_rest;   /* behind each span a third coordinate stands as a float, to become a double */
     size_t *normals; /* where that of each triangle begins and ends, before its corners, or NULL */
     size_t n_faces;
     size_t n_triangles;
@@ -42,6 +43,13 @@ typedef struct mesh_file {
     size_t *triangle_lines; /* of each triangle, from 1 */
     size_t n_tetrahedra;
     uint32_t *tetrahedra; /* n_tetrahedra * 4 */
+    /* All elements in the order of the file, triangles and tetrahedra among them: number i has the
+     * nodes nodes[node_starts[i] .. node_starts[i + 1]). */
+    size_t n_elements;
+    unsigned char *kinds; /* VTK's numbers: mesh/element_kinds.h */
+    size_t *node_starts;
+    uint32_t *nodes;
+    size_t room_kinds, room_node_starts, room_nodes;
     size_t room_points, room_spans, room_triangles, room_triangle_lines, room_tetrahedra;
     size_t room_normals;
 } mesh_file;

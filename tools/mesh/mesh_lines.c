@@ -2,6 +2,7 @@
 
 #include "base/allocate.h"
 #include "base/number.h"
+#include "mesh/element_kinds.h"
 
 #include <math.h>
 #include <string.h>
@@ -91,25 +92,70 @@ bool lines_vertex(lines *r)
     return true;
 }
 
-void lines_begin_face(lines *r)
+/* The element that was begun last gets one more node. */
+static void add_node(mesh_file *m, uint32_t node)
 {
-    r->n_corners = 0;
+    size_t n = m->node_starts[m->n_elements];
+    m->nodes = grow(m->nodes, &m->room_nodes, n + 1, sizeof *m->nodes);
+    m->nodes[n] = node;
+    m->node_starts[m->n_elements]++;
 }
 
-void lines_corner(lines *r, uint32_t vertex)
+/* An element without nodes. */
+static void add_element(mesh_file *m, int kind)
+{
+    size_t i = m->n_elements++;
+    m->kinds = grow(m->kinds, &m->room_kinds, i + 1, sizeof *m->kinds);
+    m->node_starts = grow(m->node_starts, &m->room_node_starts, i + 2, sizeof *m->node_starts);
+    m->kinds[i] = (unsigned char)kind;
+    m->node_starts[0] = 0;
+    m->node_starts[i + 1] = m->node_starts[i];
+}
+
+/* The next triangle of a face's fan. */
+static void add_triangle(lines *r)
 {
     mesh_file *m = r->mesh;
-    r->corners[r->n_corners < 2 ? r->n_corners : 2] = vertex;
-    if (++r->n_corners < 3)
-        return;
-    m->n_faces += r->n_corners == 3;
     m->triangles =
         grow(m->triangles, &m->room_triangles, 3 * (m->n_triangles + 1), sizeof *m->triangles);
     m->triangle_lines = grow(m->triangle_lines, &m->room_triangle_lines, m->n_triangles + 1,
                              sizeof *m->triangle_lines);
     memcpy(m->triangles + 3 * m->n_triangles, r->corners, sizeof r->corners);
     m->triangle_lines[m->n_triangles++] = r->line;
+}
+
+void lines_begin_face(lines *r)
+{
+    r->n_corners = 0;
+}
+
+/* One more corner of a fan. */
+static void fan(lines *r, uint32_t vertex)
+{
+    r->corners[r->n_corners < 2 ? r->n_corners : 2] = vertex;
+    if (++r->n_corners < 3)
+        return;
+    r->mesh->n_faces += r->n_corners == 3;
+    add_triangle(r);
     r->corners[1] = vertex;
+}
+
+void lines_corner(lines *r, uint32_t vertex)
+{
+    mesh_file *m = r->mesh;
+    uint32_t second = r->corners[1];
+    fan(r, vertex);
+    if (r->n_corners == 3) {
+        add_element(m, ELEMENT_TRIANGLE);
+        add_node(m, r->corners[0]);
+        add_node(m, second);
+    }
+    if (r->n_corners < 3)
+        return;
+    m->kinds[m->n_elements - 1] = r->n_corners == 3   ? ELEMENT_TRIANGLE
+                                  : r->n_corners == 4 ? ELEMENT_QUADRILATERAL
+                                                      : ELEMENT_POLYGON;
+    add_node(m, vertex);
 }
 
 bool lines_end_face(lines *r)
@@ -117,10 +163,28 @@ bool lines_end_face(lines *r)
     return r->n_corners >= 3 || spoilt(r->wrong, r->line, "the face has %zu corners", r->n_corners);
 }
 
-void lines_tetrahedron(lines *r, const uint32_t corners[4])
+static void add_tetrahedron(mesh_file *m, const uint32_t corners[4])
 {
-    mesh_file *m = r->mesh;
     m->tetrahedra =
         grow(m->tetrahedra, &m->room_tetrahedra, 4 * (m->n_tetrahedra + 1), sizeof *m->tetrahedra);
     memcpy(m->tetrahedra + 4 * m->n_tetrahedra++, corners, 4 * sizeof *corners);
+}
+
+bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes)
+{
+    mesh_file *m = r->mesh;
+    const element_kind *k = element_kind_find(kind);
+    bool polygon = k->shape == SHAPE_POLYGON && n >= 3;
+    bool flat = (k->dim == 2 && k->degree == 1 && k->n_nodes > 0) || polygon;
+    if (k->n_nodes > 0 && n != k->n_nodes)
+        return false;
+    add_element(m, kind);
+    for (size_t i = 0; i < n; i++)
+        add_node(m, nodes[i]);
+    lines_begin_face(r);
+    for (size_t i = 0; i < n && flat; i++)
+        fan(r, nodes[k->order != NULL ? k->order[i] : i]);
+    if (kind == ELEMENT_TETRAHEDRON)
+        add_tetrahedron(m, nodes);
+    return true;
 }

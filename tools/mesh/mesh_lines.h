@@ -39,12 +39,14 @@ void mesh_make_room(mesh_file *m);
 /* The coordinates of the next vertex, which begin in this line. */
 bool lines_vertex(lines *r);
 
-/* Faces, corner by corner. */
+/* Faces, corner by corner; the third makes it an element. */
 void lines_begin_face(lines *r);
 void lines_corner(lines *r, uint32_t vertex);
 bool lines_end_face(lines *r);
 
-void lines_tetrahedron(lines *r, const uint32_t corners[4]);
+/* An element of any kind with n nodes, of which all are vertices of the mesh; one in the plane with
+ * straight sides is a face, too. False if a kind has another number of nodes. */
+bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes);
 
 /* ---- the formats ---- */
 

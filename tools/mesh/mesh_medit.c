@@ -1,5 +1,6 @@
 /* Medit's .mesh as text: sections with a name, the number of their items, and the items. Vertices
  * are counted from 1, and each item ends with a number that refers to something else. */
+#include "mesh/element_kinds.h"
 #include "mesh/mesh_lines.h"
 
 #include <string.h>
@@ -32,51 +33,95 @@ static bool read_vertices(lines *r)
     return true;
 }
 
-/* Items with `n_corners` corners each. */
-static bool read_items(lines *r, size_t n_corners)
+/* A section of elements. `kind`: a number of VTK's, whose order of nodes is the same, but that the
+ * last two nodes of quadratic tetrahedra may be exchanged. Where VTK's differs, the kind is one that
+ * has no order, with `n_nodes` nodes. */
+typedef struct section {
+    const char *name;
+    int kind;
+    size_t n_nodes;
+} section;
+
+static const section sections[] = {{"Dimension", 0, 0},
+                                   {"Vertices", 0, 0},
+                                   {"Triangles", ELEMENT_TRIANGLE, 3},
+                                   {"Tetrahedra", ELEMENT_TETRAHEDRON, 4},
+                                   {"Quadrilaterals", ELEMENT_QUADRILATERAL, 4},
+                                   {"Hexahedra", ELEMENT_HEXAHEDRON, 8},
+                                   {"Prisms", ELEMENT_WEDGE, 6},
+                                   {"Pyramids", ELEMENT_PYRAMID, 5},
+                                   {"TrianglesP2", ELEMENT_TRIANGLE_2, 6},
+                                   {"QuadrilateralsQ2", ELEMENT_QUADRILATERAL_9, 9},
+                                   {"TetrahedraP2", ELEMENT_TETRAHEDRON_2, 10},
+                                   {"HexahedraQ2", ELEMENT_LAGRANGE_HEXAHEDRON, 27},
+                                   {"PrismsP2", ELEMENT_LAGRANGE_WEDGE, 18},
+                                   {"PyramidsP2", ELEMENT_LAGRANGE_PYRAMID, 14}};
+enum { DIMENSION, VERTICES, ELEMENTS, N_SECTIONS = sizeof sections / sizeof *sections };
+
+/* How far a node is from the middle between two others, squared. */
+static double off_middle(const mesh_file *m, uint32_t node, uint32_t a, uint32_t b)
 {
-    uint32_t n, corners[4];
+    double sum = 0;
+    for (size_t k = 0; k < m->dim; k++) {
+        const double *x = m->points + k;
+        double d = x[m->dim * node] - 0.5 * x[m->dim * a] - 0.5 * x[m->dim * b];
+        sum += d * d;
+    }
+    return sum;
+}
+
+/* Nodes 8 and 9 belong to the edges (1, 3) and (2, 3), or the other way round, as Gmsh writes them:
+ * whichever they are nearer to. */
+static void settle_tetrahedron(const mesh_file *m, uint32_t nodes[10])
+{
+    if (off_middle(m, nodes[9], nodes[1], nodes[3]) + off_middle(m, nodes[8], nodes[2], nodes[3]) <
+        off_middle(m, nodes[8], nodes[1], nodes[3]) + off_middle(m, nodes[9], nodes[2], nodes[3])) {
+        uint32_t eighth = nodes[8];
+        nodes[8] = nodes[9];
+        nodes[9] = eighth;
+    }
+}
+
+static bool read_elements(lines *r, const section *s)
+{
+    uint32_t n, nodes[ELEMENT_MOST_NODES];
     if (!lines_next_count(r, 4e9, &n))
         return false;
     for (uint32_t i = 0; i < n; i++) {
-        lines_begin_face(r);
-        for (size_t k = 0; k < n_corners; k++) {
-            if (!lines_next_count(r, (double)r->mesh->n_vertices + 1, &corners[k]))
+        for (size_t k = 0; k < s->n_nodes; k++) {
+            if (!lines_next_count(r, (double)r->mesh->n_vertices + 1, &nodes[k]))
                 return false;
-            if (corners[k]-- == 0)
+            if (nodes[k]-- == 0)
                 return spoilt(r->wrong, r->line, "there is no vertex 0; they are counted from 1");
-            if (n_corners == 3)
-                lines_corner(r, corners[k]);
         }
-        if (n_corners == 4)
-            lines_tetrahedron(r, corners);
+        if (s->kind == ELEMENT_TETRAHEDRON_2)
+            settle_tetrahedron(r->mesh, nodes);
+        lines_element(r, s->kind, s->n_nodes, nodes);
         r->at = r->end;
     }
     return true;
 }
 
-/* What each section may be given once. */
-enum { DIMENSION, VERTICES, TRIANGLES, TETRAHEDRA, N_SECTIONS };
-
+/* Each section may be given once. */
 static bool read_section(lines *r, bool seen[N_SECTIONS])
 {
-    static const char *const names[N_SECTIONS] = {"Dimension", "Vertices", "Triangles",
-                                                  "Tetrahedra"};
-    int which = 0;
-    while (which < N_SECTIONS && !lines_take(r, names[which]))
+    size_t which = 0;
+    while (which < N_SECTIONS && !lines_take(r, sections[which].name))
         which++;
     if (which == N_SECTIONS) { /* another section, or a number in one */
         r->at += strcspn(r->at, " \t\r\n");
         return true;
     }
     if (seen[which])
-        return spoilt(r->wrong, r->line, "a second section %s; a mesh has one", names[which]);
+        return spoilt(r->wrong, r->line, "a second section %s; a mesh has one",
+                      sections[which].name);
     seen[which] = true;
-    if (which >= TRIANGLES && !seen[VERTICES])
-        return spoilt(r->wrong, r->line, "the section %s comes before Vertices", names[which]);
+    if (which >= ELEMENTS && !seen[VERTICES])
+        return spoilt(r->wrong, r->line, "the section %s comes before Vertices",
+                      sections[which].name);
     return which == DIMENSION  ? read_dimension(r)
            : which == VERTICES ? read_vertices(r)
-                               : read_items(r, which == TRIANGLES ? 3 : 4);
+                               : read_elements(r, &sections[which]);
 }
 
 /* Moves to the next section; false at the end of the file. */

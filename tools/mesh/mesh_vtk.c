@@ -1,13 +1,14 @@
-/* Legacy VTK as text: an unstructured grid, with the cells of version 2 (each begins with the
- * number of its corners) or 5 (OFFSETS and CONNECTIVITY). */
+/* Legacy VTK: an unstructured grid, with the cells of version 2 (each begins with the number of its
+ * corners) or 5 (OFFSETS and CONNECTIVITY). Its lines are text; the numbers between them may be
+ * bytes, in the order of points, cells and types. What follows the types is carried along. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
+#include "mesh/element_kinds.h"
+#include "mesh/vtk_numbers.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
 
 /* The corners of all cells: cell i has corners[starts[i] .. starts[i + 1]). */
 typedef struct cells {
@@ -35,18 +36,22 @@ static bool read_head(lines *r)
     if (!lines_word(r))
         return false;
     if (lines_take(r, "BINARY"))
-        return spoilt(r->wrong, r->line, "the file is binary; save it as text (ASCII)");
-    if (!starts_with(r, "ASCII") || !starts_with(r, "DATASET") || !lines_word(r))
+        r->mesh->form = MESH_BIG;
+    else if (!starts_with(r, "ASCII"))
+        return false;
+    else if (strlen(r->mesh->text) != r->mesh->n_text)
+        return spoilt(r->wrong, 0, "this is not a text file, though it says ASCII");
+    if (!starts_with(r, "DATASET") || !lines_word(r))
         return false;
     return lines_take(r, "UNSTRUCTURED_GRID") ||
            spoilt(r->wrong, r->line, "'%s': an UNSTRUCTURED_GRID is read", quoted(shown, r->at));
 }
 
-/* In the plane a third coordinate is left alone. */
-static bool skip_rest(lines *r)
+/* Behind bytes a line begins, or ends. */
+static void go_on(lines *r)
 {
-    double value;
-    return r->mesh->dim == 3 || (lines_word(r) && lines_number(r, &value));
+    if (r->mesh->form == MESH_BIG)
+        r->end = r->at + strcspn(r->at, "\n");
 }
 
 static bool read_points(lines *r)
@@ -57,25 +62,38 @@ static bool read_points(lines *r)
         return spoilt(r->wrong, r->line, "a second section POINTS; a mesh has one");
     if (!lines_next_count(r, 4e9, &n) || !lines_word(r))
         return false;
+    size_t n_word = strcspn(r->at, " \t\r\n"), size = vtk_size(r->at, n_word);
     m->types[0][0] = (size_t)(r->at - m->text);
-    r->at += strcspn(r->at, " \t\r\n");
+    r->at += n_word;
     m->types[0][1] = (size_t)(r->at - m->text);
     m->n_types = 1;
+    if (m->form == MESH_BIG) {
+        if (m->text[m->types[0][0]] != 'f' && m->text[m->types[0][0]] != 'd')
+            return spoilt(r->wrong, r->line, "the points must be of type float or double");
+        m->has_rest = m->dim == 2 && size == 4;
+        vtk_begin(r);
+    }
     for (uint32_t i = 0; i < n; i++)
-        if (!lines_word(r) || !lines_vertex(r) || !skip_rest(r))
+        if (!vtk_vertex(r, size))
             return false;
+    go_on(r);
     return true;
 }
 
 /* `n` numbers below `limit` behind a word and the name of a type. */
 static bool read_array(lines *r, const char *word, uint32_t n, double limit, uint32_t *out)
 {
-    if (!starts_with(r, word))
+    if (!starts_with(r, word) || !lines_word(r))
         return false;
+    size_t size = vtk_size(r->at, strcspn(r->at, " \t\r\n"));
+    if (size == 0 && r->mesh->form == MESH_BIG)
+        return spoilt(r->wrong, r->line, "%s of an unknown type", word);
     r->at = r->end;
+    vtk_begin(r);
     for (uint32_t i = 0; i < n; i++)
-        if (!lines_next_count(r, limit, &out[i]))
+        if (!vtk_count(r, size, limit, &out[i]))
             return false;
+    go_on(r);
     return true;
 }
 
@@ -83,13 +101,14 @@ static bool read_old_cells(lines *r, cells *c)
 {
     uint32_t used = 0, k = 0;
     for (uint32_t i = 0; i < c->n; i++) {
-        if (!lines_next_count(r, (double)(c->n_corners - used) + 1, &k))
+        if (!vtk_count(r, 4, (double)(c->n_corners - used) + 1, &k))
             return false;
         for (; k > 0; k--)
-            if (!lines_next_count(r, (double)r->mesh->n_vertices, &c->corners[used++]))
+            if (!vtk_count(r, 4, (double)r->mesh->n_vertices, &c->corners[used++]))
                 return false;
         c->starts[i + 1] = used;
     }
+    go_on(r);
     return true;
 }
 
@@ -102,7 +121,10 @@ static bool read_cells(lines *r, cells *c)
         return spoilt(r->wrong, r->line, "a second section CELLS; a mesh has one");
     if (r->mesh->n_types == 0)
         return spoilt(r->wrong, r->line, "the section CELLS comes before POINTS");
-    if (!lines_next_count(r, 4e9, &n) || !lines_next_count(r, 4e9, &size) || !lines_word(r))
+    if (!lines_next_count(r, 4e9, &n) || !lines_next_count(r, 4e9, &size))
+        return false;
+    vtk_begin(r);
+    if (r->mesh->form == MESH_TEXT && !lines_word(r))
         return false;
     if ((double)n + size > (double)r->mesh->n_text)
         return spoilt(r->wrong, r->line, "the file has no room for so many cells");
@@ -111,6 +133,7 @@ static bool read_cells(lines *r, cells *c)
     c->corners = need(size, sizeof *c->corners);
     if (strncmp(r->at, "OFFSETS", 7) != 0)
         return read_old_cells(r, c);
+    go_on(r);
     c->n = n > 0 ? n - 1 : 0;
     if (!read_array(r, "OFFSETS", n, (double)size + 1, c->starts) ||
         !read_array(r, "CONNECTIVITY", size, (double)r->mesh->n_vertices, c->corners))
@@ -122,8 +145,7 @@ static bool read_cells(lines *r, cells *c)
     return true;
 }
 
-/* The types come after the cells and decide what becomes of them: triangles and tetrahedra are the
- * mesh, others are carried along. */
+/* The types come after the cells and say what they are. */
 static bool read_types(lines *r, cells *c)
 {
     uint32_t n, type = 0;
@@ -136,19 +158,14 @@ static bool read_types(lines *r, cells *c)
         return false;
     if (n != c->n)
         return spoilt(r->wrong, r->line, "%u types for %u cells", (unsigned)n, (unsigned)c->n);
+    vtk_begin(r);
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t *corners = c->corners + c->starts[i];
         uint32_t n_corners = c->starts[i + 1] - c->starts[i];
-        if (!lines_next_count(r, 256, &type))
+        if (!vtk_count(r, 4, 256, &type))
             return false;
-        if ((type == VTK_TRIANGLE && n_corners != 3) || (type == VTK_TETRA && n_corners != 4))
+        if (!lines_element(r, (int)type, n_corners, c->corners + c->starts[i]))
             return spoilt(r->wrong, r->line, "cell %u has %u corners, but type %u", (unsigned)i,
                           (unsigned)n_corners, (unsigned)type);
-        lines_begin_face(r);
-        for (uint32_t k = 0; type == VTK_TRIANGLE && k < 3; k++)
-            lines_corner(r, corners[k]);
-        if (type == VTK_TETRA)
-            lines_tetrahedron(r, corners);
     }
     return true;
 }
@@ -179,11 +196,15 @@ static bool begins_section(lines *r, const char *name)
     return !is_array(r) && lines_take(r, name);
 }
 
-/* What else there is (METADATA, CELL_DATA, POINT_DATA) is carried along. */
+/* What else there is (METADATA, CELL_DATA, POINT_DATA) is carried along. Bytes behind the types are
+ * not looked at. */
 static bool read_sections(lines *r, cells *c)
 {
+    bool binary = r->mesh->form == MESH_BIG;
     for (lines_skip_blanks(r); r->at < r->end || lines_next(r); lines_skip_blanks(r)) {
         bool good = true;
+        if (binary && c->typed)
+            return true;
         if (begins_section(r, "POINTS"))
             good = read_points(r);
         else if (begins_section(r, "CELLS"))
@@ -192,6 +213,8 @@ static bool read_sections(lines *r, cells *c)
             good = read_types(r, c);
         else if (begins_section(r, "DATASET"))
             good = spoilt(r->wrong, r->line, "a second DATASET; a mesh has one");
+        else if (binary && lines_take(r, "FIELD"))
+            good = vtk_skip_field(r);
         else
             r->at = r->end;
         if (!good)
@@ -205,6 +228,8 @@ bool mesh_read_vtk(lines *r)
     cells c = {0};
     r->wraps = true;
     bool good = read_head(r) && read_sections(r, &c);
+    if (r->mesh->form == MESH_BIG && !good)
+        r->wrong->line = 0;
     free(c.starts);
     free(c.corners);
     return good;

@@ -1,8 +1,11 @@
 #include "mesh/tally.h"
 
+#include "base/allocate.h"
 #include "base/orientation.h"
+#include "mesh/element_sign.h"
 #include "mesh/mesh_boundary.h"
 
+#include <icc/icc.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,17 +13,38 @@
 /* So many numbers are named on stderr; a report has them all. */
 enum { MOST_NAMED = 10 };
 
-typedef enum fate { KEPT, INVERTED, COLLAPSED, FLAT_BEFORE, WITHOUT_IMAGE } fate;
+typedef enum fate {
+    NOT_COUNTED, /* it has fewer dimensions than the mesh */
+    KEPT,
+    INVERTED,
+    COLLAPSED,
+    UNDECIDED,
+    FLAT_BEFORE,
+    WITHOUT_IMAGE
+} fate;
 
-static bool has_image(const mesh_file *m, const double *points, const uint32_t *corners)
+static bool is_simplex(const element_kind *k)
 {
-    for (size_t k = 0; k < m->dim * (m->dim + 1); k++)
-        if (!isfinite(points[m->dim * corners[k / m->dim] + k % m->dim]))
-            return false;
+    return k->type == ELEMENT_TRIANGLE || k->type == ELEMENT_TETRAHEDRON;
+}
+
+static bool is_of(const mesh_file *m, size_t i, const element_kind *k)
+{
+    return element_kind_find(m->kinds[i]) == k;
+}
+
+/* ------------------------------------------------------------------------- signs */
+
+static bool has_image(const mesh_file *m, const double *points, size_t i)
+{
+    for (size_t k = m->node_starts[i]; k < m->node_starts[i + 1]; k++)
+        for (size_t c = 0; c < m->dim; c++)
+            if (!isfinite(points[m->dim * m->nodes[k] + c]))
+                return false;
     return true;
 }
 
-static int element_sign(const mesh_file *m, const double *points, const uint32_t *corners)
+static int simplex_sign(const mesh_file *m, const double *points, const uint32_t *corners)
 {
     const double *at[4] = {NULL, NULL, NULL, NULL};
     for (size_t k = 0; k <= m->dim; k++)
@@ -29,144 +53,328 @@ static int element_sign(const mesh_file *m, const double *points, const uint32_t
                        : orientation_3d(at[0], at[1], at[2], at[3]);
 }
 
-/* What became of one element. */
-static fate fate_of(const mesh_file *m, const double *images, size_t i)
+/* The sense of a polygon, exactly; 0 if it meets itself. */
+static int polygon_sign(const double *points, const uint32_t *corners, size_t n)
 {
-    const uint32_t *elements = m->dim == 2 ? m->triangles : m->tetrahedra;
-    const uint32_t *corners = elements + (m->dim + 1) * i;
-    if (!has_image(m, images, corners))
-        return WITHOUT_IMAGE;
-    int before = element_sign(m, m->points, corners), after = element_sign(m, images, corners);
+    double *ring = need(n, 2 * sizeof *ring);
+    icc_domain *domain = NULL;
+    icc_domain_info info = {.size = sizeof info};
+    for (size_t k = 0; k < n; k++)
+        memcpy(ring + 2 * k, points + 2 * (size_t)corners[k], 2 * sizeof *ring);
+    bool good = icc_domain_create(&domain, 2, n, ring, 0, NULL, NULL, NULL) == ICC_OK &&
+                icc_domain_get_info(domain, &info) == ICC_OK;
+    icc_domain_free(domain);
+    free(ring);
+    return good ? info.orientation : 0;
+}
+
+static fate simplex_fate(const mesh_file *m, const double *images, const uint32_t *corners)
+{
+    int before = simplex_sign(m, m->points, corners), after = simplex_sign(m, images, corners);
     return before == 0 ? FLAT_BEFORE : after == 0 ? COLLAPSED : after == before ? KEPT : INVERTED;
 }
 
-static size_t count_elements(const mesh_file *m)
+static fate polygon_fate(const mesh_file *m, const double *images, const uint32_t *corners,
+                         size_t n)
 {
-    return m->dim == 2 ? m->n_triangles : m->n_tetrahedra;
+    int before = polygon_sign(m->points, corners, n);
+    return before == 0 ? FLAT_BEFORE : polygon_sign(images, corners, n) == before ? KEPT : INVERTED;
 }
 
-static const uint32_t *all_elements(const mesh_file *m)
+static fate other_fate(const mesh_file *m, const double *images, const uint32_t *nodes,
+                       element_plan *plan)
 {
-    return m->dim == 2 ? m->triangles : m->tetrahedra;
+    int before = element_orientation(plan, m->points, nodes);
+    if (before == 0)
+        return FLAT_BEFORE;
+    element_sign after = element_sign_of(plan, images, nodes, before);
+    return after == ELEMENT_POSITIVE ? KEPT : after == ELEMENT_INVERTED ? INVERTED : UNDECIDED;
 }
 
-tally tally_count(const mesh_file *m, const double *images)
+/* What became of one element, whose kind's plan is made when it is first needed. */
+static fate fate_of(const mesh_file *m, const double *images, size_t i, element_plan **plan)
 {
-    tally t = {.all = count_elements(m)};
-    for (size_t i = 0; i < t.all; i++) {
-        fate f = fate_of(m, images, i);
-        t.kept += f == KEPT;
-        t.inverted += f == INVERTED;
-        t.collapsed += f == COLLAPSED;
-        t.flat_before += f == FLAT_BEFORE;
-        t.without_image += f == WITHOUT_IMAGE;
-    }
-    return t;
+    const element_kind *k = element_kind_find(m->kinds[i]);
+    const uint32_t *nodes = m->nodes + m->node_starts[i];
+    if (k->dim != m->dim)
+        return NOT_COUNTED;
+    if (!has_image(m, images, i))
+        return WITHOUT_IMAGE;
+    if (is_simplex(k))
+        return simplex_fate(m, images, nodes);
+    if (k->shape == SHAPE_POLYGON)
+        return polygon_fate(m, images, nodes, m->node_starts[i + 1] - m->node_starts[i]);
+    if (k->shape == SHAPE_OTHER)
+        return UNDECIDED;
+    if (*plan == NULL)
+        *plan = element_plan_make(k);
+    return *plan == NULL ? UNDECIDED : other_fate(m, images, nodes, *plan);
 }
 
-size_t tally_spoilt(const tally *t)
-{
-    return t->inverted + t->collapsed;
-}
-
-static bool is_spoilt(const mesh_file *m, const double *images, size_t i)
-{
-    fate f = fate_of(m, images, i);
-    return f == INVERTED || f == COLLAPSED;
-}
-
-/* Whether the boundary alone decides what becomes of an element. */
-static bool is_on_boundary(const mesh_file *m, const bool *on, size_t i)
-{
-    bool all = true;
-    for (size_t k = 0; k <= m->dim; k++)
-        all = all && on[all_elements(m)[(m->dim + 1) * i + k]];
-    return all;
-}
+/* ---------------------------------------------------------------------- counting */
 
 static bool *boundary_vertices(const mesh_file *m)
 {
     mesh_boundary b;
-    mesh_boundary_find(&b, m->dim, count_elements(m), all_elements(m));
+    mesh_boundary_find(&b, m->dim, m->dim == 2 ? m->n_triangles : m->n_tetrahedra,
+                       m->dim == 2 ? m->triangles : m->tetrahedra);
     bool *on = mesh_boundary_vertices(&b, m->n_vertices);
     mesh_boundary_free(&b);
     return on;
 }
 
-void tally_print(const tally *t, const mesh_file *m, char *text, size_t room)
+static void count(tally_kind *k, fate f)
 {
-    if (m->dim == 3 && t->all == 0) {
-        snprintf(text, room, "%zu face%s carried; only tetrahedra can be certified", m->n_faces,
-                 m->n_faces == 1 ? "" : "s");
-        return;
+    k->all++;
+    k->kept += f == KEPT;
+    k->inverted += f == INVERTED;
+    k->collapsed += f == COLLAPSED;
+    k->undecided += f == UNDECIDED;
+    k->flat_before += f == FLAT_BEFORE;
+    k->without_image += f == WITHOUT_IMAGE;
+}
+
+void tally_make(tally *out, const mesh_file *m, const double *images)
+{
+    element_plan **plans = need(n_element_kinds, sizeof *plans);
+    *out = (tally){.kinds = need(n_element_kinds, sizeof *out->kinds),
+                   .fates = need(m->n_elements, sizeof *out->fates)};
+    for (size_t k = 0; k < n_element_kinds; k++)
+        out->kinds[k].kind = &element_kinds[k];
+    for (size_t i = 0; i < m->n_elements; i++) {
+        size_t k = (size_t)(element_kind_find(m->kinds[i]) - element_kinds);
+        fate f = fate_of(m, images, i, &plans[k]);
+        out->fates[i] = (unsigned char)f;
+        count(&out->kinds[k], f);
     }
-    snprintf(text, room,
-             "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
-             "before, %zu without image",
-             t->all, elements_name((int32_t)m->dim), t->kept, t->inverted, t->collapsed,
-             t->flat_before, t->without_image);
+    for (size_t k = 0; k < n_element_kinds; k++)
+        element_plan_free(plans[k]);
+    free(plans);
+    if (tally_spoilt(out) > 0)
+        out->on_boundary = boundary_vertices(m);
 }
 
-/* The numbers of all; with `on` of those whose corners are all on the boundary. */
-static void list_spoilt(const mesh_file *m, const double *images, const bool *on, const char *name,
-                        json *out)
+void tally_free(tally *t)
 {
-    json_open(out, name, '[');
-    for (size_t i = 0; i < count_elements(m); i++)
-        if (is_spoilt(m, images, i) && (on == NULL || is_on_boundary(m, on, i)))
-            json_count(out, NULL, i);
-    json_close(out, ']');
+    free(t->kinds);
+    free(t->fates);
+    free(t->on_boundary);
+    *t = (tally){0};
 }
 
-void tally_report(const tally *t, const mesh_file *m, const double *images, json *out)
+static size_t kind_spoilt(const tally_kind *k)
 {
-    json_open(out, elements_name((int32_t)m->dim), '{');
-    json_count(out, "all", t->all);
-    json_count(out, "kept", t->kept);
-    json_count(out, "inverted", t->inverted);
-    json_count(out, "collapsed", t->collapsed);
-    json_count(out, "flat_before", t->flat_before);
-    json_count(out, "without_image", t->without_image);
-    list_spoilt(m, images, NULL, "turned", out);
-    bool *on = boundary_vertices(m);
-    list_spoilt(m, images, on, "turned_on_boundary", out);
-    free(on);
-    json_close(out, '}');
+    return k->inverted + k->collapsed + k->undecided;
 }
 
-/* The first numbers of those that are on the boundary, or not, and how many there are. */
-static size_t name_spoilt(char *text, size_t room, const mesh_file *m, const double *images,
-                          const bool *on, bool wanted)
+size_t tally_spoilt(const tally *t)
 {
-    size_t n = 0, used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < count_elements(m); i++) {
-        if (!is_spoilt(m, images, i) || is_on_boundary(m, on, i) != wanted)
-            continue;
-        if (++n <= MOST_NAMED)
-            used += (size_t)snprintf(text + used, room - used, "%s%zu", n > 1 ? ", " : "", i);
-        else if (n == MOST_NAMED + 1)
-            snprintf(text + used, room - used, ", ..");
-    }
+    size_t n = 0;
+    for (size_t k = 0; k < n_element_kinds; k++)
+        n += kind_spoilt(&t->kinds[k]);
     return n;
 }
 
-void tally_tell(const tally *t, const mesh_file *m, const double *images, const char *name,
-                const char *inner)
+/* In the plane larger faces with straight sides are there as triangles. */
+static bool is_made_of_simplices(const element_kind *k)
 {
-    if (tally_spoilt(t) == 0)
-        return;
-    char numbers[256];
-    bool *on = boundary_vertices(m);
-    for (int wanted = 1; wanted >= 0; wanted--) {
-        size_t n = name_spoilt(numbers, sizeof numbers, m, images, on, wanted == 1);
-        if (n > 0)
-            note("%s: %zu of %zu %s %s inverted or collapsed (numbers from 0: %s): %s", name, n,
-                 t->all, elements_name((int32_t)m->dim), n == 1 ? "is" : "are", numbers,
-                 wanted == 0 ? inner
-                 : m->dim == 2
-                     ? "all three corners lie on the boundary of the mesh, whose images stay"
-                     : "all four corners lie on the boundary of the mesh, whose images stay");
+    return is_simplex(k) || k->shape == SHAPE_POLYGON ||
+           (k->shape == SHAPE_SQUARE && k->degree == 1);
+}
+
+bool tally_is_simplicial(const mesh_file *m)
+{
+    for (size_t i = 0; i < m->n_elements; i++) {
+        const element_kind *k = element_kind_find(m->kinds[i]);
+        if (k->dim == m->dim && !is_made_of_simplices(k))
+            return false;
     }
-    free(on);
+    return true;
+}
+
+/* Whether the boundary alone decides what becomes of an element. */
+static bool is_on_boundary(const tally *t, const mesh_file *m, size_t i)
+{
+    if (t->on_boundary == NULL || !is_made_of_simplices(element_kind_find(m->kinds[i])))
+        return false;
+    for (size_t k = m->node_starts[i]; k < m->node_starts[i + 1]; k++)
+        if (!t->on_boundary[m->nodes[k]])
+            return false;
+    return true;
+}
+
+/* ------------------------------------------------------------------------- text */
+
+static void print_kind(const tally_kind *k, char *text, size_t room)
+{
+    if (is_simplex(k->kind))
+        snprintf(text, room,
+                 "%zu %s: %zu keep their orientation, %zu inverted, %zu collapsed, %zu flat "
+                 "before, %zu without image",
+                 k->all, k->kind->many, k->kept, k->inverted, k->collapsed, k->flat_before,
+                 k->without_image);
+    else
+        snprintf(text, room,
+                 "%zu %s: %zu positive, %zu inverted, %zu undecided, %zu not positive before, %zu "
+                 "without image",
+                 k->all, k->kind->many, k->kept, k->inverted, k->undecided, k->flat_before,
+                 k->without_image);
+}
+
+/* Elements of fewer dimensions, or of more, in one line. */
+static bool print_carried(const tally *t, const mesh_file *m, char *text, size_t room)
+{
+    size_t used = 0;
+    for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
+        if (k->kind->dim != m->dim && k->all > 0 && used < room)
+            used += (size_t)snprintf(text + used, room - used, "%s%zu %s", used > 0 ? ", " : "",
+                                     k->all, k->all == 1 ? k->kind->one : k->kind->many);
+    if (used > 0 && used < room)
+        snprintf(text + used, room - used, " carried");
+    return used > 0;
+}
+
+bool tally_line(const tally *t, const mesh_file *m, size_t i, char *text, size_t room)
+{
+    size_t n = 0;
+    for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
+        if (k->kind->dim == m->dim && k->all > 0 && n++ == i) {
+            print_kind(k, text, room);
+            return true;
+        }
+    if (n == i && print_carried(t, m, text, room))
+        return true;
+    if (n + i > 0)
+        return false;
+    snprintf(text, room, "%zu vertices carried; there are no elements", m->n_vertices);
+    return true;
+}
+
+/* -------------------------------------------------------------------- report */
+
+/* The name of a kind as that of a member. */
+static const char *member(char out[64], const element_kind *k)
+{
+    size_t n = strcspn(k->many, "(");
+    n -= k->many[n] == '(';
+    for (size_t i = 0; i < n; i++)
+        out[i] = k->many[i] == ' ' ? '_' : k->many[i];
+    out[n] = '\0';
+    return out;
+}
+
+/* The numbers of elements of a kind, each counted from 0 within its kind. */
+static void list_numbers(const tally *t, const mesh_file *m, const element_kind *kind,
+                         const char *name, bool undecided, bool only_boundary, json *out)
+{
+    size_t n = 0;
+    json_open(out, name, '[');
+    for (size_t i = 0; i < m->n_elements; i++) {
+        if (!is_of(m, i, kind))
+            continue;
+        fate f = t->fates[i];
+        bool wanted = undecided ? f == UNDECIDED : f == INVERTED || f == COLLAPSED;
+        if (wanted && (!only_boundary || is_on_boundary(t, m, i)))
+            json_count(out, NULL, n);
+        n++;
+    }
+    json_close(out, ']');
+}
+
+static void report_kind(const tally *t, const mesh_file *m, const tally_kind *k, json *out)
+{
+    char name[64];
+    bool simplex = is_simplex(k->kind);
+    json_open(out, member(name, k->kind), '{');
+    json_count(out, "all", k->all);
+    json_count(out, simplex ? "kept" : "positive", k->kept);
+    json_count(out, "inverted", k->inverted);
+    json_count(out, simplex ? "collapsed" : "undecided", simplex ? k->collapsed : k->undecided);
+    json_count(out, simplex ? "flat_before" : "not_positive_before", k->flat_before);
+    json_count(out, "without_image", k->without_image);
+    list_numbers(t, m, k->kind, "turned", false, false, out);
+    list_numbers(t, m, k->kind, "turned_on_boundary", false, true, out);
+    if (!simplex)
+        list_numbers(t, m, k->kind, "undecided_elements", true, false, out);
+    json_close(out, '}');
+}
+
+void tally_report(const tally *t, const mesh_file *m, json *out)
+{
+    char name[64];
+    for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
+        if (k->kind->dim == m->dim && (k->all > 0 || is_simplex(k->kind)))
+            report_kind(t, m, k, out);
+    json_open(out, "carried", '{');
+    for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
+        if (k->kind->dim != m->dim && k->all > 0)
+            json_count(out, member(name, k->kind), k->all);
+    json_close(out, '}');
+}
+
+/* ------------------------------------------------------------------ what is wrong */
+
+/* Why elements are not as they should be, by groups. */
+typedef enum group { ON_BOUNDARY, INNER, OPEN, N_GROUPS } group;
+
+static group group_of(const tally *t, const mesh_file *m, size_t i)
+{
+    return t->fates[i] == UNDECIDED                              ? OPEN
+           : t->fates[i] != INVERTED && t->fates[i] != COLLAPSED ? N_GROUPS
+           : is_on_boundary(t, m, i)                             ? ON_BOUNDARY
+                                                                 : INNER;
+}
+
+/* The first numbers of those of a group, and how many there are. */
+static size_t name_group(char *text, size_t room, const tally *t, const mesh_file *m,
+                         const element_kind *kind, group wanted)
+{
+    size_t n = 0, number = 0, used = 0;
+    text[0] = '\0';
+    for (size_t i = 0; i < m->n_elements; i++) {
+        if (!is_of(m, i, kind))
+            continue;
+        if (group_of(t, m, i) == wanted && ++n <= MOST_NAMED)
+            used += (size_t)snprintf(text + used, room - used, "%s%zu", n > 1 ? ", " : "", number);
+        number++;
+    }
+    if (n > MOST_NAMED)
+        snprintf(text + used, room - used, ", ..");
+    return n;
+}
+
+static const char *reason(const element_kind *k, group g, const char *inner)
+{
+    return g == OPEN    ? (k->shape == SHAPE_OTHER ? "nothing is proved of this kind"
+                                                   : "the sign is too near to 0 somewhere")
+           : g == INNER ? inner
+           : k->n_nodes == 3
+               ? "all three corners lie on the boundary of the mesh, whose images stay"
+           : k->n_nodes == 4 ? "all four corners lie on the boundary of the mesh, whose images stay"
+                             : "all corners lie on the boundary of the mesh, whose images stay";
+}
+
+static void tell_group(const tally *t, const mesh_file *m, const tally_kind *k, group g,
+                       const char *name, const char *inner)
+{
+    char numbers[256];
+    size_t n = name_group(numbers, sizeof numbers, t, m, k->kind, g);
+    if (n > 0)
+        note("%s: %zu of %zu %s %s %s (numbers from 0: %s): %s", name, n, k->all, k->kind->many,
+             n == 1 ? "is" : "are",
+             g == OPEN             ? "undecided"
+             : is_simplex(k->kind) ? "inverted or collapsed"
+                                   : "inverted",
+             numbers, reason(k->kind, g, inner));
+}
+
+void tally_tell(const tally *t, const mesh_file *m, const char *name, const char *inner)
+{
+    for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
+        for (int g = 0; g < N_GROUPS && kind_spoilt(k) > 0; g++)
+            tell_group(t, m, k, (group)g, name,
+                       is_made_of_simplices(k->kind)
+                           ? inner
+                           : "the mesh is too coarse for what the map does there; elements of this "
+                             "kind are not untangled");
 }

@@ -1,0 +1,73 @@
+/* What kinds of elements there are, by VTK's numbers: their names, nodes and shapes. */
+#ifndef ELEMENT_KINDS_H
+#define ELEMENT_KINDS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Those that are spoken of by name. */
+enum {
+    ELEMENT_POLYGON = 7,
+    ELEMENT_TRIANGLE = 5,
+    ELEMENT_PIXEL = 8,
+    ELEMENT_QUADRILATERAL = 9,
+    ELEMENT_TETRAHEDRON = 10,
+    ELEMENT_HEXAHEDRON = 12,
+    ELEMENT_WEDGE = 13,
+    ELEMENT_PYRAMID = 14,
+    ELEMENT_TRIANGLE_2 = 22,
+    ELEMENT_QUADRILATERAL_9 = 28,
+    ELEMENT_TETRAHEDRON_2 = 24,
+    ELEMENT_LAGRANGE_HEXAHEDRON = 72,
+    ELEMENT_LAGRANGE_WEDGE = 73,
+    ELEMENT_LAGRANGE_PYRAMID = 74
+};
+
+/* The shape of the reference element: a product of simplices. A pyramid is none, but the signs at
+ * the corners of its base decide all. Nothing is known of other shapes than how many dimensions
+ * they have. */
+typedef enum element_shape {
+    SHAPE_OTHER,
+    SHAPE_POLYGON,
+    SHAPE_TRIANGLE,
+    SHAPE_SQUARE,
+    SHAPE_TETRAHEDRON,
+    SHAPE_CUBE,
+    SHAPE_PRISM,
+    SHAPE_PYRAMID
+} element_shape;
+
+enum { ELEMENT_MOST_NODES = 27 };
+
+typedef struct element_kind {
+    int type;
+    const char *one, *many; /* names */
+    unsigned dim;
+    unsigned n_nodes; /* 0: any number */
+    element_shape shape;
+    unsigned degree;            /* 1 or 2, along each side */
+    const unsigned char *order; /* where each node stands in a file, or NULL: in this order */
+} element_kind;
+
+/* The kind of a number from 0 to 255; an unknown one has the name "cells of type", and dimension 3. */
+const element_kind *element_kind_find(int type);
+
+/* All kinds that have a name of their own, in the order in which they are told. */
+extern const element_kind element_kinds[];
+extern const size_t n_element_kinds;
+
+/* ---- shapes: how their corners and further nodes lie ---- */
+
+/* Factors of the product, and the dimension of each. */
+typedef struct element_product {
+    unsigned n_factors, dims[3], n_corners;
+    const unsigned char (*corners)[3]; /* of each corner: which vertex of each factor it is */
+    const unsigned char (*middles)[2]; /* of each further node: the corners that it lies between */
+    const unsigned char (*around)[4];  /* of each corner: itself and its neighbours, which turn
+                                          positively; those that decide the sign there */
+    unsigned n_around;
+} element_product;
+
+const element_product *element_product_of(element_shape shape);
+
+#endif
