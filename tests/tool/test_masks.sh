@@ -19,6 +19,7 @@ npy() {
 { npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 2), }" && bytes 1 1 7 0 255 0; } >l.npy
 run 0 check -s l.npy --boundary l.txt
 holds out 'l.npy: a mask of 3 x 2 cells, 4 of them inside, in one piece without holes; its boundary: 20 vertices, 20 facets'
+holds err 'libicc: l.txt: the first coordinate is the row, axis 0 of the array, the second the column; as a cage of a picture'
 [ "$(wc -l <l.txt)" -eq 20 ] || complain "the boundary has not 20 vertices"
 awk '{ x[NR] = $1; y[NR] = $2 } END { for (i = 1; i <= NR; i++) { j = i % NR + 1; a += x[i] * y[j] - x[j] * y[i] }
        exit a != 8 }' l.txt || complain "the area of the boundary is not 4"
@@ -62,10 +63,22 @@ says 'libicc: l.npy: a mask cannot be a target'
 run 1 check -s l.txt --boundary out.txt
 says 'libicc: l.txt: this is no mask'
 
+# A boundary whose columns are swapped is the cage of a picture that is laid out like the mask; the mask itself is not, and says so.
+{ npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 4), }" && bytes 1 1 1 0 1 1 1 0 0 0 0 0; } >wide.npy
+run 0 check -s wide.npy --boundary wide.txt
+awk '{ print $2, $1 }' wide.txt >cage.txt
+awk '{ print $1 + 1, $2 }' cage.txt >shifted.txt
+printf 'P2 4 3 255\n10 20 30 40\n50 60 70 80\n90 90 90 90\n' >in.pgm
+run 0 warp -s cage.txt -t shifted.txt in.pgm out.png
+[ ! -s err ] || complain "$(cat err)"
+run 0 warp -s wide.npy -t wide.txt in.pgm out.png
+holds err 'libicc: wide.npy: x is axis 0 of a mask, its rows; in the picture x counts columns'
+
 # In space and beyond. The first axis of the array is x.
 { npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 1, 1), }" && bytes 1 1; } >bar.npy
 run 0 check -s bar.npy --boundary bar.obj
 run 0 check -s bar.npy --boundary bar.txt
+holds err 'libicc: bar.txt: x is axis 0 of the array, y axis 1, z axis 2'
 [ "$(grep -c '^v' bar.obj)" -eq "$(wc -l <bar.txt)" ] || complain "bar.obj and bar.txt differ"
 [ "$(sort -n bar.txt | tail -n 1 | cut -d ' ' -f 1)" = 2 ] || complain "axis 0 is not x"
 run 1 check -s bar.obj -m gradient

@@ -12,6 +12,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Both cages are welded in one way, so that they go on to correspond if they did. The target may be
  * the vertices alone of what the source has become. */
@@ -234,6 +235,11 @@ static void note_all(const job *j)
         if (j->cages[side].n_heights > 0)
             note("%s: heights are left out; a cage in the plane has x and y",
                  job_file(j, (int)side + 1));
+    bool picture =
+        strcmp(j->args->command, "warp") == 0 || strcmp(j->args->command, "animate") == 0;
+    if (picture && j->cages[0].cells != NULL)
+        note("%s: x is axis 0 of a mask, its rows; in the picture x counts columns",
+             job_file(j, 1));
 }
 
 int job_make_domains(job *j)
