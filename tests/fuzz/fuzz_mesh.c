@@ -1,10 +1,11 @@
 /* Any bytes at all must give a mesh whose numbers stand in the text one behind the other, or a
  * reason; what is written must read back as the same mesh, and writing that gives the same bytes.
+ * What is attached to vertices is carried by a map, or there is a reason; then it reads back as well.
  * Nothing is leaked, and nothing beyond the text is read. */
 #define _POSIX_C_SOURCE 200809L
 
 #include "fuzz.h"
-#include "mesh/mesh_file.h"
+#include "mesh/mesh_carry.h"
 #include "mesh/tally.h"
 
 #include <math.h>
@@ -42,7 +43,8 @@ static void require_tally(const mesh_file *m)
 
 static void require_sound(const mesh_file *m)
 {
-    require(m->n_vertices > 0 && (m->n_spans == 1 || m->n_spans == m->dim));
+    require(m->n_vertices > 0);
+    require(m->n_spans == 1 || m->n_spans == m->dim || mesh_is_glb(m->text, m->n_text));
     require_ascending(m);
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         require(isfinite(m->points[i]) != 0);
@@ -58,14 +60,28 @@ static void require_sound(const mesh_file *m)
     require_tally(m);
 }
 
+/* Normals of vertices: likewise, those of the file's vertices. */
+static void require_normals(const mesh_file *m)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    size_t done = 0;
+    for (size_t i = 0; i < of->n * of->n_spans; i++) {
+        require(done <= of->spans[2 * i] && of->spans[2 * i] <= of->spans[2 * i + 1]);
+        done = of->spans[2 * i + 1];
+    }
+    require(done <= m->n_text);
+    for (size_t k = 0; k < of->n_uses; k++)
+        require(of->uses[2 * k + 1] < m->n_vertices);
+}
+
 /* What mesh_write() writes, of exactly n bytes and a '\0'. */
-static char *write_mesh(const mesh_file *m, size_t *n)
+static char *write_mesh(const mesh_file *m, const double *points, size_t *n)
 {
     char *text = NULL;
     FILE *stream = open_memstream(&text, n);
     if (stream == NULL)
         exit(0);
-    mesh_write(m, m->points, stream);
+    mesh_write(m, points, stream);
     require(fclose(stream) == 0);
     char *exact = malloc(*n + 1);
     if (exact == NULL)
@@ -78,7 +94,7 @@ static char *write_mesh(const mesh_file *m, size_t *n)
 static void require_written(const mesh_file *m, problem *wrong)
 {
     size_t n, n_again;
-    char *text = write_mesh(m, &n);
+    char *text = write_mesh(m, m->points, &n);
     mesh_file back;
     require(mesh_read(&back, m->dim, text, n, wrong));
     require_sound(&back);
@@ -87,11 +103,75 @@ static void require_written(const mesh_file *m, problem *wrong)
             strcmp(back.format, m->format) == 0);
     for (size_t i = 0; i < m->n_vertices * m->dim; i++)
         require(back.points[i] <= m->points[i] && back.points[i] >= m->points[i]);
-    char *again = write_mesh(&back, &n_again);
+    char *again = write_mesh(&back, back.points, &n_again);
     require(n_again == n && memcmp(again, text, n) == 0);
     mesh_free(&back);
     free(again);
     free(text);
+}
+
+/* ------------------------------------------------------------ what is attached */
+
+static bool shear(void *data, size_t n, const double *points, double *images, size_t *n_failed)
+{
+    const size_t dim = *(const size_t *)data;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < dim; k++)
+            images[dim * i + k] =
+                points[dim * i + k] + (k == 0 ? 0.25 * points[dim * i + 1] : 0) + 1;
+    *n_failed = n % 2;
+    return n != 7;
+}
+
+/* Every fifth point has no derivative. */
+static bool derive(void *data, size_t n, const double *points, const double *directions,
+                   double *derivatives)
+{
+    const size_t dim = *(const size_t *)data;
+    for (size_t i = 0; i < n; i++) {
+        require(isfinite(points[dim * i]) != 0 && !isnan(directions[3 * i]));
+        for (size_t k = 0; k < dim * dim; k++)
+            derivatives[dim * dim * i + k] = i % 5 == 4           ? (double)NAN
+                                             : k / dim == k % dim ? 1
+                                             : k == 1             ? 0.25
+                                                                  : 0;
+    }
+    return n != 11;
+}
+
+static void require_carried(mesh_file *m, problem *wrong)
+{
+    double *images = calloc(m->n_vertices, m->dim * sizeof *images);
+    size_t none, beyond, n;
+    mesh_mover mover = {&m->dim, shear, derive};
+    mesh_carried what;
+    bool finite = true;
+    if (images == NULL)
+        exit(0);
+    shear(&m->dim, m->n_vertices, m->points, images, &none);
+    for (size_t i = 0; i < m->n_vertices * m->dim; i++)
+        finite = finite && isfinite(images[i]) != 0;
+    if (finite && mesh_round(m, images, &beyond)) {
+        bool known = mesh_carry(m, images, NULL, &what, wrong);
+        require(known || wrong->text[0] != '\0');
+        bool good = mesh_carry(m, images, &mover, &what, wrong);
+        require(known || !good);
+        if (good) {
+            mesh_file back;
+            require(what.n_stay <= what.n_vectors && what.shared >= 0 && what.shared <= 180);
+            char *text = write_mesh(m, images, &n);
+            require(mesh_read(&back, m->dim, text, n, wrong));
+            require_sound(&back);
+            require_normals(&back);
+            require(back.n_vertices == m->n_vertices && back.n_triangles == m->n_triangles &&
+                    back.vertex_normals.n_uses == m->vertex_normals.n_uses);
+            mesh_free(&back);
+            free(text);
+        } else {
+            require(strpbrk(wrong->text, "\r\n") == NULL);
+        }
+    }
+    free(images);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -104,7 +184,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         problem wrong = {.text = ""};
         if (mesh_read(&m, dim, text, size, &wrong)) {
             require_sound(&m);
+            require_normals(&m);
             require_written(&m, &wrong);
+            require_carried(&m, &wrong);
         } else {
             require(wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL);
             require(strlen(wrong.text) < sizeof wrong.text);

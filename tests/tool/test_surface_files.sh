@@ -210,8 +210,7 @@ refuses() { # MESSAGE CHANGE
     says "$1"
 }
 refuses 'byte 4: glTF of version 1; 2 is read' 'version = 1'
-refuses "nodes[1] ('') moves, turns or scales its mesh" "nodes[1]['translation'] = [0, 0, 1]"
-refuses "nodes[0] ('a') moves" "nodes[0]['matrix'] = [2] + 15 * [0]"
+refuses "nodes[0].matrix has a last row that is not 0 0 0 1" "nodes[0]['matrix'] = [2] + 15 * [0]"
 refuses 'accessors[0], for POSITION, is not of three floats' "accessors[0]['componentType'] = 5123"
 refuses 'accessors[2], for indices, is not of whole numbers' "accessors[2]['type'] = 'VEC2'"
 refuses 'accessors[0], for POSITION, is sparse or compressed' "accessors[0]['sparse'] = {}"

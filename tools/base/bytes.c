@@ -47,3 +47,12 @@ void put_little_endian(unsigned char out[4], uint32_t value)
     for (size_t i = 0; i < 4; i++)
         out[i] = (unsigned char)(value >> 8 * i);
 }
+
+void put_little_endian_float(char *out, float value)
+{
+    uint32_t bits;
+    unsigned char bytes[4];
+    memcpy(&bits, &value, 4);
+    put_little_endian(bytes, bits);
+    memcpy(out, bytes, 4);
+}

@@ -19,4 +19,7 @@ double big_endian_double(const char *bytes);
 /* The four bytes of a number, the least significant first. */
 void put_little_endian(unsigned char out[4], uint32_t value);
 
+/* The four bytes of a float. */
+void put_little_endian_float(char *out, float value);
+
 #endif

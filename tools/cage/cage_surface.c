@@ -5,14 +5,14 @@
 
 #include <stdlib.h>
 
-/* The spans are in the order of the text, so one pass finds all lines. */
+/* The spans are in the order of the text, so one pass finds all lines. Binary files have none. */
 static size_t *vertex_lines(const mesh_file *m)
 {
     size_t *lines = need(m->n_vertices, sizeof *lines), line = 1, at = 0;
-    for (size_t i = 0; i < m->n_vertices; i++) {
+    for (size_t i = 0; i < m->n_vertices && m->form == MESH_TEXT; i++) {
         for (; at < m->spans[2 * m->n_spans * i]; at++)
             line += m->text[at] == '\n';
-        lines[i] = m->form == MESH_TEXT ? line : 0;
+        lines[i] = line;
     }
     return lines;
 }

@@ -4,6 +4,7 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "job/attached.h"
 #include "job/job.h"
 #include "job/output_name.h"
 #include "mesh/mesh_file.h"
@@ -144,10 +145,13 @@ static const char *why_inner(const job *j, const icc_certificate *certificate)
 
 /* Says what is not as it should be of a mesh that was written. */
 static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_failed,
-                const tally *t, const icc_certificate *certificate)
+                const tally *t, const icc_certificate *certificate, const mesh_carried *attached)
 {
     tally_tell(t, m, j->args->operands[0], why_inner(j, certificate));
+    attached_tell(j->args->operands[0], attached);
     int result = tell_outside(j, m, status, n_failed);
+    if (result == DONE)
+        result = attached_beyond(j, attached);
     return result == DONE && tally_spoilt(t) > 0 ? PARTIAL : result;
 }
 
@@ -167,33 +171,37 @@ static int refuse(const job *j, const mesh_file *m, const tally *t,
 /* Writes, unless --require forbids it, and reports. A vertex outside stops the output unless
  * --outside keep asks for it; the report names it all the same. */
 static int finish(job *j, const mesh_file *m, const double *images, const icc_status *status,
-                  size_t n_failed, const tally *t, const icc_certificate *certificate)
+                  size_t n_failed, const tally *t, const icc_certificate *certificate,
+                  const mesh_carried *attached)
 {
-    bool writes = n_failed == 0 || j->args->outside == OUTSIDE_KEEP;
+    bool writes = n_failed + attached->n_beyond == 0 || j->args->outside == OUTSIDE_KEEP;
     bool refused = j->args->require != 0 && (certificate->size == 0 || !certificate->certified);
     int result = writes && !refused ? write_mesh(j, m, images, status) : DONE;
     if (result == DONE && (writes || j->args->json))
         result = report_tally(j, m, t, n_failed, certificate);
     return result != DONE ? result
-           : !writes      ? tell_outside(j, m, status, n_failed)
-           : refused      ? refuse(j, m, t, certificate)
-                          : tell(j, m, status, n_failed, t, certificate);
+           : !writes
+               ? n_failed > 0 ? tell_outside(j, m, status, n_failed) : attached_beyond(j, attached)
+           : refused ? refuse(j, m, t, certificate)
+                     : tell(j, m, status, n_failed, t, certificate, attached);
 }
 
 /* Counts elements. A certificate is about triangles, and not about larger faces. */
 static int count_and_finish(job *j, const mesh_file *m, const double *images,
-                            const icc_status *status, size_t n_failed, icc_certificate *certificate)
+                            const icc_status *status, size_t n_failed, icc_certificate *certificate,
+                            const mesh_carried *attached)
 {
     tally t;
     tally_make(&t, m, images);
     certificate->certified = certificate->certified && tally_spoilt(&t) == 0;
-    int result = finish(j, m, images, status, n_failed, &t, certificate);
+    int result = finish(j, m, images, status, n_failed, &t, certificate, attached);
     tally_free(&t);
     return result;
 }
 
-/* Maps the vertices and certifies the simplices before anything is written. */
-static int map_mesh(job *j, const mesh_file *m)
+/* Maps the vertices, certifies the simplices, and carries what is attached to vertices, before anything is
+ * written. */
+static int map_mesh(job *j, mesh_file *m)
 {
     size_t n = m->n_vertices, n_failed = 0;
     double *images = need(n, m->dim * sizeof *images);
@@ -205,15 +213,18 @@ static int map_mesh(job *j, const mesh_file *m)
     if (result == DONE)
         result = round_images(j, m, images, &certificate);
     progress_end(&j->bar);
+    mesh_carried attached = {0};
+    if (result == DONE && (n_failed == 0 || j->args->outside == OUTSIDE_KEEP))
+        result = attached_carry(j, m, images, status, &attached);
     if (result == DONE)
-        result = count_and_finish(j, m, images, status, n_failed, &certificate);
+        result = count_and_finish(j, m, images, status, n_failed, &certificate, &attached);
     free(images);
     free(status);
     return result;
 }
 
 /* What is written has the format of what is read, and its name must not say otherwise. */
-static int make_and_map(job *j, const mesh_file *m)
+static int make_and_map(job *j, mesh_file *m)
 {
     int result = output_fits(j->args->command, j->args->operands[1], m->format);
     if (result == DONE)

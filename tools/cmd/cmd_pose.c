@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "base/number.h"
 #include "base/system.h"
+#include "job/attached.h"
 #include "job/output_name.h"
 #include "job/point_file.h"
 #include "kernel/pose_job.h"
@@ -175,9 +176,13 @@ static int pose_mesh(pose *p, const char *text, size_t n)
 {
     mesh_file m;
     problem wrong;
-    int result = mesh_read(&m, p->kernel.set.dim, text, n, &wrong)
-                     ? write_mesh(p, &m)
-                     : failed(p->kernel.job.args->operands[0], wrong.line, "%s", wrong.text);
+    const char *name = p->kernel.job.args->operands[0];
+    bool good = mesh_read(&m, p->kernel.set.dim, text, n, &wrong);
+    int result = good ? write_mesh(p, &m) : FAILED;
+    if (good && result != FAILED)
+        good = attached_left(&m, name, &wrong);
+    if (!good)
+        result = failed(name, wrong.line, "%s", wrong.text);
     mesh_free(&m);
     return result;
 }

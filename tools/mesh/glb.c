@@ -111,15 +111,16 @@ static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t 
 }
 
 /* Bytes of an item; 0: it is not of that kind. */
-static size_t item_size(const cJSON *accessor, bool positions)
+static size_t item_size(const cJSON *accessor, glb_kind kind)
 {
+    static const char *const types[] = {"SCALAR", "VEC3", "VEC4"};
     const char *type = cJSON_GetStringValue(json_get(accessor, "type"));
     const cJSON *component = json_get(accessor, "componentType");
     int number = cJSON_IsNumber(component) ? component->valueint : 0;
-    if (type == NULL || strcmp(type, positions ? "VEC3" : "SCALAR") != 0)
+    if (type == NULL || strcmp(type, types[kind]) != 0)
         return 0;
-    if (positions)
-        return number == FLOATS ? 12 : 0;
+    if (kind != GLB_INDICES)
+        return number != FLOATS ? 0 : kind == GLB_THREE ? 12 : 16;
     return number == BYTES ? 1 : number == SHORTS ? 2 : number == WORDS ? 4 : 0;
 }
 
@@ -129,10 +130,9 @@ static bool fits(const glb_items *items, size_t offset, size_t n_view)
     return offset <= n_view && last <= n_view - offset;
 }
 
-bool glb_find_items(const glb *g, const cJSON *index, bool positions, size_t *accessor,
-                    glb_items *out, problem *wrong)
+bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind kind,
+                    size_t *accessor, glb_items *out, problem *wrong)
 {
-    const char *of = positions ? "POSITION" : "indices";
     uint32_t which, view;
     char where[40];
     size_t offset, n_view = 0;
@@ -141,10 +141,12 @@ bool glb_find_items(const glb *g, const cJSON *index, bool positions, size_t *ac
     *accessor = which;
     const cJSON *object = g->accessors[which];
     snprintf(where, sizeof where, "accessors[%u]", (unsigned)which);
-    out->size = item_size(object, positions);
+    out->size = item_size(object, kind);
     if (out->size == 0)
         return spoilt(wrong, 0, "%s, for %s, is not of %s", where, of,
-                      positions ? "three floats" : "whole numbers without a sign");
+                      kind == GLB_THREE  ? "three floats"
+                      : kind == GLB_FOUR ? "four floats"
+                                         : "whole numbers without a sign");
     if (json_get(object, "sparse") != NULL || json_get(object, "bufferView") == NULL)
         return spoilt(wrong, 0, "%s, for %s, is sparse or compressed; save without that", where,
                       of);
@@ -172,7 +174,7 @@ static bool add_positions(glb *g, const cJSON *primitive, problem *wrong)
         return spoilt(wrong, 0, "a primitive has no POSITION");
     if (json_get(json_get(primitive, "extensions"), "KHR_draco_mesh_compression") != NULL)
         return spoilt(wrong, 0, "a mesh is compressed (Draco); save without compression");
-    if (!glb_find_items(g, index, true, &set.accessor, &set.items, wrong))
+    if (!glb_find_items(g, index, "POSITION", GLB_THREE, &set.accessor, &set.items, wrong))
         return false;
     if (g->set_of[set.accessor] != NO_SET)
         return true;

@@ -1,30 +1,124 @@
-/* What a binary glTF file says of its positions in JSON, which must follow them: their bounds. */
+/* Writing a binary glTF file with other positions: they go back through the nodes that place them, and
+ * the JSON follows them with their bounds. */
 #include "mesh/mesh_lines.h"
 
+#include "base/allocate.h"
 #include "base/bytes.h"
+#include "mesh/affine_map.h"
 #include "mesh/glb.h"
 
+#include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The least and the greatest of each coordinate; those that the mesh leaves alone as in the file. */
-static void find_bounds(const mesh_file *m, const glb_positions *set, const double *points,
-                        double bounds[2][3])
+static bool is_same(size_t dim, const double *a, const double *b)
 {
-    for (size_t k = 0; k < 3; k++)
-        for (size_t i = 0; i < set->items.n; i++) {
-            const char *at = m->text + set->items.at + i * set->items.stride + 4 * k;
-            double x = k < m->dim ? points[m->dim * (set->first + i) + k]
-                                  : (double)little_endian_float(at);
-            bounds[0][k] = i == 0 || x < bounds[0][k] ? x : bounds[0][k];
-            bounds[1][k] = i == 0 || x > bounds[1][k] ? x : bounds[1][k];
-        }
+    for (size_t k = 0; k < dim; k++)
+        if (!(a[k] <= b[k] && a[k] >= b[k]))
+            return false;
+    return true;
 }
 
-static void set_bounds(cJSON *accessor, const char *name, const double bounds[3])
+/* Where a point is in the file. */
+static void take_in(double out[3], const mesh_file *m, const mesh_place *place, const double *point)
 {
-    cJSON_DeleteItemFromObjectCaseSensitive(accessor, name);
-    cJSON_AddItemToObject(accessor, name, cJSON_CreateDoubleArray(bounds, 3));
+    if (place != NULL)
+        affine_apply(out, place->in, point);
+    else
+        memcpy(out, point, m->dim * sizeof *point);
+}
+
+/* Rounds what is in the file. Points that have not moved are as they were read. */
+static bool round_point(const mesh_file *m, const mesh_place *place, size_t i, double *point)
+{
+    double own[3];
+    if (is_same(m->dim, point, m->points + m->dim * i))
+        return true;
+    take_in(own, m, place, point);
+    for (size_t k = 0; k < m->dim; k++) {
+        if (isfinite(point[k]) && !(fabs(own[k]) <= (double)FLT_MAX))
+            return false;
+        own[k] = (double)(float)own[k];
+    }
+    if (place != NULL)
+        affine_apply(point, place->out, own);
+    else
+        memcpy(point, own, m->dim * sizeof *own);
+    return true;
+}
+
+bool glb_round(const mesh_file *m, double *points, size_t *beyond)
+{
+    const mesh_place *place = m->places, *end = place + m->n_places;
+    for (size_t i = 0; i < m->n_vertices; i++) {
+        *beyond = i;
+        while (place < end && i >= place->first + place->n)
+            place++;
+        if (!round_point(m, place < end && i >= place->first ? place : NULL, i,
+                         points + m->dim * i))
+            return false;
+    }
+    return true;
+}
+
+static void put_positions(char *text, const mesh_file *m, const glb_positions *set,
+                          const double *points)
+{
+    const mesh_place *place = glb_place(m, set->first);
+    for (size_t i = 0; i < set->items.n; i++) {
+        size_t at = m->dim * (set->first + i);
+        double own[3];
+        if (is_same(m->dim, points + at, m->points + at))
+            continue;
+        take_in(own, m, place, points + at);
+        for (size_t k = 0; k < m->dim; k++)
+            put_little_endian_float(text + set->items.at + i * set->items.stride + 4 * k,
+                                    (float)own[k]);
+    }
+}
+
+/* The least and the greatest of each of n coordinates, in a JSON that has them. */
+static void set_bounds(cJSON *accessor, const char *text, const glb_items *items)
+{
+    static const char *const names[] = {"min", "max"};
+    for (size_t side = 0; side < 2; side++) {
+        double bounds[4] = {0};
+        for (size_t k = 0; k < items->size / 4; k++)
+            for (size_t i = 0; i < items->n; i++) {
+                double x =
+                    (double)little_endian_float(text + items->at + i * items->stride + 4 * k);
+                bounds[k] = i == 0 || (side == 0 ? x < bounds[k] : x > bounds[k]) ? x : bounds[k];
+            }
+        cJSON_DeleteItemFromObjectCaseSensitive(accessor, names[side]);
+        cJSON_AddItemToObject(accessor, names[side],
+                              cJSON_CreateDoubleArray(bounds, (int)items->size / 4));
+    }
+}
+
+/* The bounds of positions, and where they are stated those of what is attached to them, if that has been
+ * carried. */
+static void update_bounds(const mesh_file *m, const glb *g, const char *text)
+{
+    problem none;
+    bool other;
+    size_t n_vectors = 0, i = 0;
+    glb_vectors *vectors = m->carried ? glb_find_vectors(g, &n_vectors, &other, &none) : NULL;
+    const glb_items **items = need(g->n_accessors, sizeof *items);
+    for (size_t s = 0; s < g->n_sets; s++)
+        items[g->sets[s].accessor] = &g->sets[s].items;
+    for (size_t v = 0; v < n_vectors; v++)
+        if (cJSON_GetObjectItemCaseSensitive(g->accessors[vectors[v].accessor], "min") != NULL)
+            items[vectors[v].accessor] = &vectors[v].items;
+    cJSON *accessor;
+    cJSON_ArrayForEach(accessor, cJSON_GetObjectItemCaseSensitive(g->json, "accessors"))
+    {
+        if (items[i] != NULL)
+            set_bounds(accessor, text, items[i]);
+        i++;
+    }
+    free(vectors);
+    free(items);
 }
 
 static void write_chunk_head(size_t n, const char *type, FILE *stream)
@@ -48,26 +142,22 @@ static void write_json(const mesh_file *m, const glb *g, const char *json, FILE 
     fwrite("   ", 1, padded - n, stream);
 }
 
-size_t glb_write_head(const mesh_file *m, const double *points, FILE *stream)
+void glb_write(const mesh_file *m, const double *points, FILE *stream)
 {
     problem none;
     glb g;
     glb_open(&g, m->text, m->n_text, &none); /* as it has been before */
-    for (size_t s = 0; s < g.n_sets; s++) {
-        const glb_positions *set = &g.sets[s];
-        cJSON *accessor = cJSON_GetArrayItem(cJSON_GetObjectItemCaseSensitive(g.json, "accessors"),
-                                             (int)set->accessor);
-        double bounds[2][3];
-        find_bounds(m, set, points, bounds);
-        set_bounds(accessor, "min", bounds[0]);
-        set_bounds(accessor, "max", bounds[1]);
-    }
+    char *text = need(m->n_text, 1);
+    memcpy(text, m->text, m->n_text);
+    for (size_t s = 0; s < g.n_sets; s++)
+        put_positions(text, m, &g.sets[s], points);
+    update_bounds(m, &g, text);
     char *json = cJSON_PrintUnformatted(g.json);
     if (json == NULL)
         exit(failed(NULL, 0, "not enough memory to write glTF"));
-    size_t end = g.json_end;
     write_json(m, &g, json, stream);
+    fwrite(text + g.json_end, 1, m->n_text - g.json_end, stream);
     cJSON_free(json);
+    free(text);
     glb_close(&g);
-    return end;
 }

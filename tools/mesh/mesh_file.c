@@ -82,6 +82,11 @@ void mesh_free(mesh_file *m)
     free(m->points);
     free(m->spans);
     free(m->normals);
+    free(m->own);
+    free(m->vertex_normals.values);
+    free(m->vertex_normals.spans);
+    free(m->vertex_normals.uses);
+    free(m->places);
     free(m->triangles);
     free(m->triangle_lines);
     free(m->tetrahedra);
@@ -93,6 +98,8 @@ void mesh_free(mesh_file *m)
 
 bool mesh_round(const mesh_file *m, double *points, size_t *beyond)
 {
+    if (mesh_is_glb(m->text, m->n_text))
+        return glb_round(m, points, beyond);
     for (size_t i = 0; m->floats && i < m->n_vertices * m->dim; i++) {
         *beyond = i / m->dim;
         if (isfinite(points[i]) && fabs(points[i]) > (double)FLT_MAX)
@@ -180,10 +187,14 @@ static void write_rest(const mesh_file *m, const double *points, size_t done, FI
     fwrite(m->text + done, 1, m->n_text - done, stream);
 }
 
-/* The file goes out as it came in, but for the types, the spans, and what glTF says of them. */
+/* The file goes out as it came in, but for the types and the spans. */
 void mesh_write(const mesh_file *m, const double *points, FILE *stream)
 {
-    size_t done = mesh_is_glb(m->text, m->n_text) ? glb_write_head(m, points, stream) : 0;
+    size_t done = 0;
+    if (mesh_is_glb(m->text, m->n_text)) {
+        glb_write(m, points, stream);
+        return;
+    }
     for (size_t i = 0; i < m->n_types; i++) {
         fwrite(m->text + done, 1, m->types[i][0] - done, stream);
         fputs("double", stream);

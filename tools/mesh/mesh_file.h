@@ -4,7 +4,7 @@
  * The file is kept as it is; only the first coordinates of each vertex, as many as the mesh has
  * dimensions, are looked at and, on writing, replaced. All elements are known by their kinds; faces
  * with more than three corners are also there as fans of triangles. The normals of STL are computed
- * again, in space. */
+ * again, in space. What nodes of glTF do to their meshes is applied on reading and undone on writing. */
 #ifndef MESH_FILE_H
 #define MESH_FILE_H
 
@@ -20,9 +20,29 @@ typedef enum mesh_form {
     MESH_BIG
 } mesh_form; /* binary: which byte is first */
 
+/* Normals of vertices, each in one span or in three. */
+typedef struct mesh_normals {
+    size_t n, n_uses;
+    double *values; /* 3 n; not finite: not read, and left alone */
+    size_t *spans;  /* 2 n n_spans, ascending: where in the text */
+    size_t n_spans;
+    unsigned char order[3]; /* span k is of coordinate order[k] */
+    size_t width;           /* in binary files: bytes of a number */
+    uint32_t *uses;         /* pairs: a normal, and a vertex that has it */
+    size_t room_values, room_spans, room_uses;
+} mesh_normals;
+
+/* Vertices from `first` on as a node of glTF places them, where it does. */
+typedef struct mesh_place {
+    size_t first, n;
+    double out[12], in[12]; /* affine_map.h: from the file to the scene, and back */
+} mesh_place;
+
 typedef struct mesh_file {
-    const char *text; /* borrowed */
+    const char *text; /* borrowed, or `own` */
     size_t n_text;
+    char *own;    /* the text with what is attached to vertices replaced, or NULL */
+    bool carried; /* that has been done */
     size_t dim;
     size_t n_vertices;
     double *points;     /* n_vertices * dim */
@@ -31,12 +51,15 @@ typedef struct mesh_file {
     bool floats;        /* numbers are written as floats; otherwise as doubles */
     /* Where the numbers of each vertex begin and end in the text, ascending: n_vertices * n_spans
      * pairs. One span holds all of its coordinates (n_spans is 1), or span k the coordinate
-     * order[k] (dim spans). */
+     * order[k] (dim spans). 0: glTF, which is written by its accessors. */
     size_t *spans, n_spans;
     unsigned char order[3];
     size_t types[3][2], n_types; /* words before them: how precise the numbers are (VTK, PLY) */
     bool has_rest;   /* behind each span a third coordinate stands as a float, to become a double */
     size_t *normals; /* where that of each triangle begins and ends, before its corners, or NULL */
+    mesh_normals vertex_normals; /* of OBJ and PLY */
+    size_t n_places;
+    mesh_place *places; /* of glTF, ascending */
     size_t n_faces;
     size_t n_triangles;
     uint32_t *triangles;    /* n_triangles * 3 */

@@ -1,10 +1,11 @@
 /* The meshes of a binary glTF file, as one: the vertices as they stand in the file, the triangles of
- * one primitive behind another. Normals and what else a vertex has are carried along as they are. */
+ * one primitive behind another. Nodes place them: what is read is where the vertices are in the scene. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
 #include "base/bytes.h"
 #include "base/json_in.h"
+#include "mesh/affine_map.h"
 #include "mesh/glb.h"
 
 #include <math.h>
@@ -18,31 +19,55 @@ bool mesh_is_glb(const char *text, size_t n)
     return n >= 4 && memcmp(text, "glTF", 4) == 0;
 }
 
-static bool read_set(mesh_file *m, const char *text, const glb_positions *set, problem *wrong)
+/* Positions, which a node may move in space. */
+static bool read_set(mesh_file *m, const char *text, const glb_positions *set,
+                     const mesh_place *place, problem *wrong)
 {
     for (size_t i = 0; i < set->items.n; i++) {
-        size_t at = set->items.at + i * set->items.stride, k = m->n_vertices;
+        size_t at = set->items.at + i * set->items.stride;
         mesh_make_room(m);
-        m->n_vertices++;
-        m->spans[2 * k] = at;
-        m->spans[2 * k + 1] = at + 4 * m->dim;
-        for (size_t d = 0; d < m->dim; d++) {
-            double value = (double)little_endian_float(text + at + 4 * d);
-            m->points[m->dim * k + d] = value;
-            if (!isfinite(value))
+        double values[3], *point = m->points + m->dim * m->n_vertices++;
+        for (size_t d = 0; d < m->dim; d++)
+            values[d] = (double)little_endian_float(text + at + 4 * d);
+        memcpy(point, values, m->dim * sizeof *point);
+        if (place != NULL)
+            affine_apply(point, place->out, values);
+        for (size_t d = 0; d < m->dim; d++)
+            if (!isfinite(point[d]))
                 return spoilt(wrong, 0, "byte %zu: vertex %zu of accessors[%zu] is not finite", at,
                               i, set->accessor);
-        }
     }
     return true;
 }
 
+/* The place of a set whose node moves it; NULL: none does. */
+static const mesh_place *find_place(mesh_file *m, const glb *g, size_t s, const double matrix[12])
+{
+    if (affine_is_none(matrix))
+        return NULL;
+    mesh_place *place = &m->places[m->n_places++];
+    *place = (mesh_place){.first = g->sets[s].first, .n = g->sets[s].items.n};
+    memcpy(place->out, matrix, sizeof place->out);
+    affine_invert(place->in, matrix);
+    return place;
+}
+
 static bool read_vertices(mesh_file *m, const glb *g, problem *wrong)
 {
-    for (size_t s = 0; s < g->n_sets; s++)
-        if (!read_set(m, g->text, &g->sets[s], wrong))
-            return false;
-    return true;
+    double(*matrices)[12] = glb_find_places(g, wrong);
+    bool good = matrices != NULL;
+    m->places = need(g->n_sets, sizeof *m->places);
+    for (size_t s = 0; good && s < g->n_sets; s++) {
+        const mesh_place *place = find_place(m, g, s, matrices[s]);
+        if (place != NULL && m->dim < 3)
+            good = spoilt(wrong, 0,
+                          "a node moves, turns or scales the mesh of accessors[%zu]; in the plane "
+                          "apply that to the vertices first (Blender: Ctrl+A)",
+                          g->sets[s].accessor);
+        good = good && read_set(m, g->text, &g->sets[s], place, wrong);
+    }
+    free(matrices);
+    return good;
 }
 
 /* The corners of a primitive: those of its positions one by one, or as its indices say. */
@@ -51,6 +76,7 @@ typedef struct corner_list {
     const glb_positions *set;
     glb_items indices; /* size 0: none */
     size_t accessor, n;
+    bool mirrored; /* by its node */
 } corner_list;
 
 static bool corner(lines *r, const corner_list *list, size_t i)
@@ -68,7 +94,8 @@ static bool corner(lines *r, const corner_list *list, size_t i)
 static bool triangle(lines *r, const corner_list *list, size_t a, size_t b, size_t c)
 {
     lines_begin_face(r);
-    return corner(r, list, a) && corner(r, list, b) && corner(r, list, c);
+    return corner(r, list, a) && corner(r, list, list->mirrored ? c : b) &&
+           corner(r, list, list->mirrored ? b : c);
 }
 
 /* The triangles of a primitive, by its mode. There cannot be more in all than the file has bytes
@@ -88,6 +115,25 @@ static bool read_corners(lines *r, const corner_list *list, int mode)
     return good;
 }
 
+static int by_first(const void *a, const void *b)
+{
+    const mesh_place *p = a, *q = b;
+    return (p->first > q->first) - (p->first < q->first);
+}
+
+const mesh_place *glb_place(const mesh_file *m, size_t first)
+{
+    const mesh_place key = {.first = first};
+    return m->n_places == 0 ? NULL
+                            : bsearch(&key, m->places, m->n_places, sizeof *m->places, by_first);
+}
+
+static bool is_mirrored(const mesh_file *m, const glb_positions *set)
+{
+    const mesh_place *place = glb_place(m, set->first);
+    return place != NULL && affine_determinant(place->out) < 0;
+}
+
 /* Points and lines have vertices, but no triangles. */
 static bool read_primitive(lines *r, const glb *g, const cJSON *primitive)
 {
@@ -97,13 +143,15 @@ static bool read_primitive(lines *r, const glb *g, const cJSON *primitive)
     glb_items positions;
     if (kind < TRIANGLES || kind > FAN)
         return true;
-    if (!glb_find_items(g, json_get(json_get(primitive, "attributes"), "POSITION"), true,
-                        &list.accessor, &positions, r->wrong))
+    if (!glb_find_items(g, json_get(json_get(primitive, "attributes"), "POSITION"), "POSITION",
+                        GLB_THREE, &list.accessor, &positions, r->wrong))
         return false;
     list.set = &g->sets[g->set_of[list.accessor]];
     list.n = positions.n;
+    list.mirrored = is_mirrored(r->mesh, list.set);
     if (indices != NULL) {
-        if (!glb_find_items(g, indices, false, &list.accessor, &list.indices, r->wrong))
+        if (!glb_find_items(g, indices, "indices", GLB_INDICES, &list.accessor, &list.indices,
+                            r->wrong))
             return false;
         list.n = list.indices.n;
     }
@@ -124,83 +172,16 @@ static bool read_faces(lines *r, const glb *g)
     return true;
 }
 
-/* ------------------------------------------------------------------- nodes */
-
-static bool is_list(const cJSON *list, size_t n, const double *values)
-{
-    const cJSON *item;
-    size_t i = 0;
-    cJSON_ArrayForEach(item, list)
-    {
-        if (i == n || !cJSON_IsNumber(item) || item->valuedouble != values[i])
-            return false;
-        i++;
-    }
-    return list == NULL || i == n;
-}
-
-static bool is_moved(const cJSON *node)
-{
-    static const double one[] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    static const double none[] = {0, 0, 0, 1}, scale[] = {1, 1, 1};
-    return !is_list(json_get(node, "matrix"), 16, one) ||
-           !is_list(json_get(node, "translation"), 3, none) ||
-           !is_list(json_get(node, "rotation"), 4, none) ||
-           !is_list(json_get(node, "scale"), 3, scale) ||
-           json_get(json_get(node, "extensions"), "EXT_mesh_gpu_instancing") != NULL;
-}
-
-/* The node above each, or SIZE_MAX. */
-static size_t *find_parents(size_t n, const cJSON *const *nodes)
-{
-    size_t *parents = need(n, sizeof *parents);
-    const cJSON *child;
-    for (size_t i = 0; i < n; i++)
-        parents[i] = SIZE_MAX;
-    for (size_t i = 0; i < n; i++)
-        cJSON_ArrayForEach(child, json_get(nodes[i], "children"))
-        {
-            if (cJSON_IsNumber(child) && child->valuedouble >= 0 && child->valuedouble < (double)n)
-                parents[(size_t)child->valuedouble] = i;
-        }
-    return parents;
-}
-
-/* Nodes above a mesh must leave it where it is: positions are taken, and written, as they stand. */
-static bool check_nodes(const glb *g, problem *wrong)
-{
-    size_t n = (size_t)cJSON_GetArraySize(json_get(g->json, "nodes")), i = 0;
-    const cJSON **nodes = need(n, sizeof(cJSON *)), *node;
-    cJSON_ArrayForEach(node, json_get(g->json, "nodes")) nodes[i++] = node;
-    size_t *parents = find_parents(n, nodes);
-    bool *seen = need(n, sizeof *seen), good = true;
-    for (i = 0; i < n; i++)
-        for (size_t k = i; good && json_get(nodes[i], "mesh") && k < n && !seen[k];
-             k = parents[k]) {
-            const char *name = cJSON_GetStringValue(json_get(nodes[k], "name"));
-            char shown[32];
-            seen[k] = true;
-            if (is_moved(nodes[k]))
-                good = spoilt(wrong, 0,
-                              "nodes[%zu] ('%s') moves, turns or scales its mesh; apply that to "
-                              "the vertices first (Blender: Ctrl+A)",
-                              k, quoted(shown, name != NULL ? name : ""));
-        }
-    free(nodes);
-    free(parents);
-    free(seen);
-    return good;
-}
-
 bool mesh_read_glb(lines *r)
 {
     mesh_file *m = r->mesh;
     glb g;
     m->form = MESH_LITTLE;
     m->floats = true;
+    m->n_spans = 0;
     r->line = 0;
-    bool good = glb_open(&g, m->text, m->n_text, r->wrong) && check_nodes(&g, r->wrong) &&
-                read_vertices(m, &g, r->wrong) && read_faces(r, &g);
+    bool good = glb_open(&g, m->text, m->n_text, r->wrong) && read_vertices(m, &g, r->wrong) &&
+                read_faces(r, &g);
     glb_close(&g);
     return good;
 }

@@ -58,8 +58,10 @@ bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
 bool mesh_read_glb(lines *r);
 
-/* For glTF: writes the file up to its binary part with the bounds of these points, and returns where
- * that part begins. */
-size_t glb_write_head(const mesh_file *m, const double *points, FILE *stream);
+/* For glTF: what a node does to the vertices from `first` on, or NULL. Rounds and writes as
+ * mesh_round() and mesh_write(). */
+const mesh_place *glb_place(const mesh_file *m, size_t first);
+bool glb_round(const mesh_file *m, double *points, size_t *beyond);
+void glb_write(const mesh_file *m, const double *points, FILE *stream);
 
 #endif

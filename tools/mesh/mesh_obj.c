@@ -1,10 +1,48 @@
-/* Wavefront OBJ: lines that begin with v and f. */
+/* Wavefront OBJ: lines that begin with v, vn and f. */
 #include "mesh/mesh_lines.h"
 
+#include "base/allocate.h"
 #include "base/number.h"
 
 #include <math.h>
 #include <string.h>
+
+/* Three numbers. What is none is no error, since nothing needs it. */
+static void read_normal(lines *r)
+{
+    mesh_file *m = r->mesh;
+    mesh_normals *of = &m->vertex_normals;
+    of->values = grow(of->values, &of->room_values, 3 * (of->n + 1), sizeof *of->values);
+    of->spans = grow(of->spans, &of->room_spans, 2 * (of->n + 1), sizeof *of->spans);
+    lines_skip_blanks(r);
+    of->spans[2 * of->n] = (size_t)(r->at - m->text);
+    double *value = of->values + 3 * of->n;
+    for (size_t k = 0; k < 3; k++) {
+        lines_skip_blanks(r);
+        if (r->at >= r->end || number_read(&r->at, &value[k]) != NUMBER_OK) {
+            value[0] = HUGE_VAL;
+            break;
+        }
+    }
+    of->spans[2 * of->n + 1] = (size_t)(r->at - m->text);
+    of->n++;
+}
+
+/* The normal of a corner, behind its second slash. Which of those counted from 1 there are, the end of
+ * the file tells. */
+static void note_normal(lines *r, uint32_t vertex)
+{
+    mesh_normals *of = &r->mesh->vertex_normals;
+    const char *p = r->at + (*r->at == '/');
+    double index, n = (double)of->n;
+    p += strcspn(p, "/ \t\r\n");
+    if (*p++ != '/' || number_read(&p, &index) != NUMBER_OK || floor(index) != index ||
+        !(index >= 1 || (index <= -1 && n + index >= 0)) || !(index < UINT32_MAX))
+        return;
+    of->uses = grow(of->uses, &of->room_uses, 2 * (of->n_uses + 1), sizeof *of->uses);
+    of->uses[2 * of->n_uses] = (uint32_t)(index > 0 ? index - 1 : n + index);
+    of->uses[2 * of->n_uses++ + 1] = vertex;
+}
 
 /* One corner of a face: v, v/vt, v//vn or v/vt/vn, from 1, or from -1 backwards. */
 static bool read_corner(lines *r, uint32_t *vertex)
@@ -20,6 +58,7 @@ static bool read_corner(lines *r, uint32_t *vertex)
         return spoilt(r->wrong, r->line, "the face has the vertex %.17g; there are %.0f so far%s",
                       index, n, fabs(index) < 1 ? ", counted from 1" : "");
     *vertex = (uint32_t)(index > 0 ? index - 1 : n + index);
+    note_normal(r, *vertex);
     r->at += strcspn(r->at, " \t\r\n");
     return true;
 }
@@ -38,10 +77,13 @@ static bool read_face(lines *r)
 
 bool mesh_read_obj(lines *r)
 {
+    r->mesh->vertex_normals.n_spans = 1;
     do {
         bool vertex = lines_take(r, "v"), face = !vertex && lines_take(r, "f");
         if ((vertex && !lines_vertex(r)) || (face && !read_face(r)))
             return false;
+        if (!vertex && !face && lines_take(r, "vn"))
+            read_normal(r);
     } while (lines_next(r));
     return true;
 }

@@ -1,5 +1,6 @@
 /* PLY, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Of the vertices x, y and z
- * are looked at, of the faces the list vertex_indices; all else is carried along. */
+ * are looked at, and nx, ny and nz if they are floating-point numbers, of the faces the list
+ * vertex_indices; all else is carried along. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -21,7 +22,7 @@ static const ply_type types[] = {{{"char", "int8"}, 1, 'i'},     {{"uchar", "uin
                                  {{"float", "float32"}, 4, 'f'}, {{"double", "float64"}, 8, 'f'}};
 
 /* What a property is to us. */
-typedef enum ply_use { PLY_X, PLY_Y, PLY_Z, PLY_CORNERS, PLY_SKIP } ply_use;
+typedef enum ply_use { PLY_X, PLY_Y, PLY_Z, PLY_NX, PLY_NY, PLY_NZ, PLY_CORNERS, PLY_SKIP } ply_use;
 
 typedef struct property {
     const ply_type *type, *count; /* count: of a list, else NULL */
@@ -105,7 +106,15 @@ static ply_use find_use(const char *of, const char *name, bool list)
         return PLY_CORNERS;
     if (strcmp(of, "vertex") == 0 && !list && strlen(name) == 1 && *name >= 'x' && *name <= 'z')
         return (ply_use)(*name - 'x');
+    if (strcmp(of, "vertex") == 0 && !list && strlen(name) == 2 && *name == 'n' && name[1] >= 'x' &&
+        name[1] <= 'z')
+        return (ply_use)(PLY_NX + (name[1] - 'x'));
     return PLY_SKIP;
+}
+
+static bool is_normal(ply_use use)
+{
+    return use >= PLY_NX && use <= PLY_NZ;
 }
 
 /* A coordinate becomes a double, so that rounding does not fold what the map keeps apart. */
@@ -143,12 +152,14 @@ static bool read_property(ply *p)
     q->type = find_type(p);
     const char *type_end = p->r->at;
     q->use = find_use(e->name, next_word(p, word), list);
+    if (q->type != NULL && is_normal(q->use) && (q->type->kind != 'f' || p->used[q->use]))
+        q->use = PLY_SKIP;
     if (q->type == NULL || q->use == PLY_SKIP)
         return q->type != NULL;
     if (p->used[q->use])
         return spoilt(p->r->wrong, p->r->line, "the property %s is declared twice", word);
     p->used[q->use] = true;
-    if (q->use != PLY_CORNERS && (size_t)q->use < p->r->mesh->dim)
+    if ((size_t)q->use < p->r->mesh->dim)
         take_coordinate(p, q->use, type_end, q->type);
     return true;
 }
@@ -172,6 +183,29 @@ static bool read_element(ply *p)
     return true;
 }
 
+/* Normals have three numbers of one type, or are carried along. */
+static void check_normals(ply *p)
+{
+    mesh_normals *of = &p->r->mesh->vertex_normals;
+    property *normals[3];
+    bool same = true;
+    for (size_t i = 0; i < p->n_elements; i++)
+        for (size_t k = 0; k < p->elements[i].n_properties; k++) {
+            property *q = &p->elements[i].properties[k];
+            if (!is_normal(q->use))
+                continue;
+            of->order[of->n_spans] = (unsigned char)(q->use - PLY_NX);
+            of->width = q->type->size;
+            normals[of->n_spans++] = q;
+            same = same && q->type->size == normals[0]->type->size;
+        }
+    if (of->n_spans == 3 && same)
+        return;
+    for (size_t k = 0; k < of->n_spans; k++)
+        normals[k]->use = PLY_SKIP;
+    *of = (mesh_normals){.n = 0};
+}
+
 /* At end_header: whether there is what a mesh needs. */
 static bool end_header(ply *p, bool formed)
 {
@@ -181,6 +215,7 @@ static bool end_header(ply *p, bool formed)
     for (size_t k = 0; k < p->r->mesh->dim; k++)
         if (!p->used[k])
             return spoilt(p->r->wrong, p->r->line, "the vertices have no property %s", names[k]);
+    check_normals(p);
     return next_line(p);
 }
 
@@ -303,20 +338,41 @@ static bool read_coordinate(ply *p, const property *q, size_t k)
     return isfinite(*value) || spoilt(p->r->wrong, p->r->line, "vertex %zu is not finite", i);
 }
 
+/* A number of a normal, and where it stands; `k` counts those that have been read. */
+static bool read_normal(ply *p, const property *q, size_t k)
+{
+    mesh_file *m = p->r->mesh;
+    mesh_normals *of = &m->vertex_normals;
+    if (k == 0) {
+        of->values = grow(of->values, &of->room_values, 3 * (of->n + 1), sizeof *of->values);
+        of->spans = grow(of->spans, &of->room_spans, 6 * (of->n + 1), sizeof *of->spans);
+        of->uses = grow(of->uses, &of->room_uses, 2 * (of->n + 1), sizeof *of->uses);
+        of->uses[2 * of->n] = of->uses[2 * of->n + 1] = (uint32_t)m->n_vertices;
+        of->n_uses = ++of->n;
+    }
+    if (!read_value(p, q->type, of->values + 3 * (of->n - 1) + (q->use - PLY_NX)))
+        return false;
+    size_t end = (size_t)(p->r->at - m->text), *span = of->spans + 2 * (3 * (of->n - 1) + k);
+    span[0] = m->form == MESH_TEXT ? (size_t)(p->word - m->text) : end - q->type->size;
+    span[1] = end;
+    return true;
+}
+
 static bool read_item(ply *p, const element *e)
 {
     mesh_file *m = p->r->mesh;
     bool vertex = strcmp(e->name, "vertex") == 0;
-    size_t n_read = 0;
+    size_t n_read = 0, n_normal = 0;
     if (vertex)
         mesh_make_room(m);
     for (size_t k = 0; k < e->n_properties; k++) {
         const property *q = &e->properties[k];
         double value;
-        bool taken = q->use != PLY_CORNERS && (size_t)q->use < m->dim;
-        if (!(q->count != NULL ? read_list(p, q)
-              : taken          ? read_coordinate(p, q, n_read++)
-                               : read_value(p, q->type, &value)))
+        bool taken = (size_t)q->use < m->dim;
+        if (!(q->count != NULL    ? read_list(p, q)
+              : taken             ? read_coordinate(p, q, n_read++)
+              : is_normal(q->use) ? read_normal(p, q, n_normal++)
+                                  : read_value(p, q->type, &value)))
             return false;
     }
     m->n_vertices += vertex;

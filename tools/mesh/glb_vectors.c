@@ -1,0 +1,458 @@
+/* What is attached to the positions of a binary glTF file: normals, tangents and morph targets, and how
+ * they follow a map.
+ *
+ * Khronos Group, glTF 2.0 Specification, 2021: section 3.7.2 (meshes). A morph target displaces a vertex
+ * by d, so its image displaces the vertex's image by map(p + d) - map(p). Normals turn by the inverse
+ * transpose of the derivative, tangents by the derivative. All in the scene, where nodes have placed them. */
+#include "mesh/mesh_carry.h"
+
+#include "base/allocate.h"
+#include "base/bytes.h"
+#include "base/json_in.h"
+#include "mesh/affine_map.h"
+#include "mesh/glb.h"
+#include "mesh/mesh_lines.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* -------------------------------------------------------------------- find */
+
+typedef struct finder {
+    const glb *g;
+    glb_vectors *list;
+    size_t n, room;
+    size_t *of; /* of each accessor: its place in the list, from 1 */
+    bool *other;
+    problem *wrong;
+} finder;
+
+/* Directions that cannot be read stay; a displacement would be wrong then. */
+static bool find(finder *f, const cJSON *index, glb_vectors v)
+{
+    static const char *const names[] = {"NORMAL", "TANGENT", "a morph target's POSITION",
+                                        "a morph target's NORMAL", "a morph target's TANGENT"};
+    if (index == NULL)
+        return true;
+    const size_t n = f->g->sets[v.set].items.n;
+    problem why;
+    bool good =
+        glb_find_items(f->g, index, names[v.use], v.use == GLB_TANGENT ? GLB_FOUR : GLB_THREE,
+                       &v.accessor, &v.items, &why);
+    if (good && v.items.n != n)
+        good = spoilt(&why, 0, "accessors[%zu], for %s, has %zu items for %zu vertices", v.accessor,
+                      names[v.use], v.items.n, n);
+    if (!good && v.use == GLB_MORPH) {
+        *f->wrong = why;
+        return false;
+    }
+    if (!good) {
+        *f->other = true;
+        return true;
+    }
+    if (f->of[v.accessor] == 0) {
+        f->list = grow(f->list, &f->room, f->n + 1, sizeof *f->list);
+        f->list[f->n++] = v;
+        f->of[v.accessor] = f->n;
+        return true;
+    }
+    glb_vectors *first = &f->list[f->of[v.accessor] - 1];
+    first->shared = first->shared || first->use != v.use || first->set != v.set ||
+                    first->base != v.base || first->morph != v.morph;
+    return true;
+}
+
+static size_t number_of(const cJSON *index)
+{
+    return cJSON_IsNumber(index) && index->valuedouble >= 0 ? (size_t)index->valuedouble : SIZE_MAX;
+}
+
+/* An accessor of zeros has no bytes. */
+static const cJSON *with_bytes(const glb *g, const cJSON *index)
+{
+    size_t i = number_of(index);
+    bool zeros = i < g->n_accessors && json_get(g->accessors[i], "bufferView") == NULL &&
+                 json_get(g->accessors[i], "sparse") == NULL;
+    return zeros ? NULL : index;
+}
+
+static bool find_all(finder *f, const cJSON *primitive)
+{
+    const cJSON *attributes = json_get(primitive, "attributes"), *target;
+    const cJSON *normal = json_get(attributes, "NORMAL"),
+                *tangent = json_get(attributes, "TANGENT");
+    size_t set = f->g->set_of[number_of(json_get(attributes, "POSITION"))];
+    glb_vectors v = {.set = set, .base = SIZE_MAX, .morph = SIZE_MAX};
+    v.use = GLB_NORMAL;
+    bool good = find(f, normal, v);
+    v.use = GLB_TANGENT;
+    good = good && find(f, tangent, v);
+    cJSON_ArrayForEach(target, json_get(primitive, "targets"))
+    {
+        const cJSON *places = with_bytes(f->g, json_get(target, "POSITION"));
+        v.use = GLB_MORPH;
+        v.base = v.morph = SIZE_MAX;
+        good = good && find(f, places, v);
+        v.morph = places != NULL ? number_of(places) : SIZE_MAX;
+        v.use = GLB_MORPH_NORMAL;
+        v.base = number_of(normal);
+        good = good && find(f, with_bytes(f->g, json_get(target, "NORMAL")), v);
+        v.use = GLB_MORPH_TANGENT;
+        v.base = number_of(tangent);
+        good = good && find(f, with_bytes(f->g, json_get(target, "TANGENT")), v);
+    }
+    return good;
+}
+
+glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wrong)
+{
+    finder f = {.g = g, .other = other, .wrong = wrong};
+    const cJSON *mesh, *primitive;
+    bool good = true;
+    *other = false;
+    f.of = need(g->n_accessors, sizeof *f.of);
+    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
+    {
+        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives")) good =
+            good && find_all(&f, primitive);
+    }
+    free(f.of);
+    if (!good)
+        free(f.list);
+    *n = good ? f.n : 1;
+    return good ? f.list : NULL;
+}
+
+/* ------------------------------------------------------------------- carry */
+
+typedef struct carrier {
+    mesh_file *m;
+    const glb *g;
+    const double *images;
+    const mesh_mover *mover;
+    size_t n_vectors;
+    const glb_vectors *vectors;
+    size_t *of; /* of each accessor: its vectors, from 1 */
+    char *text; /* what is written */
+    mesh_carried *out;
+    problem *wrong;
+} carrier;
+
+static void take(double out[3], const char *text, const glb_items *items, size_t i)
+{
+    for (size_t k = 0; k < 3; k++)
+        out[k] = (double)little_endian_float(text + items->at + i * items->stride + 4 * k);
+}
+
+static bool put(carrier *c, const glb_vectors *v, size_t i, const double value[3])
+{
+    char *at = c->text + v->items.at + i * v->items.stride;
+    for (size_t k = 0; k < 3; k++) {
+        if (!(fabs(value[k]) <= (double)FLT_MAX))
+            return spoilt(c->wrong, 0, "item %zu of accessors[%zu] becomes too large for glTF", i,
+                          v->accessor);
+        put_little_endian_float(at + 4 * k, (float)value[k]);
+    }
+    return true;
+}
+
+static bool is_zero(const double v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
+static bool is_finite(const double v[3])
+{
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
+}
+
+/* The points of a list of vertices, each displaced if there is a target, and where they are mapped. Only
+ * the first coordinates of the file are mapped in the plane. */
+typedef struct spots {
+    size_t n;
+    size_t *vertices;    /* of the set */
+    double *points;      /* n * dim, in the scene */
+    double *images;      /* likewise; NULL: not asked for */
+    double *directions;  /* 3 n, in the scene */
+    double *derivatives; /* n * dim * dim; NULL: not asked for */
+} spots;
+
+static void spots_free(spots *s)
+{
+    free(s->vertices);
+    free(s->points);
+    free(s->images);
+    free(s->directions);
+    free(s->derivatives);
+}
+
+static spots spots_make(const carrier *c, size_t n)
+{
+    size_t dim = c->m->dim;
+    return (spots){.vertices = need(n, sizeof(size_t)),
+                   .points = need(n, dim * sizeof(double)),
+                   .images = need(n, dim * sizeof(double)),
+                   .directions = need(n, 3 * sizeof(double)),
+                   .derivatives = need(n, dim * dim * sizeof(double))};
+}
+
+/* The point of vertex i of a set in the scene, displaced in the file by d, or not if that is NULL. */
+static void find_point(const carrier *c, size_t set, size_t i, const double *d, double *out)
+{
+    const glb_positions *positions = &c->g->sets[set];
+    const mesh_place *place = glb_place(c->m, positions->first);
+    const size_t dim = c->m->dim;
+    double own[3];
+    if (d == NULL || is_zero(d)) {
+        memcpy(out, c->m->points + dim * (positions->first + i), dim * sizeof *out);
+        return;
+    }
+    take(own, c->m->text, &positions->items, i);
+    for (size_t k = 0; k < 3; k++)
+        own[k] += d[k];
+    if (place != NULL)
+        affine_apply(out, place->out, own);
+    else
+        memcpy(out, own, dim * sizeof *out);
+}
+
+/* Displacements: those that are zero stay zero. */
+static bool carry_morph(carrier *c, const glb_vectors *v)
+{
+    const glb_positions *positions = &c->g->sets[v->set];
+    const mesh_place *place = glb_place(c->m, positions->first);
+    const size_t dim = c->m->dim, n = v->items.n;
+    spots s = spots_make(c, n);
+    bool good = true;
+    for (size_t i = 0; good && i < n; i++) {
+        double d[3];
+        take(d, c->m->text, &v->items, i);
+        if (is_zero(d))
+            continue;
+        s.vertices[s.n] = i;
+        find_point(c, v->set, i, d, s.points + dim * s.n);
+        s.n++;
+        good = is_finite(d) ||
+               spoilt(c->wrong, 0, "item %zu of accessors[%zu] is not finite", i, v->accessor);
+    }
+    if (good && s.n > 0 && v->shared)
+        good =
+            spoilt(c->wrong, 0,
+                   "accessors[%zu] displaces several meshes, whose images differ; save each with "
+                   "its own",
+                   v->accessor);
+    size_t n_failed = 0;
+    good = good && (s.n == 0 || c->mover->map(c->mover->data, s.n, s.points, s.images, &n_failed));
+    c->out->n_morphed += s.n;
+    c->out->n_beyond += n_failed;
+    for (size_t k = 0; good && k < s.n; k++) {
+        double there[3], here[3], d[3];
+        size_t vertex = positions->first + s.vertices[k];
+        take(d, c->m->text, &v->items, s.vertices[k]);
+        memcpy(there, s.images + dim * k, dim * sizeof *there);
+        memcpy(here, c->images + dim * vertex, dim * sizeof *here);
+        if (place != NULL) {
+            affine_apply(there, place->in, s.images + dim * k);
+            affine_apply(here, place->in, c->images + dim * vertex);
+        }
+        for (size_t x = 0; x < dim; x++)
+            d[x] = there[x] - (double)(float)here[x];
+        good = put(c, v, s.vertices[k], d);
+    }
+    spots_free(&s);
+    return good;
+}
+
+/* A direction of the file becomes one of the scene, and an image of the scene one of the file. */
+static bool turn(double out[3], const mesh_place *place, bool normal, const double derivative[12],
+                 const double own[3])
+{
+    double scene[3], image[3];
+    memcpy(scene, own, sizeof scene);
+    if (place != NULL && normal)
+        affine_turn_back(scene, place->in, own);
+    else if (place != NULL)
+        affine_turn(scene, place->out, own);
+    if (!normal)
+        affine_turn(image, derivative, scene);
+    else if (!affine_turn_normal(image, derivative, scene))
+        return false;
+    memcpy(out, image, sizeof image);
+    if (place != NULL && normal)
+        affine_turn_back(out, place->out, image);
+    else if (place != NULL)
+        affine_turn(out, place->in, image);
+    return affine_set_length(out, affine_length(own));
+}
+
+/* The direction of vertex i as v has it, displaced by a target's. False: none is there to be turned. */
+static bool take_direction(const carrier *c, const glb_vectors *v, size_t i, double out[3])
+{
+    take(out, c->m->text, &v->items, i);
+    if (v->use == GLB_MORPH_NORMAL || v->use == GLB_MORPH_TANGENT) {
+        double base[3];
+        take(base, c->m->text, &c->vectors[c->of[v->base] - 1].items, i);
+        for (size_t k = 0; k < 3; k++)
+            out[k] += base[k];
+    }
+    return is_finite(out) && !is_zero(out);
+}
+
+/* A direction in the scene, whatever its length. */
+static void find_direction(const mesh_place *place, bool normal, const double own[3], double out[3])
+{
+    memcpy(out, own, 3 * sizeof *out);
+    if (place != NULL && normal)
+        affine_turn_back(out, place->in, own);
+    else if (place != NULL)
+        affine_turn(out, place->out, own);
+}
+
+/* Directions at the vertices, or where a target has them. A target's are written as differences to the
+ * images of those that they are added to, which have been written before. */
+static bool carry_directions(carrier *c, const glb_vectors *v)
+{
+    const mesh_place *place = glb_place(c->m, c->g->sets[v->set].first);
+    const bool normal = v->use == GLB_NORMAL || v->use == GLB_MORPH_NORMAL;
+    const glb_vectors *morph = v->morph != SIZE_MAX ? &c->vectors[c->of[v->morph] - 1] : NULL;
+    const glb_vectors *base = v->base != SIZE_MAX ? &c->vectors[c->of[v->base] - 1] : NULL;
+    const size_t dim = c->m->dim, n = v->items.n;
+    spots s = spots_make(c, n);
+    for (size_t i = 0; i < n; i++) {
+        double own[3], d[3] = {0, 0, 0};
+        if (morph != NULL)
+            take(d, c->m->text, &morph->items, i);
+        if (!take_direction(c, v, i, own))
+            continue;
+        s.vertices[s.n] = i;
+        find_point(c, v->set, i, d, s.points + dim * s.n);
+        find_direction(place, normal, own, s.directions + 3 * s.n);
+        s.n++;
+    }
+    bool good =
+        s.n == 0 || c->mover->derive(c->mover->data, s.n, s.points, s.directions, s.derivatives);
+    c->out->n_vectors += s.n;
+    for (size_t k = 0; good && k < s.n; k++) {
+        double own[3], turned[3], derivative[12];
+        take_direction(c, v, s.vertices[k], own);
+        if (!carry_derivative(derivative, dim, s.derivatives + dim * dim * k) ||
+            !turn(turned, place, normal, derivative, own)) {
+            memcpy(turned, own, sizeof turned);
+            c->out->n_stay++;
+        }
+        if (base != NULL) {
+            double from[3];
+            take(from, c->text, &base->items, s.vertices[k]);
+            for (size_t x = 0; x < 3; x++)
+                turned[x] -= from[x];
+        }
+        good = put(c, v, s.vertices[k], turned);
+    }
+    spots_free(&s);
+    return good;
+}
+
+/* What is shared, or added to something that is not read, stays. */
+static bool is_read(const carrier *c, const glb_vectors *v)
+{
+    bool target = v->use == GLB_MORPH_NORMAL || v->use == GLB_MORPH_TANGENT;
+    if (v->shared || (v->morph != SIZE_MAX && c->of[v->morph] == 0))
+        return false;
+    return !target || (v->base < c->g->n_accessors && c->of[v->base] > 0 &&
+                       !c->vectors[c->of[v->base] - 1].shared);
+}
+
+static bool carry_all(carrier *c)
+{
+    static const glb_use order[] = {GLB_MORPH, GLB_NORMAL, GLB_TANGENT, GLB_MORPH_NORMAL,
+                                    GLB_MORPH_TANGENT};
+    bool good = true;
+    for (size_t u = 0; u < 5; u++)
+        for (size_t i = 0; good && i < c->n_vectors; i++) {
+            const glb_vectors *v = &c->vectors[i];
+            if (v->use != order[u])
+                continue;
+            if (v->use == GLB_MORPH)
+                good = carry_morph(c, v);
+            else if (is_read(c, v))
+                good = carry_directions(c, v);
+            else
+                c->out->other = true;
+        }
+    return good;
+}
+
+static void count_all(const carrier *c)
+{
+    for (size_t i = 0; i < c->n_vectors; i++) {
+        const glb_vectors *v = &c->vectors[i];
+        *(v->use == GLB_MORPH ? &c->out->n_morphed : &c->out->n_vectors) += v->items.n;
+    }
+}
+
+/* No byte may belong to two of them, which would need other numbers there. */
+static bool claim(bool *taken, size_t accessor, const glb_items *items, problem *wrong)
+{
+    for (size_t i = 0; i < items->n; i++)
+        for (size_t k = 0; k < items->size; k++) {
+            bool *byte = &taken[items->at + i * items->stride + k];
+            if (*byte)
+                return spoilt(wrong, 0,
+                              "accessors[%zu] has bytes of another one, but what they hold becomes "
+                              "different; save each with its own",
+                              accessor);
+            *byte = true;
+        }
+    return true;
+}
+
+static bool claim_all(const carrier *c)
+{
+    bool *taken = need(c->m->n_text, sizeof *taken), good = true;
+    for (size_t s = 0; good && s < c->g->n_sets; s++)
+        good = claim(taken, c->g->sets[s].accessor, &c->g->sets[s].items, c->wrong);
+    for (size_t i = 0; good && i < c->n_vectors; i++)
+        good = claim(taken, c->vectors[i].accessor, &c->vectors[i].items, c->wrong);
+    free(taken);
+    return good;
+}
+
+bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
+               problem *wrong)
+{
+    glb g;
+    size_t n;
+    problem none;
+    glb_open(&g, m->text, m->n_text, &none); /* as it has been before */
+    glb_vectors *vectors = glb_find_vectors(&g, &n, &out->other, wrong);
+    carrier c = {.m = m,
+                 .g = &g,
+                 .images = images,
+                 .mover = mover,
+                 .n_vectors = vectors != NULL ? n : 0,
+                 .vectors = vectors,
+                 .of = need(g.n_accessors, sizeof(size_t)),
+                 .out = out,
+                 .wrong = wrong};
+    bool good = vectors != NULL || n == 0;
+    out->skins = glb_has_skins(&g);
+    out->animations = glb_has_animations(&g);
+    for (size_t i = 0; i < c.n_vectors; i++)
+        c.of[vectors[i].accessor] = i + 1;
+    if (good && mover == NULL)
+        count_all(&c);
+    if (good && mover != NULL && c.n_vectors > 0) {
+        c.text = need(m->n_text + 1, 1);
+        memcpy(c.text, m->text, m->n_text);
+        good = claim_all(&c) && carry_all(&c);
+        m->text = m->own = c.text;
+        m->carried = true;
+    }
+    free(c.of);
+    free(vectors);
+    glb_close(&g);
+    return good;
+}

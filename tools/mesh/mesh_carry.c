@@ -1,0 +1,233 @@
+#include "mesh/mesh_carry.h"
+
+#include "base/allocate.h"
+#include "mesh/affine_map.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool carry_derivative(double out[12], size_t dim, const double *derivative)
+{
+    affine_none(out);
+    for (size_t i = 0; i < dim * dim; i++) {
+        if (!isfinite(derivative[i]))
+            return false;
+        out[i / dim * 4 + i % dim] = derivative[i];
+    }
+    return true;
+}
+
+/* ------------------------------------------------------ normals of OBJ, PLY */
+
+/* Use k: which normal, of which vertex. False: the file has no such normal, or nothing is to be turned. */
+static bool take_use(const mesh_normals *of, size_t k, size_t *normal, size_t *vertex)
+{
+    *normal = of->uses[2 * k];
+    *vertex = of->uses[2 * k + 1];
+    const double *v = of->values + 3 * *normal;
+    return *normal < of->n && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) &&
+           affine_length(v) > 0;
+}
+
+/* The derivatives at all vertices that have normals; each is NaN where there is none. */
+static double *derive(const mesh_file *m, const mesh_mover *mover)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    size_t n = 0, square = m->dim * m->dim, *at = need(m->n_vertices, sizeof *at);
+    double *points = need(m->n_vertices, m->dim * sizeof *points);
+    double *directions = need(m->n_vertices, 3 * sizeof *directions);
+    double *found = need(m->n_vertices, square * sizeof *found);
+    double *out = need(m->n_vertices, square * sizeof *out);
+    for (size_t k = 0; k < of->n_uses; k++) {
+        size_t normal, vertex;
+        if (!take_use(of, k, &normal, &vertex) || at[vertex] > 0)
+            continue;
+        memcpy(points + m->dim * n, m->points + m->dim * vertex, m->dim * sizeof *points);
+        memcpy(directions + 3 * n, of->values + 3 * normal, 3 * sizeof *directions);
+        at[vertex] = ++n;
+    }
+    bool good = n == 0 || mover->derive(mover->data, n, points, directions, found);
+    for (size_t i = 0; i < m->n_vertices && good; i++)
+        for (size_t k = 0; k < square; k++)
+            out[square * i + k] = at[i] > 0 ? found[square * (at[i] - 1) + k] : (double)NAN;
+    free(at);
+    free(points);
+    free(directions);
+    free(found);
+    if (!good)
+        free(out);
+    return good ? out : NULL;
+}
+
+/* The image of a normal at one of its vertices, of length 1. */
+static bool turn(double out[3], const mesh_file *m, const double *derivatives, size_t k,
+                 size_t *normal)
+{
+    size_t vertex;
+    double derivative[12];
+    const mesh_normals *of = &m->vertex_normals;
+    return take_use(of, k, normal, &vertex) &&
+           carry_derivative(derivative, m->dim, derivatives + m->dim * m->dim * vertex) &&
+           affine_turn_normal(out, derivative, of->values + 3 * *normal) &&
+           affine_set_length(out, 1);
+}
+
+/* A normal of several vertices becomes the mean of its images. `images`: 3 numbers each, 0 where there are
+ * none. */
+static void turn_all(const mesh_file *m, const double *derivatives, double *images,
+                     mesh_carried *out)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    size_t normal;
+    double image[3];
+    for (size_t k = 0; k < of->n_uses; k++)
+        if (turn(image, m, derivatives, k, &normal))
+            for (size_t x = 0; x < 3; x++)
+                images[3 * normal + x] += image[x];
+    for (size_t i = 0; i < of->n; i++)
+        affine_set_length(images + 3 * i, 1);
+    for (size_t k = 0; k < of->n_uses; k++)
+        if (turn(image, m, derivatives, k, &normal)) {
+            const double *mean = images + 3 * normal;
+            double apart[3] = {image[0] - mean[0], image[1] - mean[1], image[2] - mean[2]};
+            double degrees = 2 * asin(fmin(affine_length(apart) / 2, 1)) * 57.29577951308232;
+            out->shared = fmax(out->shared, degrees);
+        }
+}
+
+/* The text of a normal in the file's form. */
+static size_t print_span(const mesh_file *m, const double *image, size_t k, char out[96])
+{
+    const mesh_normals *of = &m->vertex_normals;
+    if (m->form == MESH_TEXT && of->n_spans == 1)
+        return (size_t)snprintf(out, 96, "%.17g %.17g %.17g", image[0], image[1], image[2]);
+    double number = image[of->order[k]];
+    if (m->form == MESH_TEXT)
+        return (size_t)snprintf(out, 96, "%.17g", number);
+    float single = (float)number;
+    uint64_t bits = 0;
+    uint32_t half;
+    memcpy(&half, &single, 4);
+    memcpy(&bits, &number, 8);
+    bits = of->width == 4 ? half : bits;
+    for (size_t i = 0; i < of->width; i++)
+        out[m->form == MESH_LITTLE ? i : of->width - 1 - i] = (char)(bits >> 8 * i & 255);
+    return of->width;
+}
+
+typedef struct rewriter {
+    char *text;
+    size_t n, room;
+    const size_t *end; /* of the vertices' places in the text, ascending */
+    size_t *at;
+    size_t done; /* of the old text */
+} rewriter;
+
+static void add(rewriter *w, const char *text, size_t n)
+{
+    w->text = grow(w->text, &w->room, w->n + n + 1, 1);
+    memcpy(w->text + w->n, text, n);
+    w->n += n;
+}
+
+/* Copies the old text up to a place, and takes along the places of vertices. */
+static void copy_to(rewriter *w, const char *text, size_t end)
+{
+    for (; w->at < w->end && *w->at <= end; w->at++)
+        *w->at += w->n - w->done;
+    add(w, text + w->done, end - w->done);
+    w->done = end;
+}
+
+/* The text with new normals. Those without an image stay. */
+static void rewrite(mesh_file *m, const double *images)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    size_t *places = m->spans, n_places = 2 * m->n_vertices * m->n_spans;
+    rewriter w = {.at = places, .end = places + n_places};
+    for (size_t i = 0; i < of->n * of->n_spans; i++) {
+        char out[96];
+        const double *image = images + 3 * (i / of->n_spans),
+                     *old = of->values + 3 * (i / of->n_spans);
+        double scaled[3], length = affine_length(old);
+        if (!(affine_length(image) > 0))
+            continue;
+        for (size_t x = 0; x < 3; x++)
+            scaled[x] = image[x] * length;
+        copy_to(&w, m->text, of->spans[2 * i]);
+        add(&w, out, print_span(m, scaled, i % of->n_spans, out));
+        w.done = of->spans[2 * i + 1];
+    }
+    copy_to(&w, m->text, m->n_text);
+    w.text[w.n] = '\0';
+    m->text = m->own = w.text;
+    m->n_text = w.n;
+    m->carried = true;
+}
+
+static bool carry_normals(mesh_file *m, const mesh_mover *mover, mesh_carried *out)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    double *derivatives = derive(m, mover);
+    if (derivatives == NULL)
+        return false;
+    double *images = need(of->n, 3 * sizeof *images);
+    turn_all(m, derivatives, images, out);
+    bool *used = need(of->n, sizeof *used);
+    for (size_t k = 0; k < of->n_uses; k++) {
+        size_t normal, vertex;
+        if (take_use(of, k, &normal, &vertex))
+            used[normal] = true;
+    }
+    for (size_t i = 0; i < of->n; i++) {
+        out->n_vectors += used[i];
+        out->n_stay += used[i] && !(affine_length(images + 3 * i) > 0);
+    }
+    rewrite(m, images);
+    free(used);
+    free(images);
+    free(derivatives);
+    return true;
+}
+
+/* ---------------------------------------------------------------------- all */
+
+/* Whether a line begins with a word. */
+static bool has_line(const mesh_file *m, const char *word)
+{
+    size_t n = strlen(word);
+    const char *p = m->text, *end = p + m->n_text;
+    while ((p = memchr(p, '\n', (size_t)(end - p))) != NULL && (size_t)(end - ++p) > n)
+        if (memcmp(p, word, n) == 0)
+            return true;
+    return false;
+}
+
+/* Normals that no reader takes: of VTK and Medit; of PLY, if they are whole numbers; of OBJ, if no face
+ * has them. */
+static bool has_others(const mesh_file *m)
+{
+    const mesh_normals *of = &m->vertex_normals;
+    return strcmp(m->format, "VTK") == 0 || strcmp(m->format, "Medit") == 0
+               ? has_line(m, "NORMALS ") || has_line(m, "Normals")
+           : strcmp(m->format, "PLY") == 0 ? of->n_spans == 0 && strstr(m->text, " nx") != NULL
+                                           : of->n > 0 && of->n_uses == 0;
+}
+
+bool mesh_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
+                problem *wrong)
+{
+    *out = (mesh_carried){0};
+    *wrong = (problem){0};
+    if (mesh_is_glb(m->text, m->n_text))
+        return glb_carry(m, images, mover, out, wrong);
+    out->other = has_others(m);
+    if (m->vertex_normals.n_uses == 0)
+        return true;
+    if (mover != NULL)
+        return carry_normals(m, mover, out);
+    out->n_vectors = m->vertex_normals.n;
+    return true;
+}
