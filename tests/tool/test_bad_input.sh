@@ -126,8 +126,8 @@ printf '\036%s\n\036{"type":\n' "$one" | rejects 3: 'the JSON ends early'
 printf '{"type":"Topology","arcs":[]}' | rejects ' ' 'this is a TopoJSON file'
 printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'this is a glTF file'
 printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON file'
-printf '# vtk DataFile Version 3.0\n' | rejects ' ' 'this is a VTK mesh'
-printf 'MeshVersionFormatted 2\n' | rejects ' ' 'this is a Medit mesh'
+printf '# vtk DataFile Version 3.0\n' | rejects 2: 'the file ends early'
+printf 'MeshVersionFormatted 2\n' | rejects ' ' 'there are no vertices'
 
 # SVG.
 printf '<svg></svg>' | rejects ' ' 'no complete <path>, <polygon>'

@@ -55,6 +55,8 @@ void cage_free(cage *c)
     free(c->features);
     free(c->ties);
     free(c->curve_edges);
+    free(c->simplices);
+    free(c->mesh_vertices);
     *c = (cage){0};
 }
 

@@ -1,7 +1,7 @@
 /* Cages: boundaries of shapes, read from files.
  *
  * In the plane a ring of vertices (text, GeoJSON, WKT, SVG), in space a closed surface (OBJ, OFF,
- * PLY, STL, glTF); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
+ * PLY, STL, glTF); in both the boundary of a mesh (Medit, VTK, and the formats of surfaces); in 1 to 6 dimensions the mask of a solid (.npy). Nothing is re-wound or sorted, because
  * source and target correspond by index. In a ring a last vertex that repeats the first closes it
  * and is dropped. Holes, lines and points inside a ring are kept apart from it. */
 #ifndef CAGE_H
@@ -31,6 +31,8 @@ typedef struct cage_choice {
     cage_role role;
     const char *named; /* NULL: by its role */
     flattening flat;
+    const struct cage *like; /* NULL, or the boundary of a mesh: that of the same mesh, moved, has
+                                its vertices and faces in the same order */
 } cage_choice;
 
 /* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
@@ -66,6 +68,10 @@ typedef struct cage {
     uint32_t *curve_edges;
     size_t room_points, room_lines, room_facets, room_facet_lines, room_features, room_curves;
     uint32_t fan[3]; /* of the face that is being read */
+    /* Of the boundary of a mesh: the mesh, and which of its vertices each of the cage is, then each
+     * of the holes. Empty for others. */
+    size_t n_mesh_vertices, n_simplices, n_mesh, room_mesh;
+    uint32_t *simplices, *mesh_vertices;
 } cage;
 
 void cage_free(cage *c);

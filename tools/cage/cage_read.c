@@ -54,12 +54,6 @@ static bool is_word(const char *text, const char *word)
     return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
 }
 
-static bool has_faces(const cage *c, problem *wrong)
-{
-    return c->n_facets > 0 ||
-           spoilt(wrong, 0, "there are no faces; a cage in space is a closed surface");
-}
-
 /* Behind a mark of UTF-8 and white space. */
 static const char *first_word(const char *text, size_t n)
 {
@@ -83,8 +77,6 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
     const char *p = first_word(text, n);
     if (foreign_told(text, n, wrong))
         return false;
-    if (strncmp(p, "# vtk DataFile", 14) == 0 || strncmp(p, "MeshVersion", 11) == 0)
-        return foreign_surface(wrong, 0, *p == '#' ? "a VTK mesh" : "a Medit mesh");
     if (choice->named != NULL && !is_json(p) && *p != '<') {
         char shown[64];
         return spoilt(wrong, 0, "only GeoJSON and SVG have names of shapes; %s was asked for",
@@ -93,8 +85,9 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
     out->dim = 3;
     const char *first = skip_comments(p);
     if (mesh_is_stl(text, n) || mesh_is_glb(text, n) || is_word(p, "ply") ||
-        is_word(first, "OFF") || is_obj(first))
-        return cage_read_surface(out, text, n, wrong) && has_faces(out, wrong);
+        is_word(first, "OFF") || is_obj(first) || strncmp(p, "# vtk DataFile", 14) == 0 ||
+        strncmp(first, "MeshVersion", 11) == 0)
+        return cage_read_surface(out, choice, dim, text, n, wrong);
     if (npy_told(text, n))
         return cage_read_npy(out, text, n, wrong);
     out->dim = 2;

@@ -17,8 +17,15 @@ bool cage_svg_has(cage_role role, const char *text);
 
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
-/* OBJ, OFF, PLY, STL and glTF. Faces with more than three corners become fans of triangles. */
-bool cage_read_surface(cage *out, const char *text, size_t n, problem *wrong);
+/* OBJ, OFF, PLY, STL, glTF, Medit and VTK: a surface in space, in which faces with more than three
+ * corners become fans of triangles; or the boundary of tetrahedra, or of faces in the plane. Of a
+ * target `dim` says which. */
+bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
+                       problem *wrong);
+
+/* The boundary of a mesh; `like` is that of the choice. */
+struct mesh_file;
+bool cage_take_mesh(cage *out, const struct mesh_file *m, const cage *like, problem *wrong);
 
 /* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
 bool cage_read_path(cage *out, const char *data, const char *end, size_t line,

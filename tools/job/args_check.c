@@ -269,8 +269,20 @@ static int settle_streams(args *a, const command *c)
     return DONE;
 }
 
+/* A mesh without a cage is its own. It is read twice, so it cannot be standard input. */
+static void settle_meshes(args *a)
+{
+    if (a->source != NULL || a->mesh == NULL || strcmp(a->mesh, "-") == 0)
+        return;
+    a->source = a->mesh;
+    if (a->target == NULL && a->target_mesh != NULL && strcmp(a->target_mesh, "-") != 0)
+        a->target = a->target_mesh;
+}
+
 int args_check(args *a, const command *c)
 {
+    if (!a->fill)
+        settle_meshes(a);
     a->needs_target = (c->needs_target || a->match != NULL) && !a->fill;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;

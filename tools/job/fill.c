@@ -39,7 +39,8 @@ static int check(const job *j)
         return failed(j->args->source, 0, "a mask; --mesh is for cages");
     if (j->cages[0].n_features > 0)
         return failed(j->args->source, 0,
-                      "holes, lines or points inside; --mesh is for cages without");
+                      "holes, lines or points inside; --mesh is for cages without (--source takes "
+                      "the boundary of a mesh alone)");
     if (j->args->target_mesh != NULL && j->args->target == NULL)
         return misused(j->args->command, "--target-mesh needs --target");
     return DONE;

@@ -37,7 +37,8 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
                                 .named = named,
                                 .flat = {j->args->flatten,
                                          j->args->match == NULL ? other->n_curves : 0,
-                                         other->curve_edges}};
+                                         other->curve_edges},
+                                .like = other->n_simplices > 0 ? other : NULL};
     size_t dim = side == 0 ? 2 : job_dim(j);
     if (cage_read(&j->cages[side], &choice, dim, text, n, &wrong))
         return join_vertices(j, side);

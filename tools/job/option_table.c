@@ -59,8 +59,10 @@ const option options[] = {
      .commands = HAS_CAGES | FOR_ANIMATE,
      .offset = AT(source),
      .value = "FILE",
-     .help = "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; a .npy mask; "
-             "FILE#name=Kent: the feature with that property"},
+     .help =
+         "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; the boundary of a "
+         "Medit or VTK mesh; a .npy mask; "
+         "FILE#name=Kent: the feature with that property"},
     {.name = "target",
      .letter = 't',
      .kind = OPTION_TEXT,
@@ -121,7 +123,8 @@ const option options[] = {
      .commands = FOR_CHARTS,
      .offset = AT(mesh),
      .value = "FILE",
-     .help = "the inside of the source as tetrahedra or triangles: Medit, VTK, OBJ, OFF, PLY"},
+     .help = "the inside of the source as tetrahedra or triangles: Medit, VTK, OBJ, OFF, PLY; "
+             "without --source the mesh is its own cage"},
     {.name = "target-mesh",
      .kind = OPTION_TEXT,
      .commands = MAY_PAIR,
