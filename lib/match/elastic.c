@@ -82,15 +82,14 @@ static double distance(const float *p, const float *q)
     return sum / N;
 }
 
-/* Costs of all pairs of samples, twice along the target; backwards for its mirror image. */
-static void all_costs(elastic *e, double weight, bool is_mirrored)
+/* Costs of all pairs of samples, twice along the target. */
+static void all_costs(elastic *e, double weight)
 {
     static const double none[2] = {1, 0};
     for (size_t i = 0; i <= N; ++i) {
         float *const row = e->samples.cost + i * (2 * N + 1);
         for (size_t j = 0; j < N; ++j)
-            row[j] = iccp_descriptor_cost(
-                &e->samples.a[i % N], &e->samples.b[is_mirrored ? (N - j) % N : j], none, weight);
+            row[j] = iccp_descriptor_cost(&e->samples.a[i % N], &e->samples.b[j], none, weight);
         memcpy(row + N, row, N * sizeof *row);
         row[2 * N] = row[0];
     }
@@ -122,23 +121,23 @@ static size_t cheapest(const iccp_lattice_path *paths)
 }
 
 /* The candidates: by shape alone, and the best one that is upright, which shapes alone do not tell
- * from others where they are round. `least`: the least cost by shape. */
-static icc_status find_candidates(elastic *e, bool is_free, double *least, const iccp_env *env)
+ * from others where they are round. */
+static icc_status find_candidates(elastic *e, bool is_free, const iccp_env *env)
 {
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
+    e->n_candidates = 0;
     if (!is_free) {
-        all_costs(e, iccp_tangents, false);
+        all_costs(e, iccp_tangents);
         const icc_status status = iccp_lattice_cyclic(e->paths, &e->samples.lattice, N,
                                                       e->samples.cost, STRIDE, &parts[0]);
         if (status != ICC_OK)
             return status;
         take(e, &e->paths[cheapest(e->paths)]);
     }
-    all_costs(e, 0, false);
+    all_costs(e, 0);
     const icc_status status =
         iccp_lattice_cyclic(e->paths, &e->samples.lattice, N, e->samples.cost, STRIDE, &parts[1]);
-    *least = e->paths[cheapest(e->paths)].cost;
     while (status == ICC_OK && e->n_candidates < N_CANDIDATES) {
         iccp_lattice_path *const path = &e->paths[cheapest(e->paths)];
         if (!(path->cost < HUGE_VAL))
@@ -149,18 +148,34 @@ static icc_status find_candidates(elastic *e, bool is_free, double *least, const
     return status;
 }
 
-/* The least cost by shape of the mirror image, from a coarser search. */
-static icc_status mirror_cost(elastic *e, double *least, const iccp_env *env)
+/* Finds candidates and follows each; `least` becomes the least cost, however much it turns. */
+static icc_status search(elastic *e, bool is_free, double *least, const iccp_env *env)
 {
-    all_costs(e, 0, true);
-    for (size_t k = 0; k < N_STARTS; ++k)
-        e->paths[k].cost = HUGE_VAL;
-    const icc_status status =
-        iccp_lattice_cyclic(e->paths, &e->samples.lattice, N, e->samples.cost, 4 * STRIDE, env);
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){is_free ? 1 : 2, 1}, env);
+    icc_status status = find_candidates(e, is_free, &parts[0]);
     *least = HUGE_VAL;
-    for (size_t k = 0; k < N_STARTS / 4; ++k)
-        *least = e->paths[k].cost < *least ? e->paths[k].cost : *least;
+    for (size_t k = 0; k < e->n_candidates && status == ICC_OK; ++k) {
+        iccp_elastic_candidate *const c = &e->candidates[k];
+        iccp_elastic_candidate_follow(c, &e->samples);
+        c->score = c->path.cost + (is_free ? 0 : upright * (1 - c->rotation[0]) / 2);
+        *least = c->path.cost < *least ? c->path.cost : *least;
+        status = iccp_progress(&parts[1], NULL, (double)(k + 1) / (double)e->n_candidates);
+    }
     return status;
+}
+
+/* Turns the target's samples into those of its mirror image with y reversed, or back: the other way
+ * round from sample 0, where chords turn as they did. */
+static void mirror(iccp_descriptor *b)
+{
+    for (size_t i = 1; i < N - i; ++i) {
+        const iccp_descriptor swap = b[i];
+        b[i] = b[N - i];
+        b[N - i] = swap;
+    }
+    for (size_t i = 0; i < N; ++i)
+        b[i].tangent[0] = -b[i].tangent[0];
 }
 
 static void read_knots(iccp_pairing_knots *knots, const iccp_elastic_candidate *c)
@@ -198,24 +213,20 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     elastic *const e = prepare(source, target, &env->memory);
     if (e == NULL)
         return ICC_ERR_MEMORY;
-    iccp_env parts[3];
-    iccp_split(parts, 3, (const double[]){is_free ? 1 : 2, .5, 1}, env);
+    iccp_env parts[2];
+    iccp_split(parts, 2, (const double[]){1, 1}, env);
     double least = 0, mirrored = 0;
-    icc_status status = find_candidates(e, is_free, &least, &parts[0]);
+    mirror(e->samples.b);
+    icc_status status = search(e, is_free, &mirrored, &parts[0]);
+    mirror(e->samples.b);
     if (status == ICC_OK)
-        status = mirror_cost(e, &mirrored, &parts[1]);
-    for (size_t k = 0; k < e->n_candidates && status == ICC_OK; ++k) {
-        iccp_elastic_candidate *const c = &e->candidates[k];
-        iccp_elastic_candidate_follow(c, &e->samples);
-        c->score = c->path.cost + (is_free ? 0 : upright * (1 - c->rotation[0]) / 2);
-        status = iccp_progress(&parts[2], NULL, (double)(k + 1) / (double)e->n_candidates);
-    }
+        status = search(e, is_free, &least, &parts[1]);
     if (status == ICC_OK) {
         iccp_elastic_candidate *const best = choose(e, report);
         iccp_elastic_candidate *const spare = &e->candidates[best == e->candidates ? 1 : 0];
         iccp_elastic_candidate_bend(best, spare, &e->samples);
         read_knots(knots, best);
-        report->is_mirrored = mirrored + noise < .67 * (least + noise);
+        report->mirrored = (least + noise) / (mirrored + noise);
     }
     release(e, &env->memory);
     return status;

@@ -66,7 +66,7 @@ static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
     info->second = report->second;
     info->sure = report->sure;
     info->turn = 360 * report->turn + 0.0; /* which is not -0 */
-    info->mirrored = report->is_mirrored;
+    info->mirrored = report->mirrored >= iccp_clearly_better;
     info->n_vertices = joint->n;
     info->n_landmarks = n_landmarks;
     info->n_joined = joint->n_joined;

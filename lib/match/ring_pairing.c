@@ -9,13 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Below it a pairing is refused. Of the development pairs (tests/bench/bench_match.c) the right
- * answers have at least 1.13, the arbitrary ones of discs and squares at most 1.05. */
-static const double least_sure = 1.06;
-
 double iccp_least_sure(const icc_match_options *options)
 {
-    return options->least_sure > 0 ? options->least_sure : least_sure;
+    return options->least_sure > 0 ? options->least_sure : iccp_clearly_better;
 }
 
 /* Knots that go by arc length between landmarks, or from a start. */
@@ -29,10 +25,14 @@ static void find_by_arc(iccp_pairing_knots *knots, size_t n, const double *landm
 
 static icc_status refuse(const iccp_elastic_report *report, double sure, icc_error *err)
 {
+    const char *const remedy = report->mirrored >= iccp_clearly_better
+                                   ? "the mirror image fits better: is y down in one of them? If "
+                                     "not, give a landmark, a pair of points"
+                                   : "give a landmark, a pair of points";
     return iccp_fail(err, ICC_ERR_AMBIGUOUS,
                      "source and target match almost equally well in more than one way (%.3f, less "
-                     "than %.3f times as well as in the next): give a landmark, a pair of points",
-                     report->sure, sure);
+                     "than %.3f times as well as in the next): %s",
+                     report->sure, sure, remedy);
 }
 
 /* The common vertices of two outlines with a pairing; an elastic one has corners and vertices that

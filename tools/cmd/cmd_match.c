@@ -72,7 +72,7 @@ static void print(const icc_match_info *info)
     if (isfinite(info->cost))
         printf("turned      %.6g degrees\n", info->turn);
     if (info->mirrored)
-        puts("mirrored    the target looks like a mirror image; a map cannot mirror");
+        puts("mirrored    the mirror image fits better; a map cannot mirror");
     printf("slopes      %.6g to %.6g, an edge's share of the target's length over the source's\n",
            info->least_slope, info->most_slope);
 }
@@ -85,6 +85,7 @@ static int tell(const job *j)
         return FAILED;
     if (!a->json && !is_standard(a->output) && !is_standard(a->target_output))
         print(&j->matched);
+    match_note(j);
     return DONE;
 }
 

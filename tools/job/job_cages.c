@@ -229,9 +229,7 @@ static int make_source(job *j)
 /* Says what may surprise only after success, so that an error is one line. */
 static void note_all(const job *j)
 {
-    if (j->matched.mirrored)
-        note("%s: looks like a mirror image of the source, but a map cannot mirror",
-             job_file(j, 2));
+    match_note(j);
     for (size_t side = 0; side < 2; side++)
         if (j->cages[side].n_heights > 0)
             note("%s: heights are left out; a cage in the plane has x and y",

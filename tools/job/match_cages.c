@@ -3,11 +3,16 @@
 #include "base/allocate.h"
 #include "job/landmark_file.h"
 
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* What matching takes of the time that is left then. */
 static const double MATCHED = 0.2;
+
+/* In degrees; what is turned more is rarely meant. */
+static const double LARGE_TURN = 45;
 
 int match_check(const job *j)
 {
@@ -38,7 +43,9 @@ static int refuse(job *j, icc_error *err, const table *landmarks)
                            is_common                          ? " (of the common vertices)"
                            : err->status != ICC_ERR_AMBIGUOUS ? ""
                            : err->item == ICC_ITEM_FEATURE    ? " (--landmarks FILE)"
-                                                           : " (--landmarks FILE, or --match arc)");
+                           : strstr(err->message, "mirror") != NULL
+                               ? " (--y-down=source or --y-down=target; else --landmarks FILE)"
+                               : " (--landmarks FILE, or --match arc)");
 }
 
 /* The feature of a cage that a vertex of its domain is of. */
@@ -148,6 +155,21 @@ int match_cages(job *j)
         result = refuse(j, &err, &landmarks);
     table_free(&landmarks);
     return result;
+}
+
+void match_note(const job *j)
+{
+    static const char asks[] = "is y down in one of them? (--y-down=source or --y-down=target)";
+    const icc_match_info *info = &j->matched;
+    char turned[48];
+    bool large = fabs(info->turn) > LARGE_TURN && j->args->turning != ICC_TURNING_FREE;
+    if (info->dim != 2 || !(large || info->mirrored))
+        return;
+    snprintf(turned, sizeof turned, "turned by %.0f degrees to match", info->turn);
+    if (info->mirrored)
+        note("%s: %s, but the mirror image fits better; %s", job_file(j, 2), turned, asks);
+    else
+        note("%s: %s; if that is not meant, %s", job_file(j, 2), turned, asks);
 }
 
 void match_report(json *r, const icc_match_info *info)

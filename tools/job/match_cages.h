@@ -11,6 +11,10 @@ int match_check(const job *j);
  * j->matched tells how. DONE, or FAILED with a line on stderr. */
 int match_cages(job *j);
 
+/* Says on stderr what may be wrong with a match in the plane: a large turn, which nobody asked for,
+ * or a mirror image that fits better. */
+void match_note(const job *j);
+
 /* How well they match, as a member of the report. */
 void match_report(json *r, const icc_match_info *info);
 

@@ -5,6 +5,7 @@
 #include "cage/cage_features.h"
 #include "job/option_table.h"
 
+#include <math.h>
 #include <stdio.h>
 
 static const char *kind_name(int32_t kind)
@@ -68,6 +69,8 @@ static void print_domain(const cage *c, const icc_domain_info *info)
 
 void check_print_domains(const check *c)
 {
+    if (c->job.matched.dim == 2 && isfinite(c->job.matched.cost))
+        printf("matched: turned by %.3g degrees\n", c->job.matched.turn);
     for (size_t side = 0; side < 2; side++) {
         icc_domain_info info = {.size = sizeof info};
         if (c->job.domains[side] == NULL ||
