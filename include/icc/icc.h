@@ -1032,12 +1032,12 @@ ICC_API icc_status icc_match_get_origins(const icc_match *match, uint32_t *sourc
                                          uint32_t *target);
 
 /**
- * Takes points of the source's boundary to the target's: each to the nearest point of the boundary
- * of icc_match_source(), and from there to the same place of the same facet of icc_match_target().
- * Common vertices, landmarks among them, go to their partners bit by bit; between them the facets
- * are mapped one-to-one. Points of a surface that was given are at most icc_match_info::off away
- * from the common one. In the plane, the boundary is the outer ring and the holes; points of lines
- * go to the ring that is nearest.
+ * Takes points of the source to the target: each to the nearest place on the outer ring, the holes,
+ * the lines and the points of icc_match_source(), in space on its surface, and from there to the
+ * same place of icc_match_target(). Common vertices go to their partners bit by bit, whether they
+ * are of a ring, a line or a point, landmarks among them; between them each edge or facet is mapped
+ * one-to-one. Points of a surface that was given are at most icc_match_info::off away from the
+ * common one.
  *
  * What is known at the corners of the facets that were given, as places in a texture: take the
  * vertices of icc_match_source(), or any points, to icc_domain_locate() on the domain that was
@@ -1048,8 +1048,8 @@ ICC_API icc_status icc_match_get_origins(const icc_match *match, uint32_t *sourc
  * @param points       n * dim coordinates
  * @param[out] images  n * dim coordinates; NaN for a point that is not finite. May be the same
  *                     array as `points`.
- * @param[out] off     how far each point was from the boundary of icc_match_source(); NaN for one
- *                     that is not finite. May be NULL
+ * @param[out] off     how far each point was from that nearest place; NaN for one that is not
+ *                     finite. May be NULL
  * @param env          may be NULL
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
  *

@@ -72,9 +72,10 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
         status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu facets, the target %zu",
                            source->n_facets, target->n_facets);
     else if (source->orientation != target->orientation)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY,
-                           "the source is %s, the target %s: both must turn the same way",
-                           turn_of(source), turn_of(target));
+        status = iccp_fail(
+            err, ICC_ERR_BOUNDARY, "the source is %s, the target %s: both must turn the same way%s",
+            turn_of(source), turn_of(target),
+            source->dim == 2 ? "; negate y where it points down, else match the outlines" : "");
     for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
         if (source->facets[i] != target->facets[i])
             status = iccp_fail_at(

@@ -4,6 +4,7 @@
 #include "match/feature_pairing.h"
 #include "match/feature_partners.h"
 #include "match/landmarks.h"
+#include "match/match_apply.h"
 #include "match/ring_pairing.h"
 #include "match/surfaces.h"
 
@@ -12,6 +13,7 @@ void iccp_match_release(icc_match *match)
     if (match == NULL)
         return;
     for (int e = 0; e < 2; ++e) {
+        iccp_facet_tree_free(&match->places[e], &match->memory);
         iccp_domain_release(match->domain[e]);
         iccp_free(&match->memory, match->origin[e]);
     }
@@ -106,6 +108,8 @@ static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const d
     }
     if (status == ICC_OK)
         status = make(match, &joint, &parts[2], err);
+    if (status == ICC_OK)
+        iccp_match_index(match);
     if (status == ICC_OK)
         fill_in(&match->info, &report, &common, &joint, n);
     iccp_joint_free(&joint, memory);

@@ -8,7 +8,9 @@ struct icc_match {
     iccp_memory memory;
     icc_domain *domain[2]; /* source and target with common vertices */
     size_t n;
-    uint32_t *origin[2]; /* n: vertices of the domains given; UINT32_MAX: added */
+    uint32_t *origin[2];       /* n: vertices of the domains given; UINT32_MAX: added */
+    iccp_facet_tree places[2]; /* over the domains' facets with those of lines and points; empty
+                                  where a domain has no such */
     icc_match_info info;
 };
 

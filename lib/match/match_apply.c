@@ -1,15 +1,40 @@
 #include "match/match_apply.h"
 
 #include "base/threads.h"
+#include "domain/features.h"
+#include "domain/inside.h"
 #include "math/vec.h"
 
 enum { AT_ONCE = 1024 };
 
 typedef struct follow {
     const icc_domain *from, *to;
+    const iccp_facet_tree *places;
     const double *points;
     double *images, *off;
 } follow;
+
+void iccp_match_index(icc_match *match)
+{
+    for (int e = 0; e < 2; ++e) {
+        const icc_domain *const d = match->domain[e];
+        if (d->features != NULL && d->features->n_places > d->n_facets)
+            iccp_facet_tree_create(&match->places[e], 2, d->vertices, d->features->n_places,
+                                   d->facets, &match->memory);
+    }
+}
+
+/* The facet nearest to a local point, of the boundary, of a line or of a point inside. */
+static void find(const follow *f, const double *local, uint32_t *facet, double *bary)
+{
+    double reachable[ICC_MAX_DIM], distance2;
+    if (f->places->n == 0) {
+        (void)iccp_domain_locate(f->from, local, false, facet, bary);
+        return;
+    }
+    iccp_inside_reach(2, local, reachable);
+    *facet = iccp_facet_tree_nearest(f->places, reachable, bary, &distance2);
+}
 
 /* The place of a facet, in the caller's coordinates; at a vertex, as that was given. */
 static void place_of(const icc_domain *domain, uint32_t facet, const double *bary, double *out)
@@ -35,7 +60,7 @@ static icc_status follow_chunk(void *argument, size_t begin, size_t end)
         uint32_t facet;
         if (iccp_all_finite(dim, p)) {
             iccp_frame_in(&f->from->frame, f->from->dim, p, local);
-            (void)iccp_domain_locate(f->from, local, false, &facet, bary);
+            find(f, local, &facet, bary);
             place_of(f->from, facet, bary, nearest);
             place_of(f->to, facet, bary, image);
             distance = iccp_vec_distance(dim, p, nearest);
@@ -51,6 +76,7 @@ static icc_status follow_chunk(void *argument, size_t begin, size_t end)
 icc_status iccp_match_apply(const icc_match *match, int side, size_t n, const double *points,
                             double *images, double *off, const iccp_env *env)
 {
-    follow f = {match->domain[side], match->domain[1 - side], points, images, off};
+    follow f = {
+        match->domain[side], match->domain[1 - side], &match->places[side], points, images, off};
     return iccp_for_chunks(env, "trace", n, AT_ONCE, follow_chunk, &f);
 }

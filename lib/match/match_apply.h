@@ -4,6 +4,9 @@
 
 #include "match/match.h"
 
+/* Prepares for points, once both domains are there. */
+void iccp_match_index(icc_match *match);
+
 /* See icc_match_apply(); `side`: that the points are on, 0 the source's. */
 icc_status iccp_match_apply(const icc_match *match, int side, size_t n, const double *points,
                             double *images, double *off, const iccp_env *env);

@@ -4,6 +4,7 @@
 #include "base/budget.h"
 #include "domain/domain_file.h"
 #include "domain/features.h"
+#include "match/match_apply.h"
 
 #include <string.h>
 
@@ -96,6 +97,7 @@ static icc_status read_match(icc_match **out, iccp_blob *b, const iccp_env *env)
         return status;
     match->info.dim = match->domain[0]->dim;
     match->info.n_vertices = match->n;
+    iccp_match_index(match);
     return iccp_blob_done(b) ? ICC_OK : ICC_ERR_FORMAT;
 }
 

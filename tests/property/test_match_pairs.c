@@ -139,6 +139,70 @@ static void check_map(const icc_match *match, const icc_env *env)
     icc_map_free(map);
 }
 
+/* All vertices of a domain, those inside too; free() them. */
+static double *vertices_of(const icc_domain *domain, size_t *n)
+{
+    icc_domain_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
+    double *const xy = calloc(info.n_vertices, 2 * sizeof *xy);
+    ck_assert_ptr_nonnull(xy);
+    ck_assert_int_eq(icc_domain_get_boundary(domain, xy, NULL), ICC_OK);
+    *n = info.n_vertices;
+    return xy;
+}
+
+/* The middles of the segments of lines go to middles. */
+static void check_lines(const icc_match *match, const double *from, const double *to)
+{
+    icc_feature_info line = {.size = sizeof line};
+    for (size_t f = 0; icc_domain_get_feature(icc_match_source(match), f, &line) == ICC_OK; ++f)
+        for (size_t v = line.first_vertex;
+             line.kind == ICC_FEATURE_LINE && v + 1 < line.first_vertex + line.n_vertices; ++v) {
+            double p[2], off;
+            for (size_t e = 0; e < 2; ++e)
+                p[e] = (from[2 * v + e] + from[2 * v + 2 + e]) / 2;
+            ck_assert_int_eq(icc_match_apply(match, 1, p, p, &off, NULL), ICC_OK);
+            for (size_t e = 0; e < 2; ++e)
+                ck_assert_double_le(fabs(p[e] - (to[2 * v + e] + to[2 * v + 2 + e]) / 2), 1e-9);
+            ck_assert_double_le(off, 1e-12);
+        }
+}
+
+/* Common vertices go to their partners bit by bit, both ways, and are the given ones bit by bit. */
+static void check_bits(const icc_match *match, const icc_domain *const *given)
+{
+    size_t n[2], n_given;
+    double *const xy[2] = {vertices_of(icc_match_source(match), &n[0]),
+                           vertices_of(icc_match_target(match), &n[1])};
+    ck_assert_uint_eq(n[0], n[1]);
+    double *const image = calloc(n[0], 2 * sizeof *image), *const off = calloc(n[0], sizeof *off);
+    uint32_t *const origin = calloc(n[0], 2 * sizeof *origin);
+    ck_assert_int_eq(icc_match_get_origins(match, origin, origin + n[0]), ICC_OK);
+    for (int e = 0; e < 2; ++e) {
+        ck_assert_int_eq((e == 0 ? icc_match_apply : icc_match_apply_inverse)(match, n[0], xy[e],
+                                                                              image, off, NULL),
+                         ICC_OK);
+        ck_assert_mem_eq(image, xy[1 - e], 2 * n[0] * sizeof *image);
+        size_t n_known = 0;
+        double *const old = vertices_of(given[e], &n_given);
+        for (size_t v = 0; v < n[0]; ++v) {
+            const uint32_t from = origin[n[0] * (size_t)e + v];
+            ck_assert_double_eq(off[v], 0);
+            n_known += from != UINT32_MAX;
+            if (from != UINT32_MAX)
+                ck_assert_mem_eq(xy[e] + 2 * v, old + 2 * (size_t)from, 2 * sizeof *old);
+        }
+        ck_assert_uint_eq(n_known, n_given);
+        free(old);
+    }
+    check_lines(match, xy[0], xy[1]);
+    free(origin);
+    free(image);
+    free(off);
+    free(xy[0]);
+    free(xy[1]);
+}
+
 START_TEST(matched_and_mapped)
 {
     random_source r = {.state = 11};
@@ -164,8 +228,10 @@ START_TEST(matched_and_mapped)
             ck_assert(status == ICC_OK || err.message[0] != '\0');
             n_matched += status == ICC_OK;
             n_ambiguous += status != ICC_OK;
-            if (match != NULL)
+            if (match != NULL) {
                 check_map(match, &env);
+                check_bits(match, (const icc_domain *[]){source, target});
+            }
             icc_match_free(match);
             ck_assert_uint_eq(counts.n_live, 0);
         }

@@ -88,7 +88,7 @@ holds out 'paired by arc length'
 # A mirror image is said to be one.
 awk '{ print -$1, $2 }' key.txt >mirrored.txt
 run 0 match -s key.txt -t mirrored.txt --landmarks /dev/null
-holds out 'looks like a mirror image'
+holds out 'the mirror image fits better'
 
 # Holes, lines and points inside go together, whatever their order and vertices; results can be mapped.
 printf '{"type": "FeatureCollection", "features": [%s]}\n' \

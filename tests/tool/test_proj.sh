@@ -70,6 +70,31 @@ numbers layer.geojson >given
 numbers back.geojson >theirs
 close_to theirs given 1e-6
 
+# A system with latitude first: GDAL takes the pipeline that the command names, and then the longitude comes out first, as
+# GeoJSON has it. What is not known is said; with east first there is nothing to say.
+printf '0 0\n100 0\n100 100\n0 100\n' >sheet.txt
+printf '8 47\n9 47\n9 48\n8 48\n' >degrees.txt
+printf '50 25\n' >place.txt
+run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --target-crs EPSG:4326
+grep -q 'degrees.json: x comes first, but in EPSG:4326 latitude or northing does' err || complain "no word of axes: $(cat err)"
+pipeline=$(sed -n "s/.*-ct needs '\([^']*\)'.*/\1/p" err)
+printf '{"type": "Point", "coordinates": [50, 25]}\n' >place.geojson
+ogr2ogr -a_srs 'ENGCRS["s",EDATUM["s"],CS[Cartesian,2],AXIS["x",east],AXIS["y",north],LENGTHUNIT["metre",1]]' \
+    place.gpkg place.geojson
+ogr2ogr -a_srs EPSG:4326 -ct "$pipeline" there.gpkg place.gpkg || complain "GDAL does not take: $pipeline"
+ogr2ogr -lco COORDINATE_PRECISION=9 there.geojson there.gpkg
+numbers there.geojson | tail -n 2 >theirs
+printf '8.5\n47.25\n' >expected
+close_to theirs expected 1e-9
+run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --source-crs EPSG:3035 --target-crs EPSG:4326
+grep -q 'pipeline +step +proj=axisswap +order=2,1 +step +proj=tinshift' err || complain "no swap before: $(cat err)"
+run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --target-crs 'a local system'
+grep -q 'the order of the axes of a local system is not known here' err || complain "not said: $(cat err)"
+for crs in EPSG:2056 EPSG:32632 EPSG:3857 OGC:CRS84; do
+    run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --target-crs $crs
+    [ ! -s err ] || complain "words about $crs: $(cat err)"
+done
+
 # A picture of 20 pixels a metre: GDAL's georeferenced one, and ours with cages in pixels.
 awk 'BEGIN {
     print "ncols 320\nnrows 280\nxllcorner 2599998\nyllcorner 1199999\ncellsize 0.05"

@@ -57,6 +57,8 @@ typedef struct cage {
     size_t *facet_lines;       /* as `lines` */
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
+    bool cut;                  /* at the antimeridian, into several polygons */
+    bool turned;               /* y has the sign that it does not have in the file */
     size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
     size_t n_features;         /* inside a polygon; in this order the domain's, but for circles */
     cage_feature *features;
@@ -75,6 +77,15 @@ typedef struct cage {
 } cage;
 
 void cage_free(cage *c);
+
+/* Reverses y of n points of the plane; 0 stays 0. */
+void points_turn(size_t n, double *points);
+
+/* Reverses y in a cage in the plane, as the file has it or back. */
+void cage_turn(cage *c);
+
+/* y as it is in the cage's file. */
+double cage_given_y(const cage *c, const double *point);
 
 /* ---- for the readers ---- */
 

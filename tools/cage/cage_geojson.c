@@ -11,6 +11,7 @@
 #include "base/foreign.h"
 #include "base/json_in.h"
 #include "base/number.h"
+#include "cage/cage_degrees.h"
 #include "cage/cage_features.h"
 
 #include <math.h>
@@ -298,6 +299,14 @@ static bool read_object(cage *out, const cage_choice *choice, const cJSON *objec
     return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
 }
 
+/* Files of before 2016 name their reference system if they are not in degrees. */
+static bool is_in_degrees(const cJSON *object)
+{
+    const cJSON *crs = json_get(json_get(json_get(object, "crs"), "properties"), "name");
+    const char *name = cJSON_GetStringValue(crs);
+    return name == NULL || strstr(name, "CRS84") != NULL || strstr(name, "4326") != NULL;
+}
+
 /* The file's one text, or its sequence of Features as a collection that says so. */
 static cJSON *parse(const char *text, size_t n, problem *wrong)
 {
@@ -348,7 +357,8 @@ bool cage_read_geojson(cage *out, const cage_choice *choice, const char *text, s
     cJSON *object = parse(text, n, wrong);
     if (object == NULL)
         return false;
-    bool good = read_object(out, choice, object, wrong);
+    bool good = read_object(out, choice, object, wrong) &&
+                (!is_in_degrees(object) || cage_check_degrees(out, wrong));
     cJSON_Delete(object);
     return good;
 }

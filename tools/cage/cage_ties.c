@@ -39,7 +39,8 @@ bool tie_find_ends(uint32_t ends[2], const cage *c, size_t i, problem *wrong)
             return spoilt(wrong, tie->line,
                           "%s %s at (%.12g, %.12g), where the cage and what is inside it have no "
                           "vertex",
-                          feature_name(name, tie), k == 0 ? "begins" : "ends", at[0], at[1]);
+                          feature_name(name, tie), k == 0 ? "begins" : "ends", at[0],
+                          cage_given_y(c, at));
     }
     return true;
 }

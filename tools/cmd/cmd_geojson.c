@@ -115,6 +115,11 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
         return FAILED;
     if (over)
         note("%s: the layer is replaced by its image", to);
+    if (r->n_jumps > 0)
+        note("%s: the longitudes of %zu lines or rings jump by more than 180 degrees; they are "
+             "taken "
+             "the long way round, not over the antimeridian",
+             in, r->n_jumps);
     if (!lost)
         return DONE;
     note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: %s",

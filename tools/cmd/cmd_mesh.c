@@ -104,10 +104,14 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images,
     outfile file;
     if (!outfile_open(&file, j->args->operands[1]))
         return FAILED;
+    const bool inverse = j->args->inverse;
     double *places = need(m->n_vertices, m->dim * sizeof *places);
-    for (size_t i = 0; i < m->n_vertices; i++)
+    for (size_t i = 0; i < m->n_vertices; i++) {
         memcpy(places + m->dim * i, (status[i] == ICC_OK ? images : m->points) + m->dim * i,
                m->dim * sizeof *places);
+        if (j->cages[status[i] == ICC_OK ? !inverse : inverse].turned)
+            points_turn(1, places + m->dim * i);
+    }
     mesh_write(m, places, file.stream);
     free(places);
     return outfile_close(&file) ? DONE : FAILED;
@@ -227,6 +231,8 @@ static int map_mesh(job *j, mesh_file *m)
 static int make_and_map(job *j, mesh_file *m)
 {
     int result = output_fits(j->args->command, j->args->operands[1], m->format);
+    if (j->cages[j->args->inverse].turned)
+        points_turn(m->n_vertices, m->points);
     if (result == DONE)
         result = job_make_map(j);
     return result == DONE ? map_mesh(j, m) : result;

@@ -89,7 +89,9 @@ static panel make_panel(const plot *x, int what, size_t i)
     const column *c = &x->columns[i];
     const icc_domain_info *box = &c->stages.box;
     double width = box->upper[0] - box->lower[0], height = box->upper[1] - box->lower[1];
-    panel p = {.svg = x->svg, .stages = &c->stages, .side = c->side, .y_down = x->job.args->y_down};
+    panel p = {.svg = x->svg, .stages = &c->stages, .side = c->side};
+    const args *a = x->job.args;
+    p.y_down = a->y_down && (a->y_down_side == 0 || a->y_down_side == SIDE_BOTH);
     snprintf(p.clip, sizeof p.clip, "shape-%d-%zu", what, i);
     p.scale = x->size / fmax(width, height);
     p.width = what == ROW_SURFACE ? c->width : p.scale * width;
@@ -274,7 +276,10 @@ static int plot_plane(plot *x)
 int run_plot(const args *a)
 {
     const char *dot = strrchr(a->operands[0], '.');
-    if (dot != NULL && strcmp(dot, ".vtk") == 0)
+    bool vtk = dot != NULL && strcmp(dot, ".vtk") == 0;
+    if (vtk && a->y_down)
+        return misused(a->command, "--y-down is for pictures of the plane");
+    if (vtk)
         return plot_vtk(a);
     plot x = {0};
     double began = seconds_now();

@@ -19,6 +19,13 @@ void carrier_start(carrier *out, bool inverse, const icc_env *env)
     }
 }
 
+/* Points of one side between the maps' domains and here. */
+static void turn(const carrier *c, size_t side, size_t n, double *points)
+{
+    for (size_t i = 0; c->turned[side] && i < n; i++)
+        points[2 * i + 1] = 0 - points[2 * i + 1];
+}
+
 /* The vertices of one side behind those that there are, and its first n_facets facets. */
 static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain,
                                const icc_domain_info *info, size_t n_facets)
@@ -31,6 +38,7 @@ static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain
     uint32_t *facets = c->facets[side] + dim * c->n_facets;
     icc_status status =
         icc_domain_get_boundary(domain, c->vertices[side] + dim * c->n_vertices, facets);
+    turn(c, side, n, c->vertices[side] + dim * c->n_vertices);
     for (size_t i = 0; i < dim * n_facets; i++)
         facets[i] += (uint32_t)c->n_vertices;
     return status;
@@ -42,14 +50,15 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
 {
     c->reversed = grow(c->reversed, &c->room_reversed, c->n_facets + n_facets, sizeof *c->reversed);
     for (size_t i = 0; i < n_facets; i++)
-        c->reversed[c->n_facets + i] = domain->orientation < 0;
+        c->reversed[c->n_facets + i] = (domain->orientation < 0) != c->turned[0];
     for (size_t k = 0; k < domain->n_features && n_facets == domain->n_facets; k++) {
         icc_feature_info hole = {.size = sizeof hole};
         icc_domain_get_feature(from, k, &hole);
         if (hole.kind != ICC_FEATURE_HOLE)
             continue;
         for (size_t i = 0; i < hole.n_vertices; i++)
-            c->reversed[c->n_facets + hole.first_facet + i] = hole.orientation > 0;
+            c->reversed[c->n_facets + hole.first_facet + i] =
+                (hole.orientation > 0) != c->turned[0];
         c->in_holes = grow(c->in_holes, &c->room_holes, 2 * (c->n_holes + 1), sizeof *c->in_holes);
         inner_point(hole.n_vertices, c->vertices[0] + 2 * (c->n_vertices + hole.first_vertex),
                     c->in_holes + 2 * c->n_holes);
@@ -60,8 +69,9 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
 static void widen_box(carrier *c, const icc_domain_info *info)
 {
     for (size_t k = 0; k < c->dim; k++) {
-        c->lower[k] = fmin(c->lower[k], info->lower[k]);
-        c->upper[k] = fmax(c->upper[k], info->upper[k]);
+        bool is_turned = c->turned[0] && k == 1;
+        c->lower[k] = fmin(c->lower[k], is_turned ? -info->upper[k] : info->lower[k]);
+        c->upper[k] = fmax(c->upper[k], is_turned ? -info->lower[k] : info->upper[k]);
         c->size = fmax(c->size, c->upper[k] - c->lower[k]);
         c->largest = fmax(c->largest, fmax(fabs(info->lower[k]), fabs(info->upper[k])));
     }
@@ -142,22 +152,25 @@ icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *face
                            double *distance)
 {
     icc_status status = ICC_OK;
+    double own[ICC_MAX_DIM];
+    memcpy(own, point, c->dim * sizeof *own);
+    turn(c, 0, 1, own);
     *distance = HUGE_VAL;
     *facet = 0;
     for (size_t m = 0; m < c->n_maps && status == ICC_OK; m++) {
         int32_t where;
-        uint32_t own;
+        uint32_t at;
         double bary[ICC_MAX_DIM], nearest[ICC_MAX_DIM], square = 0;
-        status = icc_domain_locate(c->maps[m].from, 1, point, &where, &own, bary, c->env);
-        if (status != ICC_OK || own >= c->maps[m].n_facets)
+        status = icc_domain_locate(c->maps[m].from, 1, own, &where, &at, bary, c->env);
+        if (status != ICC_OK || at >= c->maps[m].n_facets)
             continue;
-        carrier_facet_point(c, 0, c->maps[m].first_facet + own, bary, nearest);
+        carrier_facet_point(c, 0, c->maps[m].first_facet + at, bary, nearest);
         for (size_t k = 0; k < c->dim; k++)
             square += (point[k] - nearest[k]) * (point[k] - nearest[k]);
         if (!(sqrt(square) < *distance))
             continue;
         *distance = sqrt(square);
-        *facet = c->maps[m].first_facet + own;
+        *facet = c->maps[m].first_facet + at;
         memcpy(shares, bary, c->dim * sizeof *bary);
     }
     return status;
@@ -166,10 +179,13 @@ icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *face
 icc_status carrier_is_outside(const carrier *c, const double *point, bool *out)
 {
     icc_status status = ICC_OK;
+    double own[ICC_MAX_DIM];
+    memcpy(own, point, c->dim * sizeof *own);
+    turn(c, 0, 1, own);
     *out = true;
     for (size_t m = 0; m < c->n_maps && *out && status == ICC_OK; m++) {
         int32_t where = ICC_OUTSIDE;
-        status = icc_domain_locate(c->maps[m].from, 1, point, &where, NULL, NULL, c->env);
+        status = icc_domain_locate(c->maps[m].from, 1, own, &where, NULL, NULL, c->env);
         *out = where == ICC_OUTSIDE;
     }
     return status;
@@ -207,16 +223,32 @@ static icc_status map_rest(const carrier *c, const icc_map *map, size_t n, const
     return ran;
 }
 
+/* Maps what lies inside; the others fail. */
+static icc_status map_inside(const carrier *c, size_t n, const double *points, double *images,
+                             icc_status *status, size_t *n_failed)
+{
+    double *own = c->turned[0] ? need(n, c->dim * sizeof *own) : NULL;
+    if (own != NULL) {
+        memcpy(own, points, n * c->dim * sizeof *own);
+        turn(c, 0, n, own);
+        points = own;
+    }
+    icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(
+        c->maps[0].map, n, points, images, status, n_failed, c->env);
+    for (size_t m = 1; m<c->n_maps && * n_failed> 0 && ran == ICC_OK; m++)
+        ran = map_rest(c, c->maps[m].map, n, points, images, status, n_failed);
+    turn(c, 1, n, images);
+    free(own);
+    return ran;
+}
+
 icc_status carrier_map(const carrier *c, size_t n, const double *points, double *images,
                        icc_status *status, bool *snapped)
 {
     size_t n_failed;
     if (snapped != NULL)
         memset(snapped, 0, n * sizeof *snapped);
-    icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(
-        c->maps[0].map, n, points, images, status, &n_failed, c->env);
-    for (size_t m = 1; m < c->n_maps && n_failed > 0 && ran == ICC_OK; m++)
-        ran = map_rest(c, c->maps[m].map, n, points, images, status, &n_failed);
+    icc_status ran = map_inside(c, n, points, images, status, &n_failed);
     for (size_t i = 0; i < n && n_failed > 0 && ran == ICC_OK; i++) {
         const double *point = points + c->dim * i;
         uint32_t facet;

@@ -4,6 +4,7 @@
 #include "geo/geo_carry.h"
 
 #include "base/allocate.h"
+#include "base/degrees.h"
 #include "base/orientation.h"
 #include "geo/geo_carriage.h"
 
@@ -212,6 +213,20 @@ static bool refine(carriage *c, bool *whole)
     return true;
 }
 
+static size_t count_jumps(const geo_shape *s)
+{
+    size_t n = 0;
+    for (size_t p = 0; p < s->n_paths && are_degrees(s->n, s->points); p++) {
+        bool jumps = false;
+        for (size_t i = 1; i < s->paths[p].n; i++) {
+            const double *at = s->points + 2 * (s->paths[p].first + i);
+            jumps = jumps || longitudes_jump(at[-2], at[0]);
+        }
+        n += jumps;
+    }
+    return n;
+}
+
 /* Maps a geometry in place if it is in the cage as a whole, or if it is kept; else does what the
  * policy says. */
 static bool carry_geometry(carriage *c)
@@ -225,6 +240,7 @@ static bool carry_geometry(carriage *c)
     if (!map_positions(c, &n_without))
         return false;
     bool points = o->type <= GEO_MULTI_POINT;
+    c->out->n_jumps += points ? 0 : count_jumps(&c->shape);
     bool whole = points ? take_points(c) : node_all(c) && n_without == 0;
     if (whole && c->policy == GEO_CLIP && o->type > GEO_MULTI_LINE)
         whole = !covers_hole(c);

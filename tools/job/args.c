@@ -147,6 +147,12 @@ static int take_option(reading *r, const option *o, const char *attached)
         *flag_at(r->out, o->offset) = true;
         return attached != NULL ? set_length(r, &length, attached) : DONE;
     }
+    if (o->kind == OPTION_WITH_CHOICE) {
+        option named = *o;
+        named.offset = o->present;
+        *flag_at(r->out, o->offset) = true;
+        return attached != NULL ? set_choice(r, &named, attached) : DONE;
+    }
     if (o->kind == OPTION_FLAG || o->kind == OPTION_HELP) {
         if (attached != NULL)
             return misused(r->command->name, "--%s takes no value", o->name);

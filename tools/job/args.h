@@ -25,17 +25,19 @@ typedef struct args {
     size_t n_functions;
     int32_t improve; /* steps at most; -1: the library's choice */
     double min_fall;
-    double tolerance; /* 0: the command's choice */
-    int32_t outside;  /* one of the policies below; 0: the command's choice */
-    int32_t require;  /* what must hold, or nothing is written; 0: nothing */
-    int32_t quality;  /* of JPEG; 0: not given */
-    int32_t turning;  /* of outlines that are matched; 0: the library's choice */
-    double snap;      /* below 0: the command's choice */
-    double flatten;   /* how far an edge may be from its curve; 0: a fixed number of edges */
-    double weld;      /* how far apart vertices may be that `welds` joins */
+    double tolerance;    /* 0: the command's choice */
+    int32_t outside;     /* one of the policies below; 0: the command's choice */
+    int32_t require;     /* what must hold, or nothing is written; 0: nothing */
+    int32_t quality;     /* of JPEG; 0: not given */
+    int32_t turning;     /* of outlines that are matched; 0: the library's choice */
+    int32_t y_down_side; /* in which cages y points down; 0: not given */
+    double snap;         /* below 0: the command's choice */
+    double flatten;      /* how far an edge may be from its curve; 0: a fixed number of edges */
+    double weld;         /* how far apart vertices may be that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
-    size_t n_maximum, n_target_maximum;       /* their coordinates; 0: not given */
-    bool needs_target, may_pair, takes_parts; /* what the command does with two cages */
+    size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
+    bool needs_target, may_pair, takes_parts,
+        turns_cages; /* what the command does with two cages */
     bool constrained, unconstrained;
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
@@ -54,6 +56,9 @@ typedef struct args {
     unsigned char background[4];
     int32_t lines;
 } args;
+
+/* Which of two cages. */
+enum { SIDE_SOURCE = 1, SIDE_TARGET, SIDE_BOTH };
 
 /* What fills surfaces in space. */
 enum { MESHER_OWN = 1, MESHER_TETGEN };
@@ -77,6 +82,7 @@ enum {
     FOR_CHARTS = 255, /* all of the above */
     MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
     TAKES_PARTS = FOR_MAP | FOR_WARP | FOR_CHECK,
+    TURNS_CAGES = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_PLOT | 1024, /* FOR_MATCH */
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,

@@ -174,6 +174,10 @@ static int check_match(const args *a, const command *c)
                                                     : NULL;
     if (a->match == NULL && matched_only != NULL)
         return misused(c->name, "--%s goes with --match", matched_only);
+    bool turns = a->y_down_side == SIDE_SOURCE || a->y_down_side == SIDE_TARGET;
+    if (turns && (a->mesh != NULL || a->target_mesh != NULL))
+        return misused(c->name, "--y-down=%s does not go with --mesh",
+                       choice_name(sides, a->y_down_side));
     if (a->match != NULL && (a->mesh != NULL || a->target_mesh != NULL))
         return misused(c->name, "--match is for outlines, not for --mesh");
     if (a->match != NULL && a->repair != NULL)
@@ -286,6 +290,7 @@ int args_check(args *a, const command *c)
     a->needs_target = (c->needs_target || a->match != NULL) && !a->fill;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;
+    a->turns_cages = (c->bit & TURNS_CAGES) != 0;
     settle_functions(a);
     int result = settle_match(a, c);
     if (result == DONE)

@@ -6,12 +6,12 @@
 
 #include <string.h>
 
-void positions_write(FILE *stream, size_t n, const double *points, bool closed)
+void positions_write(FILE *stream, const cage *c, size_t n, const double *points, bool closed)
 {
     fputc('[', stream);
     for (size_t i = 0; i < n + closed; i++) {
         const double *p = points + 2 * (i % n);
-        fprintf(stream, "%s[%.17g, %.17g]", i > 0 ? ",\n  " : "", p[0], p[1]);
+        fprintf(stream, "%s[%.17g, %.17g]", i > 0 ? ",\n  " : "", p[0], cage_given_y(c, p));
     }
     fputc(']', stream);
 }
@@ -22,11 +22,11 @@ void cage_write_polygon(FILE *stream, const cage *c, cage_role role)
             "{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\"}, \"geometry\": "
             "{\"type\": \"Polygon\", \"coordinates\": [",
             cage_role_name(role));
-    positions_write(stream, c->n, c->points, true);
+    positions_write(stream, c, c->n, c->points, true);
     for (size_t i = 0; i < c->n_features; i++)
         if (c->features[i].kind == ICC_FEATURE_HOLE) {
             fputs(",\n ", stream);
-            positions_write(stream, c->features[i].n, c->features[i].points, true);
+            positions_write(stream, c, c->features[i].n, c->features[i].points, true);
         }
     fputs("]}}", stream);
 }
@@ -54,6 +54,7 @@ int cages_write(const char *name, const cage *source, const cage *target)
         write_collection(file.stream, source, target);
     else
         for (size_t i = 0; i < one->n; i++)
-            fprintf(file.stream, "%.17g %.17g\n", one->points[2 * i], one->points[2 * i + 1]);
+            fprintf(file.stream, "%.17g %.17g\n", one->points[2 * i],
+                    cage_given_y(one, one->points + 2 * i));
     return outfile_close(&file) ? DONE : FAILED;
 }

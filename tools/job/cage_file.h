@@ -6,8 +6,8 @@
 
 #include <stdio.h>
 
-/* The positions of a polyline or, closed, of a ring, as GeoJSON has them. */
-void positions_write(FILE *stream, size_t n, const double *points, bool closed);
+/* The positions of a polyline or, closed, of a ring of a cage, as GeoJSON has them. */
+void positions_write(FILE *stream, const cage *c, size_t n, const double *points, bool closed);
 
 /* The outline and the holes as a GeoJSON feature with the cage's role. */
 void cage_write_polygon(FILE *stream, const cage *c, cage_role role);

@@ -74,6 +74,14 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
+/* What helps cages that turn in opposite ways. */
+static const char *unlike_turn(const job *j, const icc_error *err)
+{
+    return strstr(err->message, "turn the same way") == NULL ? ""
+           : !j->args->turns_cages                           ? " (--match auto)"
+                                   : " (--y-down=source or --y-down=target; else --match auto)";
+}
+
 int job_failed_with(job *j, const icc_error *err, const char *hint)
 {
     progress_end(&j->bar);
@@ -82,8 +90,9 @@ int job_failed_with(job *j, const icc_error *err, const char *hint)
     side_text where;
     features_translate(translated, sizeof translated, c,
                        err->message[0] != '\0' ? err->message : icc_status_name(err->status));
-    return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s",
-                  job_side(where, j, err->side), translated, hint);
+    const char *turned = c->turned && strchr(translated, '(') != NULL ? " (with y reversed)" : "";
+    return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s%s%s",
+                  job_side(where, j, err->side), translated, turned, unlike_turn(j, err), hint);
 }
 
 int job_failed(job *j, const icc_error *err)
@@ -178,7 +187,10 @@ static icc_status add_to_carrier(const job *j, carrier *c)
 
 int job_start_carrier(job *j, carrier *c)
 {
-    carrier_start(c, j->args->inverse, &j->env);
+    bool inverse = j->args->inverse;
+    carrier_start(c, inverse, &j->env);
+    c->turned[0] = j->cages[inverse].turned;
+    c->turned[1] = j->cages[!inverse].turned;
     icc_status ran = add_to_carrier(j, c);
     for (size_t i = 0; i < j->n_parts && ran == ICC_OK; i++)
         ran = add_to_carrier(&j->parts[i], c);

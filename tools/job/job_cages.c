@@ -4,6 +4,7 @@
 #include "base/allocate.h"
 #include "base/system.h"
 #include "cage/cage_defects.h"
+#include "cage/cage_degrees.h"
 #include "cage/cage_read.h"
 #include "cage/weld.h"
 #include "job/correspond.h"
@@ -27,6 +28,19 @@ static int join_vertices(job *j, size_t side)
     return DONE;
 }
 
+/* Where y points down in one of two cages, its y is reversed, so that both turn alike. */
+static int turn_cage(job *j, size_t side)
+{
+    cage *c = &j->cages[side];
+    if (j->args->y_down_side != (int32_t)side + SIDE_SOURCE)
+        return DONE;
+    if (c->dim != 2 || c->cells != NULL)
+        return failed(job_file(j, (int)side + 1), 0,
+                      "--y-down is for cages with vertices in the plane");
+    cage_turn(c);
+    return DONE;
+}
+
 /* The curves of one cage are cut into no fewer edges than those of the other, if that has been read
  * and both are to correspond. */
 static int read_cage(job *j, size_t side, const char *named, const char *text, size_t n)
@@ -41,7 +55,7 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
                                 .like = other->n_simplices > 0 ? other : NULL};
     size_t dim = side == 0 ? 2 : job_dim(j);
     if (cage_read(&j->cages[side], &choice, dim, text, n, &wrong))
-        return join_vertices(j, side);
+        return turn_cage(j, side) == DONE ? join_vertices(j, side) : FAILED;
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
     return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
@@ -92,7 +106,7 @@ static int check_curves(const job *j)
 }
 
 /* Points of options must have as many coordinates as the cage. */
-static int check_points(const job *j)
+static int check_points(job *j)
 {
     const args *a = j->args;
     const struct {
@@ -103,6 +117,10 @@ static int check_points(const job *j)
         if (points[i].n > 0 && points[i].n != job_dim(j))
             return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
                            points[i].n, job_dim(j));
+    if (j->cages[0].turned)
+        points_turn(1, j->own.maximum);
+    if (a->y_down_side == SIDE_TARGET)
+        points_turn(1, j->own.target_maximum);
     return DONE;
 }
 
@@ -230,6 +248,10 @@ static int make_source(job *j)
 static void note_all(const job *j)
 {
     match_note(j);
+    for (size_t side = 0; side < 2; side++)
+        if (j->cages[side].cut)
+            note("%s: each polygon of the MultiPolygon is mapped by itself%s",
+                 job_file(j, (int)side + 1), cage_cut_text(&j->cages[side]));
     for (size_t side = 0; side < 2; side++)
         if (j->cages[side].n_heights > 0)
             note("%s: heights are left out; a cage in the plane has x and y",

@@ -1,6 +1,7 @@
 #include "job/match_cages.h"
 
 #include "base/allocate.h"
+#include "cage/cage_degrees.h"
 #include "job/landmark_file.h"
 
 #include <math.h>
@@ -25,8 +26,8 @@ int match_check(const job *j)
                           job_side(where, j, side), c->dim, c->dim == 1 ? "" : "s");
         if (c->n_more > 0)
             return failed(job_file(j, side), 0,
-                          "%sthe shape has %zu parts; --match takes one polygon",
-                          job_side(where, j, side), 1 + c->n_more);
+                          "%sthe shape has %zu parts; --match takes one polygon%s",
+                          job_side(where, j, side), 1 + c->n_more, cage_cut_text(c));
     }
     return DONE;
 }
@@ -43,7 +44,7 @@ static int refuse(job *j, icc_error *err, const table *landmarks)
                            is_common                          ? " (of the common vertices)"
                            : err->status != ICC_ERR_AMBIGUOUS ? ""
                            : err->item == ICC_ITEM_FEATURE    ? " (--landmarks FILE)"
-                           : strstr(err->message, "mirror") != NULL
+                           : strstr(err->message, "mirror") != NULL && j->args->turns_cages
                                ? " (--y-down=source or --y-down=target; else --landmarks FILE)"
                                : " (--landmarks FILE, or --match arc)");
 }
@@ -102,7 +103,9 @@ static cage common_cage(const cage *given, const cage *source, const icc_domain 
     if (size.dim == 3)
         return common_surface(domain, &size);
     bool has_features = icc_domain_get_feature(domain, 0, &first) == ICC_OK;
-    cage c = {.dim = 2, .n = has_features ? first.first_vertex : size.n_vertices};
+    cage c = {.dim = 2,
+              .turned = given->turned,
+              .n = has_features ? first.first_vertex : size.n_vertices};
     c.n_heights = given->n_heights;
     c.points = need(size.n_vertices, 2 * sizeof *c.points);
     c.lines = need(c.n, sizeof *c.lines);
@@ -141,6 +144,9 @@ int match_cages(job *j)
     table landmarks = {0};
     if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks, job_dim(j)) != DONE)
         return FAILED;
+    for (size_t side = 0; side < 2; side++)
+        for (size_t i = 0; j->cages[side].turned && i < landmarks.n; i++)
+            points_turn(1, landmarks.values + 4 * i + 2 * side);
     icc_match_options options = {
         .size = sizeof options, .turning = a->turning, .keep_source = a->keep_source};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;
@@ -159,7 +165,9 @@ int match_cages(job *j)
 
 void match_note(const job *j)
 {
-    static const char asks[] = "is y down in one of them? (--y-down=source or --y-down=target)";
+    const char *asks = j->args->turns_cages
+                           ? "is y down in one of them? (--y-down=source or --y-down=target)"
+                           : "is y down in one of them, but not in the other?";
     const icc_match_info *info = &j->matched;
     char turned[48];
     bool large = fabs(info->turn) > LARGE_TURN && j->args->turning != ICC_TURNING_FREE;

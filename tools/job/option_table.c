@@ -36,6 +36,9 @@ const choice outsides[] = {{"keep", OUTSIDE_KEEP},
 
 const choice requirements[] = {{"certified", REQUIRE_CERTIFIED}, {NULL, 0}};
 
+const choice sides[] = {
+    {"source", SIDE_SOURCE}, {"target", SIDE_TARGET}, {"both", SIDE_BOTH}, {NULL, 0}};
+
 const choice turnings[] = {{"upright", ICC_TURNING_UPRIGHT}, {"free", ICC_TURNING_FREE}, {NULL, 0}};
 
 const char *choice_name(const choice *choices, int32_t value)
@@ -48,7 +51,8 @@ const char *choice_name(const choice *choices, int32_t value)
 
 bool option_takes_word(const option *o)
 {
-    return o->value != NULL && o->kind != OPTION_REPORT && o->kind != OPTION_WITH_LENGTH;
+    return o->value != NULL && o->kind != OPTION_REPORT && o->kind != OPTION_WITH_LENGTH &&
+           o->kind != OPTION_WITH_CHOICE;
 }
 
 #define AT(member) offsetof(args, member)
@@ -378,9 +382,25 @@ const option options[] = {
      .help = "in space: the direction to the eye (default: to the right of the normal and above)"},
     {.name = "y-down",
      .kind = OPTION_FLAG,
-     .commands = FOR_PLOT | FOR_WEIGHTS,
+     .commands = FOR_WEIGHTS,
      .offset = AT(y_down),
      .help = "y points down, as in pictures"},
+    {.name = "y-down",
+     .kind = OPTION_WITH_CHOICE,
+     .commands = FOR_PLOT,
+     .offset = AT(y_down),
+     .present = AT(y_down_side),
+     .choices = sides,
+     .value = "[=source|target]",
+     .help = "y points down, as in pictures: in both cages, or in the source or target alone"},
+    {.name = "y-down",
+     .kind = OPTION_CHOICE,
+     .commands = TURNS_CAGES & ~(unsigned)FOR_PLOT,
+     .offset = AT(y_down_side),
+     .choices = sides,
+     .value = "source|target|both",
+     .help = "y points down, as in pictures, in the source or the target alone; or in both, which "
+             "changes nothing"},
     {.name = "picture",
      .kind = OPTION_TEXT,
      .commands = FOR_WEIGHTS,

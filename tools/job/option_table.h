@@ -15,6 +15,7 @@ typedef enum option_kind {
     OPTION_COLOUR,      /* unsigned char[4], and a bool that it is there */
     OPTION_REPORT,      /* bool, and a const char * when =FILE follows */
     OPTION_WITH_LENGTH, /* bool, and a double when =LENGTH follows */
+    OPTION_WITH_CHOICE, /* bool, and an int32_t when =NAME follows */
     OPTION_HELP
 } option_kind;
 
@@ -40,7 +41,7 @@ typedef struct option {
 } option;
 
 extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
-    weightings[], kernels[], initials[], outsides[], turnings[], requirements[];
+    weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[];
 
 /* The name of a value that the library gave. */
 const char *choice_name(const choice *choices, int32_t value);

@@ -1,6 +1,7 @@
 #include "job/parts.h"
 
 #include "base/allocate.h"
+#include "cage/cage_degrees.h"
 #include "cage/cage_features.h"
 #include "job/correspond.h"
 #include "job/nesting.h"
@@ -26,17 +27,19 @@ static int check_cages(const job *j)
     if (a->target == NULL)
         return failed(
             a->source, 0,
-            "the shape has %zu parts; only maps take several, and --target FILE is missing", n[0]);
+            "the shape has %zu parts; only maps take several, and --target FILE is missing%s", n[0],
+            cage_cut_text(&j->cages[0]));
     if (n[0] != n[1]) {
         size_t side = n[1] > n[0];
         return failed(job_file(j, (int)side + 1), 0,
-                      "%sthe shape has %zu parts, but the %s %zu; they correspond one by one",
+                      "%sthe shape has %zu parts, but the %s %zu; they correspond one by one%s",
                       job_side(where, j, (int)side + 1), n[side], side == 0 ? "target" : "source",
-                      n[!side]);
+                      n[!side], cage_cut_text(&j->cages[side]));
     }
     if (!a->takes_parts)
-        return failed(a->source, 0, "the shape has %zu parts; make one map per part for libicc %s",
-                      n[0], a->command);
+        return failed(a->source, 0,
+                      "the shape has %zu parts; make one map per part for libicc %s%s", n[0],
+                      a->command, cage_cut_text(&j->cages[0]));
     if (j->cages[0].n_ties > 0)
         return failed(a->source, 0, "ties are for cages of a single polygon");
     return DONE;
@@ -58,6 +61,7 @@ static void fill_hole(cage *out, const cage *all, const cage_hole *nesting, cage
 {
     const cage_feature *hole = &cage_polygon(all, place.polygon)->features[place.hole];
     out->dim = 2;
+    out->turned = all->turned;
     add_ring(out, 0, hole->n, hole->points);
     for (size_t i = 0; i <= all->n_more; i++)
         if (nesting[i].polygon == place.polygon && nesting[i].hole == place.hole)

@@ -56,7 +56,7 @@ int ties_check(job *j)
 /* ------------------------------------------------------------------ writing */
 
 /* A line, a point or a tie. */
-static void write_feature(FILE *stream, const cage_feature *f, cage_role role)
+static void write_feature(FILE *stream, const cage *c, const cage_feature *f, cage_role role)
 {
     bool is_point = f->kind == ICC_FEATURE_POINT;
     fprintf(stream,
@@ -65,9 +65,9 @@ static void write_feature(FILE *stream, const cage_feature *f, cage_role role)
             cage_role_name(role), f->kind == CAGE_TIE ? "-tie" : "", (long long)f->number,
             is_point ? "Point" : "LineString");
     if (is_point)
-        fprintf(stream, "[%.17g, %.17g]", f->points[0], f->points[1]);
+        fprintf(stream, "[%.17g, %.17g]", f->points[0], cage_given_y(c, f->points));
     else
-        positions_write(stream, f->n, f->points, false);
+        positions_write(stream, c, f->n, f->points, false);
     fputs("}}", stream);
 }
 
@@ -79,9 +79,9 @@ static void write_side(FILE *stream, const job *j, cage_role role)
     cage_write_polygon(stream, c, role);
     for (size_t i = 0; i < c->n_features; i++)
         if (c->features[i].kind != ICC_FEATURE_HOLE)
-            write_feature(stream, &c->features[i], role);
+            write_feature(stream, c, &c->features[i], role);
     for (size_t i = 0; i < n; i++)
-        write_feature(stream, &ties[i], role);
+        write_feature(stream, c, &ties[i], role);
     ties_free(n, ties);
 }
 

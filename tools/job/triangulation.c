@@ -4,16 +4,17 @@
 
 #include "base/allocate.h"
 #include "base/json.h"
+#include "job/axis_order.h"
 
 #include <stdlib.h>
 
 typedef struct part_mesh {
     icc_map_info info;
-    double *from, *to;
+    double *from, *to; /* as the cages' files have them */
     uint32_t *triangles;
 } part_mesh;
 
-static part_mesh take_mesh(const icc_map *map)
+static part_mesh take_mesh(const icc_map *map, const cage *cages)
 {
     part_mesh m = {.info.size = sizeof m.info};
     icc_map_get_info(map, &m.info);
@@ -21,6 +22,10 @@ static part_mesh take_mesh(const icc_map *map)
     m.to = need(m.info.n_vertices, 2 * sizeof *m.to);
     m.triangles = need(m.info.n_simplices, 3 * sizeof *m.triangles);
     icc_map_get_mesh(map, m.from, m.to, m.triangles);
+    if (cages[0].turned)
+        points_turn(m.info.n_vertices, m.from);
+    if (cages[1].turned)
+        points_turn(m.info.n_vertices, m.to);
     return m;
 }
 
@@ -60,6 +65,31 @@ static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh 
     fputs("]\n}\n", stream);
 }
 
+/* Programs that follow a system's own order of axes have to swap before or after the file, which
+ * has x first. Said where a system has y first, or may have. */
+static void note_axes(const args *a)
+{
+    static const char swap[] = " +step +proj=axisswap +order=2,1";
+    const char *crs[] = {a->source_crs, a->target_crs};
+    bool first[2], unknown[2];
+    for (int k = 0; k < 2; k++) {
+        axis_order order = crs[k] != NULL ? axis_order_of(crs[k]) : AXES_EAST_FIRST;
+        first[k] = order == AXES_NORTH_FIRST;
+        unknown[k] = order == AXES_UNKNOWN;
+    }
+    for (int k = 0; k < 2; k++)
+        if (unknown[k])
+            note("%s: the order of the axes of %s is not known here; if latitude or northing comes "
+                 "first, GDAL's -ct needs '%s' %s the step tinshift",
+                 a->triangulation, crs[k], swap + 1, k == 0 ? "before" : "after");
+    if (first[0] || first[1])
+        note("%s: x comes first, but in %s%s%s latitude or northing does; GDAL's -ct needs "
+             "'+proj=pipeline%s +step +proj=tinshift +file=%s%s'",
+             a->triangulation, first[0] ? crs[0] : crs[1], first[0] && first[1] ? " and " : "",
+             first[0] && first[1] ? crs[1] : "", first[0] ? swap : "", a->triangulation,
+             first[1] ? swap : "");
+}
+
 int triangulation_check(job *j)
 {
     return j->args->triangulation != NULL ? job_read_plane(j, "--triangulation") : DONE;
@@ -88,7 +118,8 @@ int triangulation_write(const job *j)
         return FAILED;
     part_mesh *meshes = need(1 + j->n_parts, sizeof *meshes);
     for (size_t i = 0; i <= j->n_parts; i++)
-        meshes[i] = take_mesh(i == 0 ? j->map : j->parts[i - 1].map);
+        meshes[i] = i == 0 ? take_mesh(j->map, j->cages)
+                           : take_mesh(j->parts[i - 1].map, j->parts[i - 1].cages);
     write_meshes(file.stream, j->args, 1 + j->n_parts, meshes);
     for (size_t i = 0; i <= j->n_parts; i++) {
         free(meshes[i].from);
@@ -96,5 +127,8 @@ int triangulation_write(const job *j)
         free(meshes[i].triangles);
     }
     free(meshes);
-    return outfile_close(&file) ? DONE : FAILED;
+    if (!outfile_close(&file))
+        return FAILED;
+    note_axes(j->args);
+    return DONE;
 }

@@ -1,6 +1,7 @@
 #include <icc/icc.h>
 
 #include "../../faulty.h"
+#include "../../random.h"
 
 #include <check.h>
 #include <math.h>
@@ -135,6 +136,46 @@ START_TEST(tells_a_mirror_image)
     ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
     ck_assert_int_eq(info.mirrored, 1);
     icc_match_free(match);
+}
+END_TEST
+
+/* An outline of n vertices with six waves, drawn from another place. */
+static void draw_waves(double *xy, size_t n, double from, const double wave[6][2])
+{
+    for (size_t k = 0; k < n; ++k) {
+        const double at = 6.283185307179586 * (double)k / (double)n + from;
+        double r = 1;
+        for (int m = 0; m < 6; ++m)
+            r += wave[m][0] * cos((m + 1) * at) + wave[m][1] * sin((m + 1) * at);
+        xy[2 * k] = r * cos(at);
+        xy[2 * k + 1] = r * sin(at);
+    }
+}
+
+/* The same outline by other vertices, as it is and with y pointing down, as pixels have it. */
+START_TEST(tells_what_has_y_down)
+{
+    random_source r = {.state = 5};
+    for (int k = 0; k < share_of(20); ++k) {
+        double wave[6][2], a[2 * 60], b[2 * 45];
+        for (int m = 0; m < 12; ++m)
+            wave[m / 2][m % 2] = random_between(&r, -.3, .3) / (m / 2 + 2);
+        draw_waves(a, 60, 0, (const double(*)[2])wave);
+        draw_waves(b, 45, .9, (const double(*)[2])wave);
+        for (int down = 0; down < 2; ++down) {
+            icc_match *match = NULL;
+            icc_match_info info = {.size = sizeof info};
+            const icc_match_options options = {.size = sizeof options, .least_sure = 1};
+            icc_error err = {.size = sizeof err};
+            ck_assert_msg(match_of(&match, 60, a, 45, b, 0, NULL, &options, &err) == ICC_OK, "%s",
+                          err.message);
+            ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+            ck_assert_msg(info.mirrored == down, "outline %d, cost %g", k, info.cost);
+            icc_match_free(match);
+            for (size_t v = 0; v < 45; ++v)
+                b[2 * v + 1] = -b[2 * v + 1];
+        }
+    }
 }
 END_TEST
 
@@ -473,6 +514,7 @@ int main(void)
     TCase *tests = tcase_create("match");
     tcase_add_test(tests, finds_the_same_shape);
     tcase_add_test(tests, tells_a_mirror_image);
+    tcase_add_test(tests, tells_what_has_y_down);
     tcase_add_test(tests, refuses_what_is_ambiguous);
     tcase_add_test(tests, pairs_discs_by_arc_length);
     tcase_add_test(tests, passes_through_landmarks);

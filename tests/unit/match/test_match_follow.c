@@ -246,6 +246,39 @@ static bytes bytes_of(const icc_match *match)
     return b;
 }
 
+/* With lines and points inside, a landmark on each of them; also of what was saved. */
+START_TEST(what_lies_inside)
+{
+    static const double outer[] = {0, 0, 10, 0, 10, 8, 1, 9}, dot[] = {3, 4};
+    static const double line[] = {5, 2, 6, 4, 8, 5}, other[] = {5, 2.1, 7, 4.2, 7.5, 5, 8, 5.5};
+    static const double landmarks[] = {3, 4, 3.1, 4.2, 6, 4, 7, 4.2};
+    static const double asked[] = {3, 4, 5, 2, 6, 4, 8, 5, 1, 9, 3.2, 4};
+    static const double want[] = {3.1, 4.2, 5, 2.1, 7, 4.2, 8, 5.5, 1, 9, 3.1, 4.2};
+    const double moved[] = {3.1, 4.2};
+    icc_domain *domain[2] = {NULL, NULL};
+    for (int e = 0; e < 2; ++e) {
+        const icc_feature features[] = {
+            {sizeof *features, ICC_FEATURE_POINT, 1, e == 0 ? dot : moved, 0},
+            {sizeof *features, ICC_FEATURE_LINE, e == 0 ? 3 : 4, e == 0 ? line : other, 0}};
+        ck_assert_int_eq(icc_domain_create_features(&domain[e], 4, outer, 2, features, NULL, NULL),
+                         ICC_OK);
+    }
+    icc_match *match = match_of(domain[0], domain[1], 2, landmarks);
+    for (int way = 0; way < 2; ++way) {
+        double image[12], off[6];
+        ck_assert_int_eq(icc_match_apply(match, 6, asked, image, off, NULL), ICC_OK);
+        for (size_t k = 0; k < 12; ++k)
+            ck_assert_double_eq(image[k], want[k]);
+        ck_assert_double_eq_tol(off[5], .2, 1e-15);
+        bytes b = bytes_of(match);
+        icc_match_free(match);
+        ck_assert_int_eq(icc_match_load(&match, b.n, b.data, NULL, NULL), ICC_OK);
+        free(b.data);
+    }
+    icc_match_free(match);
+}
+END_TEST
+
 static void check_loaded(icc_match *match)
 {
     bytes b = bytes_of(match);
@@ -350,6 +383,7 @@ int main(void)
     tcase_add_test(tests, common_vertices_go_to_their_partners);
     tcase_add_test(tests, points_of_the_given_surfaces);
     tcase_add_test(tests, landmarks_and_what_is_no_point);
+    tcase_add_test(tests, what_lies_inside);
     tcase_add_test(tests, what_is_saved_is_loaded);
     tcase_add_test(tests, what_does_not_correspond_is_refused);
     tcase_add_test(tests, loading_fails_cleanly);

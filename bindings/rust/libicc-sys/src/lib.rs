@@ -750,7 +750,7 @@ pub struct icc_match_info {
     pub size: usize,
     /// dimension
     pub dim: i32,
-    /// 1: the target looks like a mirror image of the source
+    /// 1: the target's mirror image fits at least 1.06 times better: y may point down in one of the two
     pub mirrored: i32,
     /// common vertices of the two domains
     pub n_vertices: usize,
@@ -1574,10 +1574,9 @@ extern "C" {
         target: *mut u32,
     ) -> icc_status;
 
-    /// Takes points of the source's boundary to the target's: each to the nearest point of the boundary of
-    /// `icc_match_source()`, and from there to the same place of the same facet of `icc_match_target()`. `images`:
-    /// n * dim coordinates, NaN for a point that is not finite; may be `points`. `off`: how far each point was from
-    /// that boundary, or NULL.
+    /// Takes points of the source to the target: each to the nearest place on the rings, lines and points of
+    /// `icc_match_source()`, and from there to the same place of the target. Common vertices go to their partners
+    /// bit by bit.
     pub fn icc_match_apply(
         r#match: *const icc_match,
         n: usize,

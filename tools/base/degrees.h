@@ -1,0 +1,24 @@
+/* Longitudes and latitudes, as GeoJSON has them. */
+#ifndef DEGREES_H
+#define DEGREES_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+static inline bool are_degrees(size_t n, const double *points)
+{
+    bool good = true;
+    for (size_t i = 0; i < n; i++)
+        good = good && fabs(points[2 * i]) <= 180 && fabs(points[2 * i + 1]) <= 90;
+    return good;
+}
+
+/* Whether the way between two longitudes may be meant to go over the antimeridian; right round the
+ * earth, from -180 to 180, it is not. */
+static inline bool longitudes_jump(double x, double y)
+{
+    return fabs(y - x) > 180 && fabs(y - x) < 360;
+}
+
+#endif

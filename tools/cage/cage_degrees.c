@@ -1,0 +1,81 @@
+/* GeoJSON is in degrees (RFC 7946, section 4). Between two positions it has a straight line, even if
+ * they are at 179 and -179, so that what goes over the antimeridian should be cut there (section
+ * 3.1.9). Many files do neither: their rings jump. */
+#include "cage/cage_degrees.h"
+
+#include "base/degrees.h"
+#include "cage/cage_features.h"
+
+#include <stdio.h>
+
+/* All that is read; of polygons behind the first, too. */
+static bool is_in_degrees(const cage *c)
+{
+    bool good = are_degrees(c->n, c->points);
+    for (size_t i = 0; i < c->n_features && good; i++)
+        good = are_degrees(c->features[i].n, c->features[i].points);
+    for (size_t i = 0; i < c->n_more && good; i++)
+        good = is_in_degrees(&c->more[i]);
+    return good;
+}
+
+/* The first edge that jumps; a ring has an edge from its last vertex to the first. */
+static bool goes_on(size_t n, const double *points, bool closed, const char *of, problem *wrong)
+{
+    for (size_t i = 0; i + !closed < n; i++) {
+        double x = points[2 * i], y = points[2 * ((i + 1) % n)];
+        if (longitudes_jump(x, y))
+            return spoilt(
+                wrong, 0,
+                "the longitude jumps from %.9g to %.9g behind vertex %zu%s: over the "
+                "antimeridian write %.9g, and so on for all behind it; the long way round "
+                "put a vertex between",
+                x, y, i, of, y + (x > 0 ? 360 : -360));
+    }
+    return true;
+}
+
+static bool all_go_on(const cage *c, problem *wrong)
+{
+    bool good = goes_on(c->n, c->points, true, "", wrong);
+    for (size_t i = 0; i < c->n_features && good; i++) {
+        const cage_feature *f = &c->features[i];
+        feature_text name;
+        char of[80];
+        snprintf(of, sizeof of, " of %s", feature_name(name, f));
+        good = goes_on(f->n, f->points, f->kind == ICC_FEATURE_HOLE, of, wrong);
+    }
+    for (size_t i = 0; i < c->n_more && good; i++)
+        good = all_go_on(&c->more[i], wrong);
+    return good;
+}
+
+/* Whether the outer ring has an edge along a meridian. */
+static bool runs_along(const cage *c, double x)
+{
+    for (size_t i = 0; i < c->n; i++)
+        if (c->points[2 * i] == x && c->points[2 * ((i + 1) % c->n)] == x)
+            return true;
+    return false;
+}
+
+bool cage_check_degrees(cage *c, problem *wrong)
+{
+    if (!is_in_degrees(c))
+        return true;
+    bool east = runs_along(c, 180), west = runs_along(c, -180);
+    for (size_t i = 0; i < c->n_more; i++) {
+        east = east || runs_along(&c->more[i], 180);
+        west = west || runs_along(&c->more[i], -180);
+    }
+    c->cut = c->n_more > 0 && east && west;
+    return all_go_on(c, wrong);
+}
+
+const char *cage_cut_text(const cage *c)
+{
+    return c->cut
+               ? "; it is cut at the antimeridian: joined, with longitudes that go on beyond 180, "
+                 "it is mapped as one"
+               : "";
+}
