@@ -174,7 +174,9 @@ for n in 100 200 260 290 330; do
     run 1 mesh -s cube.obj -t moved.obj cut.vtk out.vtk
     says 'libicc: cut.vtk: '
 done
-sed 's/^POINTS 5 double/POINTS 5 int/' old.double.vtk >int.vtk
-run 1 mesh -s cube.obj -t moved.obj int.vtk out.vtk
-says 'the points must be of type float or double'
+for type in int doubly; do
+    sed "s/^POINTS 5 double/POINTS 5 $type/" old.double.vtk >other.vtk
+    run 1 mesh -s cube.obj -t moved.obj other.vtk out.vtk
+    says 'the points must be of type float or double'
+done
 finish

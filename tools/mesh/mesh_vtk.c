@@ -68,7 +68,9 @@ static bool read_points(lines *r)
     m->types[0][1] = (size_t)(r->at - m->text);
     m->n_types = 1;
     if (m->form == MESH_BIG) {
-        if (m->text[m->types[0][0]] != 'f' && m->text[m->types[0][0]] != 'd')
+        const char *word = r->at - n_word;
+        if (!(n_word == 5 && strncmp(word, "float", 5) == 0) &&
+            !(n_word == 6 && strncmp(word, "double", 6) == 0))
             return spoilt(r->wrong, r->line, "the points must be of type float or double");
         m->has_rest = m->dim == 2 && size == 4;
         vtk_begin(r);
