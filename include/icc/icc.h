@@ -1179,6 +1179,9 @@ typedef struct icc_map_info {
                                  so, or rounding or the way of the vertices leaves it open */
     int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
                                  map; 1 with ties */
+    size_t n_spoilt;        /**< mesh: simplices that rounding makes flat or reversed when
+                                 icc_map_get_mesh() hands them out, on either side; 0 but for shapes
+                                 about 1e9 times as far from the origin as they are large */
 } icc_map_info;
 
 /**
@@ -1360,8 +1363,9 @@ ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc
                                     int32_t iterations, const icc_env *env, icc_error *err);
 
 /**
- * Copies the mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate
- * is about the unrounded numbers inside).
+ * Copies the mesh of a map of kind mesh, in the caller's coordinates. They are rounded once, and
+ * the certificate is about the unrounded numbers inside. icc_map_info::n_spoilt counts the
+ * simplices that this makes flat or reversed.
  *
  * @param map            the map
  * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
@@ -1442,7 +1446,8 @@ ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const d
 /** Frees a map. */
 ICC_API void icc_map_free(icc_map *map);
 
-/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. Counting
+ *  n_spoilt takes a pass over the mesh where its coordinates have to be rounded. */
 ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
 
 /** The chart of the source; borrowed. NULL for maps made by icc_map_retarget(). */

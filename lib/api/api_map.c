@@ -5,7 +5,9 @@
 #include "map/apply.h"
 #include "map/certify.h"
 #include "map/map_file.h"
+#include "map/rounded.h"
 
+#include <stddef.h>
 #include <string.h>
 
 ICCP_END(map)
@@ -127,7 +129,10 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
 {
     if (map == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &map->info, sizeof map->info, "icc_map_info", NULL);
+    icc_map_info full = map->info;
+    if (info->size > offsetof(icc_map_info, n_spoilt))
+        full.n_spoilt = iccp_map_count_spoilt(map);
+    return iccp_write_struct(info, &full, sizeof full, "icc_map_info", NULL);
 }
 
 icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *source,

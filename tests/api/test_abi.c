@@ -333,7 +333,7 @@ AT(icc_map_options, target_maximum, 24);
 AT(icc_map_options, n_ties, 32);
 AT(icc_map_options, ties, 40);
 
-SIZE(icc_map_info, 192);
+SIZE(icc_map_info, 200);
 AT(icc_map_info, size, 0);
 AT(icc_map_info, dim, 8);
 AT(icc_map_info, kind, 12);
@@ -362,6 +362,7 @@ AT(icc_map_info, n_ties, 168);
 AT(icc_map_info, detour, 176);
 AT(icc_map_info, class_kept, 184);
 AT(icc_map_info, n_trees, 188);
+AT(icc_map_info, n_spoilt, 192);
 
 SIZE(icc_tie_info, 48);
 AT(icc_tie_info, size, 0);

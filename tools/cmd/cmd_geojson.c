@@ -120,8 +120,9 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
              "taken "
              "the long way round, not over the antimeridian",
              in, r->n_jumps);
+    result = triangulation_tell(j);
     if (!lost)
-        return DONE;
+        return result;
     note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: %s",
          r->n_faults, r->n_features, r->n_without, r->n_positions, names);
     return PARTIAL;

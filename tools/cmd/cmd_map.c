@@ -59,7 +59,11 @@ static int write_points(job *j, const table *points, double *images, const icc_s
         note("%s: the points are replaced by their images", out);
     if (result == DONE)
         result = report_points(j, points->n, n_failed, seconds);
-    return result == DONE ? job_partial(j, points->n, status, "points") : result;
+    if (result != DONE)
+        return result;
+    result = triangulation_tell(j);
+    int outside = job_partial(j, points->n, status, "points");
+    return outside != DONE ? outside : result;
 }
 
 static int map_points(job *j, const table *points)

@@ -8,6 +8,11 @@
 
 #include <stdlib.h>
 
+/* Two counts. The remedy works: coordinates near the origin are not rounded. */
+#define SPOILT                                                                                     \
+    "%zu of %zu triangles are flat or reversed in a file, whose numbers are doubles, because the " \
+    "shape is so far from the origin; shift source and target to the origin"
+
 typedef struct part_mesh {
     icc_map_info info;
     double *from, *to; /* as the cages' files have them */
@@ -36,6 +41,19 @@ static void write_crs(FILE *stream, const char *member, const char *crs)
     fprintf(stream, "\"%s\": ", member);
     json_string(stream, crs);
     fputs(",\n", stream);
+}
+
+static size_t count_spoilt(const job *j, size_t *n_all)
+{
+    size_t n = 0;
+    *n_all = 0;
+    for (size_t i = 0; i <= j->n_parts; i++) {
+        icc_map_info info = {.size = sizeof info};
+        icc_map_get_info(i == 0 ? j->map : j->parts[i - 1].map, &info);
+        n += info.n_spoilt;
+        *n_all += info.n_simplices;
+    }
+    return n;
 }
 
 /* Column by column, as "vertices_columns" and "triangles_columns" say; one part behind the other. */
@@ -114,6 +132,9 @@ int triangulation_write(const job *j)
         return failed(j->args->source, 0,
                       "the map is not of kind mesh: its repair failed; without --triangulation its "
                       "curves map points");
+    size_t n_all, n_spoilt = count_spoilt(j, &n_all);
+    if (n_spoilt > 0 && j->args->require != 0)
+        return failed(j->args->triangulation, 0, SPOILT ", so nothing is written", n_spoilt, n_all);
     if (!outfile_open(&file, j->args->triangulation))
         return FAILED;
     part_mesh *meshes = need(1 + j->n_parts, sizeof *meshes);
@@ -131,4 +152,13 @@ int triangulation_write(const job *j)
         return FAILED;
     note_axes(j->args);
     return DONE;
+}
+
+int triangulation_tell(const job *j)
+{
+    size_t n_all, n = j->args->triangulation != NULL ? count_spoilt(j, &n_all) : 0;
+    if (n == 0)
+        return DONE;
+    note("%s: " SPOILT, j->args->triangulation, n, n_all);
+    return PARTIAL;
 }

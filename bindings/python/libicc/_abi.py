@@ -33,7 +33,7 @@ match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64 keep
 match_info dim:i32 mirrored:i32 n_vertices:size n_landmarks:size n_joined:size cost:f64 second:f64 sure:f64 turn:f64 least_slope:f64 most_slope:f64 energy:f64 off:f64 least_angle:f64 n_overlay:size
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
-map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32 n_holes:size n_lines:size n_points:size n_ties:size detour:f64 class_kept:i32 n_trees:i32
+map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32 n_holes:size n_lines:size n_points:size n_ties:size detour:f64 class_kept:i32 n_trees:i32 n_spoilt:size
 tie_info vertex:u32[2] n_source:size n_target:size length:f64[2]
 improve_options iterations:i32 levels:i32 tolerance:f64
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import json
+import warnings
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, List, Literal, Optional, Sequence, Tuple, Union, overload
 
@@ -224,8 +225,14 @@ class Map(Saved):
                                        iterations, progress=progress, threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
-        """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1)."""
+        """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1). The numbers are
+        rounded; a ``RuntimeWarning`` says if that makes simplices flat or reversed (``info.n_spoilt``), as it can
+        where shapes are about 1e9 times as far from the origin as they are large."""
         info = self._info("map_get_info", "map_info")
+        if info.n_spoilt > 0:
+            warnings.warn(f"{info.n_spoilt} of {info.n_simplices} simplices are flat or reversed when rounded, because "
+                          "the shape is so far from the origin; shift source and target to the origin",
+                          RuntimeWarning, stacklevel=2)
         vertices = np.empty((info.n_vertices, info.dim))
         images = np.empty((info.n_vertices, info.dim))
         triangles = np.empty((info.n_simplices, info.dim + 1), dtype=np.uint32)

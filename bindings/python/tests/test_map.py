@@ -1,6 +1,7 @@
 import gc
 import json
 import threading
+import warnings
 
 import libicc
 import numpy as np
@@ -321,3 +322,20 @@ def test_maps_of_features():
     with pytest.raises(libicc.TopologyError, match="tie 1 joins") as caught:
         libicc.Map(source, source, ties=[((0, 4), [], []), ((1, 7), [], [])])
     assert caught.value.index == 1 and caught.value.item == "tie"
+
+
+def test_what_rounding_spoils_is_said() -> None:
+    def bell(width: float, offset: float) -> np.ndarray:
+        return offset + np.array([[0, 0], [1, 0], [1, .5], [3, .5], [4, 0], [5, 0], [5, 1], [4, 1], [3, .5 + width],
+                                  [1, .5 + width], [1, 1], [0, 1]])
+
+    far = libicc.Map(bell(.25, 0), bell(2.0 ** -21, 2.0 ** 30))
+    assert far.info.n_spoilt > 0
+    for call in (far.mesh, far.to_proj):
+        with pytest.warns(RuntimeWarning, match="flat or reversed"):
+            call()
+    near = libicc.Map(bell(.25, 0), bell(2.0 ** -21, 0))
+    assert near.info.n_spoilt == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        near.mesh()

@@ -914,6 +914,10 @@ pub struct icc_map_info {
     pub class_kept: i32,
     /// with features: ways to cut them apart that were tried and led to a map; 1 with ties
     pub n_trees: i32,
+    /// mesh: simplices that rounding makes flat or reversed when `icc_map_get_mesh()` hands
+    /// them out, on either side; 0 but for shapes about 1e9 times as far from the origin as
+    /// they are large
+    pub n_spoilt: usize,
 }
 sized!(icc_map_info);
 
