@@ -83,8 +83,8 @@ enum {
  * What went wrong; filled in by the call that failed.
  *
  * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call; members beyond
- * `size` are not touched. Every function that takes one accepts NULL. A call that succeeds does not
- * touch it.
+ * `size` are not touched. A size of 0, as in `icc_error err = {0}`, stands for the members of
+ * version 0.1. Every function that takes one accepts NULL. A call that succeeds does not touch it.
  */
 typedef struct icc_error {
     size_t size;       /**< set by the caller: `sizeof(icc_error)` */
@@ -92,7 +92,8 @@ typedef struct icc_error {
     int32_t side;      /**< 0: neither; 1: the source; 2: the target */
     int64_t index;     /**< the item at fault, from 0, or -1 */
     int32_t item;      /**< what `index` counts: `ICC_ITEM_*` */
-    char message[252]; /**< one line of English, always terminated */
+    char message[252]; /**< one line of English, always terminated; with a side it begins with
+                            "source: " or "target: " */
 } icc_error;
 
 /** One unit of work handed to icc_env::parallel_for. */

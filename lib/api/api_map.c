@@ -192,6 +192,28 @@ icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points, 
                           : read;
 }
 
+static icc_status read_improve_options(icc_improve_options *full,
+                                       const icc_improve_options *options, icc_error *err)
+{
+    const icc_status status =
+        iccp_read_struct(full, sizeof *full, options, "icc_improve_options", err);
+    if (status != ICC_OK)
+        return status;
+    if (full->iterations < 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_improve_options.iterations is %ld; it must not be negative",
+                         (long)full->iterations);
+    if (full->levels < -1)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_improve_options.levels is %ld; it must be at least -1",
+                         (long)full->levels);
+    if (!(full->tolerance >= 0 && full->tolerance < 1))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_improve_options.tolerance is %g; it must lie in [0, 1)",
+                         full->tolerance);
+    return ICC_OK;
+}
+
 icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
                            icc_improve_report *report, const icc_env *env, icc_error *err)
 {
@@ -203,10 +225,7 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
     icc_improve_report full_report = {0};
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = iccp_read_struct(&full, sizeof full, options, "icc_improve_options", err);
-    if (status == ICC_OK &&
-        (full.iterations < 0 || full.levels < -1 || !(full.tolerance >= 0 && full.tolerance < 1)))
-        status = iccp_fail(err, ICC_ERR_ARGUMENT, "icc_improve_options: a member is out of range");
+        status = read_improve_options(&full, options, err);
     if (status == ICC_OK)
         status = iccp_map_improve(out, map, &full, &full_report, &full_env, err);
     if (status == ICC_OK && full_report.cancelled == 0)

@@ -7,23 +7,22 @@
 
 /* Reads a picture of the caller's version and refuses one whose pixels would not fit in memory:
  * below api/ every pixel of width * height is taken to be there. */
-static icc_status read_picture(icc_picture *full, const icc_picture *given, const char *name,
-                               icc_error *err)
+static icc_status read_picture(icc_picture *full, const icc_picture *given, icc_error *err)
 {
     const icc_status status = iccp_read_struct(full, sizeof *full, given, "icc_picture", err);
     if (status != ICC_OK)
         return status;
     if (full->width < 1 || full->height < 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "the %s picture has %ld x %ld pixels", name,
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "the picture has %ld x %ld pixels",
                          (long)full->width, (long)full->height);
     if (full->channels < 1 || full->channels > ICCP_MOST_CHANNELS)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "the %s picture has %ld channels; there must be 1 to %d", name,
+                         "the picture has %ld channels; there must be 1 to %d",
                          (long)full->channels, (int)ICCP_MOST_CHANNELS);
     if (full->bytes != 1 && full->bytes != 2 && full->bytes != 4 && full->bytes != 8)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "a sample of the %s picture has %ld bytes; it must have 1, 2, 4 or 8",
-                         name, (long)full->bytes);
+                         "a sample of the picture has %ld bytes; it must have 1, 2, 4 or 8",
+                         (long)full->bytes);
     if (full->alpha < 0 || full->alpha > 1 || full->alpha >= full->channels)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_picture: alpha is %ld with %ld channels; it must be 0, or 1 with at "
@@ -43,8 +42,8 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, cons
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
         full->stride > PTRDIFF_MAX / (size_t)full->height)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "the %s picture has no pixels, or a stride of %zu bytes does not fit",
-                         name, full->stride);
+                         "the picture has no pixels, or a stride of %zu bytes does not fit",
+                         full->stride);
     return ICC_OK;
 }
 
@@ -59,9 +58,9 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
     icc_picture from, to;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = read_picture(&from, source, "source", err);
+        status = iccp_fail_side(err, read_picture(&from, source, err), 1);
     if (status == ICC_OK)
-        status = read_picture(&to, target, "target", err);
+        status = iccp_fail_side(err, read_picture(&to, target, err), 2);
     if (status == ICC_OK &&
         (from.channels != to.channels || from.bytes != to.bytes || from.alpha != to.alpha))
         status =

@@ -1,16 +1,24 @@
 #include "base/error.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Bytes of the caller's struct. A size of 0 stands for the members of version 0.1, which every
+ * caller has. */
+static size_t room_of(const icc_error *err)
+{
+    const size_t first = offsetof(icc_error, message) + sizeof err->message;
+    const size_t size = err->size == 0 ? first : err->size;
+    return size < sizeof *err ? size : sizeof *err;
+}
 
 /* A caller compiled against an older header has a shorter struct: fill a copy, then hand over as
  * much of it as the caller has room for. */
 static void hand_over(icc_error *err, icc_error *full)
 {
-    size_t size = err->size;
-    if (size > sizeof *full)
-        size = sizeof *full;
+    const size_t size = room_of(err);
     if (size <= sizeof err->size)
         return;
     full->size = err->size;
@@ -69,9 +77,27 @@ icc_status iccp_explain(icc_error *err, icc_status status)
     return status;
 }
 
+/* In front of the message, which ends earlier if there is no room. */
+static void name_side(icc_error *err, int32_t side)
+{
+    enum { N_NAME = 8 };
+    const size_t begin = offsetof(icc_error, message);
+    const size_t room = room_of(err) > begin ? room_of(err) - begin : 0;
+    if (room <= N_NAME)
+        return;
+    memmove(err->message + N_NAME, err->message, room - N_NAME);
+    memcpy(err->message, side == 1 ? "source: " : "target: ", N_NAME);
+    err->message[room - 1] = '\0';
+}
+
 icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side)
 {
-    if (err != NULL && err->size >= offsetof(icc_error, side) + sizeof err->side)
-        err->side = side;
+    const bool is_told =
+        status != ICC_OK && status != ICC_ERR_MEMORY && status != ICC_ERR_CANCELLED;
+    if (err == NULL || side == 0 || !is_told ||
+        room_of(err) < offsetof(icc_error, side) + sizeof err->side || err->side != 0)
+        return status;
+    err->side = side;
+    name_side(err, side);
     return status;
 }

@@ -29,7 +29,7 @@ static icc_status complete_options(icc_chart_options *options, int32_t dim, bool
     if (options->cells == 0 && planar)
         options->cells = 50;
     if (options->method < ICC_METHOD_GRADIENT || options->method > ICC_METHOD_DISC)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "method %ld is not available",
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_chart_options.method %ld is not available",
                          (long)options->method);
     if (options->method == ICC_METHOD_FOLIATION && planar && dim > 2)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,

@@ -102,8 +102,8 @@ icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const ic
     if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                     "map kind %ld is not available for charts of method %ld", (long)*kind,
-                     (long)source->info.method);
+                     "icc_map_options.kind %ld is not available for charts of method %ld",
+                     (long)*kind, (long)source->info.method);
 }
 
 static icc_status new_map(icc_map **out, const icc_domain *source, const icc_domain *target,

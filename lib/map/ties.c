@@ -10,8 +10,6 @@
 /* Of bends, in local coordinates. */
 static const double FARTHEST = 2;
 
-static const char *const SIDES[2] = {"source", "target"};
-
 /* ---- reading ---- */
 
 static icc_status read_tie(icc_tie *tie, const icc_tie *ties, size_t i, size_t n_vertices,
@@ -50,9 +48,9 @@ static icc_status read_line(iccp_polyline *line, const icc_domain *domain, const
             !iccp_frame_holds(&domain->frame, 2, p))
             return iccp_fail_side(err,
                                   iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_TIE, (int64_t)i,
-                                               "tie %zu: bend %zu in the %s is not a number near "
-                                               "the domain",
-                                               i, k, SIDES[side]),
+                                               "tie %zu: bend %zu is not a number near the "
+                                               "domain",
+                                               i, k),
                                   side + 1);
         status = iccp_polyline_add(line, local, memory);
     }
@@ -148,9 +146,9 @@ static icc_status fail_meeting(const iccp_cuts *cuts, const iccp_scene *scene, i
     }
     return iccp_fail_side(err,
                           iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, (int64_t)low,
-                                       "tie %zu in the %s meets itself, a tie before it, a feature "
-                                       "or the outer ring on its way",
-                                       low, SIDES[side]),
+                                       "tie %zu meets itself, a tie before it, a feature or the "
+                                       "outer ring on its way",
+                                       low),
                           side + 1);
 }
 

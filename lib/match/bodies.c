@@ -128,14 +128,11 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
         icc_status status = ICC_OK;
         if (!(least <= most * most))
             status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
-                                  "landmark %zu is too far from the vertices of the %s", k,
-                                  side == 0 ? "source" : "target");
+                                  "landmark %zu is too far from the vertices", k);
         for (size_t i = 0; i < k && status == ICC_OK; ++i)
             if (b->landmarks[i] == b->landmarks[k])
                 status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)k,
-                                      "landmark %zu is at the same vertex of the %s as landmark "
-                                      "%zu",
-                                      k, side == 0 ? "source" : "target", i);
+                                      "landmark %zu is at the same vertex as landmark %zu", k, i);
         if (status != ICC_OK)
             return iccp_fail_side(err, status, side + 1);
     }

@@ -67,14 +67,18 @@ static icc_status place(landmark *out, const double *given, const iccp_outline *
         const double *const p = given + 2 * side;
         double away;
         if (!isfinite(p[0]) || !isfinite(p[1]))
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
-                                "landmark %zu is not finite", out->number);
+            return iccp_fail_side(err,
+                                  iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT,
+                                               (int64_t)out->number, "landmark %zu is not finite",
+                                               out->number),
+                                  side + 1);
         out->share[side] = iccp_landmark_share(outlines[side], p, &away);
         if (!(away <= farthest)) {
-            iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
-                         "landmark %zu lies off the %s's outline, by %.3g %% of its diameter; at "
-                         "most %g %% are allowed",
-                         out->number, side == 0 ? "source" : "target", 100 * away, 100 * farthest);
+            iccp_fail_at(
+                err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
+                "landmark %zu lies off the outline, by %.3g %% of its diameter; at most %g %% are "
+                "allowed",
+                out->number, 100 * away, 100 * farthest);
             return iccp_fail_side(err, ICC_ERR_ARGUMENT, side + 1);
         }
     }

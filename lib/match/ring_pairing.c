@@ -30,8 +30,8 @@ static icc_status refuse(const iccp_elastic_report *report, double sure, icc_err
                                      "not, give a landmark, a pair of points"
                                    : "give a landmark, a pair of points";
     return iccp_fail(err, ICC_ERR_AMBIGUOUS,
-                     "source and target match almost equally well in more than one way (%.3f, less "
-                     "than %.3f times as well as in the next): %s",
+                     "source and target match almost equally well in more than one way (%.3g, less "
+                     "than %.3g times as well as in the next): %s",
                      report->sure, sure, remedy);
 }
 

@@ -188,7 +188,7 @@ run 0 map -s tied.geojson -p given.txt
 close_to out images.txt 1e-12
 sed 's/\[\[10,0\],\[6,2\]\]/[[10,0],[2,3],[6,2]]/2' tied.geojson >bad
 run 1 map -s bad -p given.txt
-says 'libicc: bad: target: tie 12 in the target meets'
+says 'libicc: bad: target: tie 12 meets'
 collection "$source" "$target" "$point" "$partner" "$ends" "$(feature target-tie LineString '[[10,0],[6,2]]' 12)" "$lines" >bad
 run 1 map -s bad -p given.txt
 says 'as many as features'

@@ -68,7 +68,7 @@ paste -d ' ' a.txt b.txt >pairs
 same pairs by_option
 printf '0 0 1 1\n0.5 0.5 0 0\n' >off.txt
 run 1 map -s square.txt -t other.txt --match off.txt -p points.txt
-says "off.txt:2: landmark 1 lies off the source's outline"
+says "off.txt:2: source: landmark 1 lies off the outline"
 printf '0 0 1\n' >short.txt
 run 1 match -s square.txt -t other.txt --landmarks short.txt
 says 'short.txt:1'

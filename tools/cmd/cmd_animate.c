@@ -104,7 +104,7 @@ static int failed_frame(animation *x, size_t key, double share, const icc_error 
     progress_end(&x->keys[0].bar);
     return failed(job_file(&x->keys[key], 2), 0,
                   "frame %zu, %g of the way from %s: %s; cages between the two may help", x->frame,
-                  share, job_file(&x->keys[key - 1], 2), err->message);
+                  share, job_file(&x->keys[key - 1], 2), job_message(err));
 }
 
 /* The map of the frame before goes on to a share of the way from one cage of the path to the next. */

@@ -54,10 +54,19 @@ const char *job_side(side_text out, const job *j, int side)
     return out;
 }
 
+const char *job_message(const icc_error *err)
+{
+    static const char *const sides[] = {"", "source: ", "target: "};
+    const char *text = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
+    const char *side = err->side == 1 || err->side == 2 ? sides[err->side] : "";
+    return strncmp(text, side, strlen(side)) == 0 ? text + strlen(side) : text;
+}
+
 /* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message
  * is about a vertex. */
 static size_t line_at_fault(const cage *c, const icc_error *err)
 {
+    const char *text = job_message(err);
     if (err->item == ICC_ITEM_FEATURE && err->index >= 0) {
         const cage_feature *f = cage_find_feature(c, (size_t)err->index);
         return f != NULL ? f->line : 0;
@@ -66,8 +75,8 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
         return 0;
     bool of_grid = (err->status == ICC_ERR_RESOLUTION && err->item != ICC_ITEM_FACET) ||
                    err->status == ICC_ERR_SOLVER;
-    bool of_face = c->dim != 2 && c->n_facets > 0 && strncmp(err->message, "vertex", 6) != 0 &&
-                   strncmp(err->message, "two surfaces share vertex", 25) != 0;
+    bool of_face = c->dim != 2 && c->n_facets > 0 && strncmp(text, "vertex", 6) != 0 &&
+                   strncmp(text, "two surfaces share vertex", 25) != 0;
     size_t n = of_face ? c->n_facets : c->n;
     if (of_grid || err->index < 0 || (uint64_t)err->index >= n)
         return 0;
@@ -88,8 +97,7 @@ int job_failed_with(job *j, const icc_error *err, const char *hint)
     const cage *c = &j->cages[err->side == 2];
     char translated[512];
     side_text where;
-    features_translate(translated, sizeof translated, c,
-                       err->message[0] != '\0' ? err->message : icc_status_name(err->status));
+    features_translate(translated, sizeof translated, c, job_message(err));
     const char *turned = c->turned && strchr(translated, '(') != NULL ? " (with y reversed)" : "";
     return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s%s%s",
                   job_side(where, j, err->side), translated, turned, unlike_turn(j, err), hint);

@@ -84,6 +84,9 @@ typedef char side_text[64];
  * or "". Returns `out`. */
 const char *job_side(side_text out, const job *j, int side);
 
+/* What the library says, without the side in front, which job_side() names. */
+const char *job_message(const icc_error *err);
+
 /* Says what the library said, with the file and the line at fault; returns FAILED. */
 int job_failed(job *j, const icc_error *err);
 

@@ -29,9 +29,9 @@ void kernel_job_end(kernel_job *k)
  * not. */
 static int failed_set(kernel_job *k, const char *what, const icc_error *err)
 {
-    const char *message = err->message[0] != '\0' ? err->message : icc_status_name(err->status);
     progress_end(&k->job.bar);
-    return failed(k->job.args->handles, 0, "%s%s%s", what, *what != '\0' ? ": " : "", message);
+    return failed(k->job.args->handles, 0, "%s%s%s", what, *what != '\0' ? ": " : "",
+                  job_message(err));
 }
 
 static int read_set(kernel_job *k)

@@ -56,11 +56,10 @@ static int failed_handle(pose *p, const posed_places *in, const icc_error *err)
 {
     progress_end(&p->kernel.job.bar);
     if (err->item != ICC_ITEM_FEATURE || err->index < 0 || (size_t)err->index >= in->n)
-        return failed(p->kernel.job.args->pose, 0, "%s",
-                      err->message[0] != '\0' ? err->message : icc_status_name(err->status));
+        return failed(p->kernel.job.args->pose, 0, "%s", job_message(err));
     const char *why = err->status == ICC_ERR_OUTSIDE    ? "is not inside the posed outline"
                       : err->status == ICC_ERR_BOUNDARY ? "is where another one is"
-                                                        : err->message;
+                                                        : job_message(err);
     return failed(p->kernel.job.args->pose, 0,
                   "handle %zu, posed, %s; --certified needs all of them inside and apart",
                   in->handles[err->index], why);

@@ -112,6 +112,10 @@ def parts_of(shape: Any) -> List[Any]:
 
 def coordinates(shapes: Any) -> Floats:
     """The coordinates of points and lines one after the other."""
+    for part in shapes:
+        if hasattr(part, "exterior"):
+            raise TypeError("a polygon is no list of points; take the points of a ring, polygon.exterior, or map the "
+                            "polygon by geopandas: GeoSeries([polygon]).icc.map(mapping), after import libicc.geopandas")
     arrays = [np.asarray(part.coords, dtype=np.float64) for part in shapes if len(part.coords) > 0]
     return np.concatenate(arrays) if arrays else np.empty((0, 2))
 
@@ -126,13 +130,13 @@ def _numbers(points: ArrayLike, dim: int) -> Floats:
     return np.ascontiguousarray(points, dtype=np.float64)
 
 
-def points_of(points: ArrayLike, dim: int) -> Floats:
+def points_of(points: ArrayLike, dim: int, name: str = "points") -> Floats:
     """Points as `_numbers`, of shape (n, dim)."""
     array = _numbers(points, dim)
     if array.ndim == 1 and array.shape[0] == dim:
         array = array.reshape(1, dim)
     if array.ndim != 2 or array.shape[1] != dim:
-        raise ValueError(f"points must have the shape (n, {dim}), not {array.shape}")
+        raise ValueError(f"{name} must have the shape (n, {dim}), not {array.shape}")
     return array
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, Iterable, List, Literal, Optional, Tuple, overload
 
@@ -25,13 +26,17 @@ from ._core import (
     parts_of,
     points_of,
 )
-from ._errors import check
+from ._errors import blaming, check
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
 FEATURES = {"hole": 1, "line": 2, "point": 3}
 DEFECTS = {"not finite": 1, "repeated": 2, "spike": 3, "crossing": 4, "touch": 5, "flat": 6}
+
+_MAX_DIM = 6
+_SHAPES = ("a Domain, an array of the vertices of an outline in their order, a pair (vertices, facets), a boolean mask, a "
+           "polygon of shapely, geopandas or GeoJSON (a dict), or a mesh of meshio")
 
 INSIDE, BOUNDARY, OUTSIDE = 1, 2, 3
 """Where a point lies: see `Domain.locate`."""
@@ -49,7 +54,8 @@ class Domain(Handle):
     Args:
         vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last
             vertex is the first one again; or a shapely Polygon, LinearRing or MultiPolygon of one part
-            (its holes come before those of ``holes``; heights are left out).
+            (its holes come before those of ``holes``; heights are left out); or the same as GeoJSON (a dict), or in
+            a GeoSeries or GeoDataFrame with one row. A boolean array is a mask, as for `from_mask`.
         facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles
             (3-D) and so on. May be left out in 2-D: a polygon through the vertices in their order.
         holes: polygons inside a polygon without facets, which are not part of the shape
@@ -76,6 +82,16 @@ class Domain(Handle):
                  points: Optional[ArrayLike] = None, radii: Optional[ArrayLike] = None,
                  features: Optional[Iterable[Tuple[str, ArrayLike]]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
+        vertices, holes, lines = _plain(vertices), list(holes), list(parts_of(lines) if is_geometry(lines) else lines)
+        has_features = bool(holes or lines or features is not None or np.size(() if points is None else points))
+        if has_features and facets is not None:
+            raise ValueError("a boundary of facets has no holes, lines or points inside: these are for polygons in the "
+                             "plane, which come without facets")
+        if facets is None and isinstance(vertices, np.ndarray) and vertices.dtype == bool:
+            if has_features:
+                raise ValueError("a mask has no holes, lines or points: its cells say what is inside")
+            self._take(_of_mask(vertices, progress, threads))
+            return
         own = _features([*_holes_of(vertices), *holes], lines, points)
         n_points = sum(kind == "point" for kind, _ in own)
         if features is not None:
@@ -87,13 +103,14 @@ class Domain(Handle):
         except ValueError:
             raise ValueError(f"radii must be a number or one for each of the {n_points} points") from None
         if own:
-            if facets is not None:
-                raise ValueError("facets cannot be given with holes, lines or points")
-            self._take_features(points_of(_outline(vertices, True), 2), own, sizes, progress, threads)
+            self._take_features(points_of(_outline(vertices, True), 2, "the vertices of a polygon with features"), own,
+                                sizes, progress, threads)
             return
+        given = getattr(vertices, "shape", None)
         vertices = _outline(vertices) if facets is None else np.ascontiguousarray(vertices, dtype=np.float64)
-        if vertices.ndim != 2:
-            raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
+        if vertices.ndim != 2 or vertices.shape[1] > _MAX_DIM:
+            raise ValueError(f"vertices must have the shape (n, dim), with dim up to {_MAX_DIM}, not {given}; a mask is "
+                             "taken by Domain.from_mask")
         n, dim = vertices.shape
         facets = None if facets is None else indices(facets, dim, "facets")
         self._take(create(lib.domain_create, dim, n, address(vertices),
@@ -117,11 +134,7 @@ class Domain(Handle):
                   threads: Optional[int] = None) -> "Domain":
         """The solid of the cells of a mask that are true; cell (i, j, ..) covers
         [i, i + 1] x [j, j + 1] x .., so axis k of the array is coordinate k."""
-        mask = np.asarray(mask)
-        cells = np.asfortranarray(mask != 0).view(np.uint8)
-        shape = (ctypes.c_size_t * mask.ndim)(*mask.shape)
-        return cls._wrap(create(lib.domain_create_mask, mask.ndim, ctypes.addressof(shape),
-                                cells.ctypes.data, progress=progress, threads=threads))
+        return cls._wrap(_of_mask(np.asarray(mask), progress, threads))
 
     @classmethod
     def from_mesh(cls, vertices: ArrayLike, simplices: ArrayLike, facets: Optional[ArrayLike] = None, *,
@@ -238,27 +251,76 @@ def as_domain(shape: ShapeLike) -> Domain:
     >>> libicc.as_domain(numpy.ones((3, 2), dtype=bool)).info.measure
     6.0
 
-    Takes a Domain; what `Domain` takes: an array of polygon vertices, a shapely polygon; a
-    pair (vertices, facets); a boolean mask; a meshio Mesh of triangles in space (a surface), of triangles in the plane or
-    of tetrahedra (a conforming mesh).
+    Takes a Domain; what `Domain` takes: an array of polygon vertices in their order, a polygon of shapely, geopandas or
+    GeoJSON (a dict), a boolean mask; a pair (vertices, facets); a meshio Mesh of triangles in space (a surface), of
+    triangles in the plane or of tetrahedra (a conforming mesh).
     """
     if isinstance(shape, Domain):
         return shape
-    if is_geometry(shape):
-        return Domain(shape)
     if hasattr(shape, "cells_dict"):
         return _from_meshio(shape)
     if isinstance(shape, tuple) and len(shape) == 2 and np.ndim(shape[0]) == 2:
         return Domain(*shape)
-    array = np.asarray(shape)
-    return Domain.from_mask(array) if array.dtype == bool else Domain(array)
+    return Domain(shape)
+
+
+def as_domains(source: ShapeLike, target: ShapeLike) -> Tuple[Domain, Domain]:
+    """Both of a pair; errors say which one is at fault."""
+    with blaming(1):
+        first = as_domain(source)
+    with blaming(2):
+        return first, as_domain(target)
+
+
+def _of_mask(mask: Bools, progress: Optional[Progress], threads: Optional[int]) -> int:
+    """A new object of the library for the solid of the cells of a mask."""
+    cells = np.asfortranarray(mask != 0).view(np.uint8)
+    shape = (ctypes.c_size_t * mask.ndim)(*mask.shape)
+    return create(lib.domain_create_mask, mask.ndim, ctypes.addressof(shape), cells.ctypes.data, progress=progress,
+                  threads=threads)
+
+
+def _plain(shape: Any) -> Any:
+    """An array, or one of shapely's geometries, or what looks like one."""
+    if hasattr(shape, "iloc") and hasattr(shape, "geometry"):  # a GeoSeries or a GeoDataFrame
+        if len(shape) != 1:
+            raise ValueError(f"the {type(shape).__name__} has {len(shape)} rows; choose one: shape.geometry.iloc[0]")
+        return shape.geometry.iloc[0]
+    if is_geometry(shape):
+        return shape
+    if isinstance(shape, dict) or hasattr(shape, "__geo_interface__"):
+        return _from_geojson(shape if isinstance(shape, dict) else shape.__geo_interface__)
+    if isinstance(shape, (str, bytes, os.PathLike)):
+        raise TypeError(f"a shape may be {_SHAPES}, not the name of a file: read {shape!r} first, for example by "
+                        "geopandas.read_file, json.load (GeoJSON), numpy.loadtxt or meshio.read")
+    try:
+        array = np.asarray(shape)
+        return array if array.dtype == bool else np.ascontiguousarray(array, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise TypeError(f"a shape may be {_SHAPES}; this {type(shape).__name__} is none of these") from None
+
+
+def _from_geojson(tree: Any) -> Any:
+    """The polygon of a GeoJSON object, as `is_geometry` knows one."""
+    kind = tree.get("type")
+    if kind == "FeatureCollection" and len(tree.get("features", ())) == 1:
+        return _from_geojson(tree["features"][0])
+    if kind == "Feature" and tree.get("geometry"):
+        return _from_geojson(tree["geometry"])
+    rings = tree.get("coordinates", ())
+    if kind == "MultiPolygon" and len(rings) == 1:
+        kind, rings = "Polygon", rings[0]
+    if kind != "Polygon" or len(rings) == 0:
+        raise ValueError(f"this {kind or 'dict'} is no shape; of GeoJSON, a shape is a Polygon, or a Feature with one")
+    outer, *holes = (SimpleNamespace(coords=ring) for ring in rings)
+    return SimpleNamespace(geom_type=kind, exterior=outer, interiors=holes)
 
 
 def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
               points: Optional[ArrayLike]) -> List[Tuple[str, Floats]]:
     """What lies inside: kinds and vertices."""
     features = [("hole", points_of(_outline(hole), 2)) for hole in holes]
-    features += [("line", points_of(line, 2)) for line in (parts_of(lines) if is_geometry(lines) else lines)]
+    features += [("line", points_of(line, 2)) for line in lines]
     if points is not None and not (isinstance(points, (list, tuple)) and len(points) == 0):
         features += [("point", point.reshape(1, 2)) for point in points_of(points, 2)]
     return features

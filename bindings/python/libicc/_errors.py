@@ -1,6 +1,7 @@
 """What a call that failed raises."""
 
-from typing import NoReturn, Optional
+from contextlib import contextmanager
+from typing import Iterator, NoReturn, Optional
 
 from ._abi import lib
 
@@ -103,10 +104,24 @@ _ERRORS = {
 }
 
 
+@contextmanager
+def blaming(side: int) -> Iterator[None]:
+    """What goes wrong inside is the fault of the source (1) or of the target (2), which the message then says."""
+    name = ("source", "target")[side - 1]
+    try:
+        yield
+    except Error as error:
+        if error.side != 0 or isinstance(error, (Cancelled, OutOfMemoryError)):
+            raise
+        error.args, error.side = (f"{name}: {error}",), side
+        raise
+    except (TypeError, ValueError) as error:
+        error.args = (f"{name}: {error}",)
+        raise
+
+
 def fail(status: int, message: str = "", index: int = -1, side: int = 0, item: int = 0) -> NoReturn:
     name = lib.status_name(status).decode()
-    if side in (1, 2):
-        message = f"{('source', 'target')[side - 1]}: {message}"
     raise _ERRORS.get(status, Error)(message or name, status, index, side, ITEMS[item])
 
 

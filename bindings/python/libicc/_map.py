@@ -28,8 +28,8 @@ from ._core import (
     name_of,
     points_of,
 )
-from ._domain import as_domain
-from ._errors import check
+from ._domain import as_domain, as_domains
+from ._errors import blaming, check
 from ._match import match_for
 
 if TYPE_CHECKING:
@@ -54,7 +54,8 @@ class Map(Saved):
     array([[1., 1.]])
 
     Args:
-        source, target: Domains, or what `as_domain` takes
+        source, target: Domains, or what `as_domain` takes. An array holds the vertices of an outline in their
+            order; control points go inside one: ``Map(Domain(outline, points=a), Domain(outline, points=b))``
         kind: "mesh" (2-D, and surfaces in 3-D, which are filled if they have no mesh) or "curves"; None: the best
             available
         improve: improvement steps on each level for kind mesh; None: as long as they pay off, 0: none
@@ -84,7 +85,7 @@ class Map(Saved):
                  leaf_min: Optional[float] = None, ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
                  match: Union[bool, str, ArrayLike, None] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        source, target = as_domain(source), as_domain(target)
+        source, target = as_domains(source, target)
         if match is not None and match is not False:
             matched = match_for(source, target, match)
             source, target = matched.source, matched.target
@@ -221,8 +222,10 @@ class Map(Saved):
                  threads: Optional[int] = None) -> "Map":
         """The map to a target that has moved, starting from this one (kind mesh, in 2-D or 3-D), improved by
         at most `iterations` steps (0: 8; -1: none)."""
-        return type(self)._wrap(create(lib.map_retarget, self, as_domain(target),
-                                       iterations, progress=progress, threads=threads))
+        with blaming(2):
+            domain = as_domain(target)
+        return type(self)._wrap(create(lib.map_retarget, self, domain, iterations, progress=progress,
+                                       threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
         """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1). The numbers are

@@ -10,7 +10,7 @@ import numpy as np
 
 from ._abi import lib, new
 from ._core import Progress, Saved, address, bulk, choose, create, dimension, fields, floats, grid_of
-from ._domain import Domain, as_domain
+from ._domain import Domain, as_domains
 from ._errors import ArgumentError, check
 
 if TYPE_CHECKING:
@@ -61,7 +61,7 @@ class Match(Saved):
                  turning: Optional[str] = None, between: Optional[str] = None, least_sure: Optional[float] = None,
                  drop: float = 0, tolerance: Optional[float] = None, keep_source: bool = False,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
-        source, target = as_domain(source), as_domain(target)
+        source, target = as_domains(source, target)
         options = new("match_options", turning=choose(turning, TURNING, "turning"),
                       between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop,
                       tolerance=0 if tolerance is None else tolerance if tolerance > 0 else -1,

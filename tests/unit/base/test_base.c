@@ -137,9 +137,10 @@ START_TEST(errors_fill_what_the_caller_has)
         ck_assert_int_eq(iccp_fail_at(&room.err, ICC_ERR_TRACE, ICC_ITEM_VERTEX, 5, "vertex %d", 5),
                          ICC_ERR_TRACE);
         ck_assert_uint_eq(room.err.size, size);
-        for (size_t i = size < sizeof size ? sizeof size : size; i < sizeof room; ++i)
+        const size_t known = size == 0 ? sizeof room.err : size; /* 0: the members of version 0.1 */
+        for (size_t i = known < sizeof size ? sizeof size : known; i < sizeof room; ++i)
             n_touched += bytes[i] != 0x55;
-        if (size >= offsetof(icc_error, message) + 16) {
+        if (size == 0 || size >= offsetof(icc_error, message) + 16) {
             ck_assert_str_eq(room.err.message, "vertex 5");
             ck_assert_int_eq(room.err.index, 5);
             ck_assert_int_eq(room.err.item, ICC_ITEM_VERTEX);
@@ -162,12 +163,36 @@ START_TEST(long_messages_are_cut)
     ck_assert_uint_eq(strlen(err.message), sizeof err.message - 1);
     ck_assert_int_eq(iccp_fail_side(&err, ICC_ERR_FORMAT, 2), ICC_ERR_FORMAT);
     ck_assert_int_eq(err.side, 2);
+    ck_assert_uint_eq(strlen(err.message), sizeof err.message - 1);
+    ck_assert_int_eq(strncmp(err.message, "target: xx", 10), 0);
     icc_error tiny = {.size = offsetof(icc_error, side)};
     ck_assert_int_eq(iccp_fail_side(&tiny, ICC_ERR_FORMAT, 2), ICC_ERR_FORMAT);
     ck_assert_int_eq(tiny.side, 0);
     ck_assert_int_eq(iccp_fail_side(NULL, ICC_ERR_FORMAT, 1), ICC_ERR_FORMAT);
     ck_assert_int_eq(iccp_fail_memory(&err), ICC_ERR_MEMORY);
     ck_assert_int_eq(err.index, -1);
+}
+END_TEST
+
+/* The first to know says whose fault it is; what comes from deep inside is no side's fault. */
+START_TEST(messages_name_the_side)
+{
+    icc_error err = {0};
+    iccp_fail_at(&err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, 3, "vertex %d", 3);
+    ck_assert_int_eq(iccp_fail_side(&err, ICC_ERR_BOUNDARY, 0), ICC_ERR_BOUNDARY);
+    ck_assert_str_eq(err.message, "vertex 3");
+    iccp_fail_side(&err, ICC_ERR_BOUNDARY, 1);
+    iccp_fail_side(&err, ICC_ERR_BOUNDARY, 2);
+    ck_assert_str_eq(err.message, "source: vertex 3");
+    ck_assert(err.side == 1 && err.index == 3 && err.size == 0);
+    iccp_fail_side(&err, iccp_fail_memory(&err), 2);
+    ck_assert_str_eq(err.message, "out of memory");
+    ck_assert_int_eq(err.side, 0);
+    for (size_t size = sizeof err.size + 1; size < sizeof err; ++size) {
+        icc_error older = {.size = size};
+        iccp_fail_side(&older, iccp_fail(&older, ICC_ERR_FORMAT, "x"), 2);
+        ck_assert_int_eq(older.message[sizeof older.message - 1], '\0');
+    }
 }
 END_TEST
 
@@ -827,6 +852,7 @@ int main(void)
     tcase_add_test(tests, writing_a_struct);
     tcase_add_test(tests, errors_fill_what_the_caller_has);
     tcase_add_test(tests, long_messages_are_cut);
+    tcase_add_test(tests, messages_name_the_side);
     tcase_add_test(tests, sizes_that_overflow_are_refused);
     tcase_add_test(tests, memory_comes_from_the_caller);
     tcase_add_test(tests, environments_are_completed);

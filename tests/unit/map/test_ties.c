@@ -62,29 +62,29 @@ START_TEST(refused)
     sound(ties);
     ties[2].n_target = 1;
     ties[2].target = nothing;
-    check_refused(N, ties, ICC_ERR_ARGUMENT, 2, 2, "bend 0 in the target");
+    check_refused(N, ties, ICC_ERR_ARGUMENT, 2, 2, "target: tie 2: bend 0");
     ties[2].target = huge;
-    check_refused(N, ties, ICC_ERR_ARGUMENT, 2, 2, "bend 0 in the target");
+    check_refused(N, ties, ICC_ERR_ARGUMENT, 2, 2, "target: tie 2: bend 0");
     ties[2].target = away;
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 2, 2, "tie 2 in the target meets");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 2, 2, "target: tie 2 meets");
     sound(ties);
     ties[3] = (icc_tie){.size = sizeof *ties, .vertex = {1, 9}};
     check_refused(N, ties, ICC_ERR_TOPOLOGY, 3, 0, "tie 3 joins what the ties before it join");
     sound(ties);
     ties[1].vertex[1] = 9; /* along the line */
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 1, 1, "tie 1 in the source meets");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 1, 1, "source: tie 1 meets");
     sound(ties);
     ties[0].vertex[1] = 6; /* through the hole */
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 0, 1, "tie 0 in the source meets");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 0, 1, "source: tie 0 meets");
     sound(ties);
     ties[3].vertex[0] = 0; /* past the hole's corner 6 */
     ties[3].n_source = ties[3].n_target = 1;
     ties[3].source = ties[3].target = across;
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 3, 1, "tie 3 in the source meets");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 3, 1, "source: tie 3 meets");
     sound(ties);
     ties[3].n_source = 3;
     ties[3].source = itself;
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 3, 1, "tie 3 in the source meets");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 3, 1, "source: tie 3 meets");
 }
 END_TEST
 
