@@ -20,7 +20,15 @@ printf '0 0\n' | rejects ' ' '1 vertex;'
 printf '0 0\n1 0\n0 0\n' | rejects ' ' '2 vertices'
 printf '0 0\n1 abc\n1 1\n' | rejects 2: "'abc' is not a number"
 printf '0 0\n1,5 2\n1 1\n' | rejects 2: "'1,5' has a comma"
-printf '0,0\n1,0\n1,1\n' | rejects 1: "has a comma"
+printf '1,5 0\n2,5 0\n1 1\n' | rejects 1: "'1,5' has a comma"
+printf '1,5,0,0\n2,5,0,0\n' | rejects 1: "'1,5,0,0' has a comma"
+printf '1,5;0,0\n2,5;0,0\n' | rejects 1: "has a comma"
+printf '0,0\n1,0,0\n' | rejects 2: '3 columns in this line, not 2'
+printf '0,0\n1,zero\n' | rejects 2: "'zero' is not a finite number"
+printf '0,0\n1,inf\n' | rejects 2: "'inf' is not a finite number"
+printf '# a\n\nname,y\n1,2\n' | rejects 3: 'the heading has 2 columns; a vertex is '
+printf 'x,lon,y\n1,2,3\n' | rejects 1: 'two columns are called x or the like'
+printf 'x y\n0 0\n' | rejects 1: "'x' is not a number"
 printf '0 0\n\n# c\n1 0 0\n1 1\n' | rejects 4: '3 numbers in this line'
 printf '0 0\n1\n1 1\n' | rejects 2: '1 number in this line'
 printf '0 0\nnan 1\n1 1\n' | rejects 2: "'nan' is not a finite number"
@@ -97,7 +105,7 @@ names() {
 printf '<?xml version="1.0"?>\n<!-- a > b -->\n<kml xmlns="x"><Placemark/></kml>' | names 'a KML file'
 printf '<gpx/>' | names 'a GPX file'
 printf '<wfs:FeatureCollection xmlns:gml="x">\n</wfs:FeatureCollection>' | names 'a GML file'
-printf '<COLLADA version="1"/>' | names 'a COLLADA file' 'OBJ, OFF, PLY or STL'
+printf '<COLLADA version="1"/>' | names 'a COLLADA file' 'makes OBJ'
 printf 'SQLite format 3\000%052dGPKG' 0 | names 'a GeoPackage'
 printf 'SQLite format 3\000%052dxxxx' 0 | names 'an SQLite database'
 printf 'PK\003\004%022d\007\000\000\000doc.kml' 0 | names 'a KMZ file'
@@ -109,7 +117,7 @@ printf 'solid cube\n facet normal 0 0 1\n' | rejects 3: 'the file ends early'
 printf 'solid\nendsolid\n' | rejects ' ' 'there are no vertices'
 printf 'glTF\002\000\000\000' | rejects ' ' 'the file ends early'
 printf '\377\330\377\340' | names 'a JPEG picture' 'which only warp and pose take'
-printf 'II*\000' | names 'a TIFF picture' 'makes a PNG'
+printf 'II*\000' | names 'a TIFF picture' 'makes a plain PNG'
 printf 'RIFF\000\000\000\000WEBP' | names 'a WebP picture' 'makes a PNG'
 printf 'P3\n1 1\n255\n0 0 0\n' | names 'a PNM picture' 'which only warp and pose take'
 printf 'BM%04d\000\000\000\000%020d' 0 0 | names 'a BMP picture' 'makes a PNG'
@@ -125,7 +133,7 @@ printf '%s\n{"type":"Polygon"}\n' "$one" | rejects ' ' "text 2 of 2 is a 'Polygo
 printf '\036%s\n\036{"type":\n' "$one" | rejects 3: 'the JSON ends early'
 printf '{"type":"Topology","arcs":[]}' | rejects ' ' 'this is a TopoJSON file'
 printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'this is a glTF file'
-printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON file'
+printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON geometry'
 printf '# vtk DataFile Version 3.0\n' | rejects 2: 'the file ends early'
 printf 'MeshVersionFormatted 2\n' | rejects ' ' 'there are no vertices'
 

@@ -33,7 +33,13 @@ printf '<svg><path id="other" d="M0 0L1 0 1 1z"/><path id="source" d="M0,0H10V5H
 printf 'MULTIPOLYGON(((0 0, 10 0, 10 5, 5 5, 5 10, 0 10, 0 0)));' >one.wkt
 printf '<svg><path id="p" d="M0 0L1 0 1 1z"/><path id="q" inkscape:label="source" d="M0,0H10V5H5V10H0z"/></svg>' >label.svg
 
-for file in crlf.txt bom.txt odd.txt a.wkt b.wkt polygon.json multi.json feature.json collection.json roles.json \
+printf '0,0\n10,0\n10,5\n5,5\n5,10\n0,10\n' >comma.csv
+printf '\357\273\277"Y";"X"\r\n"0";"0"\r\n0; 10 \r\n;\r\n5;10\r\n5;5\r\n10;5\r\n10;0\r\n' >turned.csv
+printf 'id,LAT,lon,name\n1,0,0,"a, b"\n2,0,10,\n3,5,10,\n\n# more\n4,5,5,c\n5,10,5,d\n6,1e1,0,e\n' >extra.csv
+printf 'a,b\n0,0\n10,0\n10,5\n5,5\n5,10\n0,10' >names.csv
+printf 'POINT_X,POINT_Y\n0,0\n10,0\n10,5\n5,5\n5,10\n0,10\n' >arc.csv
+
+for file in comma.csv turned.csv extra.csv names.csv arc.csv crlf.txt bom.txt odd.txt a.wkt b.wkt polygon.json multi.json feature.json collection.json roles.json \
     polygon.svg path.svg relative.svg axes.svg roles.svg one.wkt label.svg; do
     same_domain "$file"
 done
@@ -41,6 +47,11 @@ for file in roles.json roles.svg; do
     run 0 map -s "$file" -t "$file" -p points.txt
     same out expected "both cages from $file"
 done
+
+# Points, too.
+(echo 'y,x,name' && awk '{ print $2 "," $1 ",p" }' points.txt) >points.csv
+run 0 map -s source.txt -t target.txt -p points.csv
+same out expected 'points with commas'
 
 # Heights and measures are left out, and this is told.
 printf 'POLYGON Z ((0 0 1, 10 0 1, 10 5 1, 5 5 1, 5 10 1, 0 10 1, 0 0 1))' >z.wkt

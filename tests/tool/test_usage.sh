@@ -122,7 +122,21 @@ same out expected "help map"
 run 0 help
 holds out 'Usage: libicc COMMAND'
 run 2 help nothing
-says "there is no command 'nothing'"
+says "there is no command 'nothing' (see"
+for words in maap:map wrap:warp chekc:check anim:animate mathc:match inof:info pse:pose; do
+    run 2 ${words%%:*}
+    says "there is no command '${words%%:*}'; did you mean ${words#*:}? (see 'libicc --help')"
+done
+for words in sorce:source sourc:source pionts:points outsid:outside triangluation:triangulation; do
+    run 2 map --${words%%:*} a
+    says "there is no option --${words%%:*}; did you mean --${words#*:}? (see 'libicc map --help')"
+done
+run 2 map --no a
+says 'there is no option --no (see'
+for word in version --version -v -V; do
+    run 0 $word
+    [ "$(cut -d' ' -f1 <out)" = libicc ] || complain "$word prints no version"
+done
 run 0 help warp
 [ "$(sed -n '/^Options of the papers/,$p' out | grep -c -- '--min-fall\|--tree\|--function')" = 3 ] ||
     complain "the papers' options are not in a group of their own"

@@ -1,129 +1,54 @@
-/* Foreign formats, recognised by their first bytes; XML by the root element. */
+/* Foreign formats are recognised by the bytes, the first word, the root element or the member of JSON that one table
+ * has, and a few by more than that. */
 #include "base/foreign.h"
 
 #include "base/bytes.h"
+#include "base/foreign_table.h"
+#include "base/json_scan.h"
 
 #include <stdint.h>
 #include <string.h>
 
-/* What a program that reads the format can make of the file. */
-typedef enum remedy {
-    MAKE_GEOJSON,
-    MAKE_SURFACE,
-    MAKE_PNG,
-    MAKE_UTF8,
-    MAKE_MASK,
-    UNPACK,
-    NO_REMEDY
-} remedy;
-
-static const char *const remedies[] = {
-    "'ogr2ogr -f GeoJSON OUT.geojson FILE' makes GeoJSON of it",
-    "save it as OBJ, OFF, PLY or STL ('meshio convert FILE OUT.obj', Blender and MeshLab do)",
-    "'convert FILE OUT.png' makes a PNG picture of it",
-    "'iconv -f UTF-16 -t UTF-8' makes UTF-8 of it",
-    "save one array of it as .npy",
-    "unpack it first",
-    NULL};
-
-typedef struct magic {
-    size_t at, n;
-    const char *bytes;
-    const char *what;
-    remedy remedy;
-} magic;
-
-/* Longer ones come before those that they begin with. */
-static const magic magics[] = {
-    {0, 4, "\0\0\x27\x0a", "a shapefile", MAKE_GEOJSON},
-    {0, 3, "fgb", "a FlatGeobuf file", MAKE_GEOJSON},
-    {0, 4, "PAR1", "a Parquet file", MAKE_GEOJSON},
-    {0, 6, "ARROW1", "an Arrow file", MAKE_GEOJSON},
-    {0, 18, "AutoCAD Binary DXF", "a binary DXF drawing", MAKE_GEOJSON},
-    {0, 4, "AC10", "a DWG drawing; save it as DXF", NO_REMEDY},
-    {0, 18, "Kaydara FBX Binary", "an FBX file", MAKE_SURFACE},
-    {0, 7, "BLENDER", "a Blender file", MAKE_SURFACE},
-    {0, 8, "PXR-USDC", "a USD file", MAKE_SURFACE},
-    {0, 5, "#usda", "a USD file", MAKE_SURFACE},
-    {0, 12, "ISO-10303-21", "a STEP file", MAKE_SURFACE},
-    {0, 11, "$MeshFormat", "a Gmsh file", MAKE_SURFACE},
-    {0, 4, "\x89HDF", "an HDF5 file", MAKE_MASK},
-    {0, 4, "CDF\1", "a NetCDF file", MAKE_MASK},
-    {0, 10, "MATLAB 5.0", "a MATLAB file", MAKE_MASK},
-    {0, 3, "\xff\xd8\xff", "a JPEG picture, which only warp and pose take", NO_REMEDY},
-    {0, 4, "II*\0", "a TIFF picture", MAKE_PNG},
-    {0, 4, "MM\0*", "a TIFF picture", MAKE_PNG},
-    {0, 4, "II+\0", "a TIFF picture", MAKE_PNG},
-    {0, 4, "MM\0+", "a TIFF picture", MAKE_PNG},
-    {0, 4, "GIF8", "a GIF picture", MAKE_PNG},
-    {8, 4, "WEBP", "a WebP picture", MAKE_PNG},
-    {0, 4, "8BPS", "a Photoshop picture", MAKE_PNG},
-    {0, 8, "gimp xcf", "a GIMP picture", MAKE_PNG},
-    {0, 4, "\x76\x2f\x31\x01", "an OpenEXR picture", MAKE_PNG},
-    {0, 10, "#?RADIANCE", "a Radiance picture", MAKE_PNG},
-    {0, 4, "qoif", "a QOI picture", MAKE_PNG},
-    {4, 4, "jP  ", "a JPEG 2000 picture", MAKE_PNG},
-    {4, 8, "ftypheic", "a HEIC picture", MAKE_PNG},
-    {4, 8, "ftypavif", "an AVIF picture", MAKE_PNG},
-    {0, 2, "\xff\x0a", "a JPEG XL picture", MAKE_PNG},
-    {4, 4, "JXL ", "a JPEG XL picture", MAKE_PNG},
-    {0, 5, "%PDF-", "a PDF document", MAKE_PNG},
-    {0, 4, "%!PS", "a PostScript document", MAKE_PNG},
-    {0, 4, "\x89PNG", "a PNG picture, which only warp and pose take", NO_REMEDY},
-    {0, 2, "\x1f\x8b", "a gzip archive ('gunzip')", UNPACK},
-    {0, 6,
-     "\xfd"
-     "7zXZ\0",
-     "an xz archive ('unxz')", UNPACK},
-    {0, 3, "BZh", "a bzip2 archive ('bunzip2')", UNPACK},
-    {0, 4, "\x28\xb5\x2f\xfd", "a Zstandard archive ('unzstd')", UNPACK},
-    {0, 4, "\x04\x22\x4d\x18", "an LZ4 archive ('unlz4')", UNPACK},
-    {0, 6, "7z\xbc\xaf\x27\x1c", "a 7z archive ('7z x')", UNPACK},
-    {0, 6, "Rar!\x1a\x07", "a RAR archive ('unrar')", UNPACK},
-    {257, 5, "ustar", "a tar archive ('tar xf')", UNPACK},
-    {0, 2, "\xff\xfe", "a text in UTF-16", MAKE_UTF8},
-    {0, 2, "\xfe\xff", "a text in UTF-16", MAKE_UTF8},
-    {0, 5, "\1\3\0\0\0", "well-known binary; ST_AsText or shapely's .wkt give text", NO_REMEDY},
-    {0, 5, "\1\6\0\0\0", "well-known binary; ST_AsText or shapely's .wkt give text", NO_REMEDY},
-};
-
-/* The names of root elements, without their prefix. SVG is read. */
-static const struct {
-    const char *root, *what;
-    remedy remedy;
-} roots[] = {
-    {"kml", "a KML file", MAKE_GEOJSON},
-    {"gpx", "a GPX file", MAKE_GEOJSON},
-    {"osm", "an OpenStreetMap file", MAKE_GEOJSON},
-    {"FeatureCollection", "a GML file", MAKE_GEOJSON},
-    {"COLLADA", "a COLLADA file", MAKE_SURFACE},
-    {"X3D", "an X3D file", MAKE_SURFACE},
-    {"VTKFile", "a VTK file in XML", MAKE_SURFACE},
-    {"amf", "an AMF file", MAKE_SURFACE},
-    {"model", "a 3MF model", MAKE_SURFACE},
-    {"html", "a web page", NO_REMEDY},
-};
-
-static bool told(problem *wrong, const char *what, remedy how)
+static bool told(problem *wrong, const char *what, foreign_remedy how)
 {
-    spoilt(wrong, 0, "this is %s%s%s", what, remedies[how] != NULL ? "; " : "",
-           remedies[how] != NULL ? remedies[how] : "");
+    spoilt(wrong, 0, "this is %s%s%s", what, foreign_remedies[how] != NULL ? "; " : "",
+           foreign_remedies[how] != NULL ? foreign_remedies[how] : "");
     return true;
+}
+
+/* By the first row with this mark that `word` of n bytes is, or, with `whole` false, begins with. */
+static bool told_by(foreign_mark by, const char *word, size_t n, bool whole, problem *wrong)
+{
+    for (const foreign_format *f = foreign_formats; f < foreign_formats + n_foreign_formats; f++)
+        if (f->mark == by && n >= f->at + f->n && (!whole || n == f->n) &&
+            memcmp(word + f->at, f->bytes, f->n) == 0)
+            return told(wrong, f->what, f->remedy);
+    return false;
 }
 
 int foreign_vector(problem *wrong, size_t line, const char *what)
 {
-    return spoilt(wrong, line, "this is %s; %s", what, remedies[MAKE_GEOJSON]);
+    return spoilt(wrong, line, "this is %s; %s", what, foreign_remedies[MAKE_GEOJSON]);
 }
 
 int foreign_surface(problem *wrong, size_t line, const char *what)
 {
-    return spoilt(wrong, line, "this is %s; %s", what, remedies[MAKE_SURFACE]);
+    return spoilt(wrong, line, "this is %s; 'meshio convert FILE OUT.obj' makes OBJ of its surface",
+                  what);
 }
 
 static bool has(const char *text, size_t n, size_t at, const char *bytes, size_t n_bytes)
 {
     return n >= at + n_bytes && memcmp(text + at, bytes, n_bytes) == 0;
+}
+
+static bool holds(const char *text, size_t n, const char *word)
+{
+    size_t n_word = strlen(word);
+    for (size_t i = 0; i + n_word <= n; i++)
+        if (text[i] == *word && memcmp(text + i, word, n_word) == 0)
+            return true;
+    return false;
 }
 
 static bool is_database(const char *text, size_t n, problem *wrong)
@@ -139,12 +64,12 @@ static bool is_zip(const char *text, size_t n, problem *wrong)
 {
     static const struct {
         const char *end, *what;
-        remedy remedy;
+        foreign_remedy remedy;
     } kinds[] = {{".kml", "a KMZ file", MAKE_GEOJSON},
-                 {".shp", "a zipped shapefile", MAKE_GEOJSON},
-                 {".dbf", "a zipped shapefile", MAKE_GEOJSON},
-                 {".npy", "an .npz archive", MAKE_MASK},
-                 {".model", "a 3MF file", MAKE_SURFACE}};
+                 {".shp", "a zipped shapefile ('unzip')", UNPACK},
+                 {".dbf", "a zipped shapefile ('unzip')", UNPACK},
+                 {".npy", "an .npz archive", MAKE_ARRAY},
+                 {".model", "a 3MF file", MAKE_STL_OF_PRINTS}};
     if (n < 30 || memcmp(text, "PK\3\4", 4) != 0)
         return false;
     size_t n_name = little_endian(text + 26, 2);
@@ -153,6 +78,10 @@ static bool is_zip(const char *text, size_t n, problem *wrong)
         if (n_name >= n_end && has(text, n, 30 + n_name - n_end, kinds[i].end, n_end))
             return told(wrong, kinds[i].what, kinds[i].remedy);
     }
+    if (holds(text, n, "3dmodel.model"))
+        return told(wrong, "a 3MF file", MAKE_STL_OF_PRINTS);
+    if (holds(text, n, "xl/workbook.xml") || holds(text, n, "opendocument.spreadsheet"))
+        return told(wrong, "a spreadsheet; save it as CSV", NO_REMEDY);
     return told(wrong, "a zip archive ('unzip')", UNPACK);
 }
 
@@ -186,13 +115,50 @@ static bool is_bitmap(const char *text, size_t n)
     return n > 26 && has(text, n, 0, "BM", 2) && has(text, n, 6, "\0\0\0\0", 4);
 }
 
-/* Well-known binary as PostGIS prints it: hexadecimal digits, 01 or 00 and a polygon's or several's
- * type. */
+/* The length of the file stands behind 4D4D, and a version first of all parts. */
+static bool is_3ds(const char *text, size_t n)
+{
+    return n > 16 && has(text, n, 0, "MM", 2) && little_endian(text + 2, 4) == n;
+}
+
+/* Well-known binary, also PostGIS's with a reference system: the order of bytes, and a type. */
+static bool is_well_known_binary(const char *text, size_t n)
+{
+    unsigned char order = n >= 9 ? (unsigned char)text[0] : 2;
+    uint32_t type = 0;
+    for (size_t i = 0; i < 4 && order < 2; i++)
+        type |= (uint32_t)(unsigned char)text[order == 1 ? 1 + i : 4 - i] << 8 * i;
+    type &= 0x1fffffff;
+    return order < 2 && type / 1000 < 4 && type % 1000 >= 1 && type % 1000 <= 7;
+}
+
+/* The same as PostGIS prints it: hexadecimal digits. */
 static bool is_hexadecimal(const char *p)
 {
-    bool little = strncmp(p, "0103000", 7) == 0 || strncmp(p, "0106000", 7) == 0;
-    bool big = strncmp(p, "00000000", 8) == 0 || strncmp(p, "0020000", 7) == 0;
+    bool little = strncmp(p, "010", 3) == 0 && strncmp(p + 4, "000", 3) == 0;
+    bool big = strncmp(p, "0000", 4) == 0 || strncmp(p, "0020000", 7) == 0;
     return (little || big) && strspn(p, "0123456789ABCDEFabcdef") >= 26;
+}
+
+/* Interchange files of MapInfo begin with a version, and say what separates columns. */
+static bool is_mapinfo(const char *p)
+{
+    if (strncmp(p, "Version", 7) != 0 && strncmp(p, "VERSION", 7) != 0)
+        return false;
+    p += strcspn(p, "\n");
+    p += strspn(p, " \t\r\n");
+    return strncmp(p, "Charset", 7) == 0 || strncmp(p, "CHARSET", 7) == 0 ||
+           strncmp(p, "Delimiter", 9) == 0 || strncmp(p, "DELIMITER", 9) == 0;
+}
+
+/* Whether the first lines of a text name a separator and a polygon as text or as digits: CSV. */
+static bool is_text_table(const char *p)
+{
+    size_t n_head = strcspn(p, "\r\n");
+    const char *second = p + n_head + strspn(p + n_head, "\r\n");
+    const char *shape = strstr(second, "POLYGON");
+    return strcspn(p, ",;\t") < n_head && strcspn(p, "(<{[") >= n_head && shape != NULL &&
+           (size_t)(shape - second) < strcspn(second, "\r\n");
 }
 
 /* The name behind the '<' of the first element, without its prefix; NULL if there is none. */
@@ -215,33 +181,83 @@ static bool is_markup(const char *text, problem *wrong)
 {
     const char *root = root_element(text);
     size_t n = root != NULL ? strcspn(root, " \t\r\n/>") : 0;
-    for (size_t i = 0; n > 0 && i < sizeof roots / sizeof *roots; i++)
-        if (strlen(roots[i].root) == n && strncmp(root, roots[i].root, n) == 0)
-            return told(wrong, roots[i].what, roots[i].remedy);
-    return false;
+    if (n == 7 && strncmp(root, "VTKFile", n) == 0 && strstr(root, "\"UnstructuredGrid\"") == NULL)
+        return told(wrong, "a VTK file in XML", USE_PARAVIEW);
+    return n > 0 && told_by(ROOT, root, n, true, wrong);
 }
 
-static bool is_by_text(const char *text, problem *wrong)
+/* By the members of an object, up to a type of GeoJSON. */
+static bool is_json(const char *text, size_t n, problem *wrong)
+{
+    json_scan s;
+    bool is_told = false, is_type = false, goes_on = *text == '{';
+    json_scan_start(&s, text, n);
+    goes_on = goes_on && json_scan_next(&s) == JSON_OBJECT;
+    while (goes_on && !is_told && json_scan_next(&s) == JSON_NAME) {
+        const char *name = s.text + s.begin + 1;
+        size_t n_name = s.end - s.begin - 2;
+        is_type = n_name == 4 && memcmp(name, "type", 4) == 0;
+        is_told = told_by(MEMBER, name, n_name, true, wrong);
+        json_kind kind = json_scan_next(&s);
+        if (is_type && kind == JSON_STRING)
+            is_told = told_by(TYPE, s.text + s.begin + 1, s.end - s.begin - 2, true, wrong);
+        goes_on = !(is_type && kind == JSON_STRING) && json_scan_skip(&s, kind) != JSON_BAD;
+    }
+    json_scan_end(&s);
+    return is_told;
+}
+
+/* Behind OpenFOAM's banner, and lines that are comments. */
+static const char *skip_comments(const char *p)
+{
+    while (*p == '#' || *p == '%' || (strncmp(p, "/*", 2) == 0 && strstr(p, "*/") != NULL)) {
+        p = *p == '/' ? strstr(p, "*/") + 2 : p + strcspn(p, "\n");
+        p += strspn(p, " \t\r\n");
+    }
+    return p;
+}
+
+static bool is_by_text(const char *text, size_t n, problem *wrong)
 {
     if (is_dxf(text))
         return told(wrong, "a DXF drawing", MAKE_GEOJSON);
     if (is_hexadecimal(text))
-        return told(wrong, "well-known binary; ST_AsText or shapely's .wkt give text", NO_REMEDY);
-    return is_markup(text, wrong);
+        return told(wrong, "well-known binary", MAKE_WKT_OF_DIGITS);
+    if (is_mapinfo(text))
+        return told(wrong, "a MapInfo file", MAKE_GEOJSON);
+    if (is_text_table(text))
+        return told(wrong, "a comma-separated table (CSV) of shapes", MAKE_GEOJSON_OF_TEXT);
+    const char *first = skip_comments(text);
+    return told_by(WORD, text, n, false, wrong) ||
+           told_by(WORD, first, n - (size_t)(first - text), false, wrong) ||
+           is_markup(text, wrong) || is_json(text, n, wrong);
 }
 
 bool foreign_told(const char *text, size_t n, problem *wrong)
 {
-    if (is_database(text, n, wrong) || is_zip(text, n, wrong))
+    if (is_database(text, n, wrong) || is_zip(text, n, wrong) ||
+        told_by(BYTES, text, n, false, wrong))
         return true;
-    for (size_t i = 0; i < sizeof magics / sizeof *magics; i++)
-        if (has(text, n, magics[i].at, magics[i].bytes, magics[i].n))
-            return told(wrong, magics[i].what, magics[i].remedy);
+    if (is_well_known_binary(text, n))
+        return told(wrong, "well-known binary", MAKE_WKT);
+    if (is_3ds(text, n))
+        return told(wrong, "a 3DS file", MAKE_OBJ);
     if (is_portable_map(text))
         return told(wrong, "a PNM picture, which only warp and pose take", NO_REMEDY);
     if (is_bitmap(text, n))
         return told(wrong, "a BMP picture", MAKE_PNG);
-    if (has(text, n, 0, "\xef\xbb\xbf", 3))
-        text += 3;
-    return is_by_text(text + strspn(text, " \t\r\n"), wrong);
+    size_t at = has(text, n, 0, "\xef\xbb\xbf", 3) ? 3 : 0;
+    at += strspn(text + at, " \t\r\n");
+    return is_by_text(text + at, n - at, wrong);
+}
+
+bool foreign_table_told(const char *text, problem *wrong)
+{
+    text += strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+    size_t n_head = strcspn(text, "\r\n");
+    if (strcspn(text, "{[<") < n_head)
+        return false;
+    if (strcspn(text, ",;\t") < n_head)
+        return told(wrong, "a table (CSV), not GeoJSON", MAKE_GEOJSON_OF_TEXT);
+    return false;
 }

@@ -1,4 +1,5 @@
-/* Files of formats that are not read here: what they are, and what makes a file of them that is. */
+/* Files of formats that are not read here: what they are, and what makes a file of them that is. Every
+ * reader asks this before it reads. */
 #ifndef FOREIGN_H
 #define FOREIGN_H
 
@@ -10,6 +11,9 @@
  * this program takes, or that only the reader of pictures or of masks takes; `wrong` then says so,
  * with the remedy. */
 bool foreign_told(const char *text, size_t n, problem *wrong);
+
+/* The same for what is no JSON, where JSON is expected: a table. */
+bool foreign_table_told(const char *text, problem *wrong);
 
 /* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data
  * or for surfaces. Returns false. */

@@ -11,8 +11,6 @@
 cJSON *json_parse(const char *text, size_t n, problem *wrong)
 {
     const char *end = text;
-    if (foreign_told(text, n, wrong))
-        return NULL;
     size_t mark = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     cJSON *object = cJSON_ParseWithLengthOpts(text + mark, n + 1 - mark, &end, 0);
     const char *rest = end + (object != NULL ? strspn(end, " \t\r\n\x1e") : 0);
@@ -29,8 +27,6 @@ cJSON *json_parse(const char *text, size_t n, problem *wrong)
 
 cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
 {
-    if (foreign_told(text, n, wrong))
-        return NULL;
     cJSON *list = cJSON_CreateArray();
     const char *p = text + (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0),
                *end = text + n;

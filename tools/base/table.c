@@ -1,9 +1,11 @@
 #include "base/table.h"
 
 #include "base/allocate.h"
+#include "base/columns.h"
 #include "base/foreign.h"
 #include "base/number.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +32,59 @@ static bool bad_word(const char *word, size_t line, const table_form *form, prob
                       "decimal sign as a point",
                       shown);
     return spoilt(wrong, line, "'%s' is not a number; %s", shown, form->what);
+}
+
+static bool read_cell(const cell *c, const table_form *form, double *value)
+{
+    const char *after = c->begin;
+    number_kind kind = number_read(&after, value);
+    return after == c->end && kind != NUMBER_BAD && (kind == NUMBER_OK || form->special);
+}
+
+static bool has_blank(const cell *c)
+{
+    size_t n = (size_t)(c->end - c->begin);
+    return n > 0 && (memchr(c->begin, ' ', n) != NULL || memchr(c->begin, '\t', n) != NULL);
+}
+
+static bool bad_cell(const cell *c, size_t line, const table_form *form, problem *wrong)
+{
+    int n = (int)(c->end - c->begin < 24 ? c->end - c->begin : 24);
+    char shown[32];
+    snprintf(shown, sizeof shown, "%.*s", n, c->begin);
+    for (char *letter = shown; *letter != '\0'; letter++)
+        *letter = (char)(*letter < ' ' || *letter > '~' ? '?' : *letter);
+    return spoilt(wrong, line, "'%s' is not a finite number; %s", shown, form->what);
+}
+
+/* A separated row. Without anything in its cells it is blank. Where a decimal comma may be what is
+ * meant, its first word is at fault. */
+static bool read_cells(const char *p, const char *end, size_t line, const columns *layout,
+                       const table_form *form, double *row, bool *filled, problem *wrong)
+{
+    const char *first = skip_blanks(p);
+    size_t n = 0;
+    bool has_blanks = false;
+    cell bad = {0};
+    *filled = false;
+    for (; p != NULL; n++) {
+        cell c;
+        p = columns_cell(&c, p, end, layout->separator);
+        *filled = *filled || c.begin < c.end;
+        has_blanks = has_blanks || has_blank(&c);
+        for (size_t k = 0; k < form->columns; k++)
+            if (layout->cell[k] == n && !read_cell(&c, form, &row[k]) && bad.begin == NULL)
+                bad = c;
+    }
+    if (!*filled || (n == layout->n_cells && bad.begin == NULL))
+        return true;
+    bool is_decimal = bad.begin != NULL && memchr(bad.begin, ',', (size_t)(bad.end - bad.begin));
+    if (is_decimal || (layout->separator == ',' && (has_blanks || n == 2 * layout->n_cells)))
+        return bad_word(first, line, form, wrong);
+    if (n != layout->n_cells)
+        return spoilt(wrong, line, "%zu columns in this line, not %zu; %s", n, layout->n_cells,
+                      form->what);
+    return bad_cell(&bad, line, form, wrong);
 }
 
 /* One row between p and the line's end. *filled: whether there was one. */
@@ -66,20 +121,41 @@ double *table_add_row(table *t, size_t line)
     return t->values + t->n * t->columns;
 }
 
+/* The first line that is not empty, from p on; NULL: there is none. */
+static const char *first_row(const char *p, const char *end)
+{
+    while (p < end &&
+           (skip_blanks(p) == end || *skip_blanks(p) == '\n' || *skip_blanks(p) == '#')) {
+        const char *stop = memchr(p, '\n', (size_t)(end - p));
+        p = stop != NULL ? stop + 1 : end;
+    }
+    return p < end ? p : NULL;
+}
+
 bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong)
 {
     *out = (table){.columns = form->columns};
     const char *end = text + n, *p = text;
+    columns layout = {0};
+    bool has_heading = false;
     if (foreign_told(text, n, wrong))
         return false;
     if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
         p += 3;
+    const char *first = first_row(p, end);
+    if (first != NULL && !columns_learn(&layout, &has_heading, first, form, wrong)) {
+        wrong->line = line_of(text, first);
+        return false;
+    }
     for (size_t line = 1; p < end; line++) {
         const char *stop = memchr(p, '\n', (size_t)(end - p));
         if (stop == NULL)
             stop = end;
-        bool filled;
-        if (!read_row(p, stop, line, form, table_add_row(out, line), &filled, wrong))
+        bool filled = false, is_row = !(p == first && has_heading);
+        double *row = table_add_row(out, line);
+        if (is_row && !(layout.separator == '\0' || *skip_blanks(p) == '#'
+                            ? read_row(p, stop, line, form, row, &filled, wrong)
+                            : read_cells(p, stop, line, &layout, form, row, &filled, wrong)))
             return false;
         out->n += filled;
         p = stop + (stop < end);

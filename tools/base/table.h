@@ -17,13 +17,16 @@ typedef struct table {
 /* What the rows must be. */
 typedef struct table_form {
     size_t columns;
+    size_t
+        axes; /* how many of them, from the first on, are coordinates, which a heading may name */
     bool special;     /* nan and inf are legal (a point that has no image already) */
     const char *what; /* for messages: "a point is `x y`" */
 } table_form;
 
-/* Reads rows of white-space separated numbers from text[0..n), with text[n] == '\0'. A byte order
- * mark, CR LF, blank lines and lines that begin with '#' are fine. False: see `wrong`. The table is
- * to be freed in either case. */
+/* Reads rows of numbers from text[0..n), with text[n] == '\0'. White space separates them, or commas or
+ * semicolons in all rows; such a table may have a heading (columns.h). A byte order mark, CR LF, blank lines
+ * and lines that begin with '#' are fine. False: see `wrong`. The table is to be freed in either
+ * case. */
 bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong);
 
 /* Room for one more row, which counts only once `n` says so. */

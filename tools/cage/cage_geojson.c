@@ -8,7 +8,6 @@
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"
-#include "base/foreign.h"
 #include "base/json_in.h"
 #include "base/number.h"
 #include "cage/cage_degrees.h"
@@ -22,20 +21,6 @@ static const char *type_of(const cJSON *object)
 {
     const char *type = cJSON_GetStringValue(json_get(object, "type"));
     return type != NULL ? type : "";
-}
-
-/* JSON that is something else than GeoJSON. */
-static bool is_foreign(const cJSON *object, problem *wrong)
-{
-    if (strcmp(type_of(object), "Topology") == 0)
-        return foreign_vector(wrong, 0, "a TopoJSON file"), true;
-    if (strcmp(type_of(object), "CityJSON") == 0)
-        return foreign_surface(wrong, 0, "a CityJSON file"), true;
-    if (json_get(object, "asset") != NULL)
-        return foreign_surface(wrong, 0, "a glTF file"), true;
-    if (json_get(object, "rings") != NULL || json_get(object, "geometryType") != NULL)
-        return foreign_vector(wrong, 0, "an Esri JSON file"), true;
-    return false;
 }
 
 /* What is being read, for messages: "", or like " of line 7". */
@@ -249,6 +234,21 @@ static const cJSON *choose_named(const cJSON *collection, const char *named, pro
     return NULL;
 }
 
+/* Whether all features are lines of two points, as georeferencers write them, without roles. */
+static bool are_links(const cJSON *features)
+{
+    const cJSON *feature;
+    bool are = cJSON_GetArraySize(features) > 0;
+    cJSON_ArrayForEach(feature, features)
+    {
+        const cJSON *line = json_get(feature, "geometry");
+        are = are && strcmp(type_of(line), "LineString") == 0 &&
+              cJSON_GetArraySize(json_get(line, "coordinates")) == 2 &&
+              json_get(json_get(feature, "properties"), "role") == NULL;
+    }
+    return are;
+}
+
 /* The feature that is the cage: of those with the role the one that is no line or point, else the
  * only one of all. */
 static const cJSON *choose_feature(const cJSON *collection, cage_role role, problem *wrong)
@@ -265,6 +265,14 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
     }
     if (n_chosen == 0 && cJSON_GetArraySize(features) == 1)
         return cJSON_GetArrayItem(features, 0);
+    if (n_chosen == 0 && are_links(features)) {
+        spoilt(
+            wrong, 0,
+            "these are links from one place to another, no outline; 'jq -r "
+            "\".features[].geometry.coordinates | flatten | @csv\" FILE > OUT.csv' makes pairs of "
+            "points of them, which --landmarks takes beside the outlines");
+        return NULL;
+    }
     if (n_chosen != 1) {
         spoilt(
             wrong, 0,
@@ -280,8 +288,6 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
 
 static bool read_object(cage *out, const cage_choice *choice, const cJSON *object, problem *wrong)
 {
-    if (is_foreign(object, wrong))
-        return false;
     const cJSON *collection = NULL;
     if (strcmp(type_of(object), "FeatureCollection") == 0) {
         collection = object;

@@ -23,7 +23,8 @@ static bool is_wkt(const char *text)
                                         "LINES", "MULTILI", "GEOMETRYCOLLECTION", "CURVEPOLYGON"};
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (begins_with(text, words[i]))
-            return true;
+            return i == 0 ||
+                   strcspn(text, ",;") >= strcspn(text, "("); /* else a heading: POINT_X,.. */
     return false;
 }
 

@@ -14,7 +14,7 @@ bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *
         "a vertex is 4 numbers, one vertex per line",
         "a vertex is 5 numbers, one vertex per line",
         "a vertex is 6 numbers, one vertex per line"};
-    const table_form form = {.columns = dim, .what = forms[dim]};
+    const table_form form = {.columns = dim, .axes = dim, .what = forms[dim]};
     table rows;
     bool good = table_read(&rows, text, n, &form, wrong);
     for (size_t i = 0; good && i < rows.n; i++)

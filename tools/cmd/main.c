@@ -2,6 +2,7 @@
  *
  * setlocale() is never called, so numbers are read and written the same way everywhere. */
 #include "base/file.h"
+#include "base/guess.h"
 #include "base/say.h"
 #include "base/system.h"
 #include "cmd/commands.h"
@@ -273,12 +274,21 @@ static const command *find_command(const char *name)
     return NULL;
 }
 
+static int no_command(const char *name)
+{
+    guess near = {0};
+    guess_text text;
+    for (size_t i = 0; i < N_COMMANDS; i++)
+        guess_try(&near, name, strlen(name), commands[i].name);
+    return misused(NULL, "there is no command '%.40s'%s", name, guess_say(text, &near, ""));
+}
+
 /* `libicc help` and `libicc help COMMAND`. */
 static int help_with(const char *name)
 {
     const command *c = name != NULL ? find_command(name) : NULL;
     if (name != NULL && c == NULL)
-        return misused(NULL, "there is no command '%.40s'", name);
+        return no_command(name);
     if (c != NULL)
         args_help(c);
     else
@@ -297,7 +307,8 @@ int main(int argc, char **argv)
     const command *c = find_command(name);
     if (c != NULL)
         return flushed(run_command(c, argc, argv));
-    if (strcmp(name, "--version") == 0)
+    if (strcmp(name, "--version") == 0 || strcmp(name, "version") == 0 || strcmp(name, "-v") == 0 ||
+        strcmp(name, "-V") == 0)
         printf("libicc %s\n", icc_version());
     else if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
         print_help();
@@ -306,6 +317,6 @@ int main(int argc, char **argv)
     else if (strcmp(name, "completion") == 0)
         return flushed(completion_print(argc > 2 ? argv[2] : NULL, N_COMMANDS, commands));
     else
-        return misused(NULL, "there is no command '%.40s'", name);
+        return no_command(name);
     return flushed(DONE);
 }

@@ -5,6 +5,7 @@
 
 #include "base/allocate.h"
 #include "base/degrees.h"
+#include "base/foreign.h"
 #include "base/orientation.h"
 #include "geo/geo_carriage.h"
 
@@ -285,7 +286,8 @@ bool geo_carry(geo_result *out, const carrier *carries, geo_policy policy, doubl
                   .line = 1};
     *out = (geo_result){0};
     noding_start(&c.noding, carries);
-    bool good = geo_index_read(&c.index, text, n, wrong);
+    bool good = !foreign_told(text, n, wrong) && !foreign_table_told(text, wrong) &&
+                geo_index_read(&c.index, text, n, wrong);
     out->sequence = c.index.sequence;
     if (good) {
         c.boxes = need(c.index.n, sizeof *c.boxes);

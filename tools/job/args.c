@@ -1,5 +1,6 @@
 #include "job/args.h"
 
+#include "base/guess.h"
 #include "base/number.h"
 #include "base/say.h"
 #include "job/option_table.h"
@@ -186,6 +187,16 @@ static const option *find_short(const command *c, char letter)
     return NULL;
 }
 
+static int no_option(const command *c, const char *text, size_t n)
+{
+    guess near = {0};
+    guess_text said;
+    for (size_t i = 0; i < n_options; i++)
+        if (options[i].commands & c->bit)
+            guess_try(&near, text, n, options[i].name);
+    return misused(c->name, "there is no option --%.40s%s", text, guess_say(said, &near, "--"));
+}
+
 static int take_long(reading *r, const char *text)
 {
     size_t n = strcspn(text, "=");
@@ -193,7 +204,7 @@ static int take_long(reading *r, const char *text)
     if (o == NULL && strcmp(text, "mesh") == 0)
         return misused(r->command->name, "--%s is not available in this version", text);
     if (o == NULL)
-        return misused(r->command->name, "there is no option --%.40s", text);
+        return no_option(r->command, text, n);
     return take_option(r, o, text[n] == '=' ? text + n + 1 : NULL);
 }
 

@@ -12,7 +12,7 @@ table_form rows_of_points(size_t dim)
                                                        "a point is 4 numbers, one point per line",
                                                        "a point is 5 numbers, one point per line",
                                                        "a point is 6 numbers, one point per line"};
-    return (table_form){.columns = dim, .special = true, .what = forms[dim]};
+    return (table_form){.columns = dim, .axes = dim, .special = true, .what = forms[dim]};
 }
 
 table_form rows_of_coordinates(size_t dim)

@@ -1,6 +1,7 @@
 #include "kernel/handle_set.h"
 
 #include "base/allocate.h"
+#include "base/foreign.h"
 #include "base/json_in.h"
 
 #include <stdio.h>
@@ -206,7 +207,7 @@ bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong
     static const char *const members[] = {"handles", "edges", "lines",        "regions", "curves",
                                           "paint",   "rigid", "linear_edges", NULL};
     *out = (handle_set){0};
-    cJSON *file = json_parse(text, n, wrong);
+    cJSON *file = foreign_told(text, n, wrong) ? NULL : json_parse(text, n, wrong);
     if (file == NULL)
         return false;
     bool good = json_is_object(file, "the file", members, wrong) &&

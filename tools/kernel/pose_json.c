@@ -3,6 +3,7 @@
 #include "kernel/handle_set.h"
 
 #include "base/allocate.h"
+#include "base/foreign.h"
 #include "base/json_in.h"
 
 #include <math.h>
@@ -159,7 +160,7 @@ static bool check_finite(const pose_file *p)
 double *pose_read(size_t dim, size_t n_handles, const double *handles, const char *text, size_t n,
                   problem *wrong)
 {
-    cJSON *file = json_parse(text, n, wrong);
+    cJSON *file = foreign_told(text, n, wrong) ? NULL : json_parse(text, n, wrong);
     if (file == NULL)
         return NULL;
     pose_file p = {.dim = dim, .n_handles = n_handles, .handles = handles, .wrong = wrong};

@@ -19,9 +19,9 @@ static bool take_chunk(const char *text, size_t n, size_t *at, const char *type,
                        size_t *length, problem *wrong)
 {
     if (n - *at < N_CHUNK)
-        return spoilt(wrong, 0, "byte %zu: the file ends before its part %.4s", *at, type);
+        return spoilt(wrong, 0, "byte %zu: this glTF file ends before its part %.4s", *at, type);
     if (memcmp(text + *at + 4, type, 4) != 0)
-        return spoilt(wrong, 0, "byte %zu: this is not the part %.4s", *at, type);
+        return spoilt(wrong, 0, "byte %zu: this is not the part %.4s of a glTF file", *at, type);
     *length = little_endian(text + *at, 4);
     if (*length > n - *at - N_CHUNK)
         return spoilt(wrong, 0, "byte %zu: the part %.4s has %zu bytes, but %zu are left", *at,
