@@ -1,6 +1,7 @@
 // Charts: coordinates of the inside of a domain, a boundary point and a share of the way. See
 // icc_chart_create().
-import { Handle, flat } from './core.js';
+import { Handle } from './core.js';
+import { flat } from './points.js';
 import { withDomains } from './domain.js';
 
 /** The infos that only charts of one method have; each is refused by charts of the others. */
@@ -37,7 +38,7 @@ export function chartOf(core, Domain) {
 
     /** Coordinates of points: { facet, bary, t, status }. */
     encode(points) {
-      const p = flat(points), { dim } = this, n = p.length / dim;
+      const { dim } = this, p = flat(points, dim), n = p.length / dim;
       const out = {
         facet: new Uint32Array(n), bary: new Float64Array(n * dim), t: new Float64Array(n),
         status: new Int32Array(n),
@@ -56,7 +57,7 @@ export function chartOf(core, Domain) {
 
     /** The curve through a point, from the boundary to the maximum: flat coordinates. */
     trace(point) {
-      const p = flat(point), count = new Uint32Array(1);
+      const p = flat(point, this.dim), count = new Uint32Array(1);
       core.call('icc_chart_trace', this, p, 0, null, count);
       const curve = new Float64Array(count[0] * this.dim);
       core.call('icc_chart_trace', this, p, count[0], curve, count);

@@ -149,14 +149,6 @@ export class Handle {
   [dispose]() { this.free(); }
 }
 
-/** Rows of coordinates, flat: from a typed array as it is, or from [[x, y], ...]. */
-export function flat(points) {
-  if (points instanceof Float64Array) return points;
-  if (typeof points !== 'object' || points?.length === undefined)
-    throw new TypeError('points are a Float64Array, or an array of numbers or of points');
-  return Float64Array.from(Array.isArray(points) ? points.flat() : points);
-}
-
 /** An array of n doubles: the caller's `out`, or a new one. */
 export function room(out, n, Type = Float64Array) {
   if (out === undefined || out === null) return new Type(n);

@@ -1,18 +1,32 @@
 // Domains: a boundary and what it encloses. See icc_domain_create() and its kin.
-import { Handle, flat } from './core.js';
+import { Handle } from './core.js';
+import { IccError } from './error.js';
 import { constantNames } from './names.js';
+import { flat, indices, ring } from './points.js';
 
 const DEFECTS = constantNames('ICC_DEFECT_');
 
 const feature = (kind, points, radius = 0) => {
-  const vertices = flat(points);
+  const vertices = kind === 'hole' ? ring(points) : flat(points, 2);
   return { kind, nVertices: vertices.length / 2, vertices, radius };
 };
 
 /** The features of a shape, in the order holes, lines, points. */
 function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
-  return [...holes.map((ring) => feature('hole', ring)), ...lines.map((line) => feature('line', line)),
+  return [...holes.map((hole) => feature('hole', hole)), ...lines.map((line) => feature('line', line)),
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
+}
+
+/** A polygon that is freed by the caller; what is wrong with it is that of the source or of the target, if that is its name. */
+function polygonOf(Domain, name, shape) {
+  if (typeof shape !== 'object' || shape === null)
+    throw new TypeError(`${name} is ${shape}, but has to be a Domain or an outline`);
+  try {
+    return Domain.polygon(shape);
+  } catch (error) {
+    if (name !== 'source' && name !== 'target') throw error;
+    throw error instanceof IccError ? error.blame(name) : new TypeError(`${name}: ${error.message}`);
+  }
 }
 
 /** Runs `work` with shapes, given by their names: Domains as they are, outlines as polygons that are freed afterwards. */
@@ -21,9 +35,7 @@ export function withDomains(Domain, shapes, work) {
   try {
     return work(...Object.entries(shapes).map(([name, shape]) => {
       if (shape instanceof Handle) return shape;
-      if (typeof shape !== 'object' || shape === null)
-        throw new TypeError(`${name} is ${shape}, but has to be a Domain or an outline`);
-      made.push(Domain.polygon(shape));
+      made.push(polygonOf(Domain, name, shape));
       return made.at(-1);
     }));
   } finally {
@@ -41,7 +53,7 @@ export function domainOf(core) {
 
     /** A simple polygon, and what is inside: { holes, lines, points, radii }. */
     static polygon(outline, features = {}) {
-      const outer = flat(outline);
+      const outer = ring(outline);
       const inside = featuresOf(features);
       return new Domain(inside.length === 0
         ? core.made('icc_domain_create', 2, outer.length / 2, outer, 0, null)
@@ -50,14 +62,14 @@ export function domainOf(core) {
 
     /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
     static surface(vertices, facets, dim = 3) {
-      const v = flat(vertices), f = Uint32Array.from(facets.flat?.() ?? facets);
+      const v = flat(vertices, dim), f = indices(facets);
       return new Domain(core.made('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
     }
 
     /** A conforming mesh of the inside; `facets` may say in which order the boundary's are wanted. */
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
-      const v = flat(vertices), s = Uint32Array.from(simplices.flat?.() ?? simplices);
-      const f = facets === null ? null : Uint32Array.from(facets.flat?.() ?? facets);
+      const v = flat(vertices, dim), s = indices(simplices);
+      const f = facets === null ? null : indices(facets);
       return new Domain(core.made('icc_domain_create_mesh', dim, v.length / dim, v, s.length / (dim + 1), s,
         f === null ? 0 : f.length / dim, f));
     }
@@ -101,7 +113,7 @@ export function domainOf(core) {
     /** Where points lie: { where: [1 inside, 2 on the boundary, 3 outside], facet, bary } with the nearest
      *  facet and barycentric coordinates of the nearest point on it. */
     locate(points) {
-      const p = flat(points), { dim } = this, n = p.length / dim;
+      const { dim } = this, p = flat(points, dim), n = p.length / dim;
       const out = { where: new Int32Array(n), facet: new Uint32Array(n), bary: new Float64Array(n * dim) };
       core.call('icc_domain_locate', this, n, p, out.where, out.facet, out.bary);
       return out;
@@ -114,7 +126,7 @@ export function shapesOf(core) {
   return {
     /** What keeps a closed polygon from being a boundary: [{ kind, a, b }], all of it. */
     boundaryDefects(outline) {
-      const p = flat(outline), count = new Uint32Array(1);
+      const p = ring(outline), count = new Uint32Array(1);
       core.call('icc_boundary_defects', p.length / 2, p, 0, null, null, count);
       const kinds = new Int32Array(count[0]), items = new Uint32Array(2 * count[0]);
       core.call('icc_boundary_defects', p.length / 2, p, count[0], kinds, items, count);
@@ -131,7 +143,7 @@ export function shapesOf(core) {
 
     /** A constrained Delaunay triangulation of a simple polygon and points inside it. */
     triangulate(nBoundary, points) {
-      const p = flat(points), n = p.length / 2;
+      const p = flat(points, 2), n = p.length / 2;
       const triangles = new Uint32Array(3 * (2 * n - 2 - nBoundary));
       core.call('icc_triangulate', nBoundary, n, p, triangles);
       return triangles;

@@ -17,6 +17,12 @@ export class IccError extends Error {
     this.side = [null, 'source', 'target'][details.side ?? 0] ?? null;
   }
 
+  /** The same as the fault of a side, where no other is to blame. */
+  blame(side) {
+    if (this.code === 'CANCELLED' || this.code === 'MEMORY' || this.side !== null) return this;
+    return Object.assign(this, { message: `${side}: ${this.message}`, side });
+  }
+
   /** Its members, to be sent to another thread. */
   get plain() {
     const { message, code, index, item, side } = this;

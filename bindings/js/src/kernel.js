@@ -1,6 +1,7 @@
 // Kernel coordinates: blending weights for handles. See icc/kernel.h.
-import { Handle, flat, room } from './core.js';
+import { Handle, room } from './core.js';
 import { constantOf } from './names.js';
+import { flat, indices } from './points.js';
 
 const methodNumber = (method) => (typeof method === 'string' ? constantOf('ICC_WEIGHTS_', method) : method);
 
@@ -10,7 +11,7 @@ export function kernelOf(core) {
     #dim;
     /** Regions are Domains; curves are { vertices, segments }. */
     constructor(regions, { vertices = [], segments = [], dim = regions[0]?.dim ?? 2 } = {}) {
-      const v = flat(vertices), s = Uint32Array.from(segments.flat?.() ?? segments);
+      const v = flat(vertices, dim), s = indices(segments);
       super(core, null,
         () => core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s), 'icc_shape_free');
       this.#dim = dim;
@@ -27,7 +28,7 @@ export function kernelOf(core) {
     }
 
     static fromPoints(shape, points) {
-      const p = flat(points);
+      const p = flat(points, shape.dim);
       return new Sampling(core.made('icc_sampling_create_from_points', shape, p.length / shape.dim, p));
     }
 
@@ -45,7 +46,7 @@ export function kernelOf(core) {
   class Weights extends Handle {
     /** options as in icc_weights_options: { method: 'qp', edges, lines: [{ from, to, parallel }], ... }. */
     constructor(sampling, handles, options = null) {
-      super(core, sampling, () => made(sampling, flat(handles), options), 'icc_weights_free');
+      super(core, sampling, () => made(sampling, flat(handles, sampling.dim), options), 'icc_weights_free');
     }
 
     get info() { return core.info('icc_weights_get_info', this); }
@@ -63,7 +64,7 @@ export function kernelOf(core) {
 
     /** Weights of all handles at points, point after point. */
     evaluate(points, { out, gradients = null } = {}) {
-      const p = flat(points), { dim, nHandles } = this.info, n = p.length / dim;
+      const { dim, nHandles } = this.info, p = flat(points, dim), n = p.length / dim;
       const values = room(out, n * nHandles);
       core.call('icc_weights_evaluate', this, n, p, values, gradients, null, null);
       return values;
@@ -71,20 +72,20 @@ export function kernelOf(core) {
 
     /** The function that is 1 at a node, 0 at all others and interpolated as weights are, at points. */
     dual(node, points, { out } = {}) {
-      const p = flat(points), n = p.length / this.info.dim;
+      const p = flat(points, this.dim), n = p.length / this.dim;
       const values = room(out, n);
       core.call('icc_weights_get_dual', this, node, n, p, values);
       return values;
     }
 
     report(points) {
-      const p = flat(points);
+      const p = flat(points, this.dim);
       return core.info('icc_weights_get_report', this, p.length / this.dim, p);
     }
 
     /** New weights, with a brush applied to a handle's. */
     paint(handle, centre, radius, amount) {
-      return new Weights(core.made('icc_weights_paint', this, handle, flat(centre), radius, amount));
+      return new Weights(core.made('icc_weights_paint', this, handle, flat(centre, this.dim), radius, amount));
     }
 
     /** New weights, with given initial ones at some nodes. */
@@ -107,7 +108,7 @@ export function kernelOf(core) {
 
   class Binding extends Handle {
     constructor(weights, points, { derivatives = false } = {}) {
-      super(core, weights, () => bound(weights, flat(points), derivatives), 'icc_binding_free');
+      super(core, weights, () => bound(weights, flat(points, weights.dim), derivatives), 'icc_binding_free');
     }
 
     static load(bytes) { return new Binding(core.made('icc_binding_load', bytes.length, bytes)); }
@@ -141,7 +142,7 @@ export function kernelOf(core) {
 
     constructor(handles, dim = 2) {
       this.#dim = dim;
-      this.#handles = flat(handles).slice();
+      this.#handles = flat(handles, dim).slice();
       this.#transforms = new Float64Array(this.#handles.length * (dim + 1));
       this.reset();
     }
@@ -158,25 +159,25 @@ export function kernelOf(core) {
       return this.transforms.subarray(handle * n, (handle + 1) * n);
     }
 
-    move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), flat(offset)); return this; }
+    move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), flat(offset, this.dim)); return this; }
 
     /** Radians, counter-clockwise with y upwards; in space about an axis. */
     turn(handle, angle, axis = null) {
       const at = this.handles.subarray(handle * this.dim, (handle + 1) * this.dim);
-      core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : flat(axis), angle);
+      core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : flat(axis, 3), angle);
       return this;
     }
   }
 
   function withCount(options, member, count, width) {
     if (!options?.[member]) return options;
-    const values = flat(options[member]);
+    const values = flat(options[member], width);
     return { ...options, [member]: values, [count]: values.length / width };
   }
 
   function made(sampling, handles, options) {
     let o = options ?? {};
-    if (o.edges) o = { ...o, edges: Uint32Array.from(o.edges.flat()) };
+    if (o.edges) o = { ...o, edges: indices(o.edges) };
     if (o.edges) o.nEdges = o.edges.length / 2;
     if (o.lines) o = { ...o, nLines: o.lines.length };
     return core.call('icc_weights_create', sampling, handles.length / sampling.dim, handles, o);

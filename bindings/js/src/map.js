@@ -1,7 +1,8 @@
 // Maps from one domain to another. See icc_map_create().
-import { Handle, flat, room } from './core.js';
+import { Handle, room } from './core.js';
 import { withDomains } from './domain.js';
 import { Address } from './memory.js';
+import { flat, indices } from './points.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
@@ -89,7 +90,7 @@ export function mapOf(core, Domain, Chart) {
     }
 
     #points(name, points, out, status, width) {
-      const p = flat(points), result = room(out, p.length * width);
+      const p = flat(points, this.dim), result = room(out, p.length * width);
       core.call(name, this, p.length / this.dim, p, result, status, null);
       return result;
     }
@@ -101,7 +102,7 @@ export function mapOf(core, Domain, Chart) {
     repair(vertices, simplices) { return this.#carry('icc_map_repair', vertices, simplices); }
 
     #carry(name, vertices, simplices) {
-      const v = flat(vertices), { dim } = this, s = Uint32Array.from(simplices.flat?.() ?? simplices);
+      const { dim } = this, v = flat(vertices, dim), s = indices(simplices);
       const images = new Float64Array(v.length), certificate = {};
       core.call(name, this, v.length / dim, v, s.length / (dim + 1), s, images, certificate);
       return { images, certificate };
@@ -135,7 +136,7 @@ export function mapOf(core, Domain, Chart) {
   function withTies(options) {
     if (!options?.ties) return options;
     const ties = options.ties.map(({ vertex, source = [], target = [] }) => {
-      const s = flat(source), t = flat(target);
+      const s = flat(source, 2), t = flat(target, 2);
       return { vertex, nSource: s.length / 2, source: s, nTarget: t.length / 2, target: t };
     });
     return { ...options, nTies: ties.length, ties };

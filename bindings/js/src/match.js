@@ -1,6 +1,7 @@
 // Outlines that do not correspond. See icc_match_create().
-import { Handle, flat, room } from './core.js';
+import { Handle, room } from './core.js';
 import { withDomains } from './domain.js';
+import { flat } from './points.js';
 
 const ADDED = 0xffffffff;
 
@@ -41,7 +42,7 @@ export function matchOf(core, Domain) {
     inverse(points, { out, off = null } = {}) { return this.#follow('icc_match_apply_inverse', points, out, off); }
 
     #follow(name, points, out, off) {
-      const p = flat(points), result = room(out, p.length);
+      const p = flat(points, this.dim), result = room(out, p.length);
       core.call(name, this, p.length / this.info.dim, p, result, off);
       return result;
     }

@@ -2,6 +2,7 @@
 import { structs as layouts } from './layouts.js';
 import { IccError } from './error.js';
 import { camel, numberOf, textOf } from './names.js';
+import { numbersOf } from './points.js';
 
 /** The layouts, with the members' names as JavaScript has them. */
 const structs = Object.fromEntries(Object.entries(layouts).map(([name, { size, members }]) => [name,
@@ -77,7 +78,7 @@ export class Memory {
     if (structs[element]) return this.#putStructs(element, Array.isArray(value) ? value : [value]);
     const Type = ARRAYS[element];
     const values = value instanceof Type ? value
-      : Type.from(Array.isArray(value) ? value.flat() : value);
+      : Type.from(Type === Uint8Array && Array.isArray(value) ? value.flat() : numbersOf(value));
     const at = this.take(values.byteLength);
     this.array(Type, at, values.length).set(values);
     return at;

@@ -1,5 +1,6 @@
 // The stages of Integral Curve Coordinates by themselves: grid, tree, function. See icc/stages.h.
-import { Handle, flat } from './core.js';
+import { Handle } from './core.js';
+import { flat } from './points.js';
 import { Address } from './memory.js';
 
 /** The classes Grid, Tree and GridFunction of an instance. */

@@ -38,6 +38,44 @@ test('members that hold words are members of the structs', () => {
   for (const [struct, member] of ENUMERATIONS) assert.ok(structs[struct].members[member], `${struct}.${member}`);
 });
 
+test('points may be objects, and nothing else is taken for numbers', () => {
+  const map = new icc.Map(SQUARE, LEANING);
+  const images = map.apply([[1, 1], [2, 3]]);
+  assert.deepEqual(map.apply([{ x: 1, y: 1 }, { x: 2, y: 3 }]), images);
+  assert.deepEqual(map.apply([{ x: 1, y: 1 }, [2, 3]]), images);
+  assert.deepEqual(map.apply({ x: 1, y: 1 }), images.subarray(0, 2));
+  assert.deepEqual(map.apply(Float32Array.of(1, 1, 2, 3)), images);
+  const polygon = icc.Domain.polygon(SQUARE.map(([x, y]) => ({ x, y })), { points: [{ x: 1, y: 1 }] });
+  assert.equal(polygon.info.nFeatures, 1);
+  for (const bad of [[['1', 2]], [[1, null]], ['1', '2'], [1, undefined], [{ x: '1', y: 1 }], [{ x: 1 }], 'ab', 7, [[1, [2]]], [true, false]])
+    assert.throws(() => map.apply(bad), { name: 'TypeError', message: /point/ }, JSON.stringify(bad));
+  for (const bad of [[1, 2, 3], [[1, 2, 3]], [{ x: 1, y: 1, z: 1 }], [[1, 2], [3]]])
+    assert.throws(() => map.apply(bad), { name: 'TypeError', message: /numbers/ }, JSON.stringify(bad));
+  assert.throws(() => new icc.Map(SQUARE, [['a', 0], [1, 0], [1, 1]]), { message: "target: points: 'a' is no number" });
+  assert.throws(() => icc.call('icc_triangulate', 3, 3, [[0, 0], [1, '0'], [0, 1]], new Uint32Array(3)), TypeError);
+});
+
+test('outlines may be closed rings', () => {
+  const closed = (ring) => [...ring, ring[0]];
+  const open = new icc.Map(SQUARE, LEANING), map = new icc.Map(closed(SQUARE), closed(LEANING));
+  assert.equal(map.info.nVertices, open.info.nVertices);
+  assert.deepEqual(map.apply([[1, 1]]), open.apply([[1, 1]]));
+  const hole = [[1, 1], [1, 2], [2, 2], [2, 1]];
+  const domain = icc.Domain.polygon(Float64Array.from(closed(SQUARE).flat()), { holes: [closed(hole)] });
+  assert.equal(domain.info.nVertices, 8);
+  assert.equal(domain.info.measure, 15);
+  assert.deepEqual(icc.boundaryDefects(closed(SQUARE)), []);
+});
+
+test('a fault of one of two shapes is that of a side', () => {
+  for (const make of [(s, t) => new icc.Map(s, t), (s, t) => new icc.Match(s, t)]) {
+    assert.throws(() => make(CROSSED, SQUARE), { side: 'source', code: 'BOUNDARY', message: /^source: edges/ });
+    assert.throws(() => make(SQUARE, CROSSED), { side: 'target', code: 'BOUNDARY', message: /^target: edges/ });
+  }
+  assert.throws(() => new icc.Map(SQUARE, LEANING).retarget(CROSSED), { side: 'target', message: /^target: edges/ });
+  assert.throws(() => icc.Domain.polygon(CROSSED), { side: null, message: /^edges/ });
+});
+
 test('a map takes points there and back, follows its target, and is saved', () => {
   const map = new icc.Map(SQUARE, LEANING);
   assert.equal(map.certified, true);

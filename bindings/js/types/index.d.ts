@@ -1,6 +1,8 @@
 /// <reference lib="esnext.disposable" />
-/** Rows of coordinates: flat, or one array a point. */
-export type Points = Float64Array | readonly number[] | readonly (readonly number[])[];
+/** A point by the names of its coordinates. */
+export interface Point { readonly x: number; readonly y: number; readonly z?: number }
+/** Rows of coordinates: flat, one array a point, or one object a point. */
+export type Points = Float64Array | readonly number[] | readonly (readonly number[])[] | readonly Point[] | Point;
 export type Indices = Uint32Array | readonly number[] | readonly (readonly number[])[];
 /** The members of a struct of C, in camel case. */
 export type Info = Record<string, any>;
