@@ -93,8 +93,8 @@ typedef struct icc_domain_info {
  *
  * All checks use the coordinates as given. Internally the shape is shifted and scaled by exact
  * operations, so any position and size will do (an offset of 1e9, coordinates of 1e300). A
- * coordinate other than 0 that is smaller than 2^-200 of the largest one is refused. Except in 2-D,
- * vertices that belong to no facet are kept and otherwise ignored.
+ * coordinate other than 0 of 2^-200 of the largest one or less is refused. Except in 2-D, vertices
+ * that belong to no facet are kept and otherwise ignored.
  *
  * @param[out] out   the domain; owned by the caller, see icc_domain_free()
  * @param dim        1..::ICC_MAX_DIM

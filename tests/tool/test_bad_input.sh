@@ -99,7 +99,12 @@ names() {
     run 1 check -s bad
     says "this is $1"
     says "${2:-ogr2ogr -f GeoJSON}"
-    run 1 map -s source.txt -t target.txt -p bad
+    for reader in '-p bad' '--geojson bad out.geojson' '--match auto --landmarks bad -p points.txt'; do
+        # shellcheck disable=SC2086 # words
+        run 1 map -s source.txt -t target.txt $reader
+        says "libicc: bad: this is $1"
+    done
+    run 1 mesh -s source.txt -t target.txt bad out.obj
     says "libicc: bad: this is $1"
 }
 printf '<?xml version="1.0"?>\n<!-- a > b -->\n<kml xmlns="x"><Placemark/></kml>' | names 'a KML file'
@@ -113,6 +118,36 @@ printf 'PK\003\004%022d\007\000\000\000a/b.txt' 0 | names 'a zip archive' 'unpac
 printf '\000\000\047\012\000\000' | names 'a shapefile'
 printf 'fgb\003fgb\000' | names 'a FlatGeobuf file'
 printf '999\r\na comment\r\n  0\r\nSECTION\r\n' | names 'a DXF drawing'
+printf 'Version 300\nCharset "Neutral"\nDelimiter ","\n' | names 'a MapInfo file'
+printf 'id,WKT\n1,"POLYGON((0 0, 9 0, 9 9))"\n' | names 'a comma-separated table (CSV) of shapes'
+printf '{"objects":{},"arcs":[],"type":"Topology"}' | names 'a TopoJSON file'
+printf '#CRS: x\nmapX,mapY,sourceX,sourceY,enable\n1,2,3,4,1\n' | rejects ' ' 'this is a list of control points (QGIS)'
+says '--landmarks takes it'
+printf 'id,x,y\n1,2,3\n' >bad
+run 1 map -s source.txt -t target.txt --geojson bad out.geojson
+says 'this is a table (CSV), not GeoJSON; '
+printf '{"asset":{"version":"2.0"}}' | names 'a glTF file in JSON' 'makes one file (.glb)'
+printf '{"skeleton":{"spine":"4"}}' | names 'a Spine skeleton' 'lines of `x y`'
+printf '{"v":"5","fr":30}' | names 'a Lottie animation' 'lines of `x y`'
+printf '[gd_scene format=3]\n' | names 'a Godot scene' 'lines of `x y`'
+printf '{"markups":[]}' | names 'a list of landmarks of 3D Slicer' 'makes points'
+printf '# Markups fiducial file version = 4.11\n' | names 'a list of landmarks of 3D Slicer' 'makes points'
+printf 'ObjectType = Image\n' | names 'a MetaImage file' 'makes a mask'
+printf 'NRRD0004\n' | names 'an NRRD file' 'makes a mask'
+printf '%0344dn+1\000' 0 | names 'a NIfTI file' 'makes a mask'
+printf 'mesh3d\n' | names 'a Netgen mesh' 'makes VTK'
+printf '/* of a\n * tool */\nFoamFile\n{\n}\n' | names 'an OpenFOAM file' 'foamToVTK'
+printf '<febio_spec version="4.0"/>' | names 'a FEBio file' 'exports VTK'
+printf '$MeshFormat\n4.1 0 8\n' | names 'a Gmsh file' 'makes VTK'
+printf '<VTKFile type="UnstructuredGrid"/>' | names 'a VTK file in XML' 'makes VTK'
+printf '<VTKFile type="PolyData"/>' | names 'a VTK file in XML' 'ParaView'
+printf '\211HDF\r\n' | names 'an HDF5 file' 'makes VTK'
+printf 'Kaydara FBX Binary' | names 'an FBX file' 'Blender imports it'
+printf 'PXR-USDC' | names 'a USD file' 'Blender imports it'
+printf 'ISO-10303-21;\n' | names 'a STEP file' 'makes STL'
+printf '\166\057\061\001' | names 'an OpenEXR picture' '.npy'
+printf '\001\003\000\000\040\346\020\000\000' | names 'well-known binary' 'makes text'
+printf 'glTF\002\000\000\000\034\000\000\000\010\000\000\000BIN\000%08d' 0 | rejects ' ' 'is not the part JSON of a glTF file'
 printf 'solid cube\n facet normal 0 0 1\n' | rejects 3: 'the file ends early'
 printf 'solid\nendsolid\n' | rejects ' ' 'there are no vertices'
 printf 'glTF\002\000\000\000' | rejects ' ' 'the file ends early'
@@ -131,8 +166,6 @@ printf '%s\n%s\n' "$one" "$one" | rejects ' ' 'none of the 2 features of the seq
 printf '%s %s\n' "$one" "$one" | rejects 1: 'this is not valid JSON'
 printf '%s\n{"type":"Polygon"}\n' "$one" | rejects ' ' "text 2 of 2 is a 'Polygon'; in a sequence each is a Feature"
 printf '\036%s\n\036{"type":\n' "$one" | rejects 3: 'the JSON ends early'
-printf '{"type":"Topology","arcs":[]}' | rejects ' ' 'this is a TopoJSON file'
-printf '{"asset":{"version":"2.0"}}' | rejects ' ' 'this is a glTF file'
 printf '{"rings":[[[0,0],[1,0],[1,1]]]}' | rejects ' ' 'this is an Esri JSON geometry'
 printf '# vtk DataFile Version 3.0\n' | rejects 2: 'the file ends early'
 printf 'MeshVersionFormatted 2\n' | rejects ' ' 'there are no vertices'

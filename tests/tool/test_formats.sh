@@ -19,6 +19,7 @@ printf 'POLYGON ((0 0, 10 0, 10 5, 5 5, 5 10, 0 10, 0 0))' >a.wkt
 printf 'SRID=4326; Polygon((0 0,10 0,10 5,5 5,5 10,0 10))\n' >b.wkt
 printf '{"type":"Polygon","coordinates":[[[0,0],[10,0],[10,5],[5,5],[5,10],[0,10],[0,0]]]}' >polygon.json
 printf '{"type":"MultiPolygon","coordinates":[[[[0,0],[10,0],[10,5],[5,5],[5,10],[0,10],[0,0]]]]}' >multi.json
+printf '{"type":"LineString","coordinates":[[0,0],[10,0],[10,5],[5,5],[5,10],[0,10],[0,0]]}' >line.json
 printf '{"type":"Feature","properties":null,"geometry":%s}' "$(cat polygon.json)" >feature.json
 printf '{"type":"FeatureCollection","features":[%s]}' "$(cat feature.json)" >collection.json
 other='{"type":"Polygon","coordinates":[[[0,0],[12,1],[12,6],[6.5,7],[5,12],[-1,10]]]}'
@@ -39,7 +40,7 @@ printf 'id,LAT,lon,name\n1,0,0,"a, b"\n2,0,10,\n3,5,10,\n\n# more\n4,5,5,c\n5,10
 printf 'a,b\n0,0\n10,0\n10,5\n5,5\n5,10\n0,10' >names.csv
 printf 'POINT_X,POINT_Y\n0,0\n10,0\n10,5\n5,5\n5,10\n0,10\n' >arc.csv
 
-for file in comma.csv turned.csv extra.csv names.csv arc.csv crlf.txt bom.txt odd.txt a.wkt b.wkt polygon.json multi.json feature.json collection.json roles.json \
+for file in line.json comma.csv turned.csv extra.csv names.csv arc.csv crlf.txt bom.txt odd.txt a.wkt b.wkt polygon.json multi.json feature.json collection.json roles.json \
     polygon.svg path.svg relative.svg axes.svg roles.svg one.wkt label.svg; do
     same_domain "$file"
 done

@@ -81,6 +81,7 @@ for name in gpkg kml shp fgb gml mif sqlite kmz topojson json csv; do
     follow l.$name check -s FILE
     follow l.$name map -s source.txt -t target.txt --geojson FILE out.geojson
 done
+[ ! -e l.dxf ] || follow l.dxf check -s FILE
 for name in gpx osm dxf; do
     [ -e l.$name ] || continue
     follow l.$name map -s source.txt -t target.txt --geojson FILE out.geojson

@@ -69,6 +69,8 @@ static bool is_zip(const char *text, size_t n, problem *wrong)
                  {".shp", "a zipped shapefile ('unzip')", UNPACK},
                  {".dbf", "a zipped shapefile ('unzip')", UNPACK},
                  {".npy", "an .npz archive", MAKE_ARRAY},
+                 {".usdc", "a USD file", USE_BLENDER},
+                 {".usda", "a USD file", USE_BLENDER},
                  {".model", "a 3MF file", MAKE_STL_OF_PRINTS}};
     if (n < 30 || memcmp(text, "PK\3\4", 4) != 0)
         return false;

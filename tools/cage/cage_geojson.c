@@ -87,6 +87,13 @@ static bool read_polygons(cage *out, const cJSON *polygons, problem *wrong)
     return read_rings(out, polygons->child, wrong);
 }
 
+/* Whether a line ends where it begins: drawings have outlines like this. */
+static bool is_closed(const cJSON *line)
+{
+    int n = cJSON_GetArraySize(line);
+    return n > 3 && cJSON_Compare(cJSON_GetArrayItem(line, 0), cJSON_GetArrayItem(line, n - 1), 1);
+}
+
 static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
 {
     const char *type = type_of(geometry);
@@ -95,8 +102,14 @@ static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
         return read_rings(out, coordinates, wrong);
     if (strcmp(type, "MultiPolygon") == 0)
         return read_polygons(out, coordinates, wrong);
+    if (strcmp(type, "LineString") == 0 && is_closed(coordinates))
+        return read_positions(out, coordinates, "", wrong) && cage_end_ring(out, 0, wrong);
     char shown[32];
-    return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon", quoted(shown, type));
+    if (*type == '\0')
+        return spoilt(wrong, 0,
+                      "this JSON has no member \"type\", as GeoJSON has; a cage is a Polygon");
+    return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon, or a closed LineString",
+                  quoted(shown, type));
 }
 
 /* Whether a feature has the role "source" or "target", or with `behind` "-tie" that of a tie. */
