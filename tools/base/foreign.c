@@ -31,12 +31,6 @@ int foreign_vector(problem *wrong, size_t line, const char *what)
     return spoilt(wrong, line, "this is %s; %s", what, foreign_remedies[MAKE_GEOJSON]);
 }
 
-int foreign_surface(problem *wrong, size_t line, const char *what)
-{
-    return spoilt(wrong, line, "this is %s; 'meshio convert FILE OUT.obj' makes OBJ of its surface",
-                  what);
-}
-
 static bool has(const char *text, size_t n, size_t at, const char *bytes, size_t n_bytes)
 {
     return n >= at + n_bytes && memcmp(text + at, bytes, n_bytes) == 0;

@@ -15,9 +15,8 @@ bool foreign_told(const char *text, size_t n, problem *wrong);
 /* The same for what is no JSON, where JSON is expected: a table. */
 bool foreign_table_told(const char *text, problem *wrong);
 
-/* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data
- * or for surfaces. Returns false. */
+/* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data.
+ * Returns false. */
 int foreign_vector(problem *wrong, size_t line, const char *what);
-int foreign_surface(problem *wrong, size_t line, const char *what);
 
 #endif
