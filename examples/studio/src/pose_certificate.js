@@ -32,13 +32,15 @@ export class PoseCertificate {
     this.stats.broken += this.mesh.folded.length / 3;
   }
 
-  /** What stands on the card, and on the badge of the pose. */
+  /** What stands on the card, and on the badge of the pose: red only where something folds, or was asked for in vain. */
   report({ folded, triangles }) {
     const folds = folded.length / 3, good = this.mesh?.certified, text = `${folds} of ${triangles.length / 3} triangles folded`;
-    const why = good ? 'The map through the outline of this pose.' : this.reason ?? 'Poses by weights promise nothing.';
+    const state = good ? 'good' : folds > 0 || this.mesh || this.reason ? 'bad' : 'open';
+    const title = { good: 'Certified one-to-one', bad: 'Not certified', open: 'Nothing folded' }[state];
+    const why = good ? 'The map through the outline of this pose.' : this.reason ?? 'Poses by weights are not certified by themselves.';
     return {
-      card: { state: good ? 'good' : 'bad', title: good ? 'Certified one-to-one' : 'Not certified', lines: [text, why] },
-      badge: [good ? 'good' : 'bad', `${good ? '' : 'not '}certified, ${folds} folded`],
+      card: { state, title, lines: [text, why] },
+      badge: [state, state === 'open' ? '0 folded' : `${good ? '' : 'not '}certified, ${folds} folded`],
     };
   }
 }

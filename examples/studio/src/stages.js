@@ -76,14 +76,28 @@ export class StageMode {
     const m = 0.1 * Math.max(image.width, image.height);
     for (const sheet of [this.source, this.target]) sheet.look([-m, -m, image.width + 2 * m, image.height + 2 * m]);
     this.#walk = null;
+    if (!this.#data) this.#tell('The stages of this outline are being made.');
     ask(this.#remote, 'stages', 'stages.make', { source: source[0].points, target: target[0].points, cells: this.#cells, kind: this.#kind },
       (result) => {
-        if (result.error) { this.#say(`${result.error.message}.`); return; }
+        if (result.error) { this.#refuse(result.error.message); return; }
         const burnt = grassfire(result.grid, result.inside), height = levels(result.values, result.inside);
         this.#data = { ...result, burnt, height, lines: levelLines(result.grid, height, LEVELS) };
         ++this.stats.frames;
         this.render();
       });
+  }
+
+  /** Without stages the outline is shown, and why; a message that goes would leave an empty page. */
+  #refuse(why) {
+    this.#data = this.#walk = this.#point = null;
+    this.#tell(`There are no stages: ${why}. Drag the outline in mode Cage until both shapes are simple.`);
+    for (const sheet of [this.source, this.target]) sheet.note.textContent = '';
+    this.render();
+  }
+
+  #tell(text, facts = {}) {
+    this.text.textContent = text;
+    this.facts.replaceChildren(...Object.entries(facts).flatMap(([k, v]) => [make('dt', {}, k), make('dd', {}, String(v))]));
   }
 
   #move(point) {
@@ -99,13 +113,11 @@ export class StageMode {
   }
 
   render() {
-    if (!this.#data) return;
+    if (!this.#shape) return;
     const { image } = this.#cage, walk = this.#walk, to = walk?.image && !Number.isNaN(walk.image[0]) ? walk.image : null;
-    drawStep(this.source, image, this.#step, this.#data, walk?.curve, walk && this.#point);
+    drawStep(this.source, image, this.#data ? this.#step : null, this.#data, walk?.curve, walk && this.#point);
     drawStep(this.target, image, null, this.#data, walk?.there, to);
     this.#shape.forEach((points, k) => this.overlays[k].show([{ kind: 'outline', points }], { editable: false }));
-    const [text, facts] = TEXTS[this.#step](this.#data);
-    this.text.textContent = text;
-    this.facts.replaceChildren(...Object.entries(facts).flatMap(([k, v]) => [make('dt', {}, k), make('dd', {}, String(v))]));
+    if (this.#data) this.#tell(...TEXTS[this.#step](this.#data));
   }
 }

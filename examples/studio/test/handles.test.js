@@ -152,8 +152,10 @@ test('what cannot be had is said, and what was there stays', async () => {
 test('a pose is made certified, and reset', async () => {
   await page.click('#rest');
   await settle(page);
+  assert.match(await certificate(), /^Nothing folded/);
+  assert.equal(await page.$eval('.handles #certificate', (e) => e.dataset.state), 'open');
   await drag(page, handle(8), [15, -30], 4);
-  assert.match(await certificate(), /Not certified/);
+  assert.doesNotMatch(await certificate(), /Certified/);
   await page.click('#certify');
   await settle(page);
   assert.match(await certificate(), /Certified one-to-one\s*0 of/);

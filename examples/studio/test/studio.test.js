@@ -253,6 +253,23 @@ test('stages: every step, and a walk', async () => {
   await shot('stages');
 });
 
+test('stages: an outline that crosses itself has none, and what is shown is it and why', async () => {
+  const told = () => page.$eval('.stages .lesson', (e) => e.textContent);
+  const outline = () => page.$eval('.stages .first .overlay .part.outline', (path) => path.getAttribute('d'));
+  await show(page, 'cage');
+  await sample('squares');
+  await drag(page, corner(2), [0, 460], 6);
+  await show(page, 'stages');
+  assert.match(await told(), /^There are no stages: .*(cross|touch)/);
+  assert.match(await outline(), /^M/);
+  await shot('no-stages');
+  await show(page, 'cage');
+  await page.click('#reset');
+  await settle(page);
+  await show(page, 'stages');
+  assert.doesNotMatch(await told(), /no stages/);
+});
+
 test('space: the bar is bent and cut, certified', async () => {
   await show(page, 'space');
   const set = (index, value) => page.evaluate((i, v) => {
