@@ -5,6 +5,7 @@
 #include "domain/triangles.h"
 
 #include "domain/fans.h"
+#include "domain/needles.h"
 #include "domain/segment.h"
 #include "math/predicates.h"
 
@@ -263,19 +264,15 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
 
 /* ------------------------------------------------------------ all pairs */
 
-/* Vertices that all triangles below a node have as corners, and round which no triangles meet; as
- * far as they are vertices. */
-typedef struct hub {
-    uint32_t corner[3];
-} hub;
+/* Pairs of boxes per triangle that are compared one by one. Ordinary surfaces have about 10. */
+enum { PATIENCE = 64 };
 
 typedef struct search {
     const iccp_facet_tree *tree;
     const iccp_env *env;
     place *places;
-    hub *hubs; /* by node; of nodes without triangles, whose boxes meet none, anything */
-    size_t n_vertices;
     size_t first[2]; /* places of the first pair that meets, so far; tree->n: none */
+    size_t n_left;   /* pairs of boxes that may still be compared */
     icc_status status;
 } search;
 
@@ -295,6 +292,7 @@ static ICCP_INLINE bool nodes_meet(const double *a, const double *b)
 static void compare_places(search *s, size_t p, size_t q)
 {
     const place *a = &s->places[p], *b = &s->places[q];
+    s->n_left -= s->n_left > 0;
     if (!boxes_meet(a->box, b->box) || p > s->first[0] || (p == s->first[0] && q > s->first[1]))
         return;
     if (places_meet(s->tree->vertices, s->tree->facets, a, b)) {
@@ -353,24 +351,14 @@ static double extent(const double *box)
     return (box[3] - box[0]) + (box[4] - box[1]) + (box[5] - box[2]);
 }
 
-/* Whether all triangles below two nodes lie round a vertex at which none meet: there may be very
- * many pairs of them. */
-static bool have_hub(const search *s, size_t a, size_t b)
-{
-    const uint32_t *const v = s->hubs[a].corner, *const w = s->hubs[b].corner;
-    for (size_t i = 0; i < 3; ++i)
-        if (v[i] < s->n_vertices && (v[i] == w[0] || v[i] == w[1] || v[i] == w[2]))
-            return true;
-    return false;
-}
-
 /* Compares the triangles below two nodes, the places below the second being the later ones. Of two
  * boxes that overlap the larger is halved. */
 static void compare(search *s, size_t a, size_t b)
 {
     const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
-    if (s->status != ICC_OK || !nodes_meet(box_a, box_b) || have_hub(s, a, b))
+    if (s->status != ICC_OK || s->n_left == 0 || !nodes_meet(box_a, box_b))
         return;
+    --s->n_left;
     const bool a_leaf = a >= s->tree->n_leaves, b_leaf = b >= s->tree->n_leaves;
     if (a_leaf && b_leaf) {
         compare_leaves(s, a, b);
@@ -408,48 +396,32 @@ static void fill_places(search *s, const uint8_t *good)
     }
 }
 
-/* Drops those that are not among `corners`. */
-static void keep_common(hub *h, const uint32_t *corners)
+/* For iccp_needles_compare(). */
+static bool find_meeting(void *context, uint32_t p, uint32_t q)
 {
-    for (size_t i = 0; i < 3; ++i)
-        if (h->corner[i] != corners[0] && h->corner[i] != corners[1] && h->corner[i] != corners[2])
-            h->corner[i] = UINT32_MAX;
-}
-
-static void find_hubs(search *s)
-{
-    const size_t n_leaves = s->tree->n_leaves;
-    for (size_t node = 2 * n_leaves; node-- > 1;) {
-        hub *h = &s->hubs[node];
-        if (node < n_leaves) {
-            *h = s->hubs[2 * node];
-            keep_common(h, s->hubs[2 * node + 1].corner);
-            continue;
-        }
-        const size_t first = leaf_start(s, node);
-        if (first < s->tree->n)
-            memcpy(h->corner, s->places[first].corner, sizeof h->corner);
-        for (size_t p = first + 1; p < leaf_end(s, node); ++p)
-            keep_common(h, s->places[p].corner);
-    }
+    search *s = context;
+    compare_places(s, p < q ? p : q, p < q ? q : p);
+    return s->first[0] < s->tree->n;
 }
 
 icc_status iccp_triangles_find(const iccp_facet_tree *tree, size_t n_vertices, uint32_t pair[2],
                                const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    search s = {.tree = tree, .env = env, .n_vertices = n_vertices, .first = {tree->n, tree->n}};
+    search s = {.tree = tree,
+                .env = env,
+                .first = {tree->n, tree->n},
+                .n_left = PATIENCE * (tree->n + PATIENCE)};
     uint8_t *good = iccp_fans_find(tree, n_vertices, memory);
     s.places = iccp_alloc(memory, tree->n, sizeof *s.places);
-    s.hubs = iccp_alloc_zero(memory, 2 * tree->n_leaves, sizeof *s.hubs);
-    s.status = good != NULL && s.places != NULL && s.hubs != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    s.status = good != NULL && s.places != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (s.status == ICC_OK) {
         fill_places(&s, good);
-        find_hubs(&s);
         compare_within(&s, 1);
     }
+    if (s.status == ICC_OK && s.n_left == 0 && s.first[0] == tree->n)
+        s.status = iccp_needles_compare(tree, n_vertices, find_meeting, &s, env);
     iccp_free(memory, s.places);
-    iccp_free(memory, s.hubs);
     iccp_free(memory, good);
     pair[0] = pair[1] = 0;
     if (s.status == ICC_OK && s.first[0] < tree->n) {

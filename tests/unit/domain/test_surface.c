@@ -4,16 +4,19 @@
 #include "../../obj.h"
 #include "../../share.h"
 #include "../../surfaces.h"
+#include "base/error.h"
 #include "domain/crossings.h"
 #include "domain/domain.h"
 #include "domain/facet_tree.h"
 #include "domain/fans.h"
+#include "domain/needles.h"
 #include "domain/simplex.h"
 #include "domain/triangles.h"
 #include "icc/icc.h"
 
 #include <check.h>
 #include <glob.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 
@@ -482,6 +485,115 @@ START_TEST(fans_are_safe)
         iccp_facet_tree_free(&tree, &env.memory);
     }
     ck_assert(n_good > n_rounds / 5 && n_met > n_rounds / 5 && n_met < n_rounds * 4 / 5);
+}
+END_TEST
+
+/* ------------------------------------------------------------------- needles */
+
+typedef struct needles {
+    const iccp_facet_tree *tree;
+    size_t n_compared;
+    bool met;
+} needles;
+
+static bool compare_needles(void *context, uint32_t p, uint32_t q)
+{
+    needles *all = context;
+    const iccp_facet_tree *tree = all->tree;
+    ++all->n_compared;
+    all->met = iccp_triangles_meet(tree->vertices, tree->facets + 3 * (size_t)tree->order[p],
+                                   tree->facets + 3 * (size_t)tree->order[q]);
+    return all->met;
+}
+
+/* Whether triangles meet, which the search for needles finds if and only if a comparison of all
+ * pairs does. */
+static bool needles_meet(const double *vertices, size_t n_vertices, const uint32_t *faces, size_t n,
+                         size_t *n_compared)
+{
+    const iccp_env env = {.memory = iccp_memory_default};
+    iccp_facet_tree tree;
+    iccp_facet_tree_create(&tree, 3, vertices, n, faces, &env.memory);
+    needles slow = {.tree = &tree}, fast = slow;
+    for (uint32_t p = 0; p < n && !slow.met; ++p)
+        for (uint32_t q = 0; q < p && !slow.met; ++q)
+            (void)compare_needles(&slow, p, q);
+    REQUIRE(iccp_needles_compare(&tree, n_vertices, compare_needles, &fast, &env) == ICC_OK);
+    REQUIRE(fast.met == slow.met);
+    *n_compared += fast.n_compared;
+    iccp_facet_tree_free(&tree, &env.memory);
+    return fast.met;
+}
+
+/* Needles anywhere, and arcs of all lengths round one vertex or two. */
+START_TEST(needles_are_searched)
+{
+    enum { N = 200 };
+    random_source r = {7};
+    int n_met[3] = {0};
+    size_t n_compared = 0;
+    const int n_rounds = share_of(150);
+    double *vertices = malloc((9 * N + 6) * sizeof *vertices);
+    uint32_t *faces = malloc(3 * N * sizeof *faces);
+    for (int round = 0; round < n_rounds; ++round) {
+        const int kind = round % 3;
+        for (uint32_t i = 0; i < 9 * N + 6; ++i)
+            vertices[i] = random_unit(&r) - 0.5;
+        for (uint32_t i = 0; i < N; ++i) {
+            double *p = vertices + 9 * i;
+            const double width = kind == 1   ? 0.1 * pow(random_unit(&r), 4)
+                                 : kind == 0 ? 1e-4
+                                             : 1e-3;
+            for (int k = 0; k < 3; ++k)
+                p[6 + k] = p[3 + k] + width * (random_unit(&r) - 0.5);
+            faces[3 * i] = kind == 0 ? 3 * i : 3 * N + (kind == 2 ? i % 2 : 0);
+            faces[3 * i + 1] = 3 * i + 1;
+            faces[3 * i + 2] = 3 * i + 2;
+        }
+        vertices[9 * N + 3] *= 0.01;
+        n_met[kind] += needles_meet(vertices, 3 * N + 2, faces, N, &n_compared);
+    }
+    for (int kind = 0; kind < 3; ++kind)
+        ck_assert_msg(n_met[kind] > n_rounds / 30 && n_met[kind] < n_rounds * 29 / 90,
+                      "kind %d: %d of %d", kind, n_met[kind], n_rounds / 3);
+    ck_assert_uint_lt(n_compared, (size_t)n_rounds * N * N / 8);
+    free(faces);
+    free(vertices);
+}
+END_TEST
+
+/* A double cone over a rim that goes up and down, as places of a tree. */
+static icc_status search_cones(const icc_env *caller, icc_error *err, void *argument)
+{
+    enum { N = 400 };
+    static double vertices[3 * (N + 2)];
+    static uint32_t faces[6 * N];
+    iccp_env env;
+    iccp_facet_tree tree;
+    needles all = {.tree = &tree};
+    (void)argument;
+    REQUIRE(iccp_env_read(&env, caller, err) == ICC_OK);
+    for (uint32_t i = 0; i < N; ++i) {
+        const double angle = 6.283185307179586 * i / N;
+        const double rim[3] = {cos(angle), sin(angle), i % 2 == 0 ? -0.1 : 0.1};
+        const uint32_t next = (i + 1) % N, both[6] = {N, i, next, N + 1, next, i};
+        memcpy(vertices + 3 * i, rim, sizeof rim);
+        memcpy(faces + 6 * i, both, sizeof both);
+    }
+    vertices[3 * N + 2] = 1;
+    vertices[3 * N + 5] = -1;
+    iccp_facet_tree_create(&tree, 3, vertices, 2 * N, faces, &env.memory);
+    const icc_status status = tree.boxes == NULL
+                                  ? ICC_ERR_MEMORY
+                                  : iccp_needles_compare(&tree, N + 2, compare_needles, &all, &env);
+    iccp_facet_tree_free(&tree, &env.memory);
+    ck_assert(!all.met && all.n_compared < 40 * N);
+    return iccp_explain(err, status);
+}
+
+START_TEST(needles_leak_nothing)
+{
+    faulty_sweep(search_cones, NULL);
 }
 END_TEST
 
@@ -1185,6 +1297,8 @@ int main(void)
     tcase_add_test(tests, triangles_agree_with_integers);
     tcase_add_test(tests, soups_are_searched);
     tcase_add_test(tests, fans_are_safe);
+    tcase_add_test(tests, needles_are_searched);
+    tcase_add_test(tests, needles_leak_nothing);
     tcase_add_test(tests, stars_are_domains);
     tcase_add_test(tests, orientation_is_exact);
     tcase_add_test(tests, lattice_points_are_placed);
