@@ -5,6 +5,13 @@
  * libicc keeps no global and no thread-local state, installs no signal handler, prints nothing and
  * never exits the process. (Not related to ICC colour profiles.)
  *
+ * You may call libicc in any rounding mode, with subnormal numbers flushed to zero, and with
+ * floating-point exceptions that trap: results are the same bits. Each call computes in C's default
+ * floating-point environment (rounding to nearest, no traps). When it returns, your thread has its
+ * own environment back, exception flags included. Callbacks run in the default environment and must
+ * leave it as it is. A library built by Microsoft's compiler does none of this: call it in the
+ * default environment.
+ *
  * SPDX-License-Identifier: MIT
  */
 #ifndef ICC_BASE_H
@@ -96,7 +103,8 @@ typedef struct icc_error {
                             "source: " or "target: " */
 } icc_error;
 
-/** One unit of work handed to icc_env::parallel_for. */
+/** One unit of work handed to icc_env::parallel_for. You may run it in any floating-point
+ *  environment; it leaves that as it was. */
 typedef void (*icc_task)(void *argument, size_t index);
 
 /**

@@ -19,6 +19,7 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, siz
                               const double *points, int32_t derivatives, const icc_env *env,
                               icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -48,6 +49,7 @@ void icc_binding_free(icc_binding *binding)
 icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_points, size_t *n_handles,
                                   int32_t *dim)
 {
+    ICCP_ENTER;
     if (binding == NULL)
         return ICC_ERR_ARGUMENT;
     if (n_points != NULL)
@@ -61,6 +63,7 @@ icc_status icc_binding_get_counts(const icc_binding *binding, size_t *n_points, 
 
 icc_status icc_binding_get_weights(const icc_binding *binding, double *handles, double *weights)
 {
+    ICCP_ENTER;
     if (binding == NULL)
         return ICC_ERR_ARGUMENT;
     for (size_t k = 0; handles != NULL && k < binding->n_handles * binding->dim; ++k)
@@ -73,6 +76,7 @@ icc_status icc_binding_get_weights(const icc_binding *binding, double *handles, 
 icc_status icc_binding_pose(const icc_binding *binding, const double *transforms, double *images,
                             double *jacobians, const icc_env *env)
 {
+    ICCP_ENTER;
     if (binding == NULL || transforms == NULL || (binding->n > 0 && images == NULL) ||
         !are_finite(binding->n_handles * binding->dim * (binding->dim + 1), transforms))
         return ICC_ERR_ARGUMENT;
@@ -88,6 +92,7 @@ icc_status icc_binding_pose(const icc_binding *binding, const double *transforms
 icc_status icc_binding_save(const icc_binding *binding, size_t capacity, void *data,
                             size_t *n_bytes)
 {
+    ICCP_ENTER;
     if (binding == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_binding_save(binding, capacity, data, n_bytes);
@@ -97,6 +102,7 @@ icc_status icc_binding_save(const icc_binding *binding, size_t capacity, void *d
 icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const void *data, const icc_env *env,
                             icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : n_bytes > 0 && data == NULL ? "data" : NULL;
@@ -113,6 +119,7 @@ icc_status icc_binding_load(icc_binding **out, size_t n_bytes, const void *data,
 
 icc_status icc_pose_reset(int32_t dim, size_t n_handles, double *transforms)
 {
+    ICCP_ENTER;
     if (dim < 2 || dim > 3 || (n_handles > 0 && transforms == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_pose_reset((size_t)dim, n_handles, transforms);
@@ -121,6 +128,7 @@ icc_status icc_pose_reset(int32_t dim, size_t n_handles, double *transforms)
 
 icc_status icc_pose_move(int32_t dim, double *transform, const double *offset)
 {
+    ICCP_ENTER;
     if (dim < 2 || dim > 3 || transform == NULL || offset == NULL ||
         !are_finite((size_t)dim, offset))
         return ICC_ERR_ARGUMENT;
@@ -131,6 +139,7 @@ icc_status icc_pose_move(int32_t dim, double *transform, const double *offset)
 icc_status icc_pose_turn(int32_t dim, double *transform, const double *handle, const double *axis,
                          double angle)
 {
+    ICCP_ENTER;
     if (dim < 2 || dim > 3 || transform == NULL || handle == NULL ||
         !are_finite((size_t)dim, handle) || !isfinite(angle))
         return ICC_ERR_ARGUMENT;

@@ -16,6 +16,7 @@ ICCP_END(chart)
 icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                             const icc_chart_options *options, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
@@ -36,6 +37,7 @@ void icc_chart_free(icc_chart *chart)
 
 icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return iccp_write_struct(info, &chart->info, sizeof chart->info, "icc_chart_info", NULL);
@@ -52,6 +54,7 @@ static icc_status write_own(const icc_chart *chart, int32_t method, bool shellin
 
 icc_status icc_chart_get_gradient_info(const icc_chart *chart, icc_gradient_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return write_own(chart, ICC_METHOD_GRADIENT, false, info, &chart->own.gradient,
@@ -60,6 +63,7 @@ icc_status icc_chart_get_gradient_info(const icc_chart *chart, icc_gradient_info
 
 icc_status icc_chart_get_field_info(const icc_chart *chart, icc_field_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return write_own(chart, ICC_METHOD_FIELD, false, info, &chart->own.field,
@@ -68,6 +72,7 @@ icc_status icc_chart_get_field_info(const icc_chart *chart, icc_field_info *info
 
 icc_status icc_chart_get_foliation_info(const icc_chart *chart, icc_foliation_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return write_own(chart, ICC_METHOD_FOLIATION, false, info, &chart->own.foliation,
@@ -76,6 +81,7 @@ icc_status icc_chart_get_foliation_info(const icc_chart *chart, icc_foliation_in
 
 icc_status icc_chart_get_shelling_info(const icc_chart *chart, icc_shelling_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return write_own(chart, ICC_METHOD_FOLIATION, true, info, &chart->own.shelling,
@@ -84,6 +90,7 @@ icc_status icc_chart_get_shelling_info(const icc_chart *chart, icc_shelling_info
 
 icc_status icc_chart_get_disc_info(const icc_chart *chart, icc_disc_info *info)
 {
+    ICCP_ENTER;
     if (chart == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return write_own(chart, ICC_METHOD_DISC, false, info, &chart->own.disc, sizeof chart->own.disc,
@@ -108,6 +115,7 @@ const icc_function *icc_chart_function(const icc_chart *chart)
 icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                                 const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = chart == NULL ? "chart" : measures == NULL ? "measures" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -129,6 +137,7 @@ icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *poin
                             double *bary, double *t, icc_status *status, size_t *n_failed,
                             const icc_env *env)
 {
+    ICCP_ENTER;
     if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
@@ -142,6 +151,7 @@ icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *fa
                             const double *bary, const double *t, double *points, icc_status *status,
                             size_t *n_failed, const icc_env *env)
 {
+    ICCP_ENTER;
     if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
@@ -170,6 +180,7 @@ static icc_status append(void *argument, const double *local)
 icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t capacity,
                            double *curve, size_t *n_curve, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (n_curve != NULL)
         *n_curve = 0;
     iccp_env full_env;
@@ -205,6 +216,7 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
 
 icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)
 {
+    ICCP_ENTER;
     if (chart == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_chart_save(chart, capacity, data, n_bytes);
@@ -214,6 +226,7 @@ icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data, s
 icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, const icc_env *env,
                           icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;

@@ -33,6 +33,7 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                              const double *vertices, size_t n_facets, const uint32_t *facets,
                              const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -68,6 +69,7 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
                                   const uint32_t *simplices, size_t n_facets,
                                   const uint32_t *facets, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -90,6 +92,7 @@ icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertic
 icc_status icc_domain_fill(icc_domain **out, const icc_domain *surface,
                            const icc_fill_options *options, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full;
     icc_fill_options given;
     if (out != NULL)
@@ -166,6 +169,7 @@ icc_status icc_domain_create_features(icc_domain **out, size_t n_outer, const do
                                       size_t n_features, const icc_feature *features,
                                       const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -197,6 +201,7 @@ void icc_domain_free(icc_domain *domain)
 
 icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
 {
+    ICCP_ENTER;
     if (domain == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     const iccp_frame *frame = &domain->frame;
@@ -218,6 +223,7 @@ icc_status icc_domain_get_info(const icc_domain *domain, icc_domain_info *info)
 
 icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature, icc_feature_info *info)
 {
+    ICCP_ENTER;
     if (domain == NULL || info == NULL || domain->features == NULL ||
         feature >= domain->features->n)
         return ICC_ERR_ARGUMENT;
@@ -233,6 +239,7 @@ icc_status icc_domain_get_feature(const icc_domain *domain, size_t feature, icc_
 
 icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, uint32_t *facets)
 {
+    ICCP_ENTER;
     if (domain == NULL)
         return ICC_ERR_ARGUMENT;
     const size_t dim = (size_t)domain->dim;
@@ -246,6 +253,7 @@ icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, u
 
 icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices, uint32_t *simplices)
 {
+    ICCP_ENTER;
     if (domain == NULL)
         return ICC_ERR_ARGUMENT;
     if (domain->mesh == NULL)
@@ -296,6 +304,7 @@ static icc_status locate_chunk(void *argument, size_t begin, size_t end)
 icc_status icc_domain_locate(const icc_domain *domain, size_t n, const double *points,
                              int32_t *where, uint32_t *facet, double *bary, const icc_env *env)
 {
+    ICCP_ENTER;
     if (domain == NULL || (n > 0 && (points == NULL || where == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full;
@@ -310,6 +319,7 @@ icc_status icc_boundary_defects(size_t n_vertices, const double *vertices, size_
                                 int32_t *kinds, uint32_t *items, size_t *n_defects,
                                 const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (n_defects == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "n_defects is NULL");
     *n_defects = 0;

@@ -167,6 +167,7 @@ icc_status icc_weights_create(icc_weights **out, const icc_sampling *sampling, s
                               const double *handles, const icc_weights_options *options,
                               const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL        ? "out"
@@ -197,6 +198,7 @@ void icc_weights_free(icc_weights *weights)
 
 icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info)
 {
+    ICCP_ENTER;
     if (weights == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return iccp_write_struct(info, &weights->info, sizeof weights->info, "icc_weights_info", NULL);
@@ -205,6 +207,7 @@ icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *in
 icc_status icc_weights_get_nodes(const icc_weights *weights, double *points, double *initial,
                                  double *values, icc_status *status)
 {
+    ICCP_ENTER;
     if (weights == NULL)
         return ICC_ERR_ARGUMENT;
     const iccp_node_set *set = weights->nodes;
@@ -224,6 +227,7 @@ icc_status icc_weights_evaluate(const icc_weights *weights, size_t n, const doub
                                 double *values, double *gradients, icc_status *status,
                                 size_t *n_failed, const icc_env *env)
 {
+    ICCP_ENTER;
     if (weights == NULL || (n > 0 && (points == NULL || values == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
@@ -238,6 +242,7 @@ icc_status icc_weights_get_dual(const icc_weights *weights, size_t node, size_t 
                                 const double *points, double *values, const icc_env *env,
                                 icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = weights == NULL           ? "weights"
                           : n > 0 && points == NULL ? "points"
@@ -260,6 +265,7 @@ icc_status icc_weights_get_dual(const icc_weights *weights, size_t node, size_t 
 icc_status icc_weights_get_report(const icc_weights *weights, size_t n, const double *points,
                                   icc_weights_report *report, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = weights == NULL           ? "weights"
                           : report == NULL          ? "report"
@@ -286,6 +292,7 @@ icc_status icc_weights_paint(icc_weights **out, const icc_weights *weights, size
                              const double *centre, double radius, double amount, const icc_env *env,
                              icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -312,6 +319,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, si
                                const uint32_t *nodes, const double *values, const icc_env *env,
                                icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -335,6 +343,7 @@ icc_status icc_weights_repaint(icc_weights **out, const icc_weights *weights, si
 icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights, int32_t method,
                                    const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -353,6 +362,7 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, si
                                const uint32_t *nodes, const double *rigidity, double energy[2],
                                const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;

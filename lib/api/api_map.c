@@ -46,6 +46,7 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
 icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                           const icc_map_options *options, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL      ? "out"
@@ -82,6 +83,7 @@ static icc_status create_from_polygons(icc_map **out, size_t n, const double *co
 icc_status icc_map_create_polygons(icc_map **out, size_t n, const double *before,
                                    const double *after, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL      ? "out"
@@ -103,6 +105,7 @@ icc_status icc_map_create_from_charts(icc_map **out, const icc_chart *source,
                                       const icc_chart *target, const icc_map_options *options,
                                       const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL      ? "out"
@@ -127,6 +130,7 @@ void icc_map_free(icc_map *map)
 
 icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
 {
+    ICCP_ENTER;
     if (map == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     icc_map_info full = map->info;
@@ -138,6 +142,7 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
 icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *source,
                            double *target)
 {
+    ICCP_ENTER;
     if (map == NULL || info == NULL || map->isotopy == NULL || tie >= map->isotopy->n)
         return ICC_ERR_ARGUMENT;
     const icc_tie_info full =
@@ -171,18 +176,21 @@ static icc_status apply(const icc_map *map, bool inverse, size_t n, const double
 icc_status icc_map_apply(const icc_map *map, size_t n, const double *points, double *images,
                          icc_status *status, size_t *n_failed, const icc_env *env)
 {
+    ICCP_ENTER;
     return apply(map, false, n, points, images, status, n_failed, env);
 }
 
 icc_status icc_map_apply_inverse(const icc_map *map, size_t n, const double *points, double *images,
                                  icc_status *status, size_t *n_failed, const icc_env *env)
 {
+    ICCP_ENTER;
     return apply(map, true, n, points, images, status, n_failed, env);
 }
 
 icc_status icc_map_jacobian(const icc_map *map, size_t n, const double *points, double *jacobians,
                             icc_status *status, size_t *n_failed, const icc_env *env)
 {
+    ICCP_ENTER;
     if (map == NULL || (n > 0 && (points == NULL || jacobians == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
@@ -217,6 +225,7 @@ static icc_status read_improve_options(icc_improve_options *full,
 icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_options *options,
                            icc_improve_report *report, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : map == NULL ? "map" : NULL;
@@ -243,6 +252,7 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
 icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                             int32_t iterations, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -276,6 +286,7 @@ static void hand_out_solid(const icc_map *map, double *vertices, double *images,
 icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
                             uint32_t *triangles)
 {
+    ICCP_ENTER;
     if (map == NULL)
         return ICC_ERR_ARGUMENT;
     if (map->solid != NULL) {
@@ -352,6 +363,7 @@ icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *
                            size_t n_simplices, const uint32_t *simplices, double *images,
                            icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images, certificate,
                       env, err);
 }
@@ -360,12 +372,14 @@ icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *v
                           size_t n_simplices, const uint32_t *simplices, double *images,
                           icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
                       env, err);
 }
 
 icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes)
 {
+    ICCP_ENTER;
     if (map == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_map_save(map, capacity, data, n_bytes);
@@ -375,6 +389,7 @@ icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t 
 icc_status icc_map_load(icc_map **out, size_t n_bytes, const void *data, const icc_env *env,
                         icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;

@@ -25,6 +25,7 @@ static icc_status check_mask(int32_t dim, const size_t *shape, const uint8_t *ce
 icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *shape,
                                   const uint8_t *cells, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out == NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
     *out = NULL;
@@ -53,6 +54,7 @@ static void fill(uint8_t *cells, const iccp_mask *mask)
 icc_status icc_mask_repair(int32_t dim, const size_t *shape, uint8_t *cells, size_t *n_filled,
                            const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full;
     iccp_mask *mask = NULL;
     size_t n = 0;

@@ -42,6 +42,7 @@ icc_status icc_match_create(icc_match **out, const icc_domain *source, const icc
                             size_t n_landmarks, const double *landmarks,
                             const icc_match_options *options, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full;
     icc_match_options given;
     if (out != NULL)
@@ -83,6 +84,7 @@ const icc_domain *icc_match_target(const icc_match *match)
 
 icc_status icc_match_get_info(const icc_match *match, icc_match_info *info)
 {
+    ICCP_ENTER;
     if (match == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return iccp_write_struct(info, &match->info, sizeof match->info, "icc_match_info", NULL);
@@ -90,6 +92,7 @@ icc_status icc_match_get_info(const icc_match *match, icc_match_info *info)
 
 icc_status icc_match_get_origins(const icc_match *match, uint32_t *source, uint32_t *target)
 {
+    ICCP_ENTER;
     if (match == NULL)
         return ICC_ERR_ARGUMENT;
     if (source != NULL)
@@ -114,17 +117,20 @@ static icc_status follow(const icc_match *match, int side, size_t n, const doubl
 icc_status icc_match_apply(const icc_match *match, size_t n, const double *points, double *images,
                            double *off, const icc_env *env)
 {
+    ICCP_ENTER;
     return follow(match, 0, n, points, images, off, env);
 }
 
 icc_status icc_match_apply_inverse(const icc_match *match, size_t n, const double *points,
                                    double *images, double *off, const icc_env *env)
 {
+    ICCP_ENTER;
     return follow(match, 1, n, points, images, off, env);
 }
 
 icc_status icc_match_save(const icc_match *match, size_t capacity, void *data, size_t *n_bytes)
 {
+    ICCP_ENTER;
     if (match == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_match_save(match, capacity, data, n_bytes);
@@ -134,6 +140,7 @@ icc_status icc_match_save(const icc_match *match, size_t capacity, void *data, s
 icc_status icc_match_load(icc_match **out, size_t n_bytes, const void *data, const icc_env *env,
                           icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;

@@ -51,6 +51,7 @@ icc_status icc_shape_create(icc_shape **out, int32_t dim, size_t n_regions,
                             const double *vertices, size_t n_segments, const uint32_t *segments,
                             const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -124,6 +125,7 @@ icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shape,
                                const icc_sampling_options *options, const icc_env *env,
                                icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -141,6 +143,7 @@ icc_status icc_sampling_create(icc_sampling **out, const icc_shape *shape,
 icc_status icc_sampling_create_from_points(icc_sampling **out, const icc_shape *shape, size_t n,
                                            const double *points, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -170,6 +173,7 @@ void icc_sampling_free(icc_sampling *sampling)
 
 icc_status icc_sampling_get_info(const icc_sampling *sampling, icc_sampling_info *info)
 {
+    ICCP_ENTER;
     if (sampling == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return iccp_write_struct(info, &sampling->info, sizeof sampling->info, "icc_sampling_info",
@@ -178,6 +182,7 @@ icc_status icc_sampling_get_info(const icc_sampling *sampling, icc_sampling_info
 
 icc_status icc_sampling_get_points(const icc_sampling *sampling, double *points)
 {
+    ICCP_ENTER;
     if (sampling == NULL || points == NULL)
         return ICC_ERR_ARGUMENT;
     const size_t n = sampling->info.n_samples * sampling->shape->dim;
@@ -189,6 +194,7 @@ icc_status icc_sampling_get_points(const icc_sampling *sampling, double *points)
 icc_status icc_sampling_save(const icc_sampling *sampling, size_t capacity, void *data,
                              size_t *n_bytes)
 {
+    ICCP_ENTER;
     if (sampling == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
         return ICC_ERR_ARGUMENT;
     iccp_sampling_save(sampling, capacity, data, n_bytes);
@@ -198,6 +204,7 @@ icc_status icc_sampling_save(const icc_sampling *sampling, size_t capacity, void
 icc_status icc_sampling_load(icc_sampling **out, size_t n_bytes, const void *data,
                              const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;

@@ -32,6 +32,7 @@ static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are nu
 icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
                            const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -53,6 +54,7 @@ icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cel
 icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape,
                                 const uint8_t *inside, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -77,6 +79,7 @@ icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shape
 
 icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -91,6 +94,7 @@ icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *
 icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
                              const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -112,6 +116,7 @@ void icc_grid_free(icc_grid *grid)
 
 icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info)
 {
+    ICCP_ENTER;
     if (grid == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     icc_grid_info full = {.dim = grid->dim,
@@ -134,6 +139,7 @@ const uint8_t *icc_grid_inside(const icc_grid *grid)
 icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                                  const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = grid == NULL ? "grid" : vertex == NULL ? "vertex" : NULL;
     const icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -145,6 +151,7 @@ icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_
 
 icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint32_t *vertex)
 {
+    ICCP_ENTER;
     if (grid == NULL || point == NULL || vertex == NULL)
         return ICC_ERR_ARGUMENT;
     for (int32_t k = 0; k < grid->dim; ++k)
@@ -191,6 +198,7 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
 icc_status icc_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
                            const icc_tree_options *options, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -238,6 +246,7 @@ const int32_t *icc_tree_generations(const icc_tree *tree)
 icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, const icc_env *env,
                                icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = tree == NULL ? "tree" : report == NULL ? "report" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -263,6 +272,7 @@ static icc_status check_values(const icc_tree *tree, const double *values, icc_e
 icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
                          icc_grow_report *report, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = tree == NULL ? "tree" : rank == NULL ? "rank" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -284,6 +294,7 @@ icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *r
 icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
                                     icc_function_report *report, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = tree == NULL     ? "tree"
                           : rank == NULL   ? "rank"
@@ -319,6 +330,7 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree,
                                const icc_function_options *options, const icc_env *env,
                                icc_error *err)
 {
+    ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
@@ -343,6 +355,7 @@ void icc_function_free(icc_function *function)
 
 const double *icc_function_values(const icc_function *function)
 {
+    ICCP_ENTER;
     if (function == NULL)
         return NULL;
     return function->plain != NULL ? function->plain : function->values;
@@ -350,11 +363,13 @@ const double *icc_function_values(const icc_function *function)
 
 const double *icc_function_logs(const icc_function *function)
 {
+    ICCP_ENTER;
     return function != NULL ? iccp_function_logs(function) : NULL;
 }
 
 icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)
 {
+    ICCP_ENTER;
     if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info",
@@ -369,6 +384,7 @@ const icc_tree *icc_function_tree(const icc_function *function)
 icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
                                    const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
@@ -385,6 +401,7 @@ icc_status icc_function_get_report(const icc_function *function, icc_function_re
 icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
                                   int32_t *kinds, size_t *n_edges, size_t *n_tested)
 {
+    ICCP_ENTER;
     if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
         return ICC_ERR_ARGUMENT;
     if (function->tree->grid->dim != 2)
@@ -442,6 +459,7 @@ static icc_status triangulate(const icc_domain *polygon, size_t n_points, const 
 icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *points,
                            uint32_t *triangles, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     iccp_env full_env;
     const char *missing = points == NULL ? "points" : triangles == NULL ? "triangles" : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);

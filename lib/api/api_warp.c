@@ -50,6 +50,7 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, icc_
 icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc_picture *target,
                         size_t *n_failed, const icc_env *env, icc_error *err)
 {
+    ICCP_ENTER;
     const char *missing = map == NULL      ? "map"
                           : source == NULL ? "source"
                           : target == NULL ? "target"

@@ -4,6 +4,7 @@
 
 #include "base/env.h"
 #include "base/error.h"
+#include "base/fpenv.h"
 #include "icc/stages.h"
 
 /* Reads the caller's options (which may be NULL). Members that are not given stay 0. */

@@ -22,14 +22,20 @@ typedef enum iccp_simd_level {
     ICCP_SIMD_AVX512
 } iccp_simd_level;
 
+/* The highest that is used where the processor has it: CMake's option ICC_SIMD. */
+#ifndef ICCP_SIMD_MOST
+#define ICCP_SIMD_MOST ICCP_SIMD_AVX512
+#endif
+
 /* The highest that this processor has: it has all below, too. */
 static inline iccp_simd_level iccp_simd(void)
 {
 #ifdef ICCP_HAS_SIMD
-    return __builtin_cpu_supports("avx512f")  ? ICCP_SIMD_AVX512
-           : __builtin_cpu_supports("avx2")   ? ICCP_SIMD_AVX2
-           : __builtin_cpu_supports("sse4.2") ? ICCP_SIMD_SSE42
-                                              : ICCP_SIMD_NONE;
+    const iccp_simd_level level = __builtin_cpu_supports("avx512f")  ? ICCP_SIMD_AVX512
+                                  : __builtin_cpu_supports("avx2")   ? ICCP_SIMD_AVX2
+                                  : __builtin_cpu_supports("sse4.2") ? ICCP_SIMD_SSE42
+                                                                     : ICCP_SIMD_NONE;
+    return level < ICCP_SIMD_MOST ? level : ICCP_SIMD_MOST;
 #else
     return ICCP_SIMD_NONE;
 #endif

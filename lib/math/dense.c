@@ -293,3 +293,8 @@ iccp_dense iccp_dense_as(iccp_simd_level level)
     (void)level;
     return dense;
 }
+
+iccp_dense iccp_dense_choose(void)
+{
+    return iccp_dense_as(iccp_simd());
+}

@@ -54,9 +54,6 @@ void iccp_multiply_avx512(double *tile, size_t n_strips, size_t width, const dou
 iccp_dense iccp_dense_as(iccp_simd_level level);
 
 /* The fastest on this machine. */
-static inline iccp_dense iccp_dense_choose(void)
-{
-    return iccp_dense_as(iccp_simd());
-}
+iccp_dense iccp_dense_choose(void);
 
 #endif

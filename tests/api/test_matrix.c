@@ -45,7 +45,7 @@ static const double ENDS[2] = {0, 1};
 static const uint32_t END_FACETS[2] = {0, 1};
 
 /* Numbers times a factor, and a little aslant. */
-static const double *bent(double *to, int32_t dim, size_t n, const double *from, double factor)
+static void bend(double *to, int32_t dim, size_t n, const double *from, double factor)
 {
     for (size_t i = 0; i < n; ++i)
         for (int32_t k = 0; k < dim; ++k)
@@ -53,7 +53,6 @@ static const double *bent(double *to, int32_t dim, size_t n, const double *from,
                 factor *
                 (from[i * (size_t)dim + (size_t)k] +
                  (factor == 1 ? 0 : 0.1 * from[i * (size_t)dim + (size_t)((k + 1) % dim)]));
-    return to;
 }
 
 /* The shape as it is for factor 1, else what may become of it. */
@@ -67,28 +66,32 @@ static icc_domain *make_domain(int shape, double factor)
     memset(ones, 1, sizeof ones);
     switch (shape) {
     case POLYGON:
-        status = icc_domain_create(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 0, NULL, NULL, NULL);
+        bend(v, 2, 5, SQUARE, factor);
+        status = icc_domain_create(&d, 2, 5, v, 0, NULL, NULL, NULL);
         break;
     case RING:
-        status = icc_domain_create(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 5, SIDES, NULL, NULL);
+        bend(v, 2, 5, SQUARE, factor);
+        status = icc_domain_create(&d, 2, 5, v, 5, SIDES, NULL, NULL);
         break;
     case TRIANGLES:
-        status = icc_domain_create_mesh(&d, 2, 5, bent(v, 2, 5, SQUARE, factor), 3, FAN, 0, NULL,
-                                        NULL, NULL);
+        bend(v, 2, 5, SQUARE, factor);
+        status = icc_domain_create_mesh(&d, 2, 5, v, 3, FAN, 0, NULL, NULL, NULL);
         break;
     case SURFACE:
-        status = icc_domain_create(&d, 3, 8, bent(v, 3, 8, CUBE, factor), 12, FACES, NULL, NULL);
+        bend(v, 3, 8, CUBE, factor);
+        status = icc_domain_create(&d, 3, 8, v, 12, FACES, NULL, NULL);
         break;
     case TETRAHEDRA:
-        status = icc_domain_create_mesh(&d, 3, 8, bent(v, 3, 8, CUBE, factor), 6, CELLS, 0, NULL,
-                                        NULL, NULL);
+        bend(v, 3, 8, CUBE, factor);
+        status = icc_domain_create_mesh(&d, 3, 8, v, 6, CELLS, 0, NULL, NULL, NULL);
         break;
     case PENTATOPE:
-        status = icc_domain_create(&d, 4, 5, bent(v, 4, 5, CORNERS, factor), 5, FACETS, NULL, NULL);
+        bend(v, 4, 5, CORNERS, factor);
+        status = icc_domain_create(&d, 4, 5, v, 5, FACETS, NULL, NULL);
         break;
     case INTERVAL:
-        status =
-            icc_domain_create(&d, 1, 2, bent(v, 1, 2, ENDS, factor), 2, END_FACETS, NULL, NULL);
+        bend(v, 1, 2, ENDS, factor);
+        status = icc_domain_create(&d, 1, 2, v, 2, END_FACETS, NULL, NULL);
         break;
     default:
         status = icc_domain_create_mask(&d, shape == PIXELS ? 2 : 3, CUBED, ones, NULL, NULL);
