@@ -271,6 +271,15 @@ def overlapping(s):
     s.tree['meshes'][0]['primitives'][0]['targets'] = [{'POSITION': len(s.tree['accessors']) - 2}]
     s.node(**one)
 refused('has bytes of another one', overlapping, 1, mesh)
+def indices(name):
+    def make(s):
+        p = s.tree['meshes'][0]['primitives'][0]
+        p['attributes']['TANGENT'] = s.array(np.zeros((len(v), 4)))
+        s.tree['accessors'][p['indices']].update(bufferView=s.tree['accessors'][p['attributes'][name]]['bufferView'], count=3)
+        s.node(**one)
+    return make
+refused('accessors[1], for indices, has bytes of vertices', indices('POSITION'))
+refused('accessors[1], for indices, has bytes of vertices', indices('TANGENT'), 1, mesh)
 def far(s):
     s.tree['meshes'][0]['primitives'][0]['targets'] = [{'POSITION': s.array(9 * v)}]
     s.node(**one)

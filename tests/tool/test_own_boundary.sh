@@ -91,6 +91,9 @@ says 'the mesh has 2 parts; a cage is one'
 printf 'v 0 0\nv 1 0\nv 0 1\nv -1 0\nv 0 -1\nf 1 2 3\nf 1 4 5\n' >bow.obj
 run 1 check -s bow.obj
 says 'the boundary of the mesh passes vertex 0 (from 0) twice'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 3 0 0\nv 3 1 0\nf 1 2 3\nf 4 5 4\n' >twice.obj
+run 1 check -s twice.obj
+says 'libicc: twice.obj:4: a face has vertex 3 (from 0) twice'
 printf 'v 0 0\nv 1 0\nv 0 1\nv 1 1\nv 2 2\nf 1 2 3\nf 1 2 4\nf 1 2 5\n' >book.obj
 run 1 check -s book.obj
 says '1 edges belong to more than two triangles'

@@ -148,10 +148,14 @@ static bool find_rings(const mesh_file *m, const uint32_t *next, bool *first, pr
             w = next[w];
         }
         first[v] = true;
-        good = w == v || spoilt(wrong, line_of_vertex(m, v),
-                                "the boundary of the mesh is not closed at vertex %u (from 0): "
-                                "triangles overlap there",
-                                (unsigned)v);
+        if (next[v] == v)
+            good = spoilt(wrong, line_of_vertex(m, v), "a face has vertex %u (from 0) twice",
+                          (unsigned)v);
+        else
+            good = w == v || spoilt(wrong, line_of_vertex(m, v),
+                                    "the boundary of the mesh is not closed at vertex %u (from 0): "
+                                    "triangles overlap there",
+                                    (unsigned)v);
     }
     free(seen);
     return good;

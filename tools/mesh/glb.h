@@ -70,6 +70,11 @@ double (*glb_find_places(const glb *g, problem *wrong))[12];
  * vertices, set *other and are left out. NULL, and *n is not 0: see `wrong`. */
 glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wrong);
 
+/* Whether positions, and n of what is attached to them, can be written in a text of that length without
+ * changing one another or indices. */
+bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors,
+                  problem *wrong);
+
 /* Whether something is skinned, and whether nodes are animated. */
 bool glb_has_skins(const glb *g);
 bool glb_has_animations(const glb *g);

@@ -126,6 +126,68 @@ glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wro
     return good ? f.list : NULL;
 }
 
+/* ------------------------------------------------------------------- apart */
+
+/* Marks bytes that will be written. None may belong to two accessors, which would need other numbers
+ * there. */
+static bool claim(bool *taken, size_t accessor, const glb_items *items, problem *wrong)
+{
+    for (size_t i = 0; i < items->n; i++)
+        for (size_t k = 0; k < items->size; k++) {
+            bool *byte = &taken[items->at + i * items->stride + k];
+            if (*byte)
+                return spoilt(wrong, 0,
+                              "accessors[%zu] has bytes of another one, but what they hold becomes "
+                              "different; save each with its own",
+                              accessor);
+            *byte = true;
+        }
+    return true;
+}
+
+/* Indices stay: what is written must leave them alone. `before`: how many bytes before each one will be
+ * written. */
+static bool leaves_indices(const glb *g, const uint32_t *before, problem *wrong)
+{
+    const cJSON *mesh, *primitive;
+    bool good = true;
+    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
+    {
+        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
+        {
+            const cJSON *indices = json_get(primitive, "indices");
+            problem none;
+            size_t accessor;
+            glb_items x;
+            if (!good || indices == NULL ||
+                !glb_find_items(g, indices, "indices", GLB_INDICES, &accessor, &x, &none))
+                continue;
+            if (before[x.at] != before[x.at + (x.n - 1) * x.stride + x.size])
+                good = spoilt(wrong, 0,
+                              "accessors[%zu], for indices, has bytes of vertices, which become "
+                              "different",
+                              accessor);
+        }
+    }
+    return good;
+}
+
+bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors, problem *wrong)
+{
+    bool *taken = need(n_text, sizeof *taken), good = true;
+    uint32_t *before = need(n_text + 1, sizeof *before);
+    for (size_t s = 0; good && s < g->n_sets; s++)
+        good = claim(taken, g->sets[s].accessor, &g->sets[s].items, wrong);
+    for (size_t i = 0; good && i < n; i++)
+        good = claim(taken, vectors[i].accessor, &vectors[i].items, wrong);
+    for (size_t i = 0; i < n_text; i++)
+        before[i + 1] = before[i] + taken[i];
+    good = good && leaves_indices(g, before, wrong);
+    free(taken);
+    free(before);
+    return good;
+}
+
 /* ------------------------------------------------------------------- carry */
 
 typedef struct carrier {
@@ -393,33 +455,6 @@ static void count_all(const carrier *c)
     }
 }
 
-/* No byte may belong to two of them, which would need other numbers there. */
-static bool claim(bool *taken, size_t accessor, const glb_items *items, problem *wrong)
-{
-    for (size_t i = 0; i < items->n; i++)
-        for (size_t k = 0; k < items->size; k++) {
-            bool *byte = &taken[items->at + i * items->stride + k];
-            if (*byte)
-                return spoilt(wrong, 0,
-                              "accessors[%zu] has bytes of another one, but what they hold becomes "
-                              "different; save each with its own",
-                              accessor);
-            *byte = true;
-        }
-    return true;
-}
-
-static bool claim_all(const carrier *c)
-{
-    bool *taken = need(c->m->n_text, sizeof *taken), good = true;
-    for (size_t s = 0; good && s < c->g->n_sets; s++)
-        good = claim(taken, c->g->sets[s].accessor, &c->g->sets[s].items, c->wrong);
-    for (size_t i = 0; good && i < c->n_vectors; i++)
-        good = claim(taken, c->vectors[i].accessor, &c->vectors[i].items, c->wrong);
-    free(taken);
-    return good;
-}
-
 bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                problem *wrong)
 {
@@ -447,7 +482,7 @@ bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh
     if (good && mover != NULL && c.n_vectors > 0) {
         c.text = need(m->n_text + 1, 1);
         memcpy(c.text, m->text, m->n_text);
-        good = claim_all(&c) && carry_all(&c);
+        good = glb_is_apart(&g, m->n_text, n, vectors, wrong) && carry_all(&c);
         m->text = m->own = c.text;
         m->carried = true;
     }

@@ -26,9 +26,10 @@ static bool take_use(const mesh_normals *of, size_t k, size_t *normal, size_t *v
 {
     *normal = of->uses[2 * k];
     *vertex = of->uses[2 * k + 1];
+    if (*normal >= of->n)
+        return false;
     const double *v = of->values + 3 * *normal;
-    return *normal < of->n && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) &&
-           affine_length(v) > 0;
+    return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && affine_length(v) > 0;
 }
 
 /* The derivatives at all vertices that have normals; each is NaN where there is none. */

@@ -180,7 +180,8 @@ bool mesh_read_glb(lines *r)
     m->floats = true;
     m->n_spans = 0;
     r->line = 0;
-    bool good = glb_open(&g, m->text, m->n_text, r->wrong) && read_vertices(m, &g, r->wrong) &&
+    bool good = glb_open(&g, m->text, m->n_text, r->wrong) &&
+                glb_is_apart(&g, m->n_text, 0, NULL, r->wrong) && read_vertices(m, &g, r->wrong) &&
                 read_faces(r, &g);
     glb_close(&g);
     return good;

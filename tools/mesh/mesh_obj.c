@@ -19,7 +19,8 @@ static void read_normal(lines *r)
     double *value = of->values + 3 * of->n;
     for (size_t k = 0; k < 3; k++) {
         lines_skip_blanks(r);
-        if (r->at >= r->end || number_read(&r->at, &value[k]) != NUMBER_OK) {
+        if (r->at >= r->end || number_read(&r->at, &value[k]) != NUMBER_OK ||
+            strchr(" \t\r\n", *r->at) == NULL) {
             value[0] = HUGE_VAL;
             break;
         }
