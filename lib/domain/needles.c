@@ -1,7 +1,7 @@
-/* The triangles round a vertex of many triangles are a group. Two triangles of a group meet beyond
- * the vertex if and only if the arcs do that the vertex sees of them. Arcs are compared on the faces
- * of a cube round the vertex, to which they are projected. Triangles of different groups are
- * compared in space. */
+/* The triangles round a vertex of many triangles are a group. Seen from that vertex, each triangle
+ * is an arc. Two triangles of a group meet beyond the vertex if and only if their arcs meet. Arcs
+ * are projected to the faces of a cube round the vertex and compared there. Triangles of different
+ * groups are compared in space. */
 #include "domain/needles.h"
 
 #include "base/sort.h"
