@@ -127,9 +127,9 @@ printf 'id,x,y\n1,2,3\n' >bad
 run 1 map -s source.txt -t target.txt --geojson bad out.geojson
 says 'this is a table (CSV), not GeoJSON; '
 printf '{"asset":{"version":"2.0"}}' | names 'a glTF file in JSON' 'makes one file (.glb)'
-printf '{"skeleton":{"spine":"4"}}' | names 'a Spine skeleton' 'lines of `x y`'
-printf '{"v":"5","fr":30}' | names 'a Lottie animation' 'lines of `x y`'
-printf '[gd_scene format=3]\n' | names 'a Godot scene' 'lines of `x y`'
+printf '{"skeleton":{"spine":"4"}}' | names 'a Spine skeleton' "lines of \`x y\`"
+printf '{"v":"5","fr":30}' | names 'a Lottie animation' "lines of \`x y\`"
+printf '[gd_scene format=3]\n' | names 'a Godot scene' "lines of \`x y\`"
 printf '{"markups":[]}' | names 'a list of landmarks of 3D Slicer' 'makes points'
 printf '# Markups fiducial file version = 4.11\n' | names 'a list of landmarks of 3D Slicer' 'makes points'
 printf 'ObjectType = Image\n' | names 'a MetaImage file' 'makes a mask'
@@ -138,7 +138,7 @@ printf '%0344dn+1\000' 0 | names 'a NIfTI file' 'makes a mask'
 printf 'mesh3d\n' | names 'a Netgen mesh' 'makes VTK'
 printf '/* of a\n * tool */\nFoamFile\n{\n}\n' | names 'an OpenFOAM file' 'foamToVTK'
 printf '<febio_spec version="4.0"/>' | names 'a FEBio file' 'exports VTK'
-printf '$MeshFormat\n4.1 0 8\n' | names 'a Gmsh file' 'makes VTK'
+printf '%s\n4.1 0 8\n' "\$MeshFormat" | names 'a Gmsh file' 'makes VTK'
 printf '<VTKFile type="UnstructuredGrid"/>' | names 'a VTK file in XML' 'makes VTK'
 printf '<VTKFile type="PolyData"/>' | names 'a VTK file in XML' 'ParaView'
 printf '\211HDF\r\n' | names 'an HDF5 file' 'makes VTK'
