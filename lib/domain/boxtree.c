@@ -3,6 +3,7 @@
  * close together, so no sorting is needed. */
 #include "domain/boxtree.h"
 
+#include "domain/away.h"
 #include "domain/segment.h"
 
 #include <math.h>
@@ -120,9 +121,20 @@ static double box_distance2(const iccp_box *box, const double *p)
     return sum;
 }
 
-static double node_distance2(const iccp_boxtree *tree, size_t node, const double *p)
+/* Where to look from: `away` is NULL unless that is far away. What is called a squared distance is
+ * then the number that takes its place. */
+typedef struct viewpoint {
+    const double *p;
+    const iccp_away *away;
+} viewpoint;
+
+static double node_distance2(const iccp_boxtree *tree, size_t node, const viewpoint *from)
 {
-    return tree->boxes != NULL ? box_distance2(&tree->boxes[node], p) : 0;
+    if (tree->boxes == NULL)
+        return -HUGE_VAL;
+    const iccp_box *box = &tree->boxes[node];
+    return from->away != NULL ? iccp_away_bound(from->away, 2, box->lower, box->upper)
+                              : box_distance2(box, from->p);
 }
 
 typedef struct nearest {
@@ -130,13 +142,21 @@ typedef struct nearest {
     double t, distance2;
 } nearest;
 
-static void search_leaf(const iccp_boxtree *tree, size_t node, const double *p, nearest *best)
+/* Of the point at a share t of the way from a to b. */
+static double value_at(const iccp_away *away, const double *a, const double *b, double t)
+{
+    const double q[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+    return iccp_away_value(away, 2, t < 1 ? q : b);
+}
+
+static void search_leaf(const iccp_boxtree *tree, size_t node, const viewpoint *from, nearest *best)
 {
     const size_t end = leaf_end(tree, node);
     for (size_t e = (node - tree->n_leaves) * LEAF; e < end; ++e) {
         const double *a = tree->points + 2 * e;
-        double t;
-        const double distance2 = iccp_segment_nearest(a, a + 2, p, &t);
+        double t, distance2 = iccp_segment_nearest(a, a + 2, from->p, &t);
+        if (from->away != NULL)
+            distance2 = value_at(from->away, a, a + 2, t);
         if (distance2 < best->distance2 || (distance2 == best->distance2 && e < best->edge))
             *best = (nearest){(uint32_t)e, t, distance2};
     }
@@ -151,16 +171,22 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
     } stack[DEEP];
     nearest best = {UINT32_MAX, 0, HUGE_VAL};
     size_t depth = 0, node = 1;
+    iccp_away away;
+    viewpoint from = {p, NULL};
+    if (iccp_away_is_far(2, p)) {
+        away = iccp_away_from(2, p);
+        from.away = &away;
+    }
     for (;;) {
         while (node < tree->n_leaves) {
-            const double left = node_distance2(tree, 2 * node, p);
-            const double right = node_distance2(tree, 2 * node + 1, p);
+            const double left = node_distance2(tree, 2 * node, &from);
+            const double right = node_distance2(tree, 2 * node + 1, &from);
             const size_t far = right < left ? 2 * node : 2 * node + 1;
             stack[depth].node = far;
             stack[depth++].distance2 = right < left ? left : right;
             node = far ^ 1;
         }
-        search_leaf(tree, node, p, &best);
+        search_leaf(tree, node, &from, &best);
         do {
             if (depth == 0) {
                 *t = best.t;
@@ -175,15 +201,16 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
 
 bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2)
 {
+    const viewpoint from = {p, NULL};
     for (size_t node = 1; node != 0;) {
-        const bool is_near = node_distance2(tree, node, p) <= distance2;
+        const bool is_near = node_distance2(tree, node, &from) <= distance2;
         if (is_near && node < tree->n_leaves) {
             node = 2 * node;
             continue;
         }
         nearest best = {UINT32_MAX, 0, HUGE_VAL};
         if (is_near)
-            search_leaf(tree, node, p, &best);
+            search_leaf(tree, node, &from, &best);
         if (best.distance2 <= distance2)
             return true;
         node = skip(node);

@@ -1,6 +1,7 @@
 /* Where points, lines and segments lie with respect to a domain. */
 #include "domain/domain.h"
 
+#include "domain/away.h"
 #include "domain/inside.h"
 #include "domain/locate.h"
 #include "domain/simplex.h"
@@ -35,14 +36,14 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     if (domain->locator != NULL)
         return locate_in_polygon(domain, point, nearest, facet, bary);
     const size_t dim = domain->tree.dim;
-    double p[ICC_MAX_DIM], share[ICC_MAX_DIM], distance2;
+    double p[ICC_MAX_DIM], share[ICC_MAX_DIM];
     uint32_t at = 0;
     int32_t where = ICC_OUTSIDE;
-    iccp_inside_reach(dim, point, p);
+    iccp_away_reach(dim, point, p);
     if (finite(dim, point))
         where = iccp_inside_find(iccp_domain_tree(domain), &domain->band, p, &at, share);
     if (nearest && where != ICC_BOUNDARY)
-        at = iccp_facet_tree_nearest(iccp_domain_tree(domain), p, share, &distance2);
+        at = iccp_facet_tree_nearest_local(iccp_domain_tree(domain), p, share);
     if (facet != NULL && (nearest || where == ICC_BOUNDARY)) {
         *facet = at;
         memcpy(bary, share, dim * sizeof *bary);
@@ -75,8 +76,8 @@ bool iccp_domain_cross(const icc_domain *domain, const double *from, const doubl
     const size_t dim = domain->tree.dim;
     double ends[2][ICC_MAX_DIM], at[ICC_MAX_DIM];
     const double *corners[ICC_MAX_DIM];
-    iccp_inside_reach(dim, from, ends[0]);
-    iccp_inside_reach(dim, to, ends[1]);
+    iccp_away_reach(dim, from, ends[0]);
+    iccp_away_reach(dim, to, ends[1]);
     if (!iccp_segment_crossing(iccp_domain_tree(domain), ends[0], ends[1], share, facet))
         return false;
     for (size_t k = 0; k < dim; ++k)
@@ -90,6 +91,6 @@ size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *po
                         size_t capacity, iccp_line_crossing *crossings)
 {
     double p[ICC_MAX_DIM];
-    iccp_inside_reach(domain->tree.dim, point, p);
+    iccp_away_reach(domain->tree.dim, point, p);
     return iccp_line_crossings(iccp_domain_tree(domain), (size_t)axis, p, capacity, crossings);
 }

@@ -10,18 +10,6 @@
 
 enum { MAX = ICC_MAX_DIM };
 
-/* Products of three of them stay finite, and all facets are equally far in doubles. */
-static const double FAR = 1e60;
-static const double TINY = 0x1p-200;
-
-void iccp_inside_reach(size_t dim, const double *p, double *reachable)
-{
-    for (size_t k = 0; k < dim; ++k) {
-        const double x = p[k] > FAR ? FAR : p[k] < -FAR ? -FAR : p[k];
-        reachable[k] = fabs(x) >= TINY ? x : 0;
-    }
-}
-
 /* Whether p belongs to the band of a facet at the given place on it. */
 static bool in_band(const iccp_band *band, size_t dim, const double *const *corners,
                     const double *share, const double *p)

@@ -5,11 +5,6 @@
 #include "domain/band.h"
 #include "domain/facet_tree.h"
 
-/* Brings a point into the range of the exact predicates: what is not finite, or tiny, becomes 0,
- * what is very far away a little less far. All of these moves are below the tolerance, or far
- * outside. */
-void iccp_inside_reach(size_t dim, const double *p, double *reachable);
-
 /* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a point in reach. For ICC_BOUNDARY, `facet` and
  * `bary` are the nearest facet and the barycentric coordinates of the nearest point on it. */
 int32_t iccp_inside_find(const iccp_facet_tree *tree, const iccp_band *band, const double *p,

@@ -1,6 +1,7 @@
 #include "domain/locate.h"
 
 #include "base/compiler.h"
+#include "domain/away.h"
 
 iccp_locator *iccp_locator_create(iccp_polygon *polygon, const iccp_facet_tree *facets,
                                   const double *lower, const double *upper, const iccp_band *band,
@@ -93,18 +94,12 @@ static const iccp_buckets *find_buckets(const iccp_locator *locator)
     return ICCP_LIKELY(known != NULL) ? known : make_buckets(locator);
 }
 
-/* Keeps squares finite. So far away (1e100 boxes) all edges are equally far in doubles. */
-static double within_reach(double x)
-{
-    return x > 1e100 ? 1e100 : x > -1e100 ? x : x == x ? -1e100 : 0;
-}
-
 iccp_location iccp_locator_find(const iccp_locator *locator, const double *p, bool nearest)
 {
     iccp_location place = iccp_buckets_find(find_buckets(locator), p);
     if (nearest && place.where != ICC_BOUNDARY) {
-        const double reachable[2] = {within_reach(p[0]), within_reach(p[1])};
-        double distance2;
+        double reachable[2], distance2;
+        iccp_away_reach(2, p, reachable);
         place.edge = iccp_boxtree_nearest(&iccp_locator_trees(locator)->edges, reachable, &place.t,
                                           &distance2);
     }

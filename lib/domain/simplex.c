@@ -21,6 +21,7 @@ typedef struct search {
     size_t dim, n;
     const double *const *corners; /* n */
     const double *p;
+    const iccp_away *away; /* of p, if it is far away: orders points in place of distances */
     double distance2[MAX]; /* of the corners from p, squared */
     double best2;          /* of the nearest point so far */
     double bary[MAX];      /* by corner, of that point */
@@ -92,6 +93,18 @@ static void keep_nearest(search *s, double distance2, size_t n, const size_t *li
         s->bary[list[i]] = bary[i];
 }
 
+/* Of a point on the face with these corners; `rest` leads from it to p. */
+static double distance2_of(const search *s, size_t n, const size_t *list, const double *bary,
+                           const double *rest)
+{
+    double q[MAX] = {0};
+    if (s->away == NULL)
+        return iccp_vec_dot(s->dim, rest, rest) + DBL_MIN;
+    for (size_t i = 0; i < n; ++i)
+        subtract_multiple(s->dim, q, -bary[i], s->corners[list[i]]);
+    return iccp_away_value(s->away, s->dim, q);
+}
+
 /* The point of a face, given as a subset of the corners, that is nearest to p: its projection if
  * that lies within, else on a smaller face. A flat face has no projection, and all its faces are
  * searched. Of the smaller faces only those opposite a corner with a negative coordinate can
@@ -116,7 +129,7 @@ static void search_face(search *s, unsigned subset)
         }
     /* Rounding may put a corner of one simplex into another nearby; only its own have it at 0. */
     if (within)
-        keep_nearest(s, iccp_vec_dot(s->dim, rest, rest) + DBL_MIN, n, list, bary);
+        keep_nearest(s, distance2_of(s, n, list, bary, rest), n, list, bary);
 }
 
 double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, const double *p,
@@ -134,6 +147,18 @@ double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, 
             return 0;
         }
     }
+    search_face(&s, (1u << n) - 1);
+    memcpy(bary, s.bary, n * sizeof *bary);
+    return s.best2;
+}
+
+double iccp_simplex_nearest_from(size_t dim, size_t n, const double *const *corners,
+                                 const iccp_away *away, double *bary)
+{
+    search s = {
+        .dim = dim, .n = n, .corners = corners, .p = away->p, .away = away, .best2 = HUGE_VAL};
+    for (size_t i = 0; i < n; ++i)
+        s.distance2[i] = iccp_away_value(away, dim, corners[i]);
     search_face(&s, (1u << n) - 1);
     memcpy(bary, s.bary, n * sizeof *bary);
     return s.best2;

@@ -2,6 +2,8 @@
 #ifndef ICCP_SIMPLEX_H
 #define ICCP_SIMPLEX_H
 
+#include "domain/away.h"
+
 #include <stddef.h>
 
 /* The point of the simplex with n <= 6 corners, of dim coordinates each, that is nearest to p:
@@ -10,5 +12,9 @@
  * fine. */
 double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, const double *p,
                             double *bary);
+
+/* The same for a point far away. Returns the number that orders points from there. */
+double iccp_simplex_nearest_from(size_t dim, size_t n, const double *const *corners,
+                                 const iccp_away *away, double *bary);
 
 #endif

@@ -3,6 +3,7 @@
 #include "kernel/shape.h"
 
 #include "base/minmax.h"
+#include "domain/away.h"
 #include "domain/inside.h"
 #include "domain/simplex.h"
 #include "math/orient.h"
@@ -45,7 +46,7 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
     iccp_spot spot = {
         .clearance = HUGE_VAL, .wall = ICCP_NOWHERE, .region = ICCP_NOWHERE, .curve = ICCP_NOWHERE};
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
-    iccp_inside_reach(shape->dim, local, spot.at);
+    iccp_away_reach(shape->dim, local, spot.at);
     if (shape->walls.n > 0) {
         const uint32_t f = iccp_facet_tree_nearest(&shape->walls, spot.at, bary, &distance2);
         spot.clearance = sqrt(distance2);
@@ -66,7 +67,7 @@ iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
     iccp_spot spot = *other;
     double local[3];
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, point, local);
-    iccp_inside_reach(shape->dim, local, spot.at);
+    iccp_away_reach(shape->dim, local, spot.at);
     spot.clearance = other->clearance - iccp_vec_distance(shape->dim, spot.at, other->at);
     if (!(spot.clearance > reach + shape->tolerance))
         return iccp_shape_spot(shape, point);

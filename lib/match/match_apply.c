@@ -1,8 +1,8 @@
 #include "match/match_apply.h"
 
 #include "base/threads.h"
+#include "domain/away.h"
 #include "domain/features.h"
-#include "domain/inside.h"
 #include "math/vec.h"
 
 enum { AT_ONCE = 1024 };
@@ -27,13 +27,13 @@ void iccp_match_index(icc_match *match)
 /* The facet nearest to a local point, of the boundary, of a line or of a point inside. */
 static void find(const follow *f, const double *local, uint32_t *facet, double *bary)
 {
-    double reachable[ICC_MAX_DIM], distance2;
+    double reachable[ICC_MAX_DIM];
     if (f->places->n == 0) {
         (void)iccp_domain_locate(f->from, local, false, facet, bary);
         return;
     }
-    iccp_inside_reach(2, local, reachable);
-    *facet = iccp_facet_tree_nearest(f->places, reachable, bary, &distance2);
+    iccp_away_reach(2, local, reachable);
+    *facet = iccp_facet_tree_nearest_local(f->places, reachable, bary);
 }
 
 /* The place of a facet, in the caller's coordinates; at a vertex, as that was given. */
