@@ -393,14 +393,15 @@ enum {
 };
 
 /**
- * Lists every defect that keeps a closed polygon from being the boundary of a domain.
+ * Lists the defects that keep a closed polygon from being the boundary of a domain.
  *
  * @param n_vertices    vertices of the ring
  * @param vertices      n_vertices * 2 coordinates; facet i joins vertices i and i + 1
  * @param capacity      how many defects the two arrays have room for
  * @param[out] kinds    `capacity` kinds, `ICC_DEFECT_*`
  * @param[out] items    `capacity` pairs (a, b), see `ICC_DEFECT_*`
- * @param[out] n_defects how many there are in all, also beyond `capacity`
+ * @param[out] n_defects how many there are, also beyond `capacity`; if there are more than 10,000 +
+ *                      4 n_vertices, that number: the search ends there
  * @param env           may be NULL
  * @param err           may be NULL
  *

@@ -11,6 +11,10 @@
  * / 2. */
 enum { PATIENCE = 64 };
 
+/* A list ends after so many defects, and so many for each vertex: edges that all cross have as many
+ * crossings as there are pairs of them. Every vertex may be repeated and a spike. */
+enum { LISTED = 10000, LISTED_EACH = 4 };
+
 static const uint32_t NONE = UINT32_MAX;
 
 typedef struct walk {
@@ -187,7 +191,10 @@ static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patie
 icc_status iccp_defects_list(iccp_defect_list *list, const iccp_polygon *polygon,
                              const iccp_boxtree *tree, const iccp_env *env)
 {
-    return list_up_to(list, SIZE_MAX, SIZE_MAX, polygon, tree, env);
+    const size_t most = LISTED + LISTED_EACH * polygon->n;
+    const icc_status status = list_up_to(list, most, SIZE_MAX, polygon, tree, env);
+    list->n = list->n < most ? list->n : most;
+    return status;
 }
 
 iccp_defect iccp_defects_at(const iccp_polygon *polygon, uint32_t a)

@@ -241,4 +241,9 @@ says 'libicc: bad:4: the file ends early'
 printf 'nothing\n' >bad
 run 1 mesh -s source.txt -t target.txt bad out.obj
 says 'libicc: bad: there are no vertices'
+
+# Of a star all of whose edges cross the list ends, and says so.
+awk 'BEGIN { for (k = 0; k < 801; k++) { a = 8 * atan2(1, 1) * (k * 400 % 801) / 801; printf "%.17g %.17g\n", cos(a), sin(a) } }' >star.txt
+run 1 check -s star.txt
+holds out 'there may be more defects; the list ends here, after 13204'
 finish

@@ -24,6 +24,11 @@ icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n
     return status;
 }
 
+bool defects_may_be_more(const defect_list *list, const cage *c)
+{
+    return list->n >= 10000 + 4 * c->n;
+}
+
 void defects_free(defect_list *list)
 {
     free(list->kinds);

@@ -17,9 +17,9 @@ static const char *kind_name(int32_t kind)
 
 void check_print_defects(const check *c)
 {
-    for (size_t side = 0; side < 2; side++)
+    for (size_t side = 0; side < 2; side++) {
+        const cage *at = &c->job.cages[side];
         for (size_t i = 0; i < c->defects[side].n; i++) {
-            const cage *at = &c->job.cages[side];
             size_t line = at->lines[c->defects[side].items[2 * i]];
             char text[200];
             printf("%s:", job_file(&c->job, (int)side + 1));
@@ -27,6 +27,10 @@ void check_print_defects(const check *c)
                 printf("%zu:", line);
             printf(" %s%s\n", c->job.name, defect_text(text, &c->defects[side], i, at));
         }
+        if (defects_may_be_more(&c->defects[side], at))
+            printf("%s: there may be more defects; the list ends here, after %zu\n",
+                   job_file(&c->job, (int)side + 1), c->defects[side].n);
+    }
 }
 
 static void print_mask(const cage *mask, const icc_domain_info *info)

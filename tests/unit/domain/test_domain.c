@@ -372,6 +372,22 @@ START_TEST(test_list_capacity)
 }
 END_TEST
 
+/* Of a star all of whose edges cross the list ends where the header says. */
+START_TEST(test_list_ends)
+{
+    enum { N = 1201 };
+    static double points[2 * N];
+    size_t n;
+    for (size_t k = 0; k < N; ++k) {
+        const double angle = 6.283185307179586 * (double)(k * (N / 2) % N) / N;
+        points[2 * k] = cos(angle);
+        points[2 * k + 1] = sin(angle);
+    }
+    ck_assert_int_eq(icc_boundary_defects(N, points, 0, NULL, NULL, &n, NULL, NULL), ICC_OK);
+    ck_assert_uint_eq(n, 10000 + 4 * N);
+}
+END_TEST
+
 /* Small grids make every degeneracy frequent. */
 START_TEST(test_random_integers)
 {
@@ -1505,6 +1521,7 @@ int main(void)
     tcase_add_test(checks, test_known_defects);
     tcase_add_test(checks, test_list_of_not_finite);
     tcase_add_test(checks, test_list_capacity);
+    tcase_add_test(checks, test_list_ends);
     tcase_add_test(checks, test_random_integers);
     tcase_add_test(checks, test_shapes);
     tcase_add_test(checks, test_chains);
