@@ -23,9 +23,10 @@
 /* Trees at most; what one costs for each triangle of its overlay, in steps. */
 enum { TREES = 30, COST = 1 };
 
-/* No other tree is tried after one with the first energy or less, or with the second and cuts that
- * are longer than straight ones by no more than a factor. */
-static const double GOOD = 8, FAIR = 100, STRAIGHT = 1.2;
+/* No other tree is tried after one with the first energy or less; nor after one with the second and
+ * cuts that are longer than straight ones by no more than a factor; nor after one whose cuts are
+ * straight on both sides, up to rounding, since no tree has shorter ones. */
+static const double GOOD = 8, FAIR = 100, NEARLY_STRAIGHT = 1.2, STRAIGHT = 1 + 1e-12;
 
 /* Trees whose overlay has so many times the triangles of another one are hardly ever better, and
  * then by a tenth at most. */
@@ -135,7 +136,8 @@ static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *
         if (status == ICC_OK) {
             const double detour = iccp_max(detour_of(&cuts, 0), detour_of(&cuts, 1));
             ++report->n_trees;
-            is_good = energy <= GOOD || (energy <= FAIR && detour <= STRAIGHT);
+            is_good = energy <= GOOD || (energy <= FAIR && detour <= NEARLY_STRAIGHT) ||
+                      (energy < HUGE_VAL && detour <= STRAIGHT);
             if (energy < best) {
                 const iccp_plmap worse = *map;
                 const iccp_cuts others = report->cuts;
