@@ -227,7 +227,7 @@ static icc_status map_rest(const carrier *c, const icc_map *map, size_t n, const
 static icc_status map_inside(const carrier *c, size_t n, const double *points, double *images,
                              icc_status *status, size_t *n_failed)
 {
-    double *own = c->turned[0] ? need(n, c->dim * sizeof *own) : NULL;
+    double *own = c->turned[0] && n > 0 ? need(n, c->dim * sizeof *own) : NULL;
     if (own != NULL) {
         memcpy(own, points, n * c->dim * sizeof *own);
         turn(c, 0, n, own);
@@ -235,7 +235,7 @@ static icc_status map_inside(const carrier *c, size_t n, const double *points, d
     }
     icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(
         c->maps[0].map, n, points, images, status, n_failed, c->env);
-    for (size_t m = 1; m<c->n_maps && * n_failed> 0 && ran == ICC_OK; m++)
+    for (size_t m = 1; ran == ICC_OK && *n_failed > 0 && m < c->n_maps; m++)
         ran = map_rest(c, c->maps[m].map, n, points, images, status, n_failed);
     turn(c, 1, n, images);
     free(own);
