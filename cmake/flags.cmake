@@ -17,8 +17,8 @@ if(MSVC)
   target_compile_options(icc_flags INTERFACE /fp:precise /experimental:c11atomics)
 endif()
 
-# Inside another project no build type may be chosen, which means no optimisation and every assertion. Our own targets are
-# then compiled as for Release. Flags that say how to optimise are left alone, and so is "None", the type of distributions.
+# Another project may have no build type, which means no optimisation and every assertion. Our own targets are then
+# compiled as for Release. Flags that say how to optimise stay, and so does "None", the build type of distributions.
 if(NOT CMAKE_C_FLAGS MATCHES "(^| )[-/]O")
   separate_arguments(release NATIVE_COMMAND "${CMAKE_C_FLAGS_RELEASE}")
   target_compile_options(icc_flags INTERFACE "$<$<STREQUAL:$<CONFIG>,>:${release}>")

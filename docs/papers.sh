@@ -14,7 +14,7 @@ library=build/examples/library
 mkdir -p "$out"
 : >"$out/table.txt"
 
-# Programs in Python print by lines, as the benchmarks do: a file shows how far its program is.
+# Programs in Python print line by line, as the benchmarks do, so a file shows how far its program is.
 export PYTHONUNBUFFERED=1
 
 # made NAME COMMAND... says that it runs a command, whose output goes to $out/NAME.txt, and adds its seconds to the table.

@@ -6,7 +6,7 @@
  * never exits the process. (Not related to ICC colour profiles.)
  *
  * You may call libicc in any rounding mode, with subnormal numbers flushed to zero, and with
- * floating-point exceptions that trap: results are the same bits. Each call computes in C's default
+ * floating-point exceptions that trap. Results are the same bits. Each call computes in C's default
  * floating-point environment (rounding to nearest, no traps). When it returns, your thread has its
  * own environment back, exception flags included. Callbacks run in the default environment and must
  * leave it as it is. A library built by Microsoft's compiler does none of this: call it in the
@@ -104,7 +104,7 @@ typedef struct icc_error {
 } icc_error;
 
 /** One unit of work handed to icc_env::parallel_for. You may run it in any floating-point
- *  environment; it leaves that as it was. */
+ *  environment, and it leaves the environment as it was. */
 typedef void (*icc_task)(void *argument, size_t index);
 
 /**

@@ -93,8 +93,8 @@ typedef struct icc_domain_info {
  *
  * All checks use the coordinates as given. Internally the shape is shifted and scaled by exact
  * operations, so any position and size will do (an offset of 1e9, coordinates of 1e300). A
- * coordinate other than 0 of 2^-200 of the largest one or less is refused. Except in 2-D, vertices
- * that belong to no facet are kept and otherwise ignored.
+ * coordinate is refused if it is not 0 and at most 2^-200 times the largest one. Except in 2-D,
+ * vertices that belong to no facet are kept and otherwise ignored.
  *
  * @param[out] out   the domain; owned by the caller, see icc_domain_free()
  * @param dim        1..::ICC_MAX_DIM
@@ -111,8 +111,8 @@ typedef struct icc_domain_info {
  *
  * Cost: O(n log n) time, O(n) memory for ordinary shapes; in 2-D 30 to 60 ns a vertex of an
  * outline, and as much again to 0.2 us when its first point is located; in 3-D 0.6 to 2 us and 70
- * bytes a triangle (115 while it is made). Where many triangles meet at one vertex, or are long,
- * thin and close, 5 to 40 us and 2 kB a triangle while they are compared.
+ * bytes a triangle (115 while it is made). If many triangles meet at one vertex, or are long, thin
+ * and close, comparing them takes 5 to 40 us and 2 kB a triangle.
  */
 ICC_API icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_facets,
@@ -400,8 +400,8 @@ enum {
  * @param capacity      how many defects the two arrays have room for
  * @param[out] kinds    `capacity` kinds, `ICC_DEFECT_*`
  * @param[out] items    `capacity` pairs (a, b), see `ICC_DEFECT_*`
- * @param[out] n_defects how many there are, also beyond `capacity`; if there are more than 10,000 +
- *                      4 n_vertices, that number: the search ends there
+ * @param[out] n_defects how many there are, also beyond `capacity`; the search ends at 10,000 +
+ *                      4 n_vertices, so there may be more then
  * @param env           may be NULL
  * @param err           may be NULL
  *
@@ -896,9 +896,9 @@ typedef struct icc_match_options {
 typedef struct icc_match_info {
     size_t size;        /**< set by the caller: `sizeof(icc_match_info)` */
     int32_t dim;        /**< dimension */
-    int32_t mirrored;   /**< 1: the target's mirror image fits at least 1.06 times better, as
-                             `sure` compares: y may point down in one of the two. A map cannot
-                             mirror, so this is said and not used; without landmarks only */
+    int32_t mirrored;   /**< 1: the target's mirror image fits at least 1.06 times better, compared
+                             as for `sure`. Then y may point down in one of the two. It changes
+                             nothing, because a map cannot mirror; without landmarks only */
     size_t n_vertices;  /**< common vertices of the two domains */
     size_t n_landmarks; /**< landmarks; they are among these */
     size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
@@ -1032,10 +1032,10 @@ ICC_API icc_status icc_match_get_origins(const icc_match *match, uint32_t *sourc
                                          uint32_t *target);
 
 /**
- * Takes points of the source to the target: each to the nearest place on the outer ring, the holes,
- * the lines and the points of icc_match_source(), in space on its surface, and from there to the
- * same place of icc_match_target(). Common vertices go to their partners bit by bit, whether they
- * are of a ring, a line or a point, landmarks among them; between them each edge or facet is mapped
+ * Takes points of the source to the target. A point first goes to the nearest place on the outer
+ * ring, the holes, the lines and the points of icc_match_source(), or in space on its surface. Then
+ * it goes to the same place of icc_match_target(). All common vertices, also those of lines, points
+ * and landmarks, go to their partners bit by bit. Between them each edge or facet is mapped
  * one-to-one. Points of a surface that was given are at most icc_match_info::off away from the
  * common one.
  *
@@ -1179,20 +1179,20 @@ typedef struct icc_map_info {
                                  so, or rounding or the way of the vertices leaves it open */
     int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
                                  map; 1 with ties */
-    size_t n_spoilt;        /**< mesh: simplices that rounding makes flat or reversed when
-                                 icc_map_get_mesh() hands them out, on either side; 0 but for shapes
-                                 about 1e9 times as far from the origin as they are large */
+    size_t n_spoilt;        /**< mesh: simplices that rounding makes flat or reversed, on either
+                                 side, when icc_map_get_mesh() hands them out; 0 unless a shape is
+                                 about 1e9 times as far from the origin as it is large */
 } icc_map_info;
 
 /**
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
  * same barycentric coordinates.
  *
- * A boundary that moves affinely takes its inside along by the same affine map: if all vertices,
- * those of features too, lie within 1e-13 of the largest coordinate of the affine map that fits
- * them best, a map of kind mesh is that affine map, up to rounding (1e-12 of the size). Vertices go
- * to their partners as given. Exceptions: options with `iterations` -1, and features whose ties ask
- * for another isotopy class.
+ * If a boundary moves affinely, a map of kind mesh takes its inside along by the same affine map,
+ * up to rounding (1e-12 of the size). A boundary counts as affine if the affine map that fits best
+ * takes every vertex, also of features, to its partner within 1e-13 of the largest coordinate.
+ * Vertices still go to their partners as given. Exceptions are options with `iterations` -1, and
+ * features whose ties ask for another isotopy class.
  *
  * Both charts are built together. Foliation and disc cut both boundaries alike. The maxima are
  * paired:
@@ -1363,9 +1363,9 @@ ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc
                                     int32_t iterations, const icc_env *env, icc_error *err);
 
 /**
- * Copies the mesh of a map of kind mesh, in the caller's coordinates. They are rounded once, and
+ * Copies the mesh of a map of kind mesh, in the caller's coordinates. They are rounded once, but
  * the certificate is about the unrounded numbers inside. icc_map_info::n_spoilt counts the
- * simplices that this makes flat or reversed.
+ * simplices that rounding makes flat or reversed.
  *
  * @param map            the map
  * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
@@ -1396,8 +1396,8 @@ typedef struct icc_certificate {
  * exactly, whether the image is a mesh too. It need not be, even though the map is one-to-one: its
  * simplices are straight where the map bends.
  *
- * The mesh may have holes, voids and handles, and may be in several pieces. A facet has one simplex
- * or two, and no vertex or edge belongs to two parts of the boundary.
+ * The mesh may have holes, voids and handles, and may be in several pieces. Each facet belongs to
+ * one simplex or two, and no vertex or edge belongs to two parts of the boundary.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -1422,8 +1422,8 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  *
  * Simplices and the images of boundary vertices do not change, so this cannot always succeed (a
  * simplex with all its corners on the boundary stays as the map makes it): check `certificate`. If
- * it fails, the images are the best that were found. A mesh that could not be certified itself, or
- * a vertex of whose boundary has no image, is not repaired.
+ * it fails, the images are the best that were found. A mesh is not repaired if it cannot be
+ * certified itself, or if a vertex of its boundary has no image.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
  * @param n_vertices       vertices of the mesh, fewer than 2^26
@@ -1446,8 +1446,8 @@ ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const d
 /** Frees a map. */
 ICC_API void icc_map_free(icc_map *map);
 
-/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. Counting
- *  n_spoilt takes a pass over the mesh where its coordinates have to be rounded. */
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. If the mesh's
+ *  coordinates have to be rounded, counting n_spoilt takes a pass over the mesh. */
 ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
 
 /** The chart of the source; borrowed. NULL for maps made by icc_map_retarget(). */

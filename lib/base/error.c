@@ -5,8 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes of the caller's struct. A size of 0 stands for the members of version 0.1, which every
- * caller has. */
+/* Bytes of the caller's struct that may be written. A size of 0 stands for the members of version
+ * 0.1, which every caller has. */
 static size_t room_of(const icc_error *err)
 {
     const size_t first = offsetof(icc_error, message) + sizeof err->message;
@@ -77,7 +77,7 @@ icc_status iccp_explain(icc_error *err, icc_status status)
     return status;
 }
 
-/* In front of the message, which ends earlier if there is no room. */
+/* Puts the side's name in front of the message, whose end is cut off if there is no room. */
 static void name_side(icc_error *err, int32_t side)
 {
     enum { N_NAME = 8 };

@@ -23,9 +23,9 @@ icc_status iccp_fail_memory(icc_error *err);
  * Returns `status`, whatever it is. */
 icc_status iccp_explain(icc_error *err, icc_status status);
 
-/* Marks whose fault it is: 1 the source, 2 the target, 0 neither, and puts the side's name in front
- * of the message, which need not repeat it. The first caller to know decides. What iccp_explain()
- * describes is no side's fault. Returns `status`. */
+/* Marks whose fault it is: 1 the source, 2 the target, 0 neither. Puts the side's name in front of
+ * the message, so the message need not repeat it. The first caller that names a side decides.
+ * Failures that iccp_explain() describes are no side's fault. Returns `status`. */
 icc_status iccp_fail_side(icc_error *err, icc_status status, int32_t side);
 
 #endif

@@ -22,7 +22,7 @@ typedef enum iccp_simd_level {
     ICCP_SIMD_AVX512
 } iccp_simd_level;
 
-/* The highest that is used where the processor has it: CMake's option ICC_SIMD. */
+/* The highest level that is used, if the processor has it: CMake's option ICC_SIMD. */
 #ifndef ICCP_SIMD_MOST
 #define ICCP_SIMD_MOST ICCP_SIMD_AVX512
 #endif

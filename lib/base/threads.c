@@ -179,7 +179,7 @@ typedef struct side {
     char line[MOST_LINES][LINE];
 } side;
 
-/* C gives each thread an errno of its own, so that the address tells threads apart. */
+/* C gives each thread an errno of its own, so its address tells threads apart. */
 static const void *this_thread(void)
 {
     return &errno;

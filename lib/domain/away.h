@@ -1,8 +1,8 @@
-/* The order of points q of a shape by how near they are to a point p far away.
+/* Orders the points q of a shape by their distance from a point p that is far away.
  *
- * Squared distances from there are all |p|^2 up to rounding. So |q|^2 / (2 |p|) - q . p / |p| is
- * compared instead: half the difference between the squared distance and |p|^2, over |p|. It orders
- * points in the same way and is as exact as q. */
+ * Seen from p, all squared distances are |p|^2 up to rounding. So the order value
+ * |q|^2 / (2 |p|) - q . p / |p| is compared instead: half the difference between the squared
+ * distance and |p|^2, over |p|. It orders points in the same way and is as exact as q. */
 #ifndef ICCP_AWAY_H
 #define ICCP_AWAY_H
 
@@ -16,12 +16,12 @@ typedef struct iccp_away {
     double direction[ICC_MAX_DIM], bend; /* p / |p| and 1 / (2 |p|) */
 } iccp_away;
 
-/* Draws a point in local coordinates near enough for products of three coordinates to be finite, in
- * the same direction, and makes coordinates 0 of which a product might underflow. Of one that is
- * not finite something finite is made. */
+/* Moves a point in local coordinates towards the origin until products of three coordinates are
+ * finite. Coordinates so small that a product might underflow become 0, and those that are not
+ * finite become finite ones. */
 void iccp_away_reach(size_t dim, const double *p, double *reachable);
 
-/* Whether the number above loses no more to rounding than the squared distance: shapes in local
+/* True if the order value loses no more to rounding than the squared distance. Shapes in local
  * coordinates have a size of about 1. */
 static inline bool iccp_away_is_far(size_t dim, const double *p)
 {
@@ -31,13 +31,20 @@ static inline bool iccp_away_is_far(size_t dim, const double *p)
     return false;
 }
 
-/* For a point within reach that is far away. */
+/* Prepares order values for a point from iccp_away_reach() that is far away. */
 iccp_away iccp_away_from(size_t dim, const double *p);
 
-/* The number. */
+/* The order value of q. */
 double iccp_away_value(const iccp_away *away, size_t dim, const double *q);
 
-/* The least of a box. */
+/* The least order value of a point in a box. */
 double iccp_away_bound(const iccp_away *away, size_t dim, const double *lower, const double *upper);
+
+/* The point from which nearest points are searched. If it is far away, `away` is not NULL, and
+ * order values take the place of squared distances. */
+typedef struct iccp_viewpoint {
+    const double *p;
+    const iccp_away *away;
+} iccp_viewpoint;
 
 #endif

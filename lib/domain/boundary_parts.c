@@ -1,6 +1,6 @@
-/* As many positive simplices lie over a point as the boundary winds round it (docs/theory.md, the
- * mesh map). Surfaces that do not meet wind round a point once or not at all exactly when the
- * outermost ones face outwards and every other one the other way than the surface around it. */
+/* The boundary winds round a point as often as positive simplices lie over it (docs/theory.md, the
+ * mesh map). Surfaces that do not meet wind round each point once or not at all exactly when the
+ * outermost ones face outwards and every other one faces against the surface around it. */
 #include "domain/boundary_parts.h"
 
 #include "base/error.h"
@@ -83,7 +83,7 @@ static icc_status fail_pair(icc_error *err, const uint32_t *a, const uint32_t *b
                      (unsigned long)b[0], (unsigned long)b[1], (unsigned long)b[2]);
 }
 
-/* The last one by x. */
+/* The vertex with the largest x. */
 static const double *last_vertex(const iccp_facet_tree *tree)
 {
     const double *last = tree->vertices + 3 * (size_t)tree->facets[0];
@@ -94,8 +94,8 @@ static const double *last_vertex(const iccp_facet_tree *tree)
     return last;
 }
 
-/* A surface lies in as many others as are left on the way on from its last vertex; whether that is
- * even or odd tells which way it must face. */
+/* A ray along x from the last vertex of a surface leaves each surface around it. If it crosses an
+ * odd number of facets, the surface lies inside another one and must face inwards. */
 static icc_status check_surface(const iccp_facet_tree *all, const uint32_t *facets, size_t n,
                                 icc_error *err)
 {
@@ -112,7 +112,7 @@ static icc_status check_surface(const iccp_facet_tree *all, const uint32_t *face
                      (unsigned long)facets[0]);
 }
 
-/* Surfaces that are one by one closed and connected round each vertex. */
+/* Checks surfaces each of which is closed and connected round each vertex. */
 static icc_status check_surfaces(const iccp_boundary_parts *b, const iccp_facet_tree *tree,
                                  const iccp_env *env, icc_error *err)
 {
@@ -133,7 +133,7 @@ static icc_status check_surfaces(const iccp_boundary_parts *b, const iccp_facet_
 
 /* ---- both ---- */
 
-/* From outside, by the caller's numbers. */
+/* Lists the boundary's facets, facing outwards, by the caller's numbers of vertices. */
 static void list_facets(const iccp_simplices *mesh, uint32_t *to)
 {
     for (size_t side = 0; side < (mesh->dim + 1) * mesh->n_simplices; ++side) {

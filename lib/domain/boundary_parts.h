@@ -6,7 +6,7 @@
 #include "domain/outlines.h"
 #include "domain/simplices.h"
 
-/* By the caller's numbers of vertices. */
+/* Vertices have the caller's numbers. */
 typedef struct iccp_boundary_parts {
     iccp_memory memory;
     size_t n_vertices, n_facets, n_parts;
@@ -20,9 +20,9 @@ icc_status iccp_boundary_parts_create(iccp_boundary_parts *boundary, const iccp_
                                       size_t n_vertices, const iccp_env *env, icc_error *err);
 void iccp_boundary_parts_free(iccp_boundary_parts *boundary);
 
-/* ICC_ERR_BOUNDARY unless no part of the boundary meets itself or another one, and every point is
- * within the boundary, outwards, once or not at all. Then simplices that are all positive do not
- * overlap. Exact. `points`: local ones for all of the caller's vertices. */
+/* Returns ICC_ERR_BOUNDARY if a part of the boundary meets itself or another part, or if the
+ * boundary does not wind round every point once or not at all. If it passes, positive simplices do
+ * not overlap. Exact. `points`: local coordinates of all of the caller's vertices. */
 icc_status iccp_boundary_parts_check(const iccp_boundary_parts *boundary, const double *points,
                                      const iccp_env *env, icc_error *err);
 

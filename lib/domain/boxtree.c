@@ -121,14 +121,7 @@ static double box_distance2(const iccp_box *box, const double *p)
     return sum;
 }
 
-/* Where to look from: `away` is NULL unless that is far away. What is called a squared distance is
- * then the number that takes its place. */
-typedef struct viewpoint {
-    const double *p;
-    const iccp_away *away;
-} viewpoint;
-
-static double node_distance2(const iccp_boxtree *tree, size_t node, const viewpoint *from)
+static double node_distance2(const iccp_boxtree *tree, size_t node, const iccp_viewpoint *from)
 {
     if (tree->boxes == NULL)
         return -HUGE_VAL;
@@ -142,14 +135,15 @@ typedef struct nearest {
     double t, distance2;
 } nearest;
 
-/* Of the point at a share t of the way from a to b. */
+/* The order value of the point at a share t of the way from a to b. */
 static double value_at(const iccp_away *away, const double *a, const double *b, double t)
 {
     const double q[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
     return iccp_away_value(away, 2, t < 1 ? q : b);
 }
 
-static void search_leaf(const iccp_boxtree *tree, size_t node, const viewpoint *from, nearest *best)
+static void search_leaf(const iccp_boxtree *tree, size_t node, const iccp_viewpoint *from,
+                        nearest *best)
 {
     const size_t end = leaf_end(tree, node);
     for (size_t e = (node - tree->n_leaves) * LEAF; e < end; ++e) {
@@ -172,7 +166,7 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
     nearest best = {UINT32_MAX, 0, HUGE_VAL};
     size_t depth = 0, node = 1;
     iccp_away away;
-    viewpoint from = {p, NULL};
+    iccp_viewpoint from = {p, NULL};
     if (iccp_away_is_far(2, p)) {
         away = iccp_away_from(2, p);
         from.away = &away;
@@ -201,7 +195,7 @@ uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double 
 
 bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2)
 {
-    const viewpoint from = {p, NULL};
+    const iccp_viewpoint from = {p, NULL};
     for (size_t node = 1; node != 0;) {
         const bool is_near = node_distance2(tree, node, &from) <= distance2;
         if (is_near && node < tree->n_leaves) {

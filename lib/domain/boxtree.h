@@ -68,7 +68,7 @@ void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uin
 bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge);
 
 /* The edge nearest to p (the first of several), the share of the way along it of the nearest point,
- * and the squared distance; for p far away (domain/away.h) the number that takes its place. */
+ * and the squared distance, or for p far away its order value (domain/away.h). */
 uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
                               double *distance2);
 

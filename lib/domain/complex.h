@@ -27,7 +27,7 @@ icc_status iccp_complex_join(iccp_complex *c, const iccp_env *env, icc_error *er
  * then form one cycle. */
 icc_status iccp_complex_check_vertices(const iccp_complex *c, const iccp_env *env, icc_error *err);
 
-/* The same, and ICC_ERR_TOPOLOGY unless all facets are connected and, in 3-D, form a sphere. */
+/* The same. Also ICC_ERR_TOPOLOGY unless all facets are connected and, in 3-D, form a sphere. */
 icc_status iccp_complex_check_shape(const iccp_complex *c, const iccp_env *env, icc_error *err);
 
 /* Lists the facets that are connected to the first one, itself included, and marks them by

@@ -125,7 +125,7 @@ static icc_status check_genus(const flood *f, icc_error *err)
                      "the surface has genus %zu: it must be a sphere, without handles", genus);
 }
 
-/* All of it, or only what can be said of each vertex. */
+/* Checks the whole shape, or only the facets round each vertex. */
 static icc_status check(const iccp_complex *c, bool whole, const iccp_env *env, icc_error *err)
 {
     const iccp_memory *memory = &env->memory;

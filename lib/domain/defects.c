@@ -11,8 +11,8 @@
  * / 2. */
 enum { PATIENCE = 64 };
 
-/* A list ends after so many defects, and so many for each vertex: edges that all cross have as many
- * crossings as there are pairs of them. Every vertex may be repeated and a spike. */
+/* A list ends after LISTED defects and LISTED_EACH more for each vertex, because edges can cross in
+ * as many places as there are pairs of them. Every vertex may be both repeated and a spike. */
 enum { LISTED = 10000, LISTED_EACH = 4 };
 
 static const uint32_t NONE = UINT32_MAX;

@@ -22,21 +22,14 @@ static ICCP_INLINE double box_distance2(size_t dim, const double *box, const dou
     return sum;
 }
 
-/* Where to look from: `away` is NULL unless that is far away. What is called a squared distance is
- * then the number that takes its place. */
-typedef struct viewpoint {
-    const double *p;
-    const iccp_away *away;
-} viewpoint;
-
-static ICCP_INLINE double distance2_of(size_t dim, const double *box, const viewpoint *from)
+static ICCP_INLINE double distance2_of(size_t dim, const double *box, const iccp_viewpoint *from)
 {
     return from->away != NULL ? iccp_away_bound(from->away, dim, box, box + dim)
                               : box_distance2(dim, box, from->p);
 }
 
 static ICCP_INLINE double node_distance2(const iccp_facet_tree *tree, size_t dim, size_t node,
-                                         const viewpoint *from)
+                                         const iccp_viewpoint *from)
 {
     return tree->boxes != NULL ? distance2_of(dim, tree->boxes + 2 * dim * node, from) : -HUGE_VAL;
 }
@@ -51,7 +44,7 @@ typedef struct nearest {
  * the smaller number wins, so that the result does not depend on the order of the tree. With a
  * constant dim the loops over coordinates are unrolled. */
 static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, size_t node,
-                                    const viewpoint *from, nearest *best)
+                                    const iccp_viewpoint *from, nearest *best)
 {
     const size_t first = (node - tree->n_leaves) * LEAF;
     for (size_t place = first; place < first + LEAF && place < tree->n; ++place) {
@@ -77,7 +70,7 @@ static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, siz
 /* Goes down to the leaf on the nearer side of every node and leaves the farther child on the
  * stack with its distance. A child is dropped when it comes up and is farther than the best
  * facet by then; the stack never holds more than one node per level. */
-static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const viewpoint *from,
+static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const iccp_viewpoint *from,
                                nearest *best)
 {
     struct {
@@ -108,7 +101,7 @@ uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, d
                                  double *distance2)
 {
     nearest best = {UINT32_MAX, HUGE_VAL, bary};
-    const viewpoint here = {p, NULL};
+    const iccp_viewpoint here = {p, NULL};
     if (tree->dim == 3)
         search(tree, 3, &here, &best);
     else
@@ -124,6 +117,6 @@ uint32_t iccp_facet_tree_nearest_local(const iccp_facet_tree *tree, const double
         return iccp_facet_tree_nearest(tree, p, bary, &distance2);
     nearest best = {UINT32_MAX, HUGE_VAL, bary};
     const iccp_away away = iccp_away_from(tree->dim, p);
-    search(tree, tree->dim, &(viewpoint){p, &away}, &best);
+    search(tree, tree->dim, &(iccp_viewpoint){p, &away}, &best);
     return best.facet;
 }

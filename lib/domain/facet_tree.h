@@ -92,7 +92,7 @@ bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet);
 uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
                                  double *distance2);
 
-/* The same for a tree in local coordinates, however far a point within reach is: domain/away.h. */
+/* The same for a tree in local coordinates and a point from iccp_away_reach(), near or far. */
 uint32_t iccp_facet_tree_nearest_local(const iccp_facet_tree *tree, const double *p, double *bary);
 
 #endif

@@ -5,9 +5,9 @@
 #include "domain/domain.h"
 #include "domain/simplices.h"
 
-/* A caller's mesh of any shape in local coordinates of its own. ICC_ERR_BOUNDARY unless its
- * simplices have volume and each facet has one of them or two, on opposite sides. The facets of the
- * boundary may be NULL. */
+/* Reads a caller's mesh of any shape into local coordinates of its own. Returns ICC_ERR_BOUNDARY
+ * unless all simplices have volume, and each facet belongs to one simplex or to two on opposite
+ * sides. `facets`, those of the boundary, may be NULL. */
 icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, size_t n_vertices,
                           const double *vertices, size_t n_simplices, const uint32_t *simplices,
                           size_t n_facets, const uint32_t *facets, const iccp_env *env,

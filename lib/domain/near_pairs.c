@@ -1,7 +1,7 @@
-/* Finds the pairs of two kinds of pieces that may meet. Each kind matters only where the other one
- * is, so both are cut to the part of space that they share. Then a plane divides this part in two;
- * a piece that lies on both sides is cut there. So long pieces become short and leave the parts
- * that their boxes reach, but they do not. Planes are perpendicular to the axes and to the
+/* Finds the pairs of pieces of two kinds that may meet. Each kind matters only where the other one
+ * is, so both are cut to the part of space that they share. Then a plane divides this part in two,
+ * and a piece that lies on both sides is cut there. So long pieces become short, and their boxes no
+ * longer reach into parts that they do not touch. Planes are perpendicular to the axes and to the
  * directions along which pieces differ most in relation to their own extent: R. A. Fisher, The Use
  * of Multiple Measurements in Taxonomic Problems, 1936. */
 #include "domain/near_pairs.h"
@@ -19,22 +19,23 @@ enum {
     N_DIRECTIONS = 6
 };
 
-/* Pieces reach this share of the size beyond planes: more than the errors of all cuts. */
+/* Pieces reach beyond planes by this share of the size, which exceeds the errors of all cuts. */
 static const double SLACK = 1e-12;
 
-/* The shares of pairs that a plane may leave to be taken at all, and at once. */
+/* A plane is used if it leaves at most the share WORTH of the pairs. At most ENOUGH ends the search
+ * for a better one. */
 static const double WORTH = 0.8, ENOUGH = 0.6;
 
-/* Multiplications for each piece that is looked at. */
+/* Multiplications for each piece of a list, charged to the budget. */
 static const double LOOK = 500;
 
 static const double THIN = 1e-15;
 
-/* The last pieces of all. */
+/* The pieces of `all` from `first` on. */
 typedef struct list {
     iccp_near_pairs *all;
     size_t first, n;
-    size_t n_first; /* are of the first kind, the others of the second */
+    size_t n_first; /* pieces of the first kind; those of the second follow */
 } list;
 
 typedef struct plane {
@@ -119,7 +120,7 @@ static double count_pairs(const list *l)
     return (double)l->n_first * (double)(l->n - l->n_first);
 }
 
-/* The pairs on both sides of a plane, within `slack` of which pieces are on both. */
+/* Counts the pairs on either side of a plane. Pieces within `slack` of it are on both sides. */
 static double count_divided(const list *l, double at, double slack)
 {
     double below[2] = {0, 0}, above[2] = {0, 0};
@@ -133,7 +134,8 @@ static double count_divided(const list *l, double at, double slack)
 
 /* ------------------------------------------------------------- directions */
 
-/* How pieces extend by themselves, each counting the same, and how their middles differ. */
+/* Scatter of the corners within each piece, each piece counting the same, and scatter of the
+ * pieces' middles. */
 static void add_moments(const list *l, double *within, double *between)
 {
     double mean[3] = {0};
@@ -169,7 +171,7 @@ static void transform(const double f[9], const double m[9], double out[9])
     }
 }
 
-/* Once for both uses: it is long when it is inlined. */
+/* A function of its own, because the library's is long when it is inlined twice. */
 static void diagonalise(double a[9], double v[9])
 {
     iccp_jacobi_diagonalise(3, 30, 0, a, v);
@@ -199,7 +201,7 @@ static void list_directions(const list *l, double u[N_DIRECTIONS][3])
 
 /* ------------------------------------------------------------------- cuts */
 
-/* Keeps of pieces `begin` to `end` what lies from `low` to `high` along u. */
+/* Cuts pieces `begin` to `end` to their parts from `low` to `high` along u. */
 static void keep_between(list *l, size_t begin, size_t end, const double *u, double low,
                          double high)
 {
@@ -231,7 +233,7 @@ static void find_ends(const list *l, size_t begin, size_t end, double ends[2])
     }
 }
 
-/* Each of the two kinds matters only where the other one is. */
+/* Cuts each kind to the range of the other one along u. */
 static void narrow(list *l, const double *u)
 {
     double first[2], second[2];
@@ -242,7 +244,7 @@ static void narrow(list *l, const double *u)
     keep_between(l, 0, l->n_first, u, second[0], second[1]);
 }
 
-/* Planes just before and behind some pieces of each kind. */
+/* Tries planes just before and behind some pieces of each kind. */
 static void try_direction(const list *l, const double *u, plane *best)
 {
     const double slack = SLACK * l->all->size;
@@ -261,7 +263,7 @@ static void try_direction(const list *l, const double *u, plane *best)
 
 /* ------------------------------------------------------------------ pairs */
 
-/* Copies, behind all, of pieces a to b, which are of the first kind, and c to d, of the second. */
+/* Appends copies of pieces a to b, of the first kind, and c to d, of the second. */
 static list copy(const list *l, size_t a, size_t b, size_t c, size_t d)
 {
     iccp_near_pairs *all = l->all;
@@ -298,7 +300,7 @@ static bool may_go_on(const list *l)
     return all->status == ICC_OK && !all->met;
 }
 
-/* Where the larger kind is halved. */
+/* Finds the first half of the larger kind. */
 static void halve(const list *l, size_t *begin, size_t *middle)
 {
     const bool second = 2 * l->n_first < l->n;
@@ -306,8 +308,8 @@ static void halve(const list *l, size_t *begin, size_t *middle)
     *middle = *begin + (second ? l->n - l->n_first : l->n_first) / 2;
 }
 
-/* Compares the first kind with the second, on both sides of a plane if one saves pairs; else, for
- * halves of the larger kind, which do not reach as far. */
+/* Compares the first kind with the second: on each side of a plane if one saves pairs, otherwise
+ * for each half of the larger kind, since halves do not reach as far. */
 static void compare(list *l)
 {
     double u[N_DIRECTIONS][3];

@@ -1,4 +1,4 @@
-/* Pairs among many long thin things that come near one another. */
+/* Finds pairs of items that meet among many long, thin ones that come near one another. */
 #ifndef ICCP_NEAR_PAIRS_H
 #define ICCP_NEAR_PAIRS_H
 
@@ -9,7 +9,7 @@
 
 enum { ICCP_PIECE_CORNERS = 8 };
 
-/* What a part of space holds of an item: a convex polygon, a segment or a point. */
+/* The part of an item within a part of space: a convex polygon, a segment or a point. */
 typedef struct iccp_piece {
     double corner[ICCP_PIECE_CORNERS][3];
     uint32_t n; /* corners */
@@ -32,11 +32,11 @@ typedef struct iccp_near_pairs {
     icc_status status; /* ICC_ERR_CANCELLED also where a budget does not allow the work */
 } iccp_near_pairs;
 
-/* A new piece with no corners. NULL if there is no memory, which `status` says. */
+/* Adds a piece without corners. Without memory it returns NULL and sets `status`. */
 iccp_piece *iccp_near_pairs_add(iccp_near_pairs *pairs);
 
-/* Takes away what lies beyond a plane, in the direction u from the origin. False if nothing is
- * left. Never takes away too much by more than rounding. */
+/* Cuts off the part of a piece with u . x > beyond. Returns false if nothing is left. May leave too
+ * much, but takes too much only by rounding. */
 bool iccp_piece_cut(iccp_piece *piece, const double *u, double beyond);
 
 /* Compares pieces `begin` to `end` with one another, but not those of the same group, which stand

@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A vertex of more triangles has a group. */
+/* A vertex has a group if more than MANY triangles meet there. */
 enum { MANY = 16 };
 
 /* Arcs are cut this far beyond a face of the cube, whose size is 1. */
@@ -23,7 +23,8 @@ static const double TOO_NEAR = 0x1p-7;
 /* Pieces that each triangle may cost without a budget. Long triangles in rows take about 60. */
 static const double FREE_PIECES = 128;
 
-/* A place of the tree and its group: a vertex, or for each other triangle one of its own. */
+/* A place of the tree and its group: a vertex or, for a triangle at none with a group, a number of
+ * its own. */
 typedef struct member {
     uint32_t group, place;
 } member;
@@ -33,7 +34,7 @@ static const uint32_t *corners_at(const iccp_facet_tree *tree, uint32_t place)
     return tree->facets + 3 * (size_t)tree->order[place];
 }
 
-/* Of each triangle's corners the one of the most triangles. */
+/* Lists triangles by group. A triangle belongs to the corner at which most triangles meet. */
 static member *list_members(const iccp_facet_tree *tree, size_t n_vertices,
                             const iccp_memory *memory)
 {
@@ -61,7 +62,7 @@ static member *list_members(const iccp_facet_tree *tree, size_t n_vertices,
     return has_memory ? sorted : NULL;
 }
 
-/* From the centre to a point, made as long as the cube is wide. */
+/* The direction from the centre to a point, as long as the cube is wide. */
 static void look(const double *centre, const double *point, double *direction)
 {
     double size = 0;
@@ -73,7 +74,7 @@ static void look(const double *centre, const double *point, double *direction)
         direction[k] /= size;
 }
 
-/* Drops the height above the cube's centre; an arc too near to it might be anywhere on the face. */
+/* Projects an arc to the face. One too near to the cube's centre becomes the whole face. */
 static void project(iccp_piece *piece, size_t axis, double side)
 {
     const size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
@@ -90,7 +91,7 @@ static void project(iccp_piece *piece, size_t axis, double side)
     }
 }
 
-/* What a face of the cube shows of a triangle at the centre. */
+/* Adds the arc of a triangle at the centre as far as it lies on a face of the cube. */
 static void add_arc(iccp_near_pairs *pairs, const double ends[2][3], uint32_t place, int face)
 {
     iccp_piece *piece = iccp_near_pairs_add(pairs);

@@ -1,14 +1,14 @@
-/* Whether triangles meet of which so many are long and thin, or have a corner in common, that most
- * of their boxes overlap. */
+/* Finds out whether triangles meet if most of their boxes overlap, because many triangles are long
+ * and thin or share a corner. */
 #ifndef ICCP_NEEDLES_H
 #define ICCP_NEEDLES_H
 
 #include "base/env.h"
 #include "domain/facet_tree.h"
 
-/* Passes pairs of places in the tree to `meet`, until it finds that one meets: all pairs but those
- * that cannot meet. ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n) pairs unless very many
- * triangles nearly touch. */
+/* Passes all pairs of places in the tree that may meet to `meet`, until it returns true for one.
+ * Returns ICC_OK, ICC_ERR_MEMORY or ICC_ERR_CANCELLED. O(n log n) pairs unless very many triangles
+ * nearly touch. */
 icc_status iccp_needles_compare(const iccp_facet_tree *tree, size_t n_vertices,
                                 bool (*meet)(void *context, uint32_t p, uint32_t q), void *context,
                                 const iccp_env *env);

@@ -1,6 +1,6 @@
-/* Rings that do not meet go round a point as often as those around it turn to the left, less those
- * that turn to the right. So they bound a region, with its inside on their left, exactly when the
- * outermost ones turn to the left and every other one turns against the ring around it. */
+/* Rings that do not meet wind round a point as often as rings around it turn to the left, less the
+ * rings that turn to the right. So they bound a region on their left exactly when the outermost
+ * ones turn to the left and every other one turns against the ring around it. */
 #include "domain/outlines.h"
 
 #include "base/error.h"
@@ -11,7 +11,8 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-/* Takes the ring through a vertex out of `next` and lists it; 0 when it does not close. */
+/* Takes the ring through a vertex out of `next` and lists it. Returns its length, or 0 if it does
+ * not close. */
 static size_t take_ring(uint32_t *next, uint32_t first, uint32_t *ring)
 {
     size_t n = 0;
@@ -64,9 +65,8 @@ static icc_status fail_defect(const iccp_outlines *o, const iccp_defect *found, 
 {
     unsigned long v[4];
     const uint32_t at[4] = {found->a, found->a + 1, found->b, found->b + 1};
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 4; ++k)
         v[k] = at[k] < o->n_points ? o->vertex[at[k]] : 0;
-    }
     if (found->kind == ICC_DEFECT_REPEATED)
         return iccp_fail(err, ICC_ERR_BOUNDARY, "vertices %lu and %lu are in the same place", v[0],
                          v[2]);
@@ -89,7 +89,8 @@ static icc_status check_places(const iccp_outlines *o, const iccp_chain_place *p
     return ICC_OK;
 }
 
-/* With the places of the rings' points. A single ring is nearly always simple in a quick test. */
+/* Checks rings whose points have been listed. For a single ring the quick test is nearly always
+ * enough. */
 static icc_status check_points(const iccp_outlines *o, const double *points,
                                iccp_chain_place *place, const iccp_env *env, icc_error *err)
 {

@@ -1,4 +1,4 @@
-/* The boundary of a mesh of triangles as rings, and whether these bound a region of the plane. */
+/* The boundary of a mesh of triangles as rings, and a check that they bound a plane region. */
 #ifndef ICCP_OUTLINES_H
 #define ICCP_OUTLINES_H
 
@@ -12,14 +12,14 @@ typedef struct iccp_outlines {
     uint32_t *vertex;
 } iccp_outlines;
 
-/* next[v]: the vertex behind v along the boundary, with the inside on the left, or UINT32_MAX; used
- * up. ICC_ERR_BOUNDARY when the rings do not close or there is none. */
+/* next[v] is the vertex after v along the boundary, with the inside on the left, or UINT32_MAX. The
+ * call overwrites it. Returns ICC_ERR_BOUNDARY if a ring does not close or there is none. */
 icc_status iccp_outlines_create(iccp_outlines *outlines, size_t n_vertices, uint32_t *next,
                                 const iccp_memory *memory);
 void iccp_outlines_free(iccp_outlines *outlines);
 
-/* ICC_ERR_BOUNDARY unless the rings are simple and apart, and go round every point once or not at
- * all, counter-clockwise. `points`: of all vertices. */
+/* Returns ICC_ERR_BOUNDARY unless the rings are simple, do not meet, and wind round every point
+ * once, counter-clockwise, or not at all. `points`: coordinates of all vertices. */
 icc_status iccp_outlines_check(const iccp_outlines *outlines, const double *points,
                                const iccp_env *env, icc_error *err);
 

@@ -21,7 +21,7 @@ typedef struct search {
     size_t dim, n;
     const double *const *corners; /* n */
     const double *p;
-    const iccp_away *away; /* of p, if it is far away: orders points in place of distances */
+    const iccp_away *away; /* if p is far away, its order values replace distances; or NULL */
     double distance2[MAX]; /* of the corners from p, squared */
     double best2;          /* of the nearest point so far */
     double bary[MAX];      /* by corner, of that point */
@@ -93,7 +93,8 @@ static void keep_nearest(search *s, double distance2, size_t n, const size_t *li
         s->bary[list[i]] = bary[i];
 }
 
-/* Of a point on the face with these corners; `rest` leads from it to p. */
+/* The squared distance, or order value, of a point on the face with these corners. `rest` leads
+ * from the point to p. */
 static double distance2_of(const search *s, size_t n, const size_t *list, const double *bary,
                            const double *rest)
 {

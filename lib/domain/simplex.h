@@ -13,7 +13,7 @@
 double iccp_simplex_nearest(size_t dim, size_t n, const double *const *corners, const double *p,
                             double *bary);
 
-/* The same for a point far away. Returns the number that orders points from there. */
+/* The same for a point far away. Returns the order value (domain/away.h). */
 double iccp_simplex_nearest_from(size_t dim, size_t n, const double *const *corners,
                                  const iccp_away *away, double *bary);
 

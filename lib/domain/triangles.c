@@ -264,7 +264,7 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
 
 /* ------------------------------------------------------------ all pairs */
 
-/* Pairs of boxes per triangle that are compared one by one. Ordinary surfaces have about 10. */
+/* Pairs of boxes for each triangle that are compared singly. Ordinary surfaces have about 10. */
 enum { PATIENCE = 64 };
 
 typedef struct search {
@@ -396,7 +396,7 @@ static void fill_places(search *s, const uint8_t *good)
     }
 }
 
-/* For iccp_needles_compare(). */
+/* The callback for iccp_needles_compare(). */
 static bool find_meeting(void *context, uint32_t p, uint32_t q)
 {
     search *s = context;

@@ -1,5 +1,5 @@
-/* Least squares by normal equations. One round of iterative refinement takes back what they lose:
- * N. J. Higham, Accuracy and Stability of Numerical Algorithms, chapter 20. */
+/* Least squares by normal equations. One round of iterative refinement regains the digits that they
+ * lose: N. J. Higham, Accuracy and Stability of Numerical Algorithms, chapter 20. */
 #include "map/affine.h"
 
 #include "base/minmax.h"
@@ -9,8 +9,8 @@
 #include <string.h>
 
 /* A boundary counts as affine if its vertices are no farther from the fitted map than this share of
- * the largest coordinate, on either side, as the caller gave them. Coordinates in doubles, and what
- * computed them, are good to some 1e-16 of that; a boundary that was bent on purpose is far off. */
+ * the largest coordinate that the caller gave, on either side. Computed doubles are off by some
+ * 1e-16 of that. A boundary that was bent on purpose is much farther off. */
 static const double ROUNDING = 1e-13;
 
 void iccp_affine_apply(const iccp_affine *a, const double *x, double *y)
@@ -39,7 +39,7 @@ static void add_mean(const iccp_simplicial_map *map, size_t n_fixed, const doubl
             mean[k] += value[map->dim * v + k] / (double)n_fixed;
 }
 
-/* Sums of products of the differences from a->from. */
+/* Adds the products of the fixed points' differences from a->from. */
 static void add_moments(const iccp_affine *a, const iccp_simplicial_map *map, double *second)
 {
     for (uint32_t v = 0; v < map->n_points; ++v) {
@@ -52,7 +52,7 @@ static void add_moments(const iccp_affine *a, const iccp_simplicial_map *map, do
     }
 }
 
-/* Corrects the map by a fit to what it leaves. */
+/* Corrects the map by a fit to its residuals. */
 static void correct(iccp_affine *a, const iccp_simplicial_map *map, size_t n_fixed,
                     const double *cofactor, double det)
 {
@@ -110,7 +110,7 @@ static double largest_coordinate(const icc_domain *domain)
     return largest;
 }
 
-/* How far from their affine images points may be by rounding. */
+/* The distance from their affine images that rounding can explain. */
 static double tolerance_of(const iccp_affine *a, const icc_domain *source, const icc_domain *target)
 {
     double norm = 0;
@@ -119,7 +119,7 @@ static double tolerance_of(const iccp_affine *a, const icc_domain *source, const
     return ROUNDING * (norm * largest_coordinate(source) + largest_coordinate(target));
 }
 
-/* Whether points, the fixed ones or the free ones, lie where the affine map takes them. */
+/* True if the fixed points, or the free ones, go where the affine map takes them. */
 static bool agrees(const iccp_affine *a, const iccp_simplicial_map *map, bool fixed,
                    double tolerance)
 {
@@ -135,6 +135,7 @@ static bool agrees(const iccp_affine *a, const iccp_simplicial_map *map, bool fi
     return true;
 }
 
+/* Moves the images of the free points to where the affine map takes them. */
 static void follow(const iccp_affine *a, const iccp_simplicial_map *map)
 {
     for (uint32_t v = 0; v < map->n_points; ++v) {
@@ -146,7 +147,7 @@ static void follow(const iccp_affine *a, const iccp_simplicial_map *map)
     }
 }
 
-/* Whether the boundary is affine, and *inside too. */
+/* True if the boundary is affine. Sets *inside if the inside is, too. */
 static bool is_affine(const iccp_simplicial_map *map, const icc_domain *source,
                       const icc_domain *target, iccp_affine *a, bool *inside)
 {

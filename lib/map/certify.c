@@ -1,6 +1,7 @@
 /* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the
- * image of the boundary is simple and winds round each point once or not at all: as many simplices
- * have a point in their images. The same is asked of the mesh itself (domain/boundary_parts.h). */
+ * image of the boundary is simple and winds round each point once or not at all, because the images
+ * of as many simplices contain that point. The mesh itself must pass the same check
+ * (domain/boundary_parts.h). */
 #include "map/certify.h"
 
 #include "base/error.h"
@@ -127,7 +128,7 @@ static bool is_about_shape(icc_status status)
     return status == ICC_ERR_BOUNDARY || status == ICC_ERR_TOPOLOGY;
 }
 
-/* The first reason stays. */
+/* Notes why the mesh is not certified, unless an earlier reason was noted. */
 static void give_reason(mesh_check *m, const char *where, const char *why)
 {
     char *message = m->result->message;
@@ -149,7 +150,7 @@ static void count_reasons(mesh_check *m)
     give_reason(m, "", why);
 }
 
-/* Whether the mesh itself is one-to-one, and where its boundary is. */
+/* Finds the boundary of the mesh, and checks that the mesh does not overlap itself. */
 static icc_status check_before(mesh_check *m, iccp_boundary_parts *boundary,
                                const iccp_simplices *mesh, const iccp_env *env)
 {

@@ -23,9 +23,9 @@
 /* Trees at most; what one costs for each triangle of its overlay, in steps. */
 enum { TREES = 30, COST = 1 };
 
-/* No other tree is tried after one with the first energy or less; nor after one with the second and
- * cuts that are longer than straight ones by no more than a factor; nor after one whose cuts are
- * straight on both sides, up to rounding, since no tree has shorter ones. */
+/* No other tree is tried after one with energy GOOD or less. One with energy FAIR is enough if its
+ * cuts are at most NEARLY_STRAIGHT times as long as straight ones. One whose cuts are straight on
+ * both sides, up to rounding, is always enough, because no tree has shorter cuts. */
 static const double GOOD = 8, FAIR = 100, NEARLY_STRAIGHT = 1.2, STRAIGHT = 1 + 1e-12;
 
 /* Trees whose overlay has so many times the triangles of another one are hardly ever better, and

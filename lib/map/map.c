@@ -166,21 +166,15 @@ icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env)
     return status;
 }
 
-static iccp_simplicial_map simplicial_of(const icc_map *map)
-{
-    return map->mesh != NULL ? iccp_plmap_simplicial(&map->mesh->pl)
-                             : iccp_solid_simplicial(map->solid);
-}
-
-/* Makes a map affine inside if its boundary is; but not if features would then lie another way
- * round one another. */
+/* Makes a map affine inside if its boundary is affine, unless that would change the isotopy class
+ * of its features. */
 static icc_status settle(icc_map *map, int32_t iterations, double *energy, const iccp_env *env)
 {
     iccp_env quiet = *env;
     quiet.progress = NULL;
     if (iterations < 0 || (map->mesh == NULL && map->solid == NULL))
         return ICC_OK;
-    const iccp_simplicial_map simplicial = simplicial_of(map);
+    const iccp_simplicial_map simplicial = iccp_map_simplicial(map);
     double *before;
     icc_status status =
         iccp_affine_settle(&simplicial, map->source_domain, map->target_domain, &before, &quiet);
@@ -198,7 +192,7 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
         map->info = info;
     } else {
         iccp_isotopy_free(own);
-        /* There is none less: more than before is rounding. */
+        /* An affine map has the least energy. If this sum is larger, the difference is rounding. */
         *energy = iccp_min(*energy, iccp_simplicial_energy_at_once(&simplicial, &quiet));
     }
     iccp_free(&env->memory, before);
@@ -447,7 +441,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be improved");
     /* An affine map has the least energy, so a finer mesh would gain nothing. */
     static const icc_improve_options NO_MORE = {.iterations = 1, .levels = -1};
-    const iccp_simplicial_map simplicial = simplicial_of(map);
+    const iccp_simplicial_map simplicial = iccp_map_simplicial(map);
     if (iccp_affine_is_settled(&simplicial, map->source_domain, map->target_domain))
         options = &NO_MORE;
     iccp_team team;

@@ -16,6 +16,13 @@ struct icc_map {
     icc_map_info info;
 };
 
+/* The mesh of a map that has one. */
+static inline iccp_simplicial_map iccp_map_simplicial(const icc_map *map)
+{
+    return map->mesh != NULL ? iccp_plmap_simplicial(&map->mesh->pl)
+                             : iccp_solid_simplicial(map->solid);
+}
+
 /* See icc_map_create(). `options` gives kind and iterations; the charts' options are separate. */
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                            const icc_map_options *options, const icc_chart_options chart_options[2],

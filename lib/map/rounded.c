@@ -1,22 +1,23 @@
-/* The certificate of a mesh map is about local coordinates. On the way out these are scaled by a
- * power of two, which loses nothing but near the smallest doubles, and shifted, which rounds. On
- * the way in again what was rounded loses nothing (domain/frame.h), so exact signs can judge it. */
+/* The certificate of a mesh map is about local coordinates. The caller's coordinates are these
+ * scaled by a power of two, which is exact except near the smallest doubles, and shifted, which
+ * rounds. The way back to local coordinates does not round (domain/frame.h), so exact signs there
+ * tell whether a rounded simplex is positive. */
 #include "map/rounded.h"
 
 #include "math/orient.h"
 
-/* Below this scale the way out may lose bits. */
+/* Below this scale, scaling may lose bits. */
 static const double LEAST_SCALE = 0x1p-800;
 
 static bool is_exact(const iccp_frame *frame, size_t dim)
 {
-    bool is_shifted = frame->out[0] * frame->out[1] < LEAST_SCALE;
+    bool exact = frame->out[0] * frame->out[1] >= LEAST_SCALE;
     for (size_t k = 0; k < dim; ++k)
-        is_shifted |= frame->shift[k] != 0;
-    return !is_shifted;
+        exact &= frame->shift[k] == 0;
+    return exact;
 }
 
-/* Whether a simplex, all of which are positive in local coordinates, is so when rounded. */
+/* True if a simplex that is positive in local coordinates is still positive when rounded. */
 static bool stays_positive(const iccp_frame *frame, size_t dim, const double *points,
                            const uint32_t *corners)
 {
@@ -37,8 +38,7 @@ size_t iccp_map_count_spoilt(const icc_map *map)
     const bool exact[2] = {is_exact(frame[0], dim), is_exact(frame[1], dim)};
     if ((map->mesh == NULL && map->solid == NULL) || (exact[0] && exact[1]))
         return 0;
-    const iccp_simplicial_map m = map->solid != NULL ? iccp_solid_simplicial(map->solid)
-                                                     : iccp_plmap_simplicial(&map->mesh->pl);
+    const iccp_simplicial_map m = iccp_map_simplicial(map);
     size_t n = 0;
     for (size_t s = 0; s < m.n_simplices; ++s) {
         const uint32_t *corners = m.corners + (dim + 1) * s;

@@ -1,10 +1,10 @@
-/* What rounding to the caller's coordinates does to the mesh of a map. */
+/* The effect of rounding to the caller's coordinates on the mesh of a map. */
 #ifndef ICCP_ROUNDED_H
 #define ICCP_ROUNDED_H
 
 #include "map/map.h"
 
-/* How many simplices are not positive on both sides as icc_map_get_mesh() hands them out: see
+/* Counts simplices that are not positive on both sides when icc_map_get_mesh() hands them out: see
  * icc_map_info::n_spoilt. */
 size_t iccp_map_count_spoilt(const icc_map *map);
 

@@ -47,7 +47,7 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
 /* The rest of a map that is there: what finds points. Fills in what `info` says of the size. */
 icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env);
 
-/* After its images have changed, they are found again. */
+/* Makes images findable again after they have changed. */
 icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env);
 
 /* ---- all of it ---- */

@@ -82,7 +82,7 @@ static double distance(const float *p, const float *q)
     return sum / N;
 }
 
-/* Costs of all pairs of samples, twice along the target. */
+/* Fills in the costs of all pairs of samples. Rows go twice along the target. */
 static void all_costs(elastic *e, double weight)
 {
     static const double none[2] = {1, 0};
@@ -148,7 +148,7 @@ static icc_status find_candidates(elastic *e, bool is_free, const iccp_env *env)
     return status;
 }
 
-/* Finds candidates and follows each; `least` becomes the least cost, however much it turns. */
+/* Finds candidates and follows each. `least` becomes the least cost, whatever the turn. */
 static icc_status search(elastic *e, bool is_free, double *least, const iccp_env *env)
 {
     iccp_env parts[2];
@@ -165,8 +165,8 @@ static icc_status search(elastic *e, bool is_free, double *least, const iccp_env
     return status;
 }
 
-/* Turns the target's samples into those of its mirror image with y reversed, or back: the other way
- * round from sample 0, where chords turn as they did. */
+/* Turns the target's samples into those of its mirror image with y reversed, or back. The order of
+ * the samples is reversed, from sample 0 on, so chords turn the same way as before. */
 static void mirror(iccp_descriptor *b)
 {
     for (size_t i = 1; i < N - i; ++i) {

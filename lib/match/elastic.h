@@ -19,7 +19,7 @@ typedef struct iccp_elastic_report {
     double cost, second; /* of the best, and of the best one elsewhere; HUGE_VAL: none */
     double sure;
     double turn;     /* the target is turned by so many turns, counter-clockwise */
-    double mirrored; /* how much better the target's mirror image fits, as `sure` compares; or 0 */
+    double mirrored; /* how many times better the mirror image fits, as `sure` compares; or 0 */
 } iccp_elastic_report;
 
 /* Searches all starts. `knots` has room for 2 N + 1 pairs. */

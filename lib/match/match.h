@@ -9,8 +9,8 @@ struct icc_match {
     icc_domain *domain[2]; /* source and target with common vertices */
     size_t n;
     uint32_t *origin[2];       /* n: vertices of the domains given; UINT32_MAX: added */
-    iccp_facet_tree places[2]; /* over the domains' facets with those of lines and points; empty
-                                  where a domain has no such */
+    iccp_facet_tree places[2]; /* the domains' facets with those of lines and points; empty for a
+                                  domain without lines and points */
     icc_match_info info;
 };
 

@@ -24,7 +24,7 @@ void iccp_match_index(icc_match *match)
     }
 }
 
-/* The facet nearest to a local point, of the boundary, of a line or of a point inside. */
+/* Finds the facet nearest to a local point, among those of the boundary, of lines and of points. */
 static void find(const follow *f, const double *local, uint32_t *facet, double *bary)
 {
     double reachable[ICC_MAX_DIM];

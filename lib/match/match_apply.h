@@ -4,7 +4,7 @@
 
 #include "match/match.h"
 
-/* Prepares for points, once both domains are there. */
+/* Prepares a match for iccp_match_apply(), once it has both domains. */
 void iccp_match_index(icc_match *match);
 
 /* See icc_match_apply(); `side`: that the points are on, 0 the source's. */

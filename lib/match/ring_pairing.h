@@ -4,10 +4,10 @@
 
 #include "match/common.h"
 
-/* A pairing is refused unless it is so many times better than any other; a mirror image that is so
- * many times better is told. Of the development pairs (tests/bench/bench_match.c) the right answers
- * have at least 1.13, the arbitrary ones of discs and squares at most 1.05. Of 40 outlines drawn
- * twice, the mirror images of one have 1.12 to 2.16, and themselves at most 0.89. */
+/* A pairing is refused unless it fits this many times better than any other. A mirror image that
+ * fits this many times better is reported. Among the development pairs (tests/bench/bench_match.c)
+ * right answers have at least 1.13, and arbitrary ones of discs and squares at most 1.05. Of 40
+ * outlines drawn twice, mirrored ones have at least 1.12, and upright ones at most 0.89. */
 static const double iccp_clearly_better = 1.06;
 
 /* What icc_match_options::least_sure means. */

@@ -123,7 +123,7 @@ cubes='-s cube.obj -t moved.obj'
     refuses 2 '--y-down is for pictures of the plane' $cubes --y-down
 }
 refuses 2 'a picture in space is of a map: --target FILE' -s cube.obj
-refuses 2 "of OUT.svg 'rsvg-convert OUT.svg -o OUT.png' makes a PNG" -s source.txt
+refuses 2 "'rsvg-convert OUT.svg -o OUT.png' makes a PNG of OUT.svg" -s source.txt
 if command -v rsvg-convert >/dev/null; then
     rsvg-convert drawing.svg -o remedy.png
     [ "$(head -c 4 remedy.png | tail -c 3)" = PNG ] || complain "the remedy makes no PNG"

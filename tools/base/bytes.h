@@ -11,7 +11,7 @@ uint32_t little_endian(const char *bytes, size_t n);
 /* A float of four bytes. */
 float little_endian_float(const char *bytes);
 
-/* With the most significant byte first: a whole number of n bytes, n at most 8; a float; a double. */
+/* A whole number of n bytes, n at most 8, a float and a double, the most significant byte first. */
 uint64_t big_endian(const char *bytes, size_t n);
 float big_endian_float(const char *bytes);
 double big_endian_double(const char *bytes);

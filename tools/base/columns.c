@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* What people call axes, in lower case; longer lists are searched from the front. */
+/* Names of axes in lower case. */
 static const char *const names[][10] = {
     {"x", "lon", "long", "longitude", "lng", "easting", "east", "point_x", "x_coord", "xcoord"},
     {"y", "lat", "latitude", "northing", "north", "point_y", "y_coord", "ycoord"},
@@ -16,7 +16,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Behind the character at p, or behind the quoted text that begins there. */
+/* Returns where the character at p ends, or the quoted text that begins there. */
 static const char *pass(const char *p, const char *end)
 {
     const char *close = *p == '"' ? memchr(p + 1, '"', (size_t)(end - p - 1)) : NULL;
@@ -67,7 +67,7 @@ static size_t axis_of(const cell *c)
     return N_AXES;
 }
 
-/* By the names in a heading; without any of an axis, as the columns stand. */
+/* Takes columns by the names in a heading, or in their order if no name is that of an axis. */
 static bool take_heading(columns *out, const char *p, const char *end, const table_form *form,
                          problem *wrong)
 {

@@ -1,5 +1,5 @@
-/* How the lines of a table are divided: by white space, or as spreadsheets write them, by commas or
- * semicolons, below a heading or without. */
+/* How the lines of a table are divided: by white space, or by commas or semicolons, as spreadsheets
+ * write them, with a heading or without. */
 #ifndef COLUMNS_H
 #define COLUMNS_H
 
@@ -22,9 +22,9 @@ typedef struct cell {
  * last. */
 const char *columns_cell(cell *out, const char *p, const char *end, char separator);
 
-/* Learns from the first line that is not empty how all are divided, and whether that is a heading.
- * Columns that a heading calls x, y and z, or by names like these, are taken in this order, others left
- * out. False: see `wrong`. */
+/* Learns from the first line that is not empty how all lines are divided, and whether it is a
+ * heading. Columns that a heading calls x, y and z, or the like, are taken in this order, and others
+ * are left out. False: see `wrong`. */
 bool columns_learn(columns *out, bool *is_heading, const char *line, const table_form *form,
                    problem *wrong);
 

@@ -1,4 +1,4 @@
-/* Longitudes and latitudes, as GeoJSON has them. */
+/* Tests of longitudes and latitudes in degrees, as GeoJSON has them. */
 #ifndef DEGREES_H
 #define DEGREES_H
 
@@ -14,8 +14,8 @@ static inline bool are_degrees(size_t n, const double *points)
     return good;
 }
 
-/* Whether the way between two longitudes may be meant to go over the antimeridian; right round the
- * earth, from -180 to 180, it is not. */
+/* True if the way between two longitudes may be meant to go over the antimeridian. A way from -180
+ * to 180, right round the earth, is not meant so. */
 static inline bool longitudes_jump(double x, double y)
 {
     return fabs(y - x) > 180 && fabs(y - x) < 360;

@@ -52,7 +52,7 @@ char *file_read(const char *name, size_t *n)
     return text;
 }
 
-/* What stands behind the first # before which a file is named; NULL: the whole name is one. */
+/* The text after the first # before which a file is named; NULL: the whole name is a file's. */
 static const char *choice_in(const char *name)
 {
     for (const char *mark = strchr(name, '#'); mark != NULL && !system_exists(name);

@@ -16,7 +16,7 @@ char *file_read(const char *name, size_t *n);
  * NULL: the whole name is that of a file, or of none. */
 char *file_read_chosen(const char *name, size_t *n, const char **choice);
 
-/* The name of the file that this reads: without the choice. free() it. */
+/* The name of the file that file_read_chosen() reads, without the choice. free() it. */
 char *file_chosen_name(const char *name);
 
 /* Whether two names, "-" for the input being standard input, for the output standard output, are

@@ -1,5 +1,5 @@
-/* Foreign formats are recognised by the bytes, the first word, the root element or the member of JSON that one table
- * has, and a few by more than that. */
+/* Foreign formats are recognised by one table: by bytes, a first word, a root element of XML or a
+ * member of JSON. A few formats need tests of their own. */
 #include "base/foreign.h"
 
 #include "base/bytes.h"
@@ -16,7 +16,7 @@ static bool told(problem *wrong, const char *what, foreign_remedy how)
     return true;
 }
 
-/* By the first row with this mark that `word` of n bytes is, or, with `whole` false, begins with. */
+/* Looks for the first row with this mark whose bytes `word` begins with, or with `whole` is. */
 static bool told_by(foreign_mark by, const char *word, size_t n, bool whole, problem *wrong)
 {
     for (const foreign_format *f = foreign_formats; f < foreign_formats + n_foreign_formats; f++)
@@ -111,13 +111,14 @@ static bool is_bitmap(const char *text, size_t n)
     return n > 26 && has(text, n, 0, "BM", 2) && has(text, n, 6, "\0\0\0\0", 4);
 }
 
-/* The length of the file stands behind 4D4D, and a version first of all parts. */
+/* A 3DS file begins with 4D4D and its own length. */
 static bool is_3ds(const char *text, size_t n)
 {
     return n > 16 && has(text, n, 0, "MM", 2) && little_endian(text + 2, 4) == n;
 }
 
-/* Well-known binary, also PostGIS's with a reference system: the order of bytes, and a type. */
+/* Well-known binary, also PostGIS's with a reference system, begins with the order of bytes and a
+ * type. */
 static bool is_well_known_binary(const char *text, size_t n)
 {
     unsigned char order = n >= 9 ? (unsigned char)text[0] : 2;
@@ -136,7 +137,7 @@ static bool is_hexadecimal(const char *p)
     return (little || big) && strspn(p, "0123456789ABCDEFabcdef") >= 26;
 }
 
-/* Interchange files of MapInfo begin with a version, and say what separates columns. */
+/* Interchange files of MapInfo begin with a version, then name a character set or a separator. */
 static bool is_mapinfo(const char *p)
 {
     if (strncmp(p, "Version", 7) != 0 && strncmp(p, "VERSION", 7) != 0)
@@ -147,7 +148,7 @@ static bool is_mapinfo(const char *p)
            strncmp(p, "Delimiter", 9) == 0 || strncmp(p, "DELIMITER", 9) == 0;
 }
 
-/* Whether the first lines of a text name a separator and a polygon as text or as digits: CSV. */
+/* True for a table (CSV) whose first line has a separator and whose second one has a polygon. */
 static bool is_text_table(const char *p)
 {
     size_t n_head = strcspn(p, "\r\n");
@@ -182,7 +183,7 @@ static bool is_markup(const char *text, problem *wrong)
     return n > 0 && told_by(ROOT, root, n, true, wrong);
 }
 
-/* By the members of an object, up to a type of GeoJSON. */
+/* Looks at the members of an object, up to its "type". */
 static bool is_json(const char *text, size_t n, problem *wrong)
 {
     json_scan s;
@@ -203,7 +204,7 @@ static bool is_json(const char *text, size_t n, problem *wrong)
     return is_told;
 }
 
-/* Behind OpenFOAM's banner, and lines that are comments. */
+/* Skips OpenFOAM's banner and lines that are comments. */
 static const char *skip_comments(const char *p)
 {
     while (*p == '#' || *p == '%' || (strncmp(p, "/*", 2) == 0 && strstr(p, "*/") != NULL)) {

@@ -1,5 +1,5 @@
-/* Files of formats that are not read here: what they are, and what makes a file of them that is. Every
- * reader asks this before it reads. */
+/* Recognises files of formats that are not read here, and says which command makes a readable file.
+ * Every reader asks this before it reads. */
 #ifndef FOREIGN_H
 #define FOREIGN_H
 
@@ -12,7 +12,7 @@
  * with the remedy. */
 bool foreign_told(const char *text, size_t n, problem *wrong);
 
-/* The same for what is no JSON, where JSON is expected: a table. */
+/* The same where JSON is expected and the file is a table. */
 bool foreign_table_told(const char *text, problem *wrong);
 
 /* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data.

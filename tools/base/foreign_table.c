@@ -74,8 +74,7 @@ const foreign_format foreign_formats[] = {
      NO_REMEDY},
     {BEGINS("mapX,mapY,"),
      "a list of control points (QGIS), no outline; --landmarks takes it, beside the outlines of "
-     "both "
-     "sheets (-s, -t)",
+     "both sheets (-s, -t)",
      NO_REMEDY},
     /* surfaces and scenes */
     {AT(0, "Kaydara FBX Binary"), "an FBX file", USE_BLENDER},

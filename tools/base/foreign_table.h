@@ -1,11 +1,11 @@
-/* The table of foreign formats, and of what makes a file of them that is read. */
+/* The table of foreign formats, and of the remedies that turn them into readable files. */
 #ifndef FOREIGN_TABLE_H
 #define FOREIGN_TABLE_H
 
 #include <stddef.h>
 
-/* What makes a file that is read. Commands stand in single quotes, with FILE for the foreign file and
- * OUT for the new one: tests/tool/test_remedies.sh runs each where the program is installed. */
+/* How to make a readable file. Commands stand in single quotes, with FILE for the foreign file and
+ * OUT for the new one. tests/tool/test_remedies.sh runs each whose program is installed. */
 typedef enum foreign_remedy {
     MAKE_GEOJSON,
     MAKE_GEOJSON_OF_TRACKS,
@@ -34,13 +34,13 @@ typedef enum foreign_remedy {
     NO_REMEDY
 } foreign_remedy;
 
-/* By what a format is recognised. */
+/* The part of a file by which a format is recognised. */
 typedef enum foreign_mark {
     BYTES,  /* bytes at a place */
-    WORD,   /* what a text begins with, behind white space and a mark of UTF-8 */
+    WORD,   /* the beginning of a text, after a mark of UTF-8 and white space */
     ROOT,   /* the root element of XML, without its prefix */
-    MEMBER, /* a member of a JSON object, or of GeoJSON's "type" */
-    TYPE
+    MEMBER, /* the name of a member of a JSON object */
+    TYPE    /* the value of its member "type" */
 } foreign_mark;
 
 typedef struct foreign_format {
@@ -55,7 +55,7 @@ typedef struct foreign_format {
 extern const foreign_format foreign_formats[];
 extern const size_t n_foreign_formats;
 
-/* By number; NULL: none. */
+/* The text of each remedy; NULL: there is none. */
 extern const char *const foreign_remedies[];
 
 #endif

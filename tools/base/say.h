@@ -20,7 +20,7 @@ enum {
     DONE = 0,    /* all is well */
     FAILED = 1,  /* the input or the computation failed */
     MISUSED = 2, /* wrong usage */
-    PARTIAL = 4  /* done, but not all of it is good: points have no image, elements are inverted */
+    PARTIAL = 4  /* done, but points have no image or elements are inverted */
 };
 
 /* What is wrong with an input, and where. `line` counts from 1; 0: no particular line. */

@@ -60,8 +60,8 @@ int system_columns(void);
 
 /* ---- this program, and others */
 
-/* What calls this program again, from any folder: the name that it was called by, where that is
- * looked for in PATH, or else its place. free() it. */
+/* A word that calls this program again from any folder: the name by which it was called, if that is
+ * searched in PATH, otherwise its full name. free() it. */
 char *system_program(const char *called);
 
 bool system_has_program(const char *name);

@@ -57,8 +57,8 @@ static bool bad_cell(const cell *c, size_t line, const table_form *form, problem
     return spoilt(wrong, line, "'%s' is not a finite number; %s", shown, form->what);
 }
 
-/* A separated row. Without anything in its cells it is blank. Where a decimal comma may be what is
- * meant, its first word is at fault. */
+/* Reads a separated row, which is blank if all cells are empty. If a comma may be meant as a decimal
+ * sign, the message names the first word of the row. */
 static bool read_cells(const char *p, const char *end, size_t line, const columns *layout,
                        const table_form *form, double *row, bool *filled, problem *wrong)
 {
@@ -121,7 +121,7 @@ double *table_add_row(table *t, size_t line)
     return t->values + t->n * t->columns;
 }
 
-/* The first line that is not empty, from p on; NULL: there is none. */
+/* The first line from p on that is neither empty nor a comment; NULL: there is none. */
 static const char *first_row(const char *p, const char *end)
 {
     while (p < end &&

@@ -23,10 +23,10 @@ typedef struct table_form {
     const char *what; /* for messages: "a point is `x y`" */
 } table_form;
 
-/* Reads rows of numbers from text[0..n), with text[n] == '\0'. White space separates them, or commas or
- * semicolons in all rows; such a table may have a heading (columns.h). A byte order mark, CR LF, blank lines
- * and lines that begin with '#' are fine. False: see `wrong`. The table is to be freed in either
- * case. */
+/* Reads rows of numbers from text[0..n), with text[n] == '\0'. White space separates numbers, or
+ * commas or semicolons do in all rows, and such a table may have a heading (columns.h). A byte order
+ * mark, CR LF, blank lines and lines that begin with '#' are fine. False: see `wrong`. Free the table
+ * in either case. */
 bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong);
 
 /* Room for one more row, which counts only once `n` says so. */

@@ -38,27 +38,27 @@ void cage_add_corner(cage *c, size_t k, uint32_t vertex, size_t line)
     c->fan[1] = vertex;
 }
 
-void points_turn(size_t n, double *points)
+void points_flip_y(size_t n, double *points)
 {
     for (size_t i = 0; i < n; i++)
         points[2 * i + 1] = 0 - points[2 * i + 1];
 }
 
-void cage_turn(cage *c)
+void cage_flip_y(cage *c)
 {
-    c->turned = !c->turned;
-    points_turn(c->n, c->points);
+    c->flipped = !c->flipped;
+    points_flip_y(c->n, c->points);
     for (size_t i = 0; i < c->n_features; i++)
-        points_turn(c->features[i].n, c->features[i].points);
+        points_flip_y(c->features[i].n, c->features[i].points);
     for (size_t i = 0; i < c->n_ties; i++)
-        points_turn(c->ties[i].n, c->ties[i].points);
+        points_flip_y(c->ties[i].n, c->ties[i].points);
     for (size_t i = 0; i < c->n_more; i++)
-        cage_turn(&c->more[i]);
+        cage_flip_y(&c->more[i]);
 }
 
 double cage_given_y(const cage *c, const double *point)
 {
-    return c->turned ? 0 - point[1] : point[1];
+    return c->flipped ? 0 - point[1] : point[1];
 }
 
 void cage_free(cage *c)

@@ -31,8 +31,8 @@ typedef struct cage_choice {
     cage_role role;
     const char *named; /* NULL: by its role */
     flattening flat;
-    const struct cage *like; /* NULL, or the boundary of a mesh: that of the same mesh, moved, has
-                                its vertices and faces in the same order */
+    const struct cage *like; /* NULL, or the boundary of a mesh: the same mesh, moved, gets vertices
+                                and faces in the same order */
 } cage_choice;
 
 /* Something inside a cage in the plane. Kinds are those of icc_feature, and a tie. */
@@ -58,7 +58,7 @@ typedef struct cage {
     uint8_t *cells;            /* of a mask: one byte each, the first axis fastest; else NULL */
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     bool cut;                  /* at the antimeridian, into several polygons */
-    bool turned;               /* y has the sign that it does not have in the file */
+    bool flipped;              /* y is reversed: it has the opposite sign in the file */
     size_t n_heights;          /* vertices of a polygon whose further coordinates were left out */
     size_t n_features;         /* inside a polygon; in this order the domain's, but for circles */
     cage_feature *features;
@@ -70,8 +70,8 @@ typedef struct cage {
     uint32_t *curve_edges;
     size_t room_points, room_lines, room_facets, room_facet_lines, room_features, room_curves;
     uint32_t fan[3]; /* of the face that is being read */
-    /* Of the boundary of a mesh: the mesh, and which of its vertices each of the cage is, then each
-     * of the holes. Empty for others. */
+    /* For the boundary of a mesh: the mesh, and the mesh's number of each vertex of the cage, then of
+     * each vertex of the holes. Empty for other cages. */
     size_t n_mesh_vertices, n_simplices, n_mesh, room_mesh;
     uint32_t *simplices, *mesh_vertices;
 } cage;
@@ -79,12 +79,12 @@ typedef struct cage {
 void cage_free(cage *c);
 
 /* Reverses y of n points of the plane; 0 stays 0. */
-void points_turn(size_t n, double *points);
+void points_flip_y(size_t n, double *points);
 
-/* Reverses y in a cage in the plane, as the file has it or back. */
-void cage_turn(cage *c);
+/* Reverses y in a cage in the plane. A second call restores it. */
+void cage_flip_y(cage *c);
 
-/* y as it is in the cage's file. */
+/* The y of a point as the cage's file has it. */
 double cage_given_y(const cage *c, const double *point);
 
 /* ---- for the readers ---- */

@@ -16,7 +16,7 @@ typedef struct defect_list {
 icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all,
                         const icc_env *env, icc_error *err);
 
-/* Whether the library ended the search at as many as this (icc_boundary_defects()). */
+/* True if the list is as long as the library makes it (icc_boundary_defects()), so more may follow. */
 bool defects_may_be_more(const defect_list *list, const cage *c);
 void defects_free(defect_list *list);
 

@@ -1,6 +1,6 @@
-/* GeoJSON is in degrees (RFC 7946, section 4). Between two positions it has a straight line, even if
- * they are at 179 and -179, so that what goes over the antimeridian should be cut there (section
- * 3.1.9). Many files do neither: their rings jump. */
+/* GeoJSON is in degrees (RFC 7946, section 4). It has a straight line between two positions, even
+ * between longitudes 179 and -179, so shapes that cross the antimeridian should be cut there
+ * (section 3.1.9). Many files are not cut, and their rings jump. */
 #include "cage/cage_degrees.h"
 
 #include "base/degrees.h"
@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* All that is read; of polygons behind the first, too. */
+/* True if all coordinates that were read, also of further polygons, may be degrees. */
 static bool is_in_degrees(const cage *c)
 {
     bool good = are_degrees(c->n, c->points);
@@ -19,7 +19,7 @@ static bool is_in_degrees(const cage *c)
     return good;
 }
 
-/* The first edge that jumps; a ring has an edge from its last vertex to the first. */
+/* Refuses a polyline, or if closed a ring, at its first edge that jumps. */
 static bool goes_on(size_t n, const double *points, bool closed, const char *of, problem *wrong)
 {
     for (size_t i = 0; i + !closed < n; i++) {
@@ -27,9 +27,9 @@ static bool goes_on(size_t n, const double *points, bool closed, const char *of,
         if (longitudes_jump(x, y))
             return spoilt(
                 wrong, 0,
-                "the longitude jumps from %.9g to %.9g behind vertex %zu%s: over the "
-                "antimeridian write %.9g, and so on for all behind it; the long way round "
-                "put a vertex between",
+                "the longitude jumps from %.9g to %.9g behind vertex %zu%s: to cross the "
+                "antimeridian write %.9g, and so on for all behind it; to go the long way round "
+                "add a vertex",
                 x, y, i, of, y + (x > 0 ? 360 : -360));
     }
     return true;

@@ -1,16 +1,15 @@
-/* Cages in degrees, whose longitudes begin anew at the antimeridian. */
+/* Checks cages in degrees, whose longitudes begin anew at the antimeridian. */
 #ifndef CAGE_DEGREES_H
 #define CAGE_DEGREES_H
 
 #include "cage/cage.h"
 
-/* Whether no edge of a cage in degrees jumps from one side of the antimeridian to the other, or the
- * long way round the earth: which of them is meant cannot be told. Also notes in c->cut whether
- * several polygons are the halves of what goes over it. What has other coordinates than degrees is
- * good. */
+/* Refuses a cage in degrees if an edge jumps by more than 180, because it may be meant to cross the
+ * antimeridian or to go the long way round the earth. Also sets c->cut if several polygons seem to be
+ * the parts of a shape that was cut there. A cage whose coordinates cannot be degrees passes. */
 bool cage_check_degrees(cage *c, problem *wrong);
 
-/* "" or, where c->cut is set, what can be done about it. */
+/* A hint for messages if c->cut is set, otherwise "". */
 const char *cage_cut_text(const cage *c);
 
 #endif

@@ -87,7 +87,7 @@ static bool read_polygons(cage *out, const cJSON *polygons, problem *wrong)
     return read_rings(out, polygons->child, wrong);
 }
 
-/* Whether a line ends where it begins: drawings have outlines like this. */
+/* True if a line ends where it begins. Drawings have such outlines. */
 static bool is_closed(const cJSON *line)
 {
     int n = cJSON_GetArraySize(line);
@@ -107,7 +107,7 @@ static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
     char shown[32];
     if (*type == '\0')
         return spoilt(wrong, 0,
-                      "this JSON has no member \"type\", as GeoJSON has; a cage is a Polygon");
+                      "this JSON is no GeoJSON: it has no member \"type\"; a cage is a Polygon");
     return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon, or a closed LineString",
                   quoted(shown, type));
 }
@@ -247,7 +247,7 @@ static const cJSON *choose_named(const cJSON *collection, const char *named, pro
     return NULL;
 }
 
-/* Whether all features are lines of two points, as georeferencers write them, without roles. */
+/* True if all features are lines of two points without roles, as georeferencers write them. */
 static bool are_links(const cJSON *features)
 {
     const cJSON *feature;
@@ -318,7 +318,7 @@ static bool read_object(cage *out, const cage_choice *choice, const cJSON *objec
     return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
 }
 
-/* Files of before 2016 name their reference system if they are not in degrees. */
+/* Files from before 2016 name their reference system if they are not in degrees. */
 static bool is_in_degrees(const cJSON *object)
 {
     const cJSON *crs = json_get(json_get(json_get(object, "crs"), "properties"), "name");

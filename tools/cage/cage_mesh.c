@@ -1,5 +1,5 @@
-/* The boundary of a mesh as a cage: of tetrahedra in space, of triangles and larger faces in the
- * plane. Faces in space that enclose something are a surface: cage_surface.c. */
+/* Takes the boundary of a mesh as a cage: of tetrahedra in space, or of triangles and larger faces in
+ * the plane. A mesh of faces alone in space is a surface itself: cage_surface.c. */
 #include "base/allocate.h"
 #include "base/orientation.h"
 #include "cage/cage_features.h"
@@ -28,7 +28,7 @@ static size_t line_of_vertex(const mesh_file *m, uint32_t v)
     return m->form == MESH_TEXT ? line_of(m->text, m->text + m->spans[2 * m->n_spans * v]) : 0;
 }
 
-/* Keeps which vertex of the mesh is the next of the cage, and adds it. */
+/* Adds a vertex of the mesh to the cage, and keeps its number. */
 static void take_vertex(cage *c, const mesh_file *m, uint32_t v)
 {
     c->mesh_vertices =
@@ -37,7 +37,7 @@ static void take_vertex(cage *c, const mesh_file *m, uint32_t v)
     cage_add_point(c, m->points + m->dim * v, 0);
 }
 
-/* Lines of all vertices in one pass over the text. */
+/* Finds the lines of all vertices in one pass over the text. */
 static void find_lines(cage *c, const mesh_file *m)
 {
     size_t *lines = need(m->n_vertices, sizeof *lines), line = 1, at = 0, k = 0;
@@ -95,7 +95,7 @@ static void take_facets(cage *c, const mesh_file *m, const mesh_boundary *b)
 
 /* ------------------------------------------------------------------------- plane */
 
-/* Fills in the vertex behind each along the boundary, with the mesh to the left; NONE elsewhere. */
+/* Fills in the next vertex along the boundary for each, with the mesh on the left; NONE elsewhere. */
 static bool link_edges(const mesh_file *m, const mesh_boundary *b, uint32_t *next, problem *wrong)
 {
     for (size_t v = 0; v < m->n_vertices; v++)
@@ -104,22 +104,23 @@ static bool link_edges(const mesh_file *m, const mesh_boundary *b, uint32_t *nex
         bool turned = simplex_sign(m, b->elements[i]) < 0;
         uint32_t from = b->facets[2 * i + turned], to = b->facets[2 * i + !turned];
         if (next[from] != NONE)
-            return spoilt(wrong, line_of_vertex(m, from),
-                          "the boundary of the mesh passes vertex %u (from 0) twice, so it is no "
-                          "outline with holes apart",
-                          (unsigned)from);
+            return spoilt(
+                wrong, line_of_vertex(m, from),
+                "the boundary of the mesh passes vertex %u (from 0) twice; an outline and "
+                "its holes must not touch",
+                (unsigned)from);
         next[from] = to;
     }
     return true;
 }
 
-/* Whether a is left of b, or straight below, or there. */
+/* True if a is left of b, or straight below it, or in the same place. */
 static bool is_before(const double *a, const double *b)
 {
     return a[0] < b[0] || (!(a[0] > b[0]) && a[1] <= b[1]);
 }
 
-/* The sense of a ring, at the lowest of its leftmost vertices, where it turns. */
+/* The sense of a ring: it turns so at the lowest of its leftmost vertices. */
 static int ring_sign(const mesh_file *m, const uint32_t *next, uint32_t first)
 {
     const double *x = m->points;
@@ -135,7 +136,7 @@ static int ring_sign(const mesh_file *m, const uint32_t *next, uint32_t first)
     return orientation(x + 2 * before, x + 2 * least, x + 2 * next[least]);
 }
 
-/* Whether every ring closes; marks the first vertex of each. */
+/* Checks that every ring closes, and marks the first vertex of each. */
 static bool find_rings(const mesh_file *m, const uint32_t *next, bool *first, problem *wrong)
 {
     bool *seen = need(m->n_vertices, sizeof *seen), good = true;
@@ -170,7 +171,7 @@ static void take_ring(cage *c, const mesh_file *m, const uint32_t *next, uint32_
     } while (v != first);
 }
 
-/* The outline, which goes round to the left, then the holes. */
+/* Takes the outline, which turns to the left, then the holes. */
 static bool take_rings(cage *c, const mesh_file *m, const uint32_t *next, const bool *first,
                        problem *wrong)
 {
@@ -218,8 +219,8 @@ static bool take_boundary(cage *c, const mesh_file *m, problem *wrong)
     return good;
 }
 
-/* Whether the mesh has the elements of that whose boundary `like` is: the boundaries correspond
- * then, wherever the vertices are. */
+/* True if the mesh has the same elements as the mesh of `like`. Then their boundaries correspond,
+ * wherever the vertices are. */
 static bool is_like(const mesh_file *m, const cage *like)
 {
     return like != NULL && like->n_simplices > 0 && like->dim == m->dim &&
@@ -247,7 +248,7 @@ static void take_like(cage *c, const mesh_file *m, const cage *like)
     memcpy(c->facets, like->facets, like->n_facets * like->dim * sizeof *c->facets);
 }
 
-/* Elements whose boundary is not taken. */
+/* Refuses elements whose boundary cannot be a cage. */
 static bool check_kinds(const mesh_file *m, problem *wrong)
 {
     for (size_t i = 0; i < m->n_elements; i++) {

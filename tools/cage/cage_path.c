@@ -217,7 +217,8 @@ static void make_absolute(const pen *p, char command, size_t n, double *v)
         v[i] += command == 'V' || (command != 'H' && i % 2 == 1) ? p->y : p->x;
 }
 
-/* Vertices of the subpath: without a last one that repeats the first, and none if it draws nothing. */
+/* Counts the vertices of the subpath without a last one that repeats the first. Returns 0 if the
+ * subpath draws nothing. */
 static size_t count_drawn(const pen *p)
 {
     const cage *c = p->out;
@@ -295,7 +296,7 @@ static bool read_commands(pen *p)
     return true;
 }
 
-/* Of several contours each has to enclose something; of a single one the cage says so. */
+/* Each of several contours must have three vertices. A single one is checked as a cage. */
 static bool check_contours(const pen *p)
 {
     for (size_t k = 0; p->n_contours > 1 && k < p->n_contours; k++) {

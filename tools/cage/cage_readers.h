@@ -17,13 +17,13 @@ bool cage_svg_has(cage_role role, const char *text);
 
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
-/* OBJ, OFF, PLY, STL, glTF, Medit and VTK: a surface in space, in which faces with more than three
- * corners become fans of triangles; or the boundary of tetrahedra, or of faces in the plane. Of a
- * target `dim` says which. */
+/* Reads OBJ, OFF, PLY, STL, glTF, Medit and VTK: a surface in space, whose larger faces become fans of
+ * triangles, or the boundary of tetrahedra, or the boundary of faces in the plane. For a target `dim`
+ * is the dimension of the source. */
 bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
                        problem *wrong);
 
-/* The boundary of a mesh; `like` is that of the choice. */
+/* Takes the boundary of a mesh. `like`: see cage_choice. */
 struct mesh_file;
 bool cage_take_mesh(cage *out, const struct mesh_file *m, const cage *like, problem *wrong);
 

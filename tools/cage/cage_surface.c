@@ -20,7 +20,7 @@ static size_t *vertex_lines(const mesh_file *m)
     return lines;
 }
 
-/* Whether the faces lie in a plane z = constant, so that they enclose nothing. */
+/* True if all faces lie in one plane z = constant, so they enclose nothing. */
 static bool is_flat(const mesh_file *m)
 {
     for (size_t i = 0; i < m->n_vertices; i++)
@@ -37,8 +37,7 @@ static bool has_bodies(const mesh_file *m)
     return false;
 }
 
-/* Whether what is wrong with a mesh in space is that it has two coordinates, from the first vertex
- * on. */
+/* True if a mesh could not be read in space because its vertices have two coordinates only. */
 static bool lacks_height(const mesh_file *m, const problem *wrong)
 {
     return (m->n_vertices == 0 && strncmp(wrong->text, "'' is not a finite", 18) == 0) ||
@@ -46,7 +45,7 @@ static bool lacks_height(const mesh_file *m, const problem *wrong)
            strncmp(wrong->text, "a mesh of dimension 2", 21) == 0;
 }
 
-/* A cage is in the plane if its faces are, unless it is the target of one in space. */
+/* Reads a mesh in the plane if its faces are flat, unless it is the target of a cage in space. */
 static bool read_mesh(mesh_file *m, const cage_choice *choice, size_t dim, const char *text,
                       size_t n, size_t *n_heights, problem *wrong)
 {

@@ -29,8 +29,8 @@ typedef struct shape {
     size_t n;
 } shape;
 
-/* Of paths and polygons, of other shapes, of those that are called as wanted, and of that whose number
- * was named. */
+/* Counts and first examples of paths and polygons, of other shapes, of shapes with the wanted name, and
+ * of the shape with the wanted number. */
 typedef struct shapes {
     shape outlines, others, chosen, numbered;
     size_t n;
@@ -47,7 +47,7 @@ static bool is_chosen(const tag *t, const cage_choice *choice)
     return tag_has(t, "id", 2, value) || tag_has(t, "inkscape:label", 14, value);
 }
 
-/* Whether shape `number` was named by that. */
+/* True if the name wanted is this number. */
 static bool is_number(const char *named, size_t number)
 {
     char digits[24];

@@ -1,10 +1,10 @@
-/* Which contours of a path lie in which: the nearest edge to the left of a contour's leftmost vertex
- * belongs to the contour that holds it, or to one beside it that is held by the same.
+/* Finds out which contours of a path lie in which. The nearest edge to the left of a contour's leftmost
+ * vertex belongs to the contour around it, or to a contour beside it that has the same one around it.
  *
- * The leftmost vertices, by rising y, are the leaves of a tree of ranges. Each edge stands at the few
+ * The leftmost vertices, by rising y, are the leaves of a segment tree. Each edge stands at the few
  * nodes whose ranges together are the vertices between its ends. Edges that do not cross are in order
- * from left to right at a node, so a search finds the nearest. The tree is gone through level by level.
- * Exact for contours that do not cross. Costs n log^2 n for n edges. */
+ * from left to right at a node, so a binary search finds the nearest. The tree is built and searched
+ * level by level. Exact for contours that do not cross. Costs n log^2 n for n edges. */
 #include "cage/contours.h"
 
 #include "base/allocate.h"
@@ -20,19 +20,19 @@ typedef struct contour {
     const double *points; /* 2 n */
     const size_t *lines;
     size_t n;
-    const double *left; /* the leftmost vertex, of several the lowest */
+    const double *left; /* the lowest of its leftmost vertices */
     bool turns_left;    /* counter-clockwise, with y upwards */
-    size_t parent;      /* the contour that holds it, or NO_CONTOUR */
+    size_t parent;      /* the contour around it, or NO_CONTOUR */
     bool hole;
-    size_t polygon; /* of an outline */
+    size_t polygon; /* the number of an outline's polygon */
 } contour;
 
 /* An edge from its lower to its upper end, whichever way its contour runs. */
 typedef struct edge {
     const double *low, *high;
-    size_t of;
-    bool down;         /* runs from the upper end to the lower */
-    size_t begin, end; /* the range of nodes that is left on the present level */
+    size_t of;         /* its contour */
+    bool down;         /* its contour runs from the upper end to the lower */
+    size_t begin, end; /* the nodes of the present level where it may have to stand */
 } edge;
 
 /* An edge at a node. */
@@ -59,7 +59,7 @@ static int by_height(const void *a, const void *b)
     return (p->left[1] > q->left[1]) - (p->left[1] < q->left[1]);
 }
 
-/* Whether e is to the left (-1) or to the right (1) of f, where both are at one height. */
+/* Returns -1 if e is to the left of f, 1 if to the right, at a height that both reach. */
 static int side_of(const edge *e, const edge *f)
 {
     bool later = e->low[1] >= f->low[1], sooner = e->high[1] <= f->high[1];
@@ -122,7 +122,7 @@ static void find_leftmost(contour *c)
     c->turns_left = orientation(p + 2 * ((k + n - 1) % n), c->left, p + 2 * ((k + 1) % n)) > 0;
 }
 
-/* The edges of all contours, each with the leaves at its height. Level ones have none. */
+/* Lists the edges of all contours, each with the leaves at its height. Level edges have none. */
 static void list_edges(nest *t, size_t n_leaves)
 {
     for (size_t k = 0; k < t->n; k++)
@@ -137,7 +137,7 @@ static void list_edges(nest *t, size_t n_leaves)
         }
 }
 
-/* Puts edges at the nodes of this level whose parents would take them too far. */
+/* Lists the edges at those nodes of this level whose parents' ranges exceed the edge's range. */
 static void list_items(nest *t)
 {
     t->n_items = 0;
@@ -168,7 +168,7 @@ static void find_near(nest *t)
     }
 }
 
-/* A contour whose edge is nearest, and the nearest edge. */
+/* A contour, and the nearest edge to its left. */
 typedef struct step {
     contour *of;
     const edge *near;
@@ -180,7 +180,7 @@ static int by_left(const void *a, const void *b)
     return (p[0] > q[0]) - (p[0] < q[0]);
 }
 
-/* From left to right: what is nearest to the left of a contour has its parent already. */
+/* Goes from left to right, so the contour of the nearest edge has its parent already. */
 static void find_parents(nest *t)
 {
     step *steps = need(t->n, sizeof *steps);
@@ -233,7 +233,7 @@ static void add_vertices(cage *out, const contour *c)
         cage_add(out, c->points[2 * i], c->points[2 * i + 1], c->lines[i]);
 }
 
-/* Holes may come before their outline. */
+/* Makes outlines first, because holes may come before their outline. */
 static void make_polygons(cage *out, size_t n, contour *contours)
 {
     size_t n_polygons = 0;

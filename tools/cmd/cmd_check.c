@@ -97,8 +97,8 @@ static int verdict_on_method(check *c)
     char text[240];
     if (check_domain_only(c) && c->job.args->require != 0)
         return failed(c->job.args->source, 0,
-                      "valid, but no map or chart was asked for that could be certified; give "
-                      "--target, or of a surface --method foliation");
+                      "valid, but there is no map or chart to certify; give --target, or for a "
+                      "surface --method foliation");
     return first_doubtful(c)->certified || check_domain_only(c)
                ? DONE
                : failed(c->job.args->source, 0, "%s", check_reason(text, first_doubtful(c)));

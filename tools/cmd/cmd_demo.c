@@ -78,8 +78,8 @@ static void print_call(const char *program, const char *lead, const char *argume
     printf(" %s\n", arguments);
 }
 
-/* What to try next: within the folder, so that the commands are short. They call this program as it
- * was called. */
+/* Says what to try next. The commands run within the folder, so they are short, and they call this
+ * program as it was called. */
 static void print_next(const char *folder, const char *program)
 {
     fputs("In ", stdout);

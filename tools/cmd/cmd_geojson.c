@@ -117,8 +117,7 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
         note("%s: the layer is replaced by its image", to);
     if (r->n_jumps > 0)
         note("%s: the longitudes of %zu lines or rings jump by more than 180 degrees; they are "
-             "taken "
-             "the long way round, not over the antimeridian",
+             "taken the long way round, not over the antimeridian",
              in, r->n_jumps);
     result = triangulation_tell(j);
     if (!lost)

@@ -1,5 +1,5 @@
-/* libicc mesh: carries the vertices of a mesh along, and reports what became of its elements; or
- * fills a surface with tetrahedra: cmd_fill.c. The exit code tells whether an element is inverted or
+/* libicc mesh: carries the vertices of a mesh along, and reports what became of its elements. Or it
+ * fills a surface with tetrahedra (cmd_fill.c). The exit code tells whether an element is inverted or
  * a vertex lies outside the cage. */
 #include "cmd/commands.h"
 
@@ -56,7 +56,7 @@ static const char *verdict(const mesh_file *m, const icc_certificate *certificat
                                      : "";
 }
 
-/* A line for each kind of element; the first also has the verdict. */
+/* Prints a line for each kind of element. The first also has the verdict. */
 static void print_tally(const job *j, const mesh_file *m, const tally *t,
                         const icc_certificate *certificate)
 {
@@ -109,8 +109,8 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images,
     for (size_t i = 0; i < m->n_vertices; i++) {
         memcpy(places + m->dim * i, (status[i] == ICC_OK ? images : m->points) + m->dim * i,
                m->dim * sizeof *places);
-        if (j->cages[status[i] == ICC_OK ? !inverse : inverse].turned)
-            points_turn(1, places + m->dim * i);
+        if (j->cages[status[i] == ICC_OK ? !inverse : inverse].flipped)
+            points_flip_y(1, places + m->dim * i);
     }
     mesh_write(m, places, file.stream);
     free(places);
@@ -147,7 +147,7 @@ static const char *why_inner(const job *j, const icc_certificate *certificate)
                : "no places were found for the inner vertices";
 }
 
-/* Says what is not as it should be of a mesh that was written. */
+/* Says which faults a mesh has that was written. */
 static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_failed,
                 const tally *t, const icc_certificate *certificate, const mesh_carried *attached)
 {
@@ -159,7 +159,7 @@ static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_f
     return result == DONE && tally_spoilt(t) > 0 ? PARTIAL : result;
 }
 
-/* With --require nothing is written but what is certified. */
+/* Says why --require forbids to write a mesh. */
 static int refuse(const job *j, const mesh_file *m, const tally *t,
                   const icc_certificate *certificate)
 {
@@ -172,8 +172,8 @@ static int refuse(const job *j, const mesh_file *m, const tally *t,
                                            : "");
 }
 
-/* Writes, unless --require forbids it, and reports. A vertex outside stops the output unless
- * --outside keep asks for it; the report names it all the same. */
+/* Writes the mesh, unless --require forbids it, and reports. A vertex outside the cage stops the
+ * output unless --outside keep asks for it, but the report always names it. */
 static int finish(job *j, const mesh_file *m, const double *images, const icc_status *status,
                   size_t n_failed, const tally *t, const icc_certificate *certificate,
                   const mesh_carried *attached)
@@ -190,7 +190,8 @@ static int finish(job *j, const mesh_file *m, const double *images, const icc_st
                      : tell(j, m, status, n_failed, t, certificate, attached);
 }
 
-/* Counts elements. A certificate is about triangles, and not about larger faces. */
+/* Counts elements, then finishes. A certificate is about triangles, so an inverted larger face takes
+ * it away. */
 static int count_and_finish(job *j, const mesh_file *m, const double *images,
                             const icc_status *status, size_t n_failed, icc_certificate *certificate,
                             const mesh_carried *attached)
@@ -203,7 +204,7 @@ static int count_and_finish(job *j, const mesh_file *m, const double *images,
     return result;
 }
 
-/* Maps the vertices, certifies the simplices, and carries what is attached to vertices, before anything is
+/* Maps the vertices, certifies the simplices, and carries normals and the like, before anything is
  * written. */
 static int map_mesh(job *j, mesh_file *m)
 {
@@ -231,8 +232,8 @@ static int map_mesh(job *j, mesh_file *m)
 static int make_and_map(job *j, mesh_file *m)
 {
     int result = output_fits(j->args->command, j->args->operands[1], m->format);
-    if (j->cages[j->args->inverse].turned)
-        points_turn(m->n_vertices, m->points);
+    if (j->cages[j->args->inverse].flipped)
+        points_flip_y(m->n_vertices, m->points);
     if (result == DONE)
         result = job_make_map(j);
     return result == DONE ? map_mesh(j, m) : result;

@@ -68,7 +68,7 @@ static double row_height(const plot *x, int what)
     return what == ROW_SURFACE ? 0.7 * x->size : x->height;
 }
 
-/* A row and what stands below it: of a function up to three lines. */
+/* The height of a row with the captions below it. A function has up to three lines of them. */
 static double row_extent(const plot *x, int what)
 {
     bool function = what == ROW_SHAPE && x->columns[x->n_columns - 1].stages.field != NULL;
@@ -257,8 +257,8 @@ static int plot_plane(plot *x)
         return misused(a->command, "--%s is for shapes in space",
                        a->n_slice > 0 ? "slice" : "view");
     if (format != NULL && strcmp(format, "PNG") == 0)
-        return misused(a->command, "in the plane OUT is an SVG or a VTK file; of OUT.svg "
-                                   "'rsvg-convert OUT.svg -o OUT.png' makes a PNG");
+        return misused(a->command, "in the plane OUT is an SVG or a VTK file; "
+                                   "'rsvg-convert OUT.svg -o OUT.png' makes a PNG of OUT.svg");
     int result = job_read_plane(&x->job, "an SVG (unlike OUT.vtk)");
     if (result == DONE && a->triangles && a->target == NULL)
         result =

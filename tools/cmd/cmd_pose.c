@@ -126,7 +126,7 @@ static int write_images(const pose *p, const mesh_file *m, const double *images)
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* Says which elements are inverted. With --require these are refused. */
+/* Says which elements are inverted. With --require that is a failure. */
 static int tell_mesh(const pose *p, const mesh_file *m, const tally *t)
 {
     const args *a = p->kernel.job.args;

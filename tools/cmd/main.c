@@ -139,10 +139,9 @@ static const command commands[] = {
      .summary = "Draws a shape with its integral curves, or a map",
      .details =
          "In the plane, with a target: both shapes side by side, a u v map and a checkerboard that "
-         "the target inherits, and the triangles of the map. Integral curves are drawn of a map of "
-         "kind curves, and without a target. --function takes several names here, with commas "
-         "between, and "
-         "each may end\n"
+         "the target inherits, and the triangles of the map. Integral curves are drawn for a map "
+         "of kind curves, and without a target. --function takes several names here, with commas "
+         "between, and each may end\n"
          "in :constrained or :unconstrained; then there is a column for each.\n\n"
          "In space, with a target: both bodies cut by a plane, with a grid on the cut that the "
          "target\n"
@@ -236,12 +235,11 @@ static void print_help(void)
     for (size_t i = 0; i < N_COMMANDS; i++)
         printf("  %-8s %s\n", commands[i].name, commands[i].summary);
     help_paragraphs(
-        "\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version;\n"
-        "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them.\n"
+        "\n'libicc help COMMAND' describes a command; 'libicc --version' prints the version; "
+        "'libicc completion SHELL' prints what bash, zsh or fish needs to complete them. "
         "Exit codes: 0 done; 1 the input or the computation failed; 2 wrong usage; 4 done, but "
-        "some\n"
-        "points have no image, or some elements of a mesh are inverted.\n\n(Not related to ICC "
-        "colour profiles.)\n");
+        "some points have no image, or some elements of a mesh are inverted.\n\n(Not related to "
+        "ICC colour profiles.)\n");
 }
 
 static int run_command(const command *c, int argc, char **argv)

@@ -19,10 +19,10 @@ void carrier_start(carrier *out, bool inverse, const icc_env *env)
     }
 }
 
-/* Points of one side between the maps' domains and here. */
-static void turn(const carrier *c, size_t side, size_t n, double *points)
+/* Reverses y of points of one side if the maps' domains have it reversed. */
+static void flip_y(const carrier *c, size_t side, size_t n, double *points)
 {
-    for (size_t i = 0; c->turned[side] && i < n; i++)
+    for (size_t i = 0; c->flipped[side] && i < n; i++)
         points[2 * i + 1] = 0 - points[2 * i + 1];
 }
 
@@ -38,7 +38,7 @@ static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain
     uint32_t *facets = c->facets[side] + dim * c->n_facets;
     icc_status status =
         icc_domain_get_boundary(domain, c->vertices[side] + dim * c->n_vertices, facets);
-    turn(c, side, n, c->vertices[side] + dim * c->n_vertices);
+    flip_y(c, side, n, c->vertices[side] + dim * c->n_vertices);
     for (size_t i = 0; i < dim * n_facets; i++)
         facets[i] += (uint32_t)c->n_vertices;
     return status;
@@ -50,7 +50,7 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
 {
     c->reversed = grow(c->reversed, &c->room_reversed, c->n_facets + n_facets, sizeof *c->reversed);
     for (size_t i = 0; i < n_facets; i++)
-        c->reversed[c->n_facets + i] = (domain->orientation < 0) != c->turned[0];
+        c->reversed[c->n_facets + i] = (domain->orientation < 0) != c->flipped[0];
     for (size_t k = 0; k < domain->n_features && n_facets == domain->n_facets; k++) {
         icc_feature_info hole = {.size = sizeof hole};
         icc_domain_get_feature(from, k, &hole);
@@ -58,7 +58,7 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
             continue;
         for (size_t i = 0; i < hole.n_vertices; i++)
             c->reversed[c->n_facets + hole.first_facet + i] =
-                (hole.orientation > 0) != c->turned[0];
+                (hole.orientation > 0) != c->flipped[0];
         c->in_holes = grow(c->in_holes, &c->room_holes, 2 * (c->n_holes + 1), sizeof *c->in_holes);
         inner_point(hole.n_vertices, c->vertices[0] + 2 * (c->n_vertices + hole.first_vertex),
                     c->in_holes + 2 * c->n_holes);
@@ -69,9 +69,9 @@ static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info 
 static void widen_box(carrier *c, const icc_domain_info *info)
 {
     for (size_t k = 0; k < c->dim; k++) {
-        bool is_turned = c->turned[0] && k == 1;
-        c->lower[k] = fmin(c->lower[k], is_turned ? -info->upper[k] : info->lower[k]);
-        c->upper[k] = fmax(c->upper[k], is_turned ? -info->lower[k] : info->upper[k]);
+        bool is_flipped = c->flipped[0] && k == 1;
+        c->lower[k] = fmin(c->lower[k], is_flipped ? -info->upper[k] : info->lower[k]);
+        c->upper[k] = fmax(c->upper[k], is_flipped ? -info->lower[k] : info->upper[k]);
         c->size = fmax(c->size, c->upper[k] - c->lower[k]);
         c->largest = fmax(c->largest, fmax(fabs(info->lower[k]), fabs(info->upper[k])));
     }
@@ -154,7 +154,7 @@ icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *face
     icc_status status = ICC_OK;
     double own[ICC_MAX_DIM];
     memcpy(own, point, c->dim * sizeof *own);
-    turn(c, 0, 1, own);
+    flip_y(c, 0, 1, own);
     *distance = HUGE_VAL;
     *facet = 0;
     for (size_t m = 0; m < c->n_maps && status == ICC_OK; m++) {
@@ -181,7 +181,7 @@ icc_status carrier_is_outside(const carrier *c, const double *point, bool *out)
     icc_status status = ICC_OK;
     double own[ICC_MAX_DIM];
     memcpy(own, point, c->dim * sizeof *own);
-    turn(c, 0, 1, own);
+    flip_y(c, 0, 1, own);
     *out = true;
     for (size_t m = 0; m < c->n_maps && *out && status == ICC_OK; m++) {
         int32_t where = ICC_OUTSIDE;
@@ -223,21 +223,21 @@ static icc_status map_rest(const carrier *c, const icc_map *map, size_t n, const
     return ran;
 }
 
-/* Maps what lies inside; the others fail. */
+/* Maps the points that lie inside. The others fail. */
 static icc_status map_inside(const carrier *c, size_t n, const double *points, double *images,
                              icc_status *status, size_t *n_failed)
 {
-    double *own = c->turned[0] && n > 0 ? need(n, c->dim * sizeof *own) : NULL;
+    double *own = c->flipped[0] && n > 0 ? need(n, c->dim * sizeof *own) : NULL;
     if (own != NULL) {
         memcpy(own, points, n * c->dim * sizeof *own);
-        turn(c, 0, n, own);
+        flip_y(c, 0, n, own);
         points = own;
     }
     icc_status ran = (c->inverse ? icc_map_apply_inverse : icc_map_apply)(
         c->maps[0].map, n, points, images, status, n_failed, c->env);
     for (size_t m = 1; ran == ICC_OK && *n_failed > 0 && m < c->n_maps; m++)
         ran = map_rest(c, c->maps[m].map, n, points, images, status, n_failed);
-    turn(c, 1, n, images);
+    flip_y(c, 1, n, images);
     free(own);
     return ran;
 }

@@ -20,8 +20,8 @@ typedef struct carrier {
     carried *maps;
     const icc_env *env;
     bool inverse;
-    bool turned[2]; /* of the side that points are on, and of the other: y is reversed in the maps'
-                     * domains, and here it is not; set by the caller before anything is added */
+    bool flipped[2]; /* for the side of the points, and for the other: the maps' domains have y
+                     * reversed; set by the caller before anything is added */
     size_t dim;
     double snap; /* how far outside counts as on the cage */
     double size; /* of the cage: the longest side of its box */

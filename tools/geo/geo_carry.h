@@ -23,7 +23,7 @@ typedef struct geo_result {
     edits edits;
     size_t n_features;             /* and geometries that belong to none */
     size_t n_positions, n_without; /* positions, and those without image */
-    size_t n_jumps; /* lines and rings whose longitudes jump, as over the antimeridian */
+    size_t n_jumps; /* lines and rings whose longitudes jump, as at the antimeridian */
     size_t n_faults, room_faults;
     geo_fault *faults;
     bool sequence; /* of texts (GeoJSONSeq) */

@@ -36,8 +36,8 @@ typedef struct args {
     double weld;         /* how far apart vertices may be that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
-    bool needs_target, may_pair, takes_parts,
-        turns_cages; /* what the command does with two cages */
+    /* What the command does with two cages. */
+    bool needs_target, may_pair, takes_parts, flips_cages;
     bool constrained, unconstrained;
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
@@ -57,7 +57,7 @@ typedef struct args {
     int32_t lines;
 } args;
 
-/* Which of two cages. */
+/* Which of the two cages an option means. */
 enum { SIDE_SOURCE = 1, SIDE_TARGET, SIDE_BOTH };
 
 /* What fills surfaces in space. */
@@ -66,7 +66,7 @@ enum { MESHER_OWN = 1, MESHER_TETGEN };
 /* What becomes of what lies outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
 
-/* What a result must be. */
+/* What --require demands of a result. */
 enum { REQUIRE_CERTIFIED = 1 };
 
 /* Bits of the commands. */
@@ -82,7 +82,7 @@ enum {
     FOR_CHARTS = 255, /* all of the above */
     MAY_PAIR = FOR_MAP | FOR_WARP | FOR_MESH | FOR_CHECK | FOR_INFO | FOR_PLOT,
     TAKES_PARTS = FOR_MAP | FOR_WARP | FOR_CHECK,
-    TURNS_CAGES = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_PLOT | 1024, /* FOR_MATCH */
+    FLIPS_CAGES = FOR_MAP | FOR_MESH | FOR_CHECK | FOR_PLOT | 1024, /* FOR_MATCH */
     FOR_WEIGHTS = 256,
     FOR_POSE = 512,
     FOR_KERNEL = FOR_WEIGHTS | FOR_POSE,
@@ -120,7 +120,7 @@ const char *args_result(const args *a, const command *c);
 /* Prints the help of a command on stdout, in lines of at most 80 columns. */
 void args_help(const command *c);
 
-/* Prints paragraphs so. Lines that begin with a blank, and empty ones, stay as they are. */
+/* Prints paragraphs in such lines. Lines that begin with a blank, and empty ones, stay as they are. */
 void help_paragraphs(const char *text);
 
 #endif

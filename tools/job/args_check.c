@@ -273,7 +273,7 @@ static int settle_streams(args *a, const command *c)
     return DONE;
 }
 
-/* A mesh without a cage is its own. It is read twice, so it cannot be standard input. */
+/* A mesh without a cage is its own cage. It is read twice, so it cannot be standard input. */
 static void settle_meshes(args *a)
 {
     if (a->source != NULL || a->mesh == NULL || strcmp(a->mesh, "-") == 0)
@@ -290,7 +290,7 @@ int args_check(args *a, const command *c)
     a->needs_target = (c->needs_target || a->match != NULL) && !a->fill;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;
-    a->turns_cages = (c->bit & TURNS_CAGES) != 0;
+    a->flips_cages = (c->bit & FLIPS_CAGES) != 0;
     settle_functions(a);
     int result = settle_match(a, c);
     if (result == DONE)

@@ -1,4 +1,4 @@
-/* What --help prints: text that is broken into lines of a terminal's 80 columns. */
+/* Prints the text of --help in lines of at most 80 columns. */
 #include "job/args.h"
 #include "job/option_table.h"
 
@@ -59,7 +59,7 @@ static void print_option(const option *o)
     print_words(o->help, o->help + strlen(o->help), OPTION_COLUMN, OPTION_COLUMN);
 }
 
-/* One group of a command's options; nothing if it has none of them. */
+/* Prints one group of a command's options, or nothing if it has none of them. */
 static void print_group(const command *c, bool papers, const char *heading)
 {
     for (size_t i = 0; i < n_options; i++) {
@@ -72,7 +72,7 @@ static void print_group(const command *c, bool papers, const char *heading)
     }
 }
 
-/* One line for each way to call the command; what is too long goes on below its first option. */
+/* Prints one line for each way to call the command. A long one goes on below its first option. */
 static void print_usage(const command *c)
 {
     const char *head = "Usage:";

@@ -26,7 +26,7 @@ static bool map_points(void *data, size_t n, const double *points, double *image
 
 /* -------------------------------------------------------------- derivatives */
 
-/* The derivatives that are still to be found, and where. */
+/* The search for derivatives at points, of which some are still to be found. */
 typedef struct search {
     job *j;
     size_t dim, n;
@@ -51,8 +51,9 @@ static void find_box(search *s, size_t n, const double *points)
     s->size = extent;
 }
 
-/* Where the derivative of a point is looked for: there; beside it, against its direction and along it;
- * towards the middle of all. The step is as small as floats know the mesh. */
+/* Where the derivative of a point is looked for in each round: at the point, beside it against its
+ * direction, beside it along its direction, and towards the middle of all points. The step is as
+ * small as the resolution of floats. */
 static void step(const search *s, size_t round, const double *point, const double *direction,
                  double *out)
 {
@@ -66,7 +67,7 @@ static void step(const search *s, size_t round, const double *point, const doubl
         out[k] = point[k] + d[k];
 }
 
-/* The derivative of the inverse map, from that of the map. */
+/* Turns the derivative of the map into that of the inverse map. */
 static void invert(size_t dim, double *derivative)
 {
     double whole[12], back[12];
@@ -75,7 +76,7 @@ static void invert(size_t dim, double *derivative)
         derivative[i] = good ? back[i / dim * 4 + i % dim] : (double)NAN;
 }
 
-/* Looks at all that are left, and keeps those that are found. */
+/* Looks for all derivatives that are left, and keeps those that it finds. */
 static icc_status look(search *s, double *derivatives)
 {
     job *j = s->j;

@@ -1,21 +1,21 @@
-/* What is attached to the vertices of a mesh, carried by the map of a job. */
+/* Carries normals, tangents and morph targets of a mesh by the map of a job (mesh_carry.h). */
 #ifndef ATTACHED_H
 #define ATTACHED_H
 
 #include "job/job.h"
 #include "mesh/mesh_carry.h"
 
-/* Carries it, once the vertices have images: those of `status` ICC_OK; the others stay. */
+/* Carries them, once the vertices have images. Vertices whose `status` is not ICC_OK stay. */
 int attached_carry(job *j, mesh_file *m, const double *images, const icc_status *status,
                    mesh_carried *out);
 
-/* Says that a target displaces vertices to where there is no image; PARTIAL if so. */
+/* Says if morph targets displace vertices to where there is no image. Then it returns PARTIAL. */
 int attached_beyond(const job *j, const mesh_carried *c);
 
-/* Says what of `file` has stayed, or is not exact. */
+/* Says which of them stay as `file` has them, and which are not exact. */
 void attached_tell(const char *file, const mesh_carried *c);
 
-/* Says what would have to be carried, and is not: of a pose. False: see `wrong`. */
+/* Says which of them a pose does not carry. False: see `wrong`. */
 bool attached_left(mesh_file *m, const char *file, problem *wrong);
 
 #endif

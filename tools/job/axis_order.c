@@ -1,6 +1,6 @@
-/* Which reference systems have their latitude or northing first: those of EPSG by a table, as GDAL
- * treats them. PROJ's tinshift has x (east) first whatever the system, so that programs which follow
- * the system's order need a step that swaps. */
+/* Tells which reference systems of EPSG have latitude or northing first, by a table, as GDAL treats
+ * them. PROJ's tinshift always has x (east) first, so programs that follow the system's order need a
+ * step that swaps. */
 #include "job/axis_order.h"
 
 #include <ctype.h>
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* First and last codes; between them no code has east first. Of EPSG 10.076 by GDAL 3.6. */
+/* First and last codes of ranges in which no code has east first (EPSG 10.076, from GDAL 3.6). */
 static const uint16_t north_first[][2] = {
     {2036, 2036},   {2044, 2045},   {2081, 2083},   {2085, 2086},   {2091, 2093},   {2096, 2098},
     {2105, 2132},   {2166, 2180},   {2193, 2193},   {2199, 2200},   {2206, 2212},   {2319, 2549},

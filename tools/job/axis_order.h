@@ -8,7 +8,7 @@ typedef enum axis_order {
     AXES_UNKNOWN
 } axis_order;
 
-/* Of a system by its name: a code as EPSG:4326 or an URN; what else it may be is unknown. */
+/* The order of a system's axes, from a code such as EPSG:4326 or a URN. Other names are unknown. */
 axis_order axis_order_of(const char *crs);
 
 #endif

@@ -41,7 +41,7 @@ static bool call_input(call_file *out, const args *a, const command *c, size_t i
     return true;
 }
 
-/* What the last operand may be, before its input has been looked at. */
+/* The formats that the last operand may have, before its input has been read. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
     return a->geojson                          ? "GeoJSON, GeoJSONSeq, JSON"
@@ -86,7 +86,8 @@ int call_inputs_check(const args *a, const command *c)
     return DONE;
 }
 
-/* A result of `map` over what it maps: cmd_map.c and cmd_geojson.c look whether all was carried. */
+/* True if `map` writes a result over its own points or layer. cmd_map.c and cmd_geojson.c do that only
+ * if all of it has an image. */
 static bool is_image_of(const call_file *in, const call_file *out, const args *a, const command *c)
 {
     return c->bit & FOR_MAP &&
@@ -116,7 +117,7 @@ static int check_overwriting(const args *a, const command *c, const call_file *o
     return DONE;
 }
 
-/* Frames that are not there yet overwrite nothing. */
+/* Checks the frames that exist already. */
 static int check_frames(const args *a, const command *c, const call_file *out)
 {
     int result = DONE;
@@ -130,7 +131,7 @@ static int check_frames(const args *a, const command *c, const call_file *out)
     return result;
 }
 
-/* The same file, or the same name of one that is not there yet. */
+/* True if both name one file, or one new file by the same name. */
 static bool is_one_file(const char *a, const char *b)
 {
     return strcmp(a, "-") != 0 && strcmp(b, "-") != 0 &&

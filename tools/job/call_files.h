@@ -1,4 +1,4 @@
-/* The files of a call. */
+/* The files that a call reads and writes, and checks that it overwrites none of them. */
 #ifndef CALL_FILES_H
 #define CALL_FILES_H
 
@@ -19,12 +19,12 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i);
 /* Refuses two inputs that are both standard input. */
 int call_inputs_check(const args *a, const command *c);
 
-/* Refuses an output that is one of the inputs, by whatever name, or another output: nobody asks for
- * that on purpose, and the file is the only copy. One is let through: a result of `map` over its
- * own points or layer, which is written only if all of it has an image. */
+/* Refuses an output that is also an input, by whatever name, or another output. Nobody asks for that
+ * on purpose, and the file may be the only copy. Only `map` may replace its own points or layer, and
+ * does so only if all of it has an image. */
 int call_outputs_check(const args *a, const command *c);
 
-/* OUT of `animate` with the number of a frame before its extension; free() it. */
+/* The name of a frame of `animate`: OUT with a number before its extension. free() it. */
 char *frame_name(const char *out, size_t frame);
 
 /* How many frames `animate` writes. */

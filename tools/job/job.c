@@ -83,11 +83,11 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
-/* What helps cages that turn in opposite ways. */
+/* The options that help if cages turn in opposite ways, or "". */
 static const char *unlike_turn(const job *j, const icc_error *err)
 {
     return strstr(err->message, "turn the same way") == NULL ? ""
-           : !j->args->turns_cages                           ? " (--match auto)"
+           : !j->args->flips_cages                           ? " (--match auto)"
                                    : " (--y-down=source or --y-down=target; else --match auto)";
 }
 
@@ -98,9 +98,9 @@ int job_failed_with(job *j, const icc_error *err, const char *hint)
     char translated[512];
     side_text where;
     features_translate(translated, sizeof translated, c, job_message(err));
-    const char *turned = c->turned && strchr(translated, '(') != NULL ? " (with y reversed)" : "";
+    const char *flipped = c->flipped && strchr(translated, '(') != NULL ? " (with y reversed)" : "";
     return failed(job_file(j, err->side), line_at_fault(c, err), "%s%s%s%s%s",
-                  job_side(where, j, err->side), translated, turned, unlike_turn(j, err), hint);
+                  job_side(where, j, err->side), translated, flipped, unlike_turn(j, err), hint);
 }
 
 int job_failed(job *j, const icc_error *err)
@@ -197,8 +197,8 @@ int job_start_carrier(job *j, carrier *c)
 {
     bool inverse = j->args->inverse;
     carrier_start(c, inverse, &j->env);
-    c->turned[0] = j->cages[inverse].turned;
-    c->turned[1] = j->cages[!inverse].turned;
+    c->flipped[0] = j->cages[inverse].flipped;
+    c->flipped[1] = j->cages[!inverse].flipped;
     icc_status ran = add_to_carrier(j, c);
     for (size_t i = 0; i < j->n_parts && ran == ICC_OK; i++)
         ran = add_to_carrier(&j->parts[i], c);

@@ -84,7 +84,7 @@ typedef char side_text[64];
  * or "". Returns `out`. */
 const char *job_side(side_text out, const job *j, int side);
 
-/* What the library says, without the side in front, which job_side() names. */
+/* The library's message without the side in front, because job_side() names it. */
 const char *job_message(const icc_error *err);
 
 /* Says what the library said, with the file and the line at fault; returns FAILED. */

@@ -28,8 +28,8 @@ static int join_vertices(job *j, size_t side)
     return DONE;
 }
 
-/* Where y points down in one of two cages, its y is reversed, so that both turn alike. */
-static int turn_cage(job *j, size_t side)
+/* If y points down in one of two cages, reverses its y, so both turn the same way. */
+static int flip_cage(job *j, size_t side)
 {
     cage *c = &j->cages[side];
     if (j->args->y_down_side != (int32_t)side + SIDE_SOURCE)
@@ -37,7 +37,7 @@ static int turn_cage(job *j, size_t side)
     if (c->dim != 2 || c->cells != NULL)
         return failed(job_file(j, (int)side + 1), 0,
                       "--y-down is for cages with vertices in the plane");
-    cage_turn(c);
+    cage_flip_y(c);
     return DONE;
 }
 
@@ -55,7 +55,7 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
                                 .like = other->n_simplices > 0 ? other : NULL};
     size_t dim = side == 0 ? 2 : job_dim(j);
     if (cage_read(&j->cages[side], &choice, dim, text, n, &wrong))
-        return turn_cage(j, side) == DONE ? join_vertices(j, side) : FAILED;
+        return flip_cage(j, side) == DONE ? join_vertices(j, side) : FAILED;
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
     return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
@@ -117,10 +117,10 @@ static int check_points(job *j)
         if (points[i].n > 0 && points[i].n != job_dim(j))
             return misused(a->command, "--%s has %zu coordinates, but the cage %zu", points[i].name,
                            points[i].n, job_dim(j));
-    if (j->cages[0].turned)
-        points_turn(1, j->own.maximum);
+    if (j->cages[0].flipped)
+        points_flip_y(1, j->own.maximum);
     if (a->y_down_side == SIDE_TARGET)
-        points_turn(1, j->own.target_maximum);
+        points_flip_y(1, j->own.target_maximum);
     return DONE;
 }
 

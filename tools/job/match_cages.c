@@ -12,7 +12,7 @@
 /* What matching takes of the time that is left then. */
 static const double MATCHED = 0.2;
 
-/* In degrees; what is turned more is rarely meant. */
+/* In degrees. A larger turn is rarely meant. */
 static const double LARGE_TURN = 45;
 
 int match_check(const job *j)
@@ -44,7 +44,7 @@ static int refuse(job *j, icc_error *err, const table *landmarks)
                            is_common                          ? " (of the common vertices)"
                            : err->status != ICC_ERR_AMBIGUOUS ? ""
                            : err->item == ICC_ITEM_FEATURE    ? " (--landmarks FILE)"
-                           : strstr(err->message, "mirror") != NULL && j->args->turns_cages
+                           : strstr(err->message, "mirror") != NULL && j->args->flips_cages
                                ? " (--y-down=source or --y-down=target; else --landmarks FILE)"
                                : " (--landmarks FILE, or --match arc)");
 }
@@ -104,7 +104,7 @@ static cage common_cage(const cage *given, const cage *source, const icc_domain 
         return common_surface(domain, &size);
     bool has_features = icc_domain_get_feature(domain, 0, &first) == ICC_OK;
     cage c = {.dim = 2,
-              .turned = given->turned,
+              .flipped = given->flipped,
               .n = has_features ? first.first_vertex : size.n_vertices};
     c.n_heights = given->n_heights;
     c.points = need(size.n_vertices, 2 * sizeof *c.points);
@@ -145,8 +145,8 @@ int match_cages(job *j)
     if (a->landmarks != NULL && landmarks_read(&landmarks, a->landmarks, job_dim(j)) != DONE)
         return FAILED;
     for (size_t side = 0; side < 2; side++)
-        for (size_t i = 0; j->cages[side].turned && i < landmarks.n; i++)
-            points_turn(1, landmarks.values + 4 * i + 2 * side);
+        for (size_t i = 0; j->cages[side].flipped && i < landmarks.n; i++)
+            points_flip_y(1, landmarks.values + 4 * i + 2 * side);
     icc_match_options options = {
         .size = sizeof options, .turning = a->turning, .keep_source = a->keep_source};
     options.between = strcmp(a->match, "arc") == 0 ? ICC_BETWEEN_ARC : ICC_BETWEEN_ELASTIC;
@@ -165,9 +165,9 @@ int match_cages(job *j)
 
 void match_note(const job *j)
 {
-    const char *asks = j->args->turns_cages
+    const char *asks = j->args->flips_cages
                            ? "is y down in one of them? (--y-down=source or --y-down=target)"
-                           : "is y down in one of them, but not in the other?";
+                           : "is y down in one of the two only?";
     const icc_match_info *info = &j->matched;
     char turned[48];
     bool large = fabs(info->turn) > LARGE_TURN && j->args->turning != ICC_TURNING_FREE;

@@ -11,8 +11,8 @@ int match_check(const job *j);
  * j->matched tells how. DONE, or FAILED with a line on stderr. */
 int match_cages(job *j);
 
-/* Says on stderr what may be wrong with a match in the plane: a large turn, which nobody asked for,
- * or a mirror image that fits better. */
+/* Says on stderr if a match in the plane turns much, or if the mirror image fits better. Either may
+ * mean that the match is wrong. */
 void match_note(const job *j);
 
 /* How well they match, as a member of the report. */

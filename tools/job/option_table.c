@@ -65,8 +65,7 @@ const option options[] = {
      .value = "FILE",
      .help =
          "the cage before: text, GeoJSON, WKT, SVG; OBJ, OFF, PLY, STL, glTF; the boundary of a "
-         "Medit or VTK mesh; a .npy mask; "
-         "FILE#name=Kent: the feature with that property"},
+         "Medit or VTK mesh; a .npy mask; FILE#name=Kent: the feature with that property"},
     {.name = "target",
      .letter = 't',
      .kind = OPTION_TEXT,
@@ -395,7 +394,7 @@ const option options[] = {
      .help = "y points down, as in pictures: in both cages, or in the source or target alone"},
     {.name = "y-down",
      .kind = OPTION_CHOICE,
-     .commands = TURNS_CAGES & ~(unsigned)FOR_PLOT,
+     .commands = FLIPS_CAGES & ~(unsigned)FOR_PLOT,
      .offset = AT(y_down_side),
      .choices = sides,
      .value = "source|target|both",

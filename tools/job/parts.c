@@ -61,7 +61,7 @@ static void fill_hole(cage *out, const cage *all, const cage_hole *nesting, cage
 {
     const cage_feature *hole = &cage_polygon(all, place.polygon)->features[place.hole];
     out->dim = 2;
-    out->turned = all->turned;
+    out->flipped = all->flipped;
     add_ring(out, 0, hole->n, hole->points);
     for (size_t i = 0; i <= all->n_more; i++)
         if (nesting[i].polygon == place.polygon && nesting[i].hole == place.hole)

@@ -1,11 +1,11 @@
-/* --require: what a result must be, or nothing is written. */
+/* Checks for --require: unless a result is as demanded, nothing is written. */
 #ifndef REQUIRE_H
 #define REQUIRE_H
 
 #include "job/job.h"
 
-/* DONE if the job's maps, of all parts, are as they are required to be; else FAILED with a line on
- * stderr. There must be a map. */
+/* Returns DONE if the maps of all parts of the job are as required, otherwise FAILED with a line on
+ * stderr. The job must have a map. */
 int require_maps(job *j);
 
 #endif

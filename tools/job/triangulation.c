@@ -8,14 +8,15 @@
 
 #include <stdlib.h>
 
-/* Two counts. The remedy works: coordinates near the origin are not rounded. */
+/* Takes two counts. The remedy works because coordinates near the origin are not rounded. */
 #define SPOILT                                                                                     \
-    "%zu of %zu triangles are flat or reversed in a file, whose numbers are doubles, because the " \
-    "shape is so far from the origin; shift source and target to the origin"
+    "%zu of %zu triangles are flat or reversed when their numbers are rounded to doubles, "        \
+    "because "                                                                                     \
+    "the shape is so far from the origin; shift source and target to the origin"
 
 typedef struct part_mesh {
     icc_map_info info;
-    double *from, *to; /* as the cages' files have them */
+    double *from, *to; /* vertices, with y as the cages' files have it */
     uint32_t *triangles;
 } part_mesh;
 
@@ -27,10 +28,10 @@ static part_mesh take_mesh(const icc_map *map, const cage *cages)
     m.to = need(m.info.n_vertices, 2 * sizeof *m.to);
     m.triangles = need(m.info.n_simplices, 3 * sizeof *m.triangles);
     icc_map_get_mesh(map, m.from, m.to, m.triangles);
-    if (cages[0].turned)
-        points_turn(m.info.n_vertices, m.from);
-    if (cages[1].turned)
-        points_turn(m.info.n_vertices, m.to);
+    if (cages[0].flipped)
+        points_flip_y(m.info.n_vertices, m.from);
+    if (cages[1].flipped)
+        points_flip_y(m.info.n_vertices, m.to);
     return m;
 }
 
@@ -83,8 +84,8 @@ static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh 
     fputs("]\n}\n", stream);
 }
 
-/* Programs that follow a system's own order of axes have to swap before or after the file, which
- * has x first. Said where a system has y first, or may have. */
+/* Says if a system has y first, or may have. Programs that follow the system's order of axes must
+ * then swap before or after the file, which has x first. */
 static void note_axes(const args *a)
 {
     static const char swap[] = " +step +proj=axisswap +order=2,1";

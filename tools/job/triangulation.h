@@ -10,7 +10,7 @@ int triangulation_check(job *j);
 /* Writes the file of --triangulation, if it was given, once there is a map. */
 int triangulation_write(const job *j);
 
-/* Says how many of the triangles written are not positive; PARTIAL if there are any. */
+/* Says how many of the triangles written are not positive. Returns PARTIAL if there are any. */
 int triangulation_tell(const job *j);
 
 #endif

@@ -4,17 +4,17 @@
 #include <math.h>
 #include <string.h>
 
-static const double none[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-void affine_none(double out[12])
+void affine_identity(double out[12])
 {
-    memcpy(out, none, sizeof none);
+    memcpy(out, identity, sizeof identity);
 }
 
-bool affine_is_none(const double a[12])
+bool affine_is_identity(const double a[12])
 {
     for (int i = 0; i < 12; i++)
-        if (a[i] != none[i])
+        if (a[i] != identity[i])
             return false;
     return true;
 }
@@ -53,7 +53,8 @@ bool affine_invert(double out[12], const double a[12])
     }
     affine_compose(product, out, a);
     for (int i = 0; i < 12; i++)
-        if (!isfinite(out[i]) || (i % 4 < 3 && !(fabs(product[i] - none[i]) < (double)FLT_EPSILON)))
+        if (!isfinite(out[i]) ||
+            (i % 4 < 3 && !(fabs(product[i] - identity[i]) < (double)FLT_EPSILON)))
             return false;
     return true;
 }

@@ -4,28 +4,29 @@
 
 #include <stdbool.h>
 
-void affine_none(double out[12]);
-bool affine_is_none(const double a[12]);
+/* The identity. */
+void affine_identity(double out[12]);
+bool affine_is_identity(const double a[12]);
 
-/* First b, then a; `out` is neither. */
+/* The map that applies b, then a. `out` is neither of them. */
 void affine_compose(double out[12], const double a[12], const double b[12]);
 
-/* False: the map is singular, or so nearly that floats cannot tell it from one that is. */
+/* False: the map is singular, or floats cannot tell it from a singular one. */
 bool affine_invert(double out[12], const double a[12]);
 
 double affine_determinant(const double a[12]);
 
 void affine_apply(double out[3], const double a[12], const double point[3]);
 
-/* What A makes of a direction, and what its transpose does. */
+/* Applies A to a direction, and its transpose. */
 void affine_turn(double out[3], const double a[12], const double v[3]);
 void affine_turn_back(double out[3], const double a[12], const double v[3]);
 
-/* What a normal becomes where the derivative of a map is A: by its inverse transpose, with the length that
- * it had. False: there is none. */
+/* The image of a normal under a map with derivative A: by the inverse transpose, with the same length.
+ * False: there is none. */
 bool affine_turn_normal(double out[3], const double a[12], const double normal[3]);
 
-/* Gives a vector another length. False: it has none. */
+/* Gives a vector another length. False: it is zero or not finite. */
 bool affine_set_length(double v[3], double length);
 double affine_length(const double v[3]);
 

@@ -1,5 +1,5 @@
-/* Numbers and orders of nodes: VTK's file formats and vtkCellType.h. Each order begins with the
- * corners; then come nodes in the middle of edges, of faces, and of the element. */
+/* Kinds have the numbers and orders of nodes of VTK's file formats and vtkCellType.h. Each order
+ * begins with the corners, then come nodes in the middle of edges, of faces, and of the element. */
 #include "mesh/element_kinds.h"
 
 static const unsigned char pixel[] = {0, 1, 3, 2}, voxel[] = {0, 1, 3, 2, 4, 5, 7, 6};

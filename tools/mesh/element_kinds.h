@@ -1,11 +1,11 @@
-/* What kinds of elements there are, by VTK's numbers: their names, nodes and shapes. */
+/* The kinds of elements, by VTK's numbers: their names, nodes and shapes. */
 #ifndef ELEMENT_KINDS_H
 #define ELEMENT_KINDS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
-/* Those that are spoken of by name. */
+/* The kinds that the code names. */
 enum {
     ELEMENT_POLYGON = 7,
     ELEMENT_TRIANGLE = 5,
@@ -23,9 +23,8 @@ enum {
     ELEMENT_LAGRANGE_PYRAMID = 74
 };
 
-/* The shape of the reference element: a product of simplices. A pyramid is none, but the signs at
- * the corners of its base decide all. Nothing is known of other shapes than how many dimensions
- * they have. */
+/* The shape of the reference element, a product of simplices. A pyramid is no such product, but the
+ * signs at the corners of its base decide. Of other shapes only the dimension is known. */
 typedef enum element_shape {
     SHAPE_OTHER,
     SHAPE_POLYGON,
@@ -49,10 +48,10 @@ typedef struct element_kind {
     const unsigned char *order; /* where each node stands in a file, or NULL: in this order */
 } element_kind;
 
-/* The kind of a number from 0 to 255; an unknown one has the name "cells of type", and dimension 3. */
+/* The kind of a number from 0 to 255. An unknown one is a "cell of unknown kind" of dimension 3. */
 const element_kind *element_kind_find(int type);
 
-/* All kinds that have a name of their own, in the order in which they are told. */
+/* All kinds in the order of reports; the last stands for unknown ones. */
 extern const element_kind element_kinds[];
 extern const size_t n_element_kinds;
 
@@ -61,10 +60,10 @@ extern const size_t n_element_kinds;
 /* Factors of the product, and the dimension of each. */
 typedef struct element_product {
     unsigned n_factors, dims[3], n_corners;
-    const unsigned char (*corners)[3]; /* of each corner: which vertex of each factor it is */
-    const unsigned char (*middles)[2]; /* of each further node: the corners that it lies between */
-    const unsigned char (*around)[4];  /* of each corner: itself and its neighbours, which turn
-                                          positively; those that decide the sign there */
+    const unsigned char (*corners)[3]; /* for each corner: its vertex of each factor */
+    const unsigned char (*middles)[2]; /* for each further node: the corners that it lies between */
+    const unsigned char (*around)[4];  /* for each corner: itself and the neighbours that decide the
+                                          sign there, in positive order */
     unsigned n_around;
 } element_product;
 

@@ -2,8 +2,8 @@
  * elements, Journal of Computational Physics 233, 2013.
  *
  * Reference elements are products of simplices. A coefficient is named by exponents, one for each
- * vertex of each factor; those of a factor sum up to its degree. So one product formula, and one
- * bisection of an edge of a factor, do for all shapes. */
+ * vertex of each factor. The exponents of a factor sum up to its degree. So one product formula, and
+ * one bisection of an edge of a factor, are enough for all shapes. */
 #include "mesh/element_plan.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static size_t factor_of(const element_plan *p, size_t exponent)
     return f;
 }
 
-/* Whether the exponents of each factor sum up to its degree. */
+/* True if the exponents of each factor sum up to its degree. */
 static bool fits(const element_plan *p, const unsigned *degrees, const exponents e)
 {
     unsigned sums[3] = {0, 0, 0};
@@ -90,7 +90,7 @@ static void add_corner(const element_plan *p, unsigned corner, exponents e)
         e[p->first[f] + p->product->corners[corner][f]]++;
 }
 
-/* Where a node lies: at a corner, or between two. */
+/* The place of a node: at a corner, or between two. */
 static void place_of(const element_plan *p, size_t node, exponents e)
 {
     size_t n_corners = p->product->n_corners;
@@ -105,8 +105,8 @@ static void place_of(const element_plan *p, size_t node, exponents e)
         add_corner(p, b, e);
 }
 
-/* The place that agrees with e but for the factors of `changed` (by bits), where it is that end of
- * the edge which `ends` says. */
+/* The place that differs from e in the factors of `changed` (a set of bits). In each of these it is
+ * the end of the edge that `ends` tells. */
 static void move_to_ends(const element_plan *p, const exponents e, unsigned changed, unsigned ends,
                          exponents out)
 {
@@ -119,7 +119,7 @@ static void move_to_ends(const element_plan *p, const exponents e, unsigned chan
     }
 }
 
-/* Which factors e lies in the middle of an edge of. */
+/* The set of factors in which e is the middle of an edge. */
 static unsigned middles_of(const element_plan *p, const exponents e)
 {
     unsigned set = 0;
@@ -145,8 +145,8 @@ static size_t node_at(const element_plan *p, const exponents e)
     return node;
 }
 
-/* Adds `share` of the element's point at a place. Where there is no node, in the middle of faces and
- * of the body, it follows from edges and corners (serendipity). */
+/* Adds `share` of the element's point at a place. Without a node there, in the middle of faces and of
+ * the body, the point follows from edges and corners (serendipity). */
 static void add_place(const element_plan *p, const exponents e, double share, double *row)
 {
     size_t node = node_at(p, e);
@@ -196,7 +196,7 @@ static void direction_of(const element_plan *p, size_t k, size_t *from, size_t *
     *to = p->first[f] + 1 + (k - seen);
 }
 
-/* The derivative along direction k, but for a positive factor: differences of control points. */
+/* The derivative along direction k, up to a positive factor, as differences of control points. */
 static bool make_rows(element_plan *p, size_t k, lattice *l)
 {
     size_t from, to;
@@ -219,7 +219,7 @@ static bool make_rows(element_plan *p, size_t k, lattice *l)
     return p->rows[k] != NULL;
 }
 
-/* The product of three polynomials, or in the plane of two: l[0..dim) are the places of their
+/* The product of three polynomials, or of two in the plane. l[0..dim) are the places of their
  * coefficients. */
 static bool make_terms(element_plan *p, const lattice *l, const lattice *all)
 {
@@ -247,7 +247,7 @@ static bool make_terms(element_plan *p, const lattice *l, const lattice *all)
     return true;
 }
 
-/* The lines along the edge between two vertices of a factor. */
+/* The lines of coefficients along the edge between two vertices of a factor. */
 static bool make_lines(element_plan *p, const lattice *all, size_t from, size_t to)
 {
     size_t pair = p->n_pairs++;
@@ -305,9 +305,9 @@ static bool make_bernstein(element_plan *p, lattice l[4])
     return p->work != NULL && make_terms(p, l, &l[3]) && make_all_lines(p, &l[3]);
 }
 
-/* The signs at the corners decide all of linear simplices, of quadrilaterals, where the determinant
- * is linear along each side, and of pyramids: points go straight from the base to the apex, so that
- * it is that of the base, which is linear along each side, times a positive number. */
+/* The signs at the corners decide for linear simplices. They decide for quadrilaterals, because the
+ * determinant is linear along each side. They decide for pyramids, because points go straight from the
+ * base to the apex, so the determinant is that of the base times a positive number. */
 bool element_corners_decide(const element_kind *k)
 {
     return k->degree == 1 && k->shape != SHAPE_CUBE && k->shape != SHAPE_PRISM;

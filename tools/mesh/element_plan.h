@@ -1,5 +1,5 @@
-/* What is known of the elements of one kind before any is looked at: how the Bernstein coefficients
- * of the Jacobian determinant follow from the nodes, and how they are subdivided. */
+/* Plans for the elements of one kind: how the Bernstein coefficients of the Jacobian determinant
+ * follow from the nodes, and how they are subdivided. */
 #ifndef ELEMENT_PLAN_H
 #define ELEMENT_PLAN_H
 
@@ -10,8 +10,8 @@
 /* Exponents of three factors with two vertices each, or of fewer with more. */
 enum { N_EXPONENTS = 6, MOST_ROWS = 18, MOST_PAIRS = 6, MOST_DEGREE = 5 };
 
-/* How far an element is subdivided: bisections in a row, and parts in all. More of either decides
- * only elements whose determinant is next to 0 somewhere. */
+/* Limits of subdivision: bisections in a row, and parts in all. Larger limits decide only elements
+ * whose determinant is nearly 0 somewhere. */
 enum { DEEPEST = 24, MOST_PARTS = 256 };
 
 /* Coefficient `to` gets `weight` times the determinant of rows a, b, c of the three derivatives. */
@@ -20,7 +20,7 @@ typedef struct term {
     double weight;
 } term;
 
-/* The coefficients along an edge of a factor, all others being the same: n + 1 of them. */
+/* The n + 1 coefficients along an edge of a factor, whose other exponents are the same. */
 typedef struct bernstein_line {
     unsigned short n, at[MOST_DEGREE + 1];
 } bernstein_line;
@@ -42,7 +42,7 @@ struct element_plan {
     double *work; /* (DEEPEST + 2) * 2 * n_coefficients: lower and upper bounds */
 };
 
-/* Whether the signs at the corners decide all; then there are no coefficients. */
+/* True if the signs at the corners decide alone. Then a plan has no coefficients. */
 bool element_corners_decide(const element_kind *k);
 
 #endif

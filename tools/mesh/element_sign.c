@@ -28,8 +28,8 @@ static void take_nodes(const element_plan *p, const double *points, const uint32
             x[i][k] = ldexp(x[i][k], -exponent);
 }
 
-/* A sum of shares that add up to 0, from differences to the first node that has one; and the sum of
- * their sizes. */
+/* Sums up the nodes with shares that add up to 0, as differences from the first node that has a share.
+ * Also sums up the sizes of the parts. */
 static void combine(const element_plan *p, const double *row, double x[ELEMENT_MOST_NODES][3],
                     int exponent, double v[3], double size[3])
 {
@@ -61,7 +61,7 @@ static double permanent(size_t dim, const double *a, const double *b, const doub
                           a[2] * (b[0] * c[1] + b[1] * c[0]);
 }
 
-/* How much differences are to be scaled up so that the largest is about 1. */
+/* The exponent by which differences are scaled up, so the largest is about 1. */
 static int scale_of(const element_plan *p, double x[ELEMENT_MOST_NODES][3])
 {
     double size = 0;
@@ -73,11 +73,11 @@ static int scale_of(const element_plan *p, double x[ELEMENT_MOST_NODES][3])
     return -exponent;
 }
 
-/* Lower and upper bounds of the determinant's coefficients, times `sign`. With the unit roundoff u,
- * a share of a row is off by at most n_nodes + 2 times u of its size, since shares are exact and the
- * differences, products and sums are rounded; a product of three by so much for each of them, and
- * 8 more for itself; its weight by 30; and a sum of N by N more. That is doubled for what is of
- * higher order, and the smallest number is for what underflows. */
+/* Lower and upper bounds of the determinant's coefficients, times `sign`. Errors are counted in units
+ * of u, the unit roundoff, times the size. A combination of nodes is off by at most n_nodes + 2,
+ * because shares are exact, and differences, products and sums are rounded. A product of three is
+ * off by that much for each of them and 8 more, its weight by 30, and a sum of N products by N more.
+ * The count is doubled for terms of higher order, and `underflow` is added. */
 static void bound(element_plan *p, double x[ELEMENT_MOST_NODES][3], int sign)
 {
     const double unit = DBL_EPSILON / 2, underflow = 1e-280;
@@ -130,8 +130,8 @@ static void bisect(const element_plan *p, size_t pair, double way, const double 
     }
 }
 
-/* What the bounds say of a part. Where all coefficients are at least 0 and the corners above, the
- * determinant is above 0: each face of the part has a corner. */
+/* Judges a part by its bounds. If all coefficients are at least 0 and those at corners are above 0, the
+ * determinant is above 0, because each face of the part has a corner. */
 static element_sign judge(const element_plan *p, const double *bounds, bool *stuck)
 {
     const double *lower = bounds, *upper = bounds + p->n_coefficients;
@@ -183,7 +183,7 @@ static int sign_at(const element_plan *p, double x[ELEMENT_MOST_NODES][3], size_
                        : orientation_3d(x[at[0]], x[at[1]], x[at[2]], x[at[3]]);
 }
 
-/* Exact signs at the corners first: one that is not as it should be decides. */
+/* Looks at exact signs at the corners first, because one wrong sign decides. */
 static element_sign decide(element_plan *p, double x[ELEMENT_MOST_NODES][3], int sign)
 {
     const double least = 0x1p-700; /* what an exact positive sign proves, scaled as in bound() */

@@ -1,5 +1,5 @@
-/* Whether an element is the right way round everywhere: the sign of the Jacobian determinant of the
- * map from the reference element, proved, not sampled. */
+/* Proves, and does not sample, the sign of the Jacobian determinant of the map from the reference
+ * element, and so whether an element is inverted anywhere. */
 #ifndef ELEMENT_SIGN_H
 #define ELEMENT_SIGN_H
 
@@ -8,22 +8,22 @@
 typedef enum element_sign {
     ELEMENT_UNDECIDED,
     ELEMENT_POSITIVE, /* the determinant has the sign that was asked for, everywhere */
-    ELEMENT_INVERTED  /* somewhere it is 0 or has the other */
+    ELEMENT_INVERTED  /* somewhere it is 0 or has the other sign */
 } element_sign;
 
-/* What is needed for the elements of one kind, with room to work. NULL: there is no memory. */
+/* A plan for the elements of one kind, with room to work. NULL: there is no memory. */
 typedef struct element_plan element_plan;
 element_plan *element_plan_make(const element_kind *kind);
 void element_plan_free(element_plan *p);
 
 /* The sign of an element whose dimension is that of the points. With `sign` -1 the determinant
- * shall be negative everywhere. All points are finite. Signs at the corners of linear elements are
- * exact unless some coordinates differ by more than a factor 2^180; the rest is bounds that count
- * every rounding. */
+ * must be negative everywhere. All points are finite. Signs at the corners of linear elements are
+ * exact unless some coordinates differ by more than a factor 2^180. All else rests on bounds that
+ * count every rounding. */
 element_sign element_sign_of(element_plan *p, const double *points, const uint32_t *nodes,
                              int sign);
 
-/* Which sign an element has everywhere: 1, -1, or 0 if that is not proved of either. */
+/* The sign that an element is proved to have everywhere: 1, -1, or 0 if neither is proved. */
 int element_orientation(element_plan *p, const double *points, const uint32_t *nodes);
 
 #endif

@@ -1,5 +1,5 @@
-/* Binary glTF: where the positions and indices of its meshes lie in the file, what nodes do to them, and
- * what is attached to them. */
+/* Binary glTF: where the positions and indices of its meshes lie in the file, how nodes place them, and
+ * which normals, tangents and morph targets they have. */
 #ifndef GLB_H
 #define GLB_H
 
@@ -14,7 +14,7 @@ typedef struct glb_items {
     size_t at, n, size, stride;
 } glb_items;
 
-/* What an accessor holds: whole numbers, or three or four floats an item. */
+/* The items of an accessor: whole numbers, or three or four floats each. */
 typedef enum glb_kind { GLB_INDICES, GLB_THREE, GLB_FOUR } glb_kind;
 
 /* An accessor that holds positions, and the number of its first vertex. */
@@ -23,8 +23,8 @@ typedef struct glb_positions {
     glb_items items;
 } glb_positions;
 
-/* What is attached to positions: directions, and displacements by a morph target of places and of
- * directions. */
+/* What a vertex has beside its position: directions, and a morph target's displacements of its position
+ * and of its directions. */
 typedef enum glb_use {
     GLB_NORMAL,
     GLB_TANGENT,
@@ -35,11 +35,11 @@ typedef enum glb_use {
 
 typedef struct glb_vectors {
     glb_use use;
-    size_t accessor, set; /* set: whose vertices */
-    size_t base,
-        morph;   /* of a target's directions: the accessors of what they are added to and of its
-                             places, or SIZE_MAX */
-    bool shared; /* by others, whose images may be different */
+    size_t accessor;
+    size_t set;   /* the positions that it belongs to */
+    size_t base;  /* for a target's directions: the accessor that they are added to, or SIZE_MAX */
+    size_t morph; /* for a target's directions: the accessor of its displacements, or SIZE_MAX */
+    bool shared;  /* others use the same accessor, and their images may differ */
     glb_items items;
 } glb_vectors;
 
@@ -59,23 +59,24 @@ typedef struct glb {
 bool glb_open(glb *out, const char *text, size_t n, problem *wrong);
 void glb_close(glb *g);
 
-/* The items of the accessor that `index` names, which is for `of`. */
+/* Finds the items of the accessor that `index` names. `of` is its use, for messages. */
 bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind kind,
                     size_t *accessor, glb_items *out, problem *wrong);
 
-/* What nodes do to each set of positions: n_sets of 12 numbers (affine_map.h), to be freed. NULL: see `wrong`. */
+/* The affine map (affine_map.h) by which nodes place each of the n_sets sets of positions. free() them.
+ * NULL: see `wrong`. */
 double (*glb_find_places(const glb *g, problem *wrong))[12];
 
-/* All that is attached, to be freed; those of directions that are not floats, or not as many as the
- * vertices, set *other and are left out. NULL, and *n is not 0: see `wrong`. */
+/* Finds all vectors; free() them. Directions that are not floats, or not one for each vertex, are left
+ * out and set *other. NULL while *n is not 0: see `wrong`. */
 glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wrong);
 
-/* Whether positions, and n of what is attached to them, can be written in a text of that length without
- * changing one another or indices. */
+/* True if positions, and n of their vectors, can be written in a text of that length without changing
+ * one another or indices. */
 bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors,
                   problem *wrong);
 
-/* Whether something is skinned, and whether nodes are animated. */
+/* True if a mesh is skinned, and if nodes are animated. */
 bool glb_has_skins(const glb *g);
 bool glb_has_animations(const glb *g);
 

@@ -1,7 +1,7 @@
-/* What the nodes of a glTF scene do to its meshes.
+/* Finds how the nodes of a glTF scene place its meshes.
  *
- * Khronos Group, glTF 2.0 Specification, 2021: section 3.5.3 (transformations), 3.7.3 (skins: a node does
- * not move its mesh where joints do). */
+ * Khronos Group, glTF 2.0 Specification, 2021: section 3.5.3 (transformations), 3.7.3 (skins: joints
+ * move a skinned mesh, and its node does not). */
 #include "mesh/glb.h"
 
 #include "base/allocate.h"
@@ -18,7 +18,7 @@ typedef struct node {
     const cJSON *json;
     size_t parent;      /* or SIZE_MAX */
     size_t below;       /* while parents are looked for: the node that asked */
-    double matrix[12];  /* its own; once `placed`, of all above it as well */
+    double matrix[12];  /* its own; once `placed`, composed with those of all nodes above it */
     bool placed, asked; /* asked: on the way up */
 } node;
 
@@ -37,7 +37,7 @@ static const char *name_of(char out[32], const node *x)
 
 /* ---------------------------------------------------------------- matrices */
 
-/* A list of n numbers of a node; `values` stay as they are when it is not there. */
+/* Reads a list of n numbers of a node. Without the list `values` stay as they are. */
 static bool take_numbers(const cJSON *json, size_t index, const char *name, size_t n,
                          double *values, problem *wrong)
 {
@@ -47,7 +47,7 @@ static bool take_numbers(const cJSON *json, size_t index, const char *name, size
     return list == NULL || json_reals(list, where, n, values, wrong);
 }
 
-/* By columns; the last row must be 0 0 0 1. */
+/* Reads a matrix, which is stored by columns. Its last row must be 0 0 0 1. */
 static bool read_matrix(node *x, size_t index, problem *wrong)
 {
     double m[16] = {0};
@@ -60,7 +60,7 @@ static bool read_matrix(node *x, size_t index, problem *wrong)
     return true;
 }
 
-/* First scaled, then turned by a quaternion, then moved. */
+/* Reads a transformation in parts: first a scale, then a quaternion, then a translation. */
 static bool read_parts(node *x, size_t index, problem *wrong)
 {
     double move[3] = {0, 0, 0}, q[4] = {0, 0, 0, 1}, scale[3] = {1, 1, 1};
@@ -112,7 +112,7 @@ static bool read_nodes(scene *s, const cJSON *json, problem *wrong)
     return true;
 }
 
-/* Gives a node what all above it do: up to one that has it, and down again. */
+/* Composes the matrix of a node with those above it: goes up to a placed node, and down again. */
 static bool place(scene *s, size_t index, problem *wrong)
 {
     size_t at = index, below = SIZE_MAX;
@@ -135,7 +135,7 @@ static bool place(scene *s, size_t index, problem *wrong)
     return true;
 }
 
-/* Joints, not the node, move a mesh that has them. */
+/* Finds how a node places its mesh. It does not move a mesh that has joints. */
 static bool place_mesh(scene *s, size_t index, double out[12], problem *wrong)
 {
     const node *x = &s->nodes[index];
@@ -150,7 +150,7 @@ static bool place_mesh(scene *s, size_t index, double out[12], problem *wrong)
                       index, name_of(shown, x));
     memcpy(out, x->matrix, sizeof x->matrix);
     if (json_get(x->json, "skin") != NULL)
-        affine_none(out);
+        affine_identity(out);
     return affine_invert(back, out) ||
            spoilt(wrong, 0,
                   "nodes[%zu] ('%s') flattens its mesh, so there is no way back from the scene to "
@@ -168,7 +168,7 @@ static bool is_same(const double a[12], const double b[12])
     return true;
 }
 
-/* Several nodes that draw one mesh must do the same to it. */
+/* Places all meshes. Several nodes that draw one mesh must place it alike. */
 static bool place_meshes(scene *s, problem *wrong)
 {
     for (size_t i = 0; i < s->n; i++) {
@@ -195,7 +195,7 @@ static bool place_meshes(scene *s, problem *wrong)
     return true;
 }
 
-/* The positions of a mesh that is drawn are where its node places them. Two meshes may have the same. */
+/* Places the positions of each mesh that is drawn. Two meshes may share positions. */
 static bool place_sets(const glb *g, const scene *s, double (*out)[12], problem *wrong)
 {
     size_t which = 0, *seen = need(g->n_sets, sizeof *seen);
@@ -233,7 +233,7 @@ double (*glb_find_places(const glb *g, problem *wrong))[12]
     for (size_t i = 0; i < n_meshes; i++)
         s.users[i] = SIZE_MAX;
     for (size_t i = 0; i < g->n_sets; i++)
-        affine_none(out[i]);
+        affine_identity(out[i]);
     bool good = read_nodes(&s, json_get(g->json, "nodes"), wrong) && place_meshes(&s, wrong) &&
                 place_sets(g, &s, out, wrong);
     free(s.nodes);

@@ -1,9 +1,9 @@
-/* What is attached to the positions of a binary glTF file: normals, tangents and morph targets, and how
- * they follow a map.
+/* Carries the normals, tangents and morph targets of a binary glTF file along with its positions.
  *
  * Khronos Group, glTF 2.0 Specification, 2021: section 3.7.2 (meshes). A morph target displaces a vertex
  * by d, so its image displaces the vertex's image by map(p + d) - map(p). Normals turn by the inverse
- * transpose of the derivative, tangents by the derivative. All in the scene, where nodes have placed them. */
+ * transpose of the derivative, tangents by the derivative. The map acts in the scene, where nodes have
+ * placed the meshes. */
 #include "mesh/mesh_carry.h"
 
 #include "base/allocate.h"
@@ -30,7 +30,8 @@ typedef struct finder {
     problem *wrong;
 } finder;
 
-/* Directions that cannot be read stay; a displacement would be wrong then. */
+/* Adds vectors to the list. Directions that cannot be read stay, but for displacements that would be
+ * wrong, so these are refused. */
 static bool find(finder *f, const cJSON *index, glb_vectors v)
 {
     static const char *const names[] = {"NORMAL", "TANGENT", "a morph target's POSITION",
@@ -70,7 +71,7 @@ static size_t number_of(const cJSON *index)
     return cJSON_IsNumber(index) && index->valuedouble >= 0 ? (size_t)index->valuedouble : SIZE_MAX;
 }
 
-/* An accessor of zeros has no bytes. */
+/* NULL for an accessor of zeros, which has no bytes. */
 static const cJSON *with_bytes(const glb *g, const cJSON *index)
 {
     size_t i = number_of(index);
@@ -128,8 +129,8 @@ glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wro
 
 /* ------------------------------------------------------------------- apart */
 
-/* Marks bytes that will be written. None may belong to two accessors, which would need other numbers
- * there. */
+/* Marks bytes that will be written. No byte may belong to two accessors, because they would need
+ * different numbers there. */
 static bool claim(bool *taken, size_t accessor, const glb_items *items, problem *wrong)
 {
     for (size_t i = 0; i < items->n; i++)
@@ -145,7 +146,7 @@ static bool claim(bool *taken, size_t accessor, const glb_items *items, problem 
     return true;
 }
 
-/* Indices stay: what is written must leave them alone. `before`: how many bytes before each one will be
+/* Checks that no byte of indices will be written. before[i] counts the bytes before byte i that will be
  * written. */
 static bool leaves_indices(const glb *g, const uint32_t *before, problem *wrong)
 {
@@ -231,8 +232,8 @@ static bool is_finite(const double v[3])
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
 }
 
-/* The points of a list of vertices, each displaced if there is a target, and where they are mapped. Only
- * the first coordinates of the file are mapped in the plane. */
+/* The points of a list of vertices, each displaced if there is a target, and their images. In the plane
+ * only the first two coordinates of the file are mapped. */
 typedef struct spots {
     size_t n;
     size_t *vertices;    /* of the set */
@@ -281,7 +282,7 @@ static void find_point(const carrier *c, size_t set, size_t i, const double *d, 
         memcpy(out, own, dim * sizeof *out);
 }
 
-/* Displacements: those that are zero stay zero. */
+/* Carries displacements. Those that are zero stay zero. */
 static bool carry_morph(carrier *c, const glb_vectors *v)
 {
     const glb_positions *positions = &c->g->sets[v->set];
@@ -328,16 +329,22 @@ static bool carry_morph(carrier *c, const glb_vectors *v)
     return good;
 }
 
-/* A direction of the file becomes one of the scene, and an image of the scene one of the file. */
+/* A direction of the file in the scene, whatever its length. */
+static void find_direction(const mesh_place *place, bool normal, const double own[3], double out[3])
+{
+    memcpy(out, own, 3 * sizeof *out);
+    if (place != NULL && normal)
+        affine_turn_back(out, place->in, own);
+    else if (place != NULL)
+        affine_turn(out, place->out, own);
+}
+
+/* The image of a direction of the file, which the scene's derivative turns in the scene. */
 static bool turn(double out[3], const mesh_place *place, bool normal, const double derivative[12],
                  const double own[3])
 {
     double scene[3], image[3];
-    memcpy(scene, own, sizeof scene);
-    if (place != NULL && normal)
-        affine_turn_back(scene, place->in, own);
-    else if (place != NULL)
-        affine_turn(scene, place->out, own);
+    find_direction(place, normal, own, scene);
     if (!normal)
         affine_turn(image, derivative, scene);
     else if (!affine_turn_normal(image, derivative, scene))
@@ -350,7 +357,7 @@ static bool turn(double out[3], const mesh_place *place, bool normal, const doub
     return affine_set_length(out, affine_length(own));
 }
 
-/* The direction of vertex i as v has it, displaced by a target's. False: none is there to be turned. */
+/* The direction of vertex i; for a target's, added to its base. False: it is zero or not finite. */
 static bool take_direction(const carrier *c, const glb_vectors *v, size_t i, double out[3])
 {
     take(out, c->m->text, &v->items, i);
@@ -363,18 +370,8 @@ static bool take_direction(const carrier *c, const glb_vectors *v, size_t i, dou
     return is_finite(out) && !is_zero(out);
 }
 
-/* A direction in the scene, whatever its length. */
-static void find_direction(const mesh_place *place, bool normal, const double own[3], double out[3])
-{
-    memcpy(out, own, 3 * sizeof *out);
-    if (place != NULL && normal)
-        affine_turn_back(out, place->in, own);
-    else if (place != NULL)
-        affine_turn(out, place->out, own);
-}
-
-/* Directions at the vertices, or where a target has them. A target's are written as differences to the
- * images of those that they are added to, which have been written before. */
+/* Carries directions at the vertices, or at a target's displaced ones. A target's are written as
+ * differences from the images of their base, which has been written before. */
 static bool carry_directions(carrier *c, const glb_vectors *v)
 {
     const mesh_place *place = glb_place(c->m, c->g->sets[v->set].first);
@@ -417,7 +414,7 @@ static bool carry_directions(carrier *c, const glb_vectors *v)
     return good;
 }
 
-/* What is shared, or added to something that is not read, stays. */
+/* False for directions that stay: they are shared, or their base or displacements were not read. */
 static bool is_read(const carrier *c, const glb_vectors *v)
 {
     bool target = v->use == GLB_MORPH_NORMAL || v->use == GLB_MORPH_TANGENT;
@@ -461,7 +458,7 @@ bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh
     glb g;
     size_t n;
     problem none;
-    glb_open(&g, m->text, m->n_text, &none); /* as it has been before */
+    glb_open(&g, m->text, m->n_text, &none); /* it was opened before, so it cannot fail */
     glb_vectors *vectors = glb_find_vectors(&g, &n, &out->other, wrong);
     carrier c = {.m = m,
                  .g = &g,

@@ -1,5 +1,5 @@
-/* Writing a binary glTF file with other positions: they go back through the nodes that place them, and
- * the JSON follows them with their bounds. */
+/* Writes a binary glTF file with other positions. They go back through the nodes that place them, and
+ * their bounds in the JSON are updated. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -20,7 +20,7 @@ static bool is_same(size_t dim, const double *a, const double *b)
     return true;
 }
 
-/* Where a point is in the file. */
+/* Takes a point of the scene to its coordinates in the file. */
 static void take_in(double out[3], const mesh_file *m, const mesh_place *place, const double *point)
 {
     if (place != NULL)
@@ -29,7 +29,7 @@ static void take_in(double out[3], const mesh_file *m, const mesh_place *place, 
         memcpy(out, point, m->dim * sizeof *point);
 }
 
-/* Rounds what is in the file. Points that have not moved are as they were read. */
+/* Rounds a point's coordinates in the file to floats. A point that has not moved stays as it was read. */
 static bool round_point(const mesh_file *m, const mesh_place *place, size_t i, double *point)
 {
     double own[3];
@@ -78,7 +78,7 @@ static void put_positions(char *text, const mesh_file *m, const glb_positions *s
     }
 }
 
-/* The least and the greatest of each of n coordinates, in a JSON that has them. */
+/* Sets the bounds of an accessor to the least and the greatest of each coordinate. */
 static void set_bounds(cJSON *accessor, const char *text, const glb_items *items)
 {
     static const char *const names[] = {"min", "max"};
@@ -96,8 +96,7 @@ static void set_bounds(cJSON *accessor, const char *text, const glb_items *items
     }
 }
 
-/* The bounds of positions, and where they are stated those of what is attached to them, if that has been
- * carried. */
+/* Updates the bounds of positions, and of vectors that were carried and whose bounds are stated. */
 static void update_bounds(const mesh_file *m, const glb *g, const char *text)
 {
     problem none;

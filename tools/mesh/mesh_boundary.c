@@ -7,7 +7,7 @@
 
 typedef struct facet {
     uint32_t sorted[3]; /* in the plane the last is 0 */
-    uint32_t corner;    /* of its element, which is not on it */
+    uint32_t corner;    /* the corner of its element that it lacks */
     size_t element;
 } facet;
 

@@ -9,16 +9,16 @@
 typedef struct mesh_boundary {
     size_t n, dim;
     uint32_t *facets; /* n * dim vertices, in the order in which their elements list them */
-    size_t *elements; /* whose facet each is, ascending */
+    size_t *elements; /* the element of each facet, ascending */
     size_t n_shared;  /* facets that more than two elements have */
 } mesh_boundary;
 
-/* Facets as edges (a, b), (b, c), (c, a) of triangles, and as faces of tetrahedra that look outward
- * where the determinant of b - a, c - a, d - a is positive. Sorts, so the time is n log n. */
+/* Finds edges (a, b), (b, c), (c, a) of triangles, or faces of tetrahedra. Faces look outwards if the
+ * determinant of b - a, c - a, d - a is positive. Sorts, so the time is n log n. */
 void mesh_boundary_find(mesh_boundary *out, size_t dim, size_t n, const uint32_t *elements);
 void mesh_boundary_free(mesh_boundary *b);
 
-/* Which of n vertices are on it; to be freed. */
+/* Tells for each of n vertices whether it is on the boundary. free() the result. */
 bool *mesh_boundary_vertices(const mesh_boundary *b, size_t n);
 
 #endif

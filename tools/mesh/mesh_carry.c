@@ -10,7 +10,7 @@
 
 bool carry_derivative(double out[12], size_t dim, const double *derivative)
 {
-    affine_none(out);
+    affine_identity(out);
     for (size_t i = 0; i < dim * dim; i++) {
         if (!isfinite(derivative[i]))
             return false;
@@ -21,7 +21,7 @@ bool carry_derivative(double out[12], size_t dim, const double *derivative)
 
 /* ------------------------------------------------------ normals of OBJ, PLY */
 
-/* Use k: which normal, of which vertex. False: the file has no such normal, or nothing is to be turned. */
+/* The normal and the vertex of use k. False: the file has no such normal, or it is zero. */
 static bool take_use(const mesh_normals *of, size_t k, size_t *normal, size_t *vertex)
 {
     *normal = of->uses[2 * k];
@@ -32,7 +32,7 @@ static bool take_use(const mesh_normals *of, size_t k, size_t *normal, size_t *v
     return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]) && affine_length(v) > 0;
 }
 
-/* The derivatives at all vertices that have normals; each is NaN where there is none. */
+/* The derivatives at all vertices that have normals, NaN at others. */
 static double *derive(const mesh_file *m, const mesh_mover *mover)
 {
     const mesh_normals *of = &m->vertex_normals;
@@ -75,8 +75,8 @@ static bool turn(double out[3], const mesh_file *m, const double *derivatives, s
            affine_set_length(out, 1);
 }
 
-/* A normal of several vertices becomes the mean of its images. `images`: 3 numbers each, 0 where there are
- * none. */
+/* A normal of several vertices becomes the mean of its images. `images` has 3 numbers for each normal,
+ * all 0 for a normal without an image. */
 static void turn_all(const mesh_file *m, const double *derivatives, double *images,
                      mesh_carried *out)
 {
@@ -121,9 +121,9 @@ static size_t print_span(const mesh_file *m, const double *image, size_t k, char
 typedef struct rewriter {
     char *text;
     size_t n, room;
-    const size_t *end; /* of the vertices' places in the text, ascending */
-    size_t *at;
-    size_t done; /* of the old text */
+    size_t *at;        /* the next place of a vertex in the text, ascending */
+    const size_t *end; /* the end of these places */
+    size_t done;       /* bytes of the old text that have been copied or replaced */
 } rewriter;
 
 static void add(rewriter *w, const char *text, size_t n)
@@ -133,7 +133,7 @@ static void add(rewriter *w, const char *text, size_t n)
     w->n += n;
 }
 
-/* Copies the old text up to a place, and takes along the places of vertices. */
+/* Copies the old text up to `end`, and moves the places of vertices with it. */
 static void copy_to(rewriter *w, const char *text, size_t end)
 {
     for (; w->at < w->end && *w->at <= end; w->at++)
@@ -142,7 +142,7 @@ static void copy_to(rewriter *w, const char *text, size_t end)
     w->done = end;
 }
 
-/* The text with new normals. Those without an image stay. */
+/* Writes new normals into the text. Those without an image stay. */
 static void rewrite(mesh_file *m, const double *images)
 {
     const mesh_normals *of = &m->vertex_normals;
@@ -195,7 +195,7 @@ static bool carry_normals(mesh_file *m, const mesh_mover *mover, mesh_carried *o
 
 /* ---------------------------------------------------------------------- all */
 
-/* Whether a line begins with a word. */
+/* True if a line begins with a word. */
 static bool has_line(const mesh_file *m, const char *word)
 {
     size_t n = strlen(word);
@@ -206,8 +206,8 @@ static bool has_line(const mesh_file *m, const char *word)
     return false;
 }
 
-/* Normals that no reader takes: of VTK and Medit; of PLY, if they are whole numbers; of OBJ, if no face
- * has them. */
+/* True if the file has normals that no reader takes: those of VTK and Medit, whole numbers in PLY, and
+ * normals of OBJ that no face uses. */
 static bool has_others(const mesh_file *m)
 {
     const mesh_normals *of = &m->vertex_normals;

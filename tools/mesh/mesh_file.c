@@ -187,7 +187,7 @@ static void write_rest(const mesh_file *m, const double *points, size_t done, FI
     fwrite(m->text + done, 1, m->n_text - done, stream);
 }
 
-/* The file goes out as it came in, but for the types and the spans. */
+/* The file goes out as it came in, except for the types and the spans. */
 void mesh_write(const mesh_file *m, const double *points, FILE *stream)
 {
     size_t done = 0;

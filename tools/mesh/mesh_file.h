@@ -23,16 +23,16 @@ typedef enum mesh_form {
 /* Normals of vertices, each in one span or in three. */
 typedef struct mesh_normals {
     size_t n, n_uses;
-    double *values; /* 3 n; not finite: not read, and left alone */
-    size_t *spans;  /* 2 n n_spans, ascending: where in the text */
-    size_t n_spans;
+    double *values;         /* 3 n; a normal that is not finite was not read, and stays */
+    size_t *spans;          /* 2 n n_spans, ascending: where they stand in the text */
+    size_t n_spans;         /* of each normal */
     unsigned char order[3]; /* span k is of coordinate order[k] */
     size_t width;           /* in binary files: bytes of a number */
     uint32_t *uses;         /* pairs: a normal, and a vertex that has it */
     size_t room_values, room_spans, room_uses;
 } mesh_normals;
 
-/* Vertices from `first` on as a node of glTF places them, where it does. */
+/* Vertices from `first` on that a node of glTF places elsewhere. */
 typedef struct mesh_place {
     size_t first, n;
     double out[12], in[12]; /* affine_map.h: from the file to the scene, and back */
@@ -41,8 +41,8 @@ typedef struct mesh_place {
 typedef struct mesh_file {
     const char *text; /* borrowed, or `own` */
     size_t n_text;
-    char *own;    /* the text with what is attached to vertices replaced, or NULL */
-    bool carried; /* that has been done */
+    char *own;    /* a copy of the text with new normals and the like, or NULL */
+    bool carried; /* `own` has been made */
     size_t dim;
     size_t n_vertices;
     double *points;     /* n_vertices * dim */

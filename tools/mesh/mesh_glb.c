@@ -1,5 +1,5 @@
 /* The meshes of a binary glTF file, as one: the vertices as they stand in the file, the triangles of
- * one primitive behind another. Nodes place them: what is read is where the vertices are in the scene. */
+ * one primitive behind another. Vertices are read where nodes place them in the scene. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -40,10 +40,10 @@ static bool read_set(mesh_file *m, const char *text, const glb_positions *set,
     return true;
 }
 
-/* The place of a set whose node moves it; NULL: none does. */
+/* Adds the place of a set that its node moves. NULL: no node moves it. */
 static const mesh_place *find_place(mesh_file *m, const glb *g, size_t s, const double matrix[12])
 {
-    if (affine_is_none(matrix))
+    if (affine_is_identity(matrix))
         return NULL;
     mesh_place *place = &m->places[m->n_places++];
     *place = (mesh_place){.first = g->sets[s].first, .n = g->sets[s].items.n};

@@ -92,7 +92,7 @@ bool lines_vertex(lines *r)
     return true;
 }
 
-/* The element that was begun last gets one more node. */
+/* Adds a node to the last element. */
 static void add_node(mesh_file *m, uint32_t node)
 {
     size_t n = m->node_starts[m->n_elements];
@@ -101,7 +101,7 @@ static void add_node(mesh_file *m, uint32_t node)
     m->node_starts[m->n_elements]++;
 }
 
-/* An element without nodes. */
+/* Adds an element without nodes. */
 static void add_element(mesh_file *m, int kind)
 {
     size_t i = m->n_elements++;
@@ -112,7 +112,7 @@ static void add_element(mesh_file *m, int kind)
     m->node_starts[i + 1] = m->node_starts[i];
 }
 
-/* The next triangle of a face's fan. */
+/* Adds the next triangle of a face's fan. */
 static void add_triangle(lines *r)
 {
     mesh_file *m = r->mesh;
@@ -129,7 +129,7 @@ void lines_begin_face(lines *r)
     r->n_corners = 0;
 }
 
-/* One more corner of a fan. */
+/* Adds a corner to a fan. */
 static void fan(lines *r, uint32_t vertex)
 {
     r->corners[r->n_corners < 2 ? r->n_corners : 2] = vertex;

@@ -44,8 +44,8 @@ void lines_begin_face(lines *r);
 void lines_corner(lines *r, uint32_t vertex);
 bool lines_end_face(lines *r);
 
-/* An element of any kind with n nodes, of which all are vertices of the mesh; one in the plane with
- * straight sides is a face, too. False if a kind has another number of nodes. */
+/* Adds an element of any kind with n nodes, all vertices of the mesh. An element of dimension 2 with
+ * straight sides is a face, too. False if the kind has another number of nodes. */
 bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes);
 
 /* ---- the formats ---- */
@@ -58,8 +58,7 @@ bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
 bool mesh_read_glb(lines *r);
 
-/* For glTF: what a node does to the vertices from `first` on, or NULL. Rounds and writes as
- * mesh_round() and mesh_write(). */
+/* For glTF: the place of the vertices from `first` on, or NULL; and mesh_round() and mesh_write(). */
 const mesh_place *glb_place(const mesh_file *m, size_t first);
 bool glb_round(const mesh_file *m, double *points, size_t *beyond);
 void glb_write(const mesh_file *m, const double *points, FILE *stream);

@@ -33,9 +33,9 @@ static bool read_vertices(lines *r)
     return true;
 }
 
-/* A section of elements. `kind`: a number of VTK's, whose order of nodes is the same, but that the
- * last two nodes of quadratic tetrahedra may be exchanged. Where VTK's differs, the kind is one that
- * has no order, with `n_nodes` nodes. */
+/* A section of elements. `kind` is VTK's number for them, with the same order of nodes, but the last
+ * two nodes of quadratic tetrahedra may be exchanged. If VTK's order differs, it is a kind of which
+ * nothing is proved. */
 typedef struct section {
     const char *name;
     int kind;
@@ -58,7 +58,7 @@ static const section sections[] = {{"Dimension", 0, 0},
                                    {"PyramidsP2", ELEMENT_LAGRANGE_PYRAMID, 14}};
 enum { DIMENSION, VERTICES, ELEMENTS, N_SECTIONS = sizeof sections / sizeof *sections };
 
-/* How far a node is from the middle between two others, squared. */
+/* The squared distance of a node from the middle between two others. */
 static double off_middle(const mesh_file *m, uint32_t node, uint32_t a, uint32_t b)
 {
     double sum = 0;
@@ -70,8 +70,8 @@ static double off_middle(const mesh_file *m, uint32_t node, uint32_t a, uint32_t
     return sum;
 }
 
-/* Nodes 8 and 9 belong to the edges (1, 3) and (2, 3), or the other way round, as Gmsh writes them:
- * whichever they are nearer to. */
+/* Nodes 8 and 9 belong to the edges (1, 3) and (2, 3), or the other way round, as Gmsh writes them. The
+ * nearer assignment is taken. */
 static void settle_tetrahedron(const mesh_file *m, uint32_t nodes[10])
 {
     if (off_middle(m, nodes[9], nodes[1], nodes[3]) + off_middle(m, nodes[8], nodes[2], nodes[3]) <

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Three numbers. What is none is no error, since nothing needs it. */
+/* Reads the three numbers of a normal. A bad one is no error, because nothing needs it. */
 static void read_normal(lines *r)
 {
     mesh_file *m = r->mesh;
@@ -29,8 +29,8 @@ static void read_normal(lines *r)
     of->n++;
 }
 
-/* The normal of a corner, behind its second slash. Which of those counted from 1 there are, the end of
- * the file tells. */
+/* Notes the normal of a corner, behind its second slash. Whether a normal with a positive number
+ * exists is known at the end of the file only. */
 static void note_normal(lines *r, uint32_t vertex)
 {
     mesh_normals *of = &r->mesh->vertex_normals;

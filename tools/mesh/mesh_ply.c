@@ -183,7 +183,7 @@ static bool read_element(ply *p)
     return true;
 }
 
-/* Normals have three numbers of one type, or are carried along. */
+/* Normals stay as they are unless they have three numbers of one type. */
 static void check_normals(ply *p)
 {
     mesh_normals *of = &p->r->mesh->vertex_normals;
@@ -338,7 +338,7 @@ static bool read_coordinate(ply *p, const property *q, size_t k)
     return isfinite(*value) || spoilt(p->r->wrong, p->r->line, "vertex %zu is not finite", i);
 }
 
-/* A number of a normal, and where it stands; `k` counts those that have been read. */
+/* Reads number `k` of a normal, and keeps where it stands. */
 static bool read_normal(ply *p, const property *q, size_t k)
 {
     mesh_file *m = p->r->mesh;

@@ -47,7 +47,7 @@ static bool read_head(lines *r)
            spoilt(r->wrong, r->line, "'%s': an UNSTRUCTURED_GRID is read", quoted(shown, r->at));
 }
 
-/* Behind bytes a line begins, or ends. */
+/* Goes on in the line that begins after bytes. */
 static void go_on(lines *r)
 {
     if (r->mesh->form == MESH_BIG)
@@ -198,8 +198,8 @@ static bool begins_section(lines *r, const char *name)
     return !is_array(r) && lines_take(r, name);
 }
 
-/* What else there is (METADATA, CELL_DATA, POINT_DATA) is carried along. Bytes behind the types are
- * not looked at. */
+/* Other sections (METADATA, CELL_DATA, POINT_DATA) are carried along. Bytes behind the types are not
+ * looked at. */
 static bool read_sections(lines *r, cells *c)
 {
     bool binary = r->mesh->form == MESH_BIG;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* So many numbers are named on stderr; a report has them all. */
+/* How many numbers stderr names. A report has them all. */
 enum { MOST_NAMED = 10 };
 
 typedef enum fate {
@@ -91,7 +91,7 @@ static fate other_fate(const mesh_file *m, const double *images, const uint32_t 
     return after == ELEMENT_POSITIVE ? KEPT : after == ELEMENT_INVERTED ? INVERTED : UNDECIDED;
 }
 
-/* What became of one element, whose kind's plan is made when it is first needed. */
+/* The fate of one element. The plan of its kind is made when it is first needed. */
 static fate fate_of(const mesh_file *m, const double *images, size_t i, element_plan **plan)
 {
     const element_kind *k = element_kind_find(m->kinds[i]);
@@ -175,7 +175,7 @@ size_t tally_spoilt(const tally *t)
     return n;
 }
 
-/* In the plane larger faces with straight sides are there as triangles. */
+/* In the plane larger faces with straight sides are also kept as triangles. */
 static bool is_made_of_simplices(const element_kind *k)
 {
     return is_simplex(k) || k->shape == SHAPE_POLYGON ||
@@ -192,7 +192,7 @@ bool tally_is_simplicial(const mesh_file *m)
     return true;
 }
 
-/* Whether the boundary alone decides what becomes of an element. */
+/* True if the boundary alone decides the fate of an element. */
 static bool is_on_boundary(const tally *t, const mesh_file *m, size_t i)
 {
     if (t->on_boundary == NULL || !is_made_of_simplices(element_kind_find(m->kinds[i])))
@@ -221,7 +221,7 @@ static void print_kind(const tally_kind *k, char *text, size_t room)
                  k->without_image);
 }
 
-/* Elements of fewer dimensions, or of more, in one line. */
+/* Prints the elements of other dimensions in one line. */
 static bool print_carried(const tally *t, const mesh_file *m, char *text, size_t room)
 {
     size_t used = 0;
@@ -252,7 +252,7 @@ bool tally_line(const tally *t, const mesh_file *m, size_t i, char *text, size_t
 
 /* -------------------------------------------------------------------- report */
 
-/* The name of a kind as that of a member. */
+/* The name of a kind as a member of a JSON object. */
 static const char *member(char out[64], const element_kind *k)
 {
     size_t n = strcspn(k->many, "(");
@@ -263,7 +263,7 @@ static const char *member(char out[64], const element_kind *k)
     return out;
 }
 
-/* The numbers of elements of a kind, each counted from 0 within its kind. */
+/* Lists the numbers of elements of a kind, counted from 0 within the kind. */
 static void list_numbers(const tally *t, const mesh_file *m, const element_kind *kind,
                          const char *name, bool undecided, bool only_boundary, json *out)
 {
@@ -314,7 +314,7 @@ void tally_report(const tally *t, const mesh_file *m, json *out)
 
 /* ------------------------------------------------------------------ what is wrong */
 
-/* Why elements are not as they should be, by groups. */
+/* Groups of spoilt elements by their cause. */
 typedef enum group { ON_BOUNDARY, INNER, OPEN, N_GROUPS } group;
 
 static group group_of(const tally *t, const mesh_file *m, size_t i)
@@ -325,7 +325,7 @@ static group group_of(const tally *t, const mesh_file *m, size_t i)
                                                                  : INNER;
 }
 
-/* The first numbers of those of a group, and how many there are. */
+/* Writes the first numbers of a group's elements, and returns how many it has. */
 static size_t name_group(char *text, size_t room, const tally *t, const mesh_file *m,
                          const element_kind *kind, group wanted)
 {

@@ -1,4 +1,4 @@
-/* What became of the elements of a mesh, by proved signs, for each kind of element. */
+/* Counts what became of the elements of a mesh, by proved signs, for each kind of element. */
 #ifndef TALLY_H
 #define TALLY_H
 
@@ -6,10 +6,10 @@
 #include "mesh/element_kinds.h"
 #include "mesh/mesh_file.h"
 
-/* Elements of one kind, which has as many dimensions as the mesh. Triangles and tetrahedra have
- * exact signs, which stay, turn or vanish. Other elements are positive if their determinant has,
- * everywhere, the sign that it had everywhere before, inverted if somewhere it has not, or
- * undecided. Those that had no sign before count by themselves. */
+/* Counts of the elements of one kind, which has as many dimensions as the mesh. Triangles and
+ * tetrahedra have exact signs, which stay, turn or vanish. Other elements are positive if their
+ * determinant has everywhere the sign that it had everywhere before. They are inverted if it somewhere
+ * lacks that sign, otherwise undecided. Elements without a sign before count as flat_before. */
 typedef struct tally_kind {
     const element_kind *kind;
     size_t all, kept, inverted, collapsed, undecided, flat_before, without_image;
@@ -27,19 +27,19 @@ void tally_free(tally *t);
 /* How many elements are inverted, collapsed or undecided. */
 size_t tally_spoilt(const tally *t);
 
-/* Whether a certificate of the triangles, those of larger faces among them, or of the tetrahedra
- * speaks of all elements. */
+/* True if a certificate of the tetrahedra, or of the triangles, also those of larger faces, covers all
+ * elements. */
 bool tally_is_simplicial(const mesh_file *m);
 
-/* Line i of a text, without its end; false behind the last. The first is about triangles or
- * tetrahedra, if there are any. */
+/* Line i of the report as text, without its end. False: there is no such line. The first is about
+ * triangles or tetrahedra, if there are any. */
 bool tally_line(const tally *t, const mesh_file *m, size_t i, char *text, size_t room);
 
-/* Members of a report, one for each kind; they list the elements that are not as they should be. */
+/* Adds a member for each kind to a report, with the numbers of spoilt elements. */
 void tally_report(const tally *t, const mesh_file *m, json *out);
 
-/* Says on stderr which elements are not as they should be, by their numbers, and why. `name` is that
- * of the file, `inner` says why those with an inner corner are. Nothing if there are none. */
+/* Says on stderr which elements are spoilt, by their numbers, and why. `name` is that of the file, and
+ * `inner` is the reason for elements with an inner corner. Says nothing if no element is spoilt. */
 void tally_tell(const tally *t, const mesh_file *m, const char *name, const char *inner);
 
 #endif

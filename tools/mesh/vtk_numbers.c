@@ -43,7 +43,7 @@ void vtk_begin(lines *r)
         r->at = ++r->end;
 }
 
-/* Takes n bytes; what follows them is the rest of a line. */
+/* Takes n bytes. The rest of a line follows them. */
 static const char *take_bytes(lines *r, size_t n)
 {
     const char *bytes = r->at, *end = r->mesh->text + r->mesh->n_text;
@@ -55,7 +55,7 @@ static const char *take_bytes(lines *r, size_t n)
     return bytes;
 }
 
-/* Where a line ends is looked for when all numbers have been taken. */
+/* The end of the line is looked for when all numbers have been taken. */
 bool vtk_count(lines *r, size_t size, double limit, uint32_t *count)
 {
     if (is_text(r))
@@ -100,7 +100,7 @@ bool vtk_vertex(lines *r, size_t size)
     return true;
 }
 
-/* An array: its name, how many numbers an item has, how many items, their type; then the bytes. */
+/* Skips an array: its name, the numbers in an item, the items, and their type, then the bytes. */
 static bool skip_array(lines *r)
 {
     uint32_t n_components, n_items;

@@ -31,8 +31,8 @@ void plot_cage(const panel *p, const job *j);
 /* Numbers at places of the outlines that go together, where these were matched. */
 void plot_pairs(const panel *p, const job *j);
 
-/* Whether the shape is drawn with the triangles of the map: where it has them, or they are asked
- * for. Curves of its charts would not be those that it carries along. */
+/* True if the shape is drawn with the map's triangles, because the map has them or the user asks for
+ * them. The curves of its charts would not be the ones that such a map carries along. */
 bool shows_triangles(const stages *s, const job *j);
 
 /* Function as shades, tree, expansion edges, integral curves, maximum. */

@@ -142,17 +142,16 @@ static int write_boundary(const cage *c, const char *name, const char *format)
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* Arrays count rows first, pictures x. */
+/* Writes the boundary of a mask, and says that arrays count rows first but pictures x. */
 int check_write_boundary(check *c)
 {
     const cage *mask = &c->job.cages[0];
     const char *name = c->job.args->boundary;
     int result = write_boundary(mask, name, NULL);
     if (result == DONE && mask->dim == 2)
-        note(
-            "%s: the first coordinate is the row, axis 0 of the array, the second the column; as a "
-            "cage of a picture, for warp and pose, swap them: there x comes first",
-            name);
+        note("%s: the first coordinate is the row (axis 0 of the array), and the second is the "
+             "column; for warp and pose swap them, because in pictures x comes first",
+             name);
     else if (result == DONE)
         note("%s: x is axis 0 of the array%s", name,
              mask->dim == 3   ? ", y axis 1, z axis 2"

@@ -17,7 +17,7 @@ function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
-/** A polygon that is freed by the caller; what is wrong with it is that of the source or of the target, if that is its name. */
+/** A polygon that the caller frees. If its name is that of a side, errors are the fault of that side. */
 function polygonOf(Domain, name, shape) {
   if (typeof shape !== 'object' || shape === null)
     throw new TypeError(`${name} is ${shape}, but has to be a Domain or an outline`);

@@ -1,4 +1,4 @@
-// Points and numbers as callers have them, checked: what is no number never becomes a wrong one.
+// Checks points and numbers as callers have them. A value that is no number is refused.
 
 const show = (value) => (typeof value === 'string' ? `'${value}'` : typeof value === 'object' && value !== null
   ? `an object with ${Object.keys(value).slice(0, 4).join(', ') || 'no members'}` : String(value));
@@ -7,7 +7,7 @@ const isList = (value) => Array.isArray(value) || (ArrayBuffer.isView(value) && 
 const isPoint = (value) => typeof value === 'object' && value !== null && !isList(value) && 'x' in value && 'y' in value;
 const ofPoint = ({ x, y, z }) => (z === undefined ? [x, y] : [x, y, z]);
 
-/** The numbers of a list, or of a list of lists, one after the other; `what` they are is for messages. */
+/** The numbers of a list, or of a list of lists, one after the other. `what` names them in messages. */
 export function numbersOf(list, what = 'numbers') {
   if (ArrayBuffer.isView(list)) return list;
   const numbers = Array.isArray(list) ? list.flatMap((item) => (isList(item) ? Array.from(item) : [item])) : null;
@@ -32,7 +32,7 @@ export function flat(points, dim = 0) {
   return numbers;
 }
 
-/** The vertices of an outline in the plane, each once: the first may stand at the end again. */
+/** The vertices of an outline in the plane, each once. The list may repeat the first one at its end. */
 export function ring(points) {
   const p = flat(points, 2), n = p.length;
   return n > 6 && p[0] === p[n - 2] && p[1] === p[n - 1] ? p.subarray(0, n - 2) : p;

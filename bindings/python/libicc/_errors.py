@@ -106,7 +106,7 @@ _ERRORS = {
 
 @contextmanager
 def blaming(side: int) -> Iterator[None]:
-    """What goes wrong inside is the fault of the source (1) or of the target (2), which the message then says."""
+    """Errors raised within are the fault of the source (1) or of the target (2), and their messages say so."""
     name = ("source", "target")[side - 1]
     try:
         yield

@@ -147,8 +147,8 @@ pub struct icc_error {
 }
 sized!(icc_error);
 
-/// One unit of work handed to `icc_env.parallel_for`. You may run it in any floating-point environment; it leaves that as
-/// it was.
+/// One unit of work handed to `icc_env.parallel_for`. You may run it in any floating-point environment, and it leaves the
+/// environment as it was.
 pub type icc_task = Option<unsafe extern "C" fn(argument: *mut c_void, index: usize)>;
 
 /// How a call allocates, reports and runs in parallel.
