@@ -197,7 +197,7 @@ run 1 map -s square.txt -t dart.txt -m gradient --geojson --require certified fa
 run 0 check -s square.txt -t dart.txt --require certified
 run 1 check -s square.txt -t dart.txt --require certified -m gradient
 run 1 check -s cube.obj --require certified
-holds err 'no map or chart was asked for that could be certified'
+holds err 'there is no map or chart to certify'
 run 0 check -s cube.obj --require certified -m foliation
 run 2 check -s square.txt -t dart.txt --require exact
 says "it may be: certified"

@@ -19,7 +19,7 @@ npy() {
 { npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 2), }" && bytes 1 1 7 0 255 0; } >l.npy
 run 0 check -s l.npy --boundary l.txt
 holds out 'l.npy: a mask of 3 x 2 cells, 4 of them inside, in one piece without holes; its boundary: 20 vertices, 20 facets'
-holds err 'libicc: l.txt: the first coordinate is the row, axis 0 of the array, the second the column; as a cage of a picture'
+holds err 'libicc: l.txt: the first coordinate is the row (axis 0 of the array), and the second is the column'
 [ "$(wc -l <l.txt)" -eq 20 ] || complain "the boundary has not 20 vertices"
 awk '{ x[NR] = $1; y[NR] = $2 } END { for (i = 1; i <= NR; i++) { j = i % NR + 1; a += x[i] * y[j] - x[j] * y[i] }
        exit a != 8 }' l.txt || complain "the area of the boundary is not 4"
