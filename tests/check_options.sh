@@ -4,8 +4,8 @@
 # usage: check_options.sh CMAKE SOURCE_DIR WORK_DIR CC NM
 set -eu
 cmake=$1 source=$2 work=$3 cc=$4 nm=$5
-tests="unit/base/test_base unit/math/test_ordering unit/map/test_plmap unit/map/test_distortion
-    unit/kernel/test_handle_weights"
+tests="unit/base/test_base unit/math/test_ordering unit/map/compatible/test_plmap unit/map/test_distortion
+    unit/kernel/weights/test_handle_weights"
 mkdir -p "$work"
 
 run() {

@@ -2,7 +2,7 @@
 #ifndef TESTS_PLMAPS_H
 #define TESTS_PLMAPS_H
 
-#include "map/plmap.h"
+#include "map/compatible/plmap.h"
 #include "mesh/planar.h"
 
 #include "hard_shapes.h"

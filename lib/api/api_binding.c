@@ -1,7 +1,7 @@
 /* Argument checks of kernel coordinates: bindings and poses. */
 #include "api/check.h"
 #include "base/error.h"
-#include "kernel/pose.h"
+#include "kernel/pose/pose.h"
 
 #include <math.h>
 

@@ -6,8 +6,8 @@
 #include "domain/domain.h"
 #include "domain/features.h"
 #include "domain/mesh_domain.h"
-#include "domain/polygon_check.h"
-#include "domain/simplices.h"
+#include "geometry/polygon_check.h"
+#include "geometry/simplices.h"
 #include "fill/fill_domain.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "kernel/handle_weights.h"
+#include "kernel/weights/handle_weights.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "match/landmarks.h"
+#include "match/outline/landmarks.h"
 #include "match/match_apply.h"
 #include "match/match_file.h"
 

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "icc/kernel.h"
-#include "kernel/sampling.h"
-#include "kernel/sampling_file.h"
+#include "kernel/sampling/sampling.h"
+#include "kernel/sampling/sampling_file.h"
 
 #include <math.h>
 

@@ -4,19 +4,19 @@
 #include "base/options.h"
 #include "domain/domain.h"
 #include "domain/features.h"
-#include "function/critical_points.h"
-#include "function/edges.h"
-#include "function/make_function.h"
-#include "grid/grassfire.h"
-#include "grid/lattice.h"
-#include "grid/rasterise.h"
-#include "grid/refine.h"
+#include "gradient/function/critical_points.h"
+#include "gradient/function/edges.h"
+#include "gradient/function/make_function.h"
+#include "gradient/grid/grassfire.h"
+#include "gradient/grid/lattice.h"
+#include "gradient/grid/rasterise.h"
+#include "gradient/grid/refine.h"
 #include "icc/stages.h"
 #include "mesh/triangulate.h"
-#include "tree/cousin.h"
-#include "tree/grow.h"
-#include "tree/ranks.h"
-#include "tree/verify.h"
+#include "gradient/tree/cousin.h"
+#include "gradient/tree/grow.h"
+#include "gradient/tree/ranks.h"
+#include "gradient/tree/verify.h"
 
 #include <math.h>
 
@@ -416,7 +416,7 @@ icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
 /* ----------------------------------------------------------- triangulation */
 
 /* The points inside, in the polygon's local coordinates. Those within its bounding box are shifted
- * and scaled as exactly as its vertices (domain/frame.h). */
+ * and scaled as exactly as its vertices (geometry/frame.h). */
 static icc_status localise(double *local, const icc_domain *polygon, size_t n_points,
                            const double *points, icc_error *err)
 {

@@ -2,8 +2,8 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "map/picture_values.h"
-#include "map/warp.h"
+#include "map/picture/picture_values.h"
+#include "map/picture/warp.h"
 
 /* Reads a picture of the caller's version and refuses one whose pixels would not fit in memory:
  * below api/ every pixel of width * height is taken to be there. */

@@ -11,7 +11,7 @@
 #include "icc/icc.h"
 #include "mesh/planar.h"
 #include "shelling/leafn.h"
-#include "trace/path.h"
+#include "gradient/trace/path.h"
 
 /* Coordinates of one point. */
 typedef struct iccp_coords {

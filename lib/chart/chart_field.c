@@ -9,13 +9,13 @@
 #include "base/minmax.h"
 #include "chart/field_measure.h"
 #include "chart/field_state.h"
-#include "function/critical_points.h"
-#include "function/make_function.h"
-#include "grid/grassfire.h"
-#include "grid/rasterise.h"
+#include "gradient/function/critical_points.h"
+#include "gradient/function/make_function.h"
+#include "gradient/grid/grassfire.h"
+#include "gradient/grid/rasterise.h"
 #include "math/elementary.h"
-#include "tree/create_ranked.h"
-#include "tree/verify.h"
+#include "gradient/tree/create_ranked.h"
+#include "gradient/tree/verify.h"
 
 #include <math.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #define ICCP_CHART_FIELD_H
 
 #include "chart/chart.h"
-#include "function/function.h"
+#include "gradient/function/function.h"
 
 /* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the
  * options say, or NULL. */

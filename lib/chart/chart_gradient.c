@@ -7,13 +7,13 @@
 #include "chart/gradient_boundary.h"
 #include "chart/gradient_jet.h"
 #include "chart/gradient_measure.h"
-#include "function/critical_points.h"
-#include "function/edges.h"
-#include "function/make_function.h"
-#include "function/summit.h"
-#include "grid/grassfire.h"
-#include "grid/rasterise.h"
-#include "tree/verify.h"
+#include "gradient/function/critical_points.h"
+#include "gradient/function/edges.h"
+#include "gradient/function/make_function.h"
+#include "gradient/function/summit.h"
+#include "gradient/grid/grassfire.h"
+#include "gradient/grid/rasterise.h"
+#include "gradient/tree/verify.h"
 
 #include <math.h>
 #include <string.h>

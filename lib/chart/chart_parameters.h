@@ -4,7 +4,7 @@
 #define ICCP_CHART_PARAMETERS_H
 
 #include "chart/chart.h"
-#include "function/function.h"
+#include "gradient/function/function.h"
 
 /* Of eta and leaf: functions still look like themselves. */
 #define ICCP_MAX_SHARE 0.01

@@ -2,7 +2,7 @@
 #ifndef ICCP_GRADIENT_BOUNDARY_H
 #define ICCP_GRADIENT_BOUNDARY_H
 
-#include "function/function.h"
+#include "gradient/function/function.h"
 
 /* A tree has two layers of vertices outside, and a simplex with a vertex inside may have others up
  * to dim steps away from it. Their values continue linearly from the last two layers. Has no effect

@@ -1,10 +1,10 @@
 /* A gradient line from a point down to the boundary, or up to the maximum: in the plane by
- * trace/walk2.h, elsewhere by trace/walkn.h. */
+ * gradient/trace/walk2.h, elsewhere by gradient/trace/walkn.h. */
 #ifndef ICCP_GRADIENT_LINE_H
 #define ICCP_GRADIENT_LINE_H
 
 #include "chart/gradient_state.h"
-#include "trace/walkn.h"
+#include "gradient/trace/walkn.h"
 
 typedef struct iccp_gradient_line {
     double s;       /* arc length, lattice units */

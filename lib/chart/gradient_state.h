@@ -3,8 +3,8 @@
 #define ICCP_GRADIENT_STATE_H
 
 #include "chart/chart_parameters.h"
-#include "trace/boundary_cellsn.h"
-#include "trace/walk2.h"
+#include "gradient/trace/boundary_cellsn.h"
+#include "gradient/trace/walk2.h"
 
 typedef struct iccp_gradient_state {
     iccp_chart_parameters parameters;

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "domain/complex.h"
-#include "domain/crossings.h"
+#include "geometry/crossings.h"
 #include "domain/simplicial.h"
-#include "domain/triangles.h"
+#include "geometry/triangles.h"
 
 #include <string.h>
 

@@ -4,7 +4,7 @@
 #define ICCP_BOUNDARY_PARTS_H
 
 #include "domain/outlines.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* Vertices have the caller's numbers. */
 typedef struct iccp_boundary_parts {

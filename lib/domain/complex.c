@@ -2,7 +2,7 @@
 
 #include "base/compiler.h"
 #include "base/error.h"
-#include "domain/tuples.h"
+#include "geometry/tuples.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "domain/features.h"
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "domain/mask.h"
-#include "domain/polygon_check.h"
-#include "domain/simplices.h"
+#include "geometry/polygon_check.h"
+#include "geometry/simplices.h"
 #include "domain/simplicial.h"
 
 #include <float.h>
@@ -82,7 +82,7 @@ void iccp_domain_measure_box(icc_domain *d)
 
 /* ---------------------------------------------------------------- polygons */
 
-/* A tree over the polygon's edges (domain/boxtree.h) has the form of a facet tree. */
+/* A tree over the polygon's edges (geometry/boxtree.h) has the form of a facet tree. */
 static iccp_facet_tree tree_without_boxes(const icc_domain *d, const iccp_polygon *polygon)
 {
     return (iccp_facet_tree){.dim = 2,

@@ -3,17 +3,17 @@
 #define ICCP_DOMAIN_H
 
 #include "base/env.h"
-#include "domain/band.h"
-#include "domain/crossings.h"
-#include "domain/facet_tree.h"
-#include "domain/frame.h"
+#include "geometry/band.h"
+#include "geometry/crossings.h"
+#include "geometry/facet_tree.h"
+#include "geometry/frame.h"
 #include "icc/icc.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
 
 /* Of vertices, facets and simplices of a domain. Whatever is counted per edge is counted in 32
- * bits; domain/buckets.c has up to about 20 of it. */
+ * bits; geometry/buckets.c has up to about 20 of it. */
 #define ICCP_MAX_COUNT ((size_t)UINT32_MAX / 64)
 
 /* Cells of a grid or mesh along the longest side of a domain. */

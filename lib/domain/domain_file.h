@@ -6,7 +6,7 @@
 
 #include "base/blob.h"
 #include "domain/domain.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* The boundary alone; its dimension is written elsewhere. */
 icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, const iccp_env *env);

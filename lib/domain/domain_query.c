@@ -1,10 +1,10 @@
 /* Where points, lines and segments lie with respect to a domain. */
 #include "domain/domain.h"
 
-#include "domain/away.h"
-#include "domain/inside.h"
-#include "domain/locate.h"
-#include "domain/simplex.h"
+#include "geometry/away.h"
+#include "geometry/inside.h"
+#include "geometry/locate.h"
+#include "geometry/simplex.h"
 
 #include <math.h>
 #include <string.h>

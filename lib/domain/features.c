@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "domain/features_check.h"
-#include "domain/polygon_check.h"
+#include "geometry/polygon_check.h"
 
 #include <string.h>
 

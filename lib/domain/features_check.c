@@ -1,12 +1,12 @@
 /* One plane sweep over all rings, lines and points tells whether there is a defect, and how they
- * lie in one another (domain/sweep.h). Only if there is one are rings looked at one by one, so that
+ * lie in one another (geometry/sweep.h). Only if there is one are rings looked at one by one, so that
  * what is said is what is said of a polygon by itself. */
 #include "domain/features_check.h"
 
 #include "base/error.h"
-#include "domain/polygon_check.h"
-#include "domain/segment.h"
-#include "domain/sweep.h"
+#include "geometry/polygon_check.h"
+#include "geometry/segment.h"
+#include "geometry/sweep.h"
 #include "math/predicates.h"
 
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * contacts around it, unless there would be more than before. */
 #include "domain/mask_repair.h"
 
-#include "domain/octants.h"
+#include "geometry/octants.h"
 
 static const size_t VERTICES_PER_REPORT = 1 << 14;
 

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "domain/simplicial.h"
-#include "domain/tuples.h"
+#include "geometry/tuples.h"
 
 #include <string.h>
 

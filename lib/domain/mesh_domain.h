@@ -3,7 +3,7 @@
 #define ICCP_MESH_DOMAIN_H
 
 #include "domain/domain.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* Reads a caller's mesh of any shape into local coordinates of its own. Returns ICC_ERR_BOUNDARY
  * unless all simplices have volume, and each facet belongs to one simplex or to two on opposite

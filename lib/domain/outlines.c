@@ -4,7 +4,7 @@
 #include "domain/outlines.h"
 
 #include "base/error.h"
-#include "domain/simple.h"
+#include "geometry/simple.h"
 #include "icc/icc.h"
 
 #include <string.h>

@@ -2,7 +2,7 @@
 #ifndef ICCP_OUTLINES_H
 #define ICCP_OUTLINES_H
 
-#include "domain/sweep.h"
+#include "geometry/sweep.h"
 
 /* The boundary's vertices ring by ring, each with its first vertex once more. */
 typedef struct iccp_outlines {

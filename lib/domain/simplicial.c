@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "domain/triangles.h"
+#include "geometry/triangles.h"
 #include "math/orient.h"
 #include "math/predicates.h"
 

@@ -4,8 +4,8 @@
 #define ICCP_SIMPLICIAL_H
 
 #include "domain/complex.h"
-#include "domain/facet_tree.h"
-#include "domain/frame.h"
+#include "geometry/facet_tree.h"
+#include "geometry/frame.h"
 
 /* Fits a frame to the vertices, of dim coordinates, that belong to facets of a complex (with any
  * number of corners) and writes their local coordinates; the others get those of one that does, so

@@ -10,7 +10,7 @@
 #include "domain/solid.h"
 
 #include "base/error.h"
-#include "domain/octants.h"
+#include "geometry/octants.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #define ICCP_EXTENSION_H
 
 #include "field/incidence.h"
-#include "function/function.h"
+#include "gradient/function/function.h"
 
 typedef struct iccp_extension {
     iccp_memory memory;

@@ -3,7 +3,7 @@
 #include "field/flow_piece.h"
 
 #include "base/minmax.h"
-#include "domain/simplex.h"
+#include "geometry/simplex.h"
 
 #include <math.h>
 #include <string.h>

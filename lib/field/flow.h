@@ -4,7 +4,7 @@
 #define ICCP_FLOW_H
 
 #include "field/vectors.h"
-#include "trace/path.h"
+#include "gradient/trace/path.h"
 
 enum {
     ICCP_FLOW_TERMS = 25, /* of a Taylor series at most */

@@ -2,7 +2,7 @@
 #include "field/flow.h"
 
 #include "base/minmax.h"
-#include "domain/simplex.h"
+#include "geometry/simplex.h"
 
 #include <math.h>
 #include <string.h>

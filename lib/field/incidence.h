@@ -3,7 +3,7 @@
 #ifndef ICCP_INCIDENCE_H
 #define ICCP_INCIDENCE_H
 
-#include "grid/kuhn_simplex.h"
+#include "gradient/grid/kuhn_simplex.h"
 
 enum { ICCP_MOST_ORDERS = 720 }; /* orders of ICC_MAX_DIM axes */
 

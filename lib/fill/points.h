@@ -4,7 +4,7 @@
 #define ICCP_POINTS_H
 
 #include "base/memory.h"
-#include "domain/frame.h"
+#include "geometry/frame.h"
 #include "math/predicates.h"
 
 #include <stdbool.h>

@@ -6,7 +6,7 @@
 #define ICCP_TETS_H
 
 #include "base/env.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 #include "fill/metric.h"
 #include "fill/points.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "math/elementary.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 #include "foliation/harmonic_file.h"
 
 #include "domain/domain_file.h"
-#include "domain/polygon_check.h"
+#include "geometry/polygon_check.h"
 #include "foliation/certificate.h"
 #include "mesh/corners.h"
 

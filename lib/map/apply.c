@@ -3,8 +3,8 @@
 #include "base/compiler.h"
 #include "base/threads.h"
 #include "chart/bulk.h"
-#include "map/curves.h"
-#include "map/digits.h"
+#include "chart/curves.h"
+#include "chart/digits.h"
 
 #include <assert.h>
 #include <math.h>

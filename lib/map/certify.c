@@ -8,7 +8,7 @@
 #include "domain/boundary_parts.h"
 #include "domain/mesh_domain.h"
 #include "map/apply.h"
-#include "map/mesh_repair.h"
+#include "map/energy/mesh_repair.h"
 #include "math/orient.h"
 
 #include <math.h>

@@ -6,11 +6,11 @@
 #include "base/threads.h"
 #include "chart/chart_create.h"
 #include "domain/features_check.h"
-#include "map/affine.h"
-#include "map/digits.h"
-#include "map/filled_pair.h"
-#include "map/follow.h"
-#include "map/solid_follow.h"
+#include "map/energy/affine.h"
+#include "chart/digits.h"
+#include "map/solid/filled_pair.h"
+#include "map/plane/follow.h"
+#include "map/solid/solid_follow.h"
 
 #include <string.h>
 

@@ -2,9 +2,9 @@
 #ifndef ICCP_MAP_H
 #define ICCP_MAP_H
 
-#include "map/isotopy.h"
-#include "map/mesh_map.h"
-#include "map/solid_map.h"
+#include "map/isotopy/isotopy.h"
+#include "map/plane/mesh_map.h"
+#include "map/solid/solid_map.h"
 
 struct icc_map {
     iccp_memory memory;

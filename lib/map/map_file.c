@@ -5,7 +5,7 @@
 #include "base/clock.h"
 #include "chart/load.h"
 #include "domain/domain_file.h"
-#include "map/plmap_file.h"
+#include "map/compatible/plmap_file.h"
 
 static const char KIND[] = "MAP_";
 /* With features, and without. */

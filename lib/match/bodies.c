@@ -1,20 +1,20 @@
-/* Each surface is drawn on the sphere (surface/sphere.h), one drawing is turned to lie on the other
- * (surface/rotation.h), and each is moved on the other (surface/relax.h). With landmarks both are
- * drawn by way of the same few triangles (surface/landmark_sphere.h). Equal ones are drawn in the
- * same way (surface/equal_surfaces.h). */
+/* Each surface is drawn on the sphere (match/sphere/sphere.h), one drawing is turned to lie on the other
+ * (match/sphere/rotation.h), and each is moved on the other (match/sphere/relax.h). With landmarks both are
+ * drawn by way of the same few triangles (match/sphere/landmark_sphere.h). Equal ones are drawn in the
+ * same way (match/sphere/equal_surfaces.h). */
 #include "match/bodies.h"
 
 #include "base/error.h"
 #include "math/vec.h"
-#include "surface/close_vertices.h"
-#include "surface/equal_surfaces.h"
-#include "surface/helpers.h"
-#include "surface/landmark_paths.h"
-#include "surface/landmark_sphere.h"
-#include "surface/likely_pairs.h"
-#include "surface/relax.h"
-#include "surface/rotation.h"
-#include "surface/sphere.h"
+#include "match/sphere/close_vertices.h"
+#include "match/sphere/equal_surfaces.h"
+#include "match/sphere/helpers.h"
+#include "match/sphere/landmark_paths.h"
+#include "match/sphere/landmark_sphere.h"
+#include "match/sphere/likely_pairs.h"
+#include "match/sphere/relax.h"
+#include "match/sphere/rotation.h"
+#include "match/sphere/sphere.h"
 
 #include <string.h>
 

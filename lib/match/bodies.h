@@ -3,7 +3,7 @@
 #define ICCP_MATCH_BODIES_H
 
 #include "domain/domain.h"
-#include "surface/split_surface.h"
+#include "match/sphere/split_surface.h"
 
 typedef struct iccp_body {
     const icc_domain *domain;

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "domain/features.h"
 #include "domain/features_check.h"
-#include "domain/segment.h"
+#include "geometry/segment.h"
 #include "match/feature_partners.h"
 
 #include <math.h>

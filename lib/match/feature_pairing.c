@@ -6,9 +6,9 @@
 #include "base/error.h"
 #include "domain/features.h"
 #include "match/feature_partners.h"
-#include "match/landmarks.h"
+#include "match/outline/landmarks.h"
 #include "match/mean_value.h"
-#include "match/ring_pairing.h"
+#include "match/outline/ring_pairing.h"
 #include "math/elementary.h"
 
 #include <math.h>

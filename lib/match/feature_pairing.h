@@ -3,7 +3,7 @@
 #define ICCP_FEATURE_PAIRING_H
 
 #include "match/feature_landmarks.h"
-#include "match/joint.h"
+#include "match/outline/joint.h"
 
 /* Adds the features of two domains whose outer rings have `common` vertices, in the order of the
  * source's; both have as many of each kind. ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT. */

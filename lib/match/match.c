@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "match/feature_pairing.h"
 #include "match/feature_partners.h"
-#include "match/landmarks.h"
+#include "match/outline/landmarks.h"
 #include "match/match_apply.h"
-#include "match/ring_pairing.h"
+#include "match/outline/ring_pairing.h"
 #include "match/surfaces.h"
 
 void iccp_match_release(icc_match *match)

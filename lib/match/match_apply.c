@@ -1,7 +1,7 @@
 #include "match/match_apply.h"
 
 #include "base/threads.h"
-#include "domain/away.h"
+#include "geometry/away.h"
 #include "domain/features.h"
 #include "math/vec.h"
 

@@ -3,7 +3,7 @@
  * polygons, 2006. They reproduce affine maps, and follow where outlines bend. */
 #include "match/mean_value.h"
 
-#include "match/pins.h"
+#include "match/outline/pins.h"
 #include "math/elementary.h"
 
 #include <math.h>

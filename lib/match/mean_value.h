@@ -2,7 +2,7 @@
 #ifndef ICCP_MEAN_VALUE_H
 #define ICCP_MEAN_VALUE_H
 
-#include "match/common.h"
+#include "match/outline/common.h"
 
 /* Places of the source's outline, in order, and the target's that they are paired with. */
 typedef struct iccp_mean_value {

@@ -1,16 +1,16 @@
 /* Both surfaces are drawn on the sphere (match/bodies.h) and cut by one another
- * (surface/sphere_overlay.h), so that they have the same triangles, which are then made fewer
- * (surface/simplify_apart.h). */
+ * (match/common_mesh/sphere_overlay.h), so that they have the same triangles, which are then made fewer
+ * (match/common_mesh/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
 #include "match/bodies.h"
 #include "math/elementary.h"
-#include "surface/corner_angle.h"
-#include "surface/landmark_paths.h"
-#include "surface/simplify_apart.h"
-#include "surface/stretch.h"
+#include "match/surface/corner_angle.h"
+#include "match/sphere/landmark_paths.h"
+#include "match/common_mesh/simplify_apart.h"
+#include "match/surface/stretch.h"
 
 /* Of the diagonal. */
 static const double default_tolerance = 1e-3;

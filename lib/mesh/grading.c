@@ -4,7 +4,7 @@
 #include "mesh/grading.h"
 
 #include "base/minmax.h"
-#include "domain/locate.h"
+#include "geometry/locate.h"
 
 #include <math.h>
 #include <string.h>

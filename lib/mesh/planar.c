@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "math/elementary.h"
 #include "math/predicates.h"
 #include "mesh/corners.h"

@@ -9,7 +9,7 @@
 /* Stands for the neighbour beyond an edge of the polygon. */
 #define ICCP_NO_NEIGHBOUR UINT32_MAX
 
-/* See icc_triangulate(); the points are local (domain/frame.h), their non-zero magnitudes in
+/* See icc_triangulate(); the points are local (geometry/frame.h), their non-zero magnitudes in
  * [2^-200, 2^200]; at most ICCP_TRIMESH_MAX_POINTS (2^28) of them.
  *
  * ICC_ERR_BOUNDARY: the polygon is not simple. ICC_ERR_OUTSIDE: the point `index` lies outside the

@@ -3,7 +3,7 @@
 #ifndef ICCP_ARRANGED_H
 #define ICCP_ARRANGED_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 typedef struct iccp_arranged {
     iccp_simplices mesh; /* points are borrowed; corners of a simplex keep their order */

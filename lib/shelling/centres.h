@@ -3,7 +3,7 @@
 #define ICCP_CENTRES_H
 
 #include "domain/domain.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* The inner vertex farthest from the boundary. The mesh has inner vertices. */
 icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *mesh,

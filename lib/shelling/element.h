@@ -2,7 +2,7 @@
 #ifndef ICCP_ELEMENT_H
 #define ICCP_ELEMENT_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 #include <stdbool.h>
 

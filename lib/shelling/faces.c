@@ -1,6 +1,6 @@
 #include "shelling/faces.h"
 
-#include "domain/tuples.h"
+#include "geometry/tuples.h"
 
 /* The sets of `size` of a simplex's corners. */
 static size_t list_sets(size_t dim, size_t size, unsigned *sets)

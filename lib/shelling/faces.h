@@ -5,7 +5,7 @@
 #ifndef ICCP_FACES_H
 #define ICCP_FACES_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 #include "icc/base.h"
 
 typedef struct iccp_faces {

@@ -9,9 +9,9 @@
 #ifndef ICCP_LEAFN_H
 #define ICCP_LEAFN_H
 
-#include "domain/facet_tree.h"
-#include "domain/simplices.h"
-#include "trace/path.h"
+#include "geometry/facet_tree.h"
+#include "geometry/simplices.h"
+#include "gradient/trace/path.h"
 
 enum { ICCP_LEAFN_CORNERS = ICC_MAX_DIM + 1 };
 

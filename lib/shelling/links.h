@@ -3,7 +3,7 @@
 #ifndef ICCP_LINKS_H
 #define ICCP_LINKS_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* Facets are numbered here, those of the domain and those within the star of the centre left out.
  * Link r consists of the steps first[r] to first[r + 1]: 2 * facet, + 1 where the way crosses the

@@ -7,7 +7,7 @@
 #ifndef ICCP_REFERENCE_H
 #define ICCP_REFERENCE_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* What enters through each facet of the domain, n_facets positive numbers that sum to 1:
  * `harmonic`, in [0,1), of it in proportion to the flux of a potential that is about harmonic, the

@@ -4,7 +4,7 @@
 #ifndef ICCP_SHELLING_CERTIFICATE_H
 #define ICCP_SHELLING_CERTIFICATE_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* What the checks count. All must be 0. */
 typedef struct iccp_shelling_certificate {

@@ -3,7 +3,7 @@
 #define ICCP_SHELLING_SPLIT_H
 
 #include "domain/domain.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 
 /* A copy of the domain's mesh with a point put into one simplex, of those that it splits into
  * positive ones the simplex whose middle is farthest from the boundary. It does not know the

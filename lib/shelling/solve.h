@@ -2,7 +2,7 @@
 #ifndef ICCP_SHELLING_SOLVE_H
 #define ICCP_SHELLING_SOLVE_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 #include "math/symmetric.h"
 
 /* What the unknowns of a matrix like that of the Laplacian are to a mesh. */

@@ -2,7 +2,7 @@
 #ifndef ICCP_STIFFNESS_H
 #define ICCP_STIFFNESS_H
 
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 #include "math/gram.h"
 
 /* The stiffness matrix of all points, which is singular. */

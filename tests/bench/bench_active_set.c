@@ -1,8 +1,8 @@
 /* Laplace's function under the tree's inequalities, beside the figures of a prototype on the same
  * masks: A with CHOLMOD, B with conjugate gradients and multigrid. Processor time of one thread. */
-#include "grid/grassfire.h"
-#include "solver/active_set.h"
-#include "solver/inequalities.h"
+#include "gradient/grid/grassfire.h"
+#include "gradient/solver/active_set.h"
+#include "gradient/solver/inequalities.h"
 
 #include "../hard_masks.h"
 #include "bench.h"

@@ -3,8 +3,8 @@
  * of the processor, its parts by the clock. */
 #include "bench.h"
 
-#include "function/critical_points.h"
-#include "solver/bilaplace.h"
+#include "gradient/function/critical_points.h"
+#include "gradient/solver/bilaplace.h"
 
 #include "../hard_masks.h"
 

@@ -11,8 +11,8 @@
 #include "../random.h"
 #include "bench.h"
 #include "bench_map.h"
-#include "surface/decimate.h"
-#include "surface/sphere.h"
+#include "match/sphere/decimate.h"
+#include "match/sphere/sphere.h"
 
 typedef enum target_kind { SPHERE, CUBE, POSE, KINDS } target_kind;
 

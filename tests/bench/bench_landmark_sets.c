@@ -8,9 +8,9 @@
 #include "../obj.h"
 #include "../random.h"
 #include "bench.h"
-#include "surface/decimate.h"
-#include "surface/landmark_sphere.h"
-#include "surface/sphere.h"
+#include "match/sphere/decimate.h"
+#include "match/sphere/landmark_sphere.h"
+#include "match/sphere/sphere.h"
 
 enum { FEWEST = 30, MOST = 99, MOST_LANDMARKS = 10 };
 

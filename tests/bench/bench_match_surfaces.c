@@ -12,9 +12,9 @@
 #include "../obj.h"
 #include "bench.h"
 #include "face_stretch.h"
-#include "surface/corner_angle.h"
-#include "surface/decimate.h"
-#include "surface/half_edges.h"
+#include "match/surface/corner_angle.h"
+#include "match/sphere/decimate.h"
+#include "match/surface/half_edges.h"
 
 static _Noreturn void fail(const char *what)
 {

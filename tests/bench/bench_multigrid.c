@@ -4,7 +4,7 @@
  * the names of masks to run. */
 #include "bench.h"
 
-#include "solver/mg_cg.h"
+#include "gradient/solver/mg_cg.h"
 
 #include "../hard_masks.h"
 

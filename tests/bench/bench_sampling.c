@@ -2,8 +2,8 @@
  * (3.3.2), grids (3.3.1), and the spectrum of figure 6.10. */
 #include "bench.h"
 #include "gaussians.h"
-#include "kernel/sampling.h"
-#include "kernel/spectrum.h"
+#include "kernel/sampling/sampling.h"
+#include "kernel/sampling/spectrum.h"
 
 static icc_shape *make_shape(size_t n, icc_domain *const *regions)
 {

@@ -4,7 +4,7 @@
  * runs. */
 #include "bench.h"
 
-#include "function/function.h"
+#include "gradient/function/function.h"
 
 #include "../functions.h"
 

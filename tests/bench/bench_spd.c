@@ -4,10 +4,10 @@
  * own: other programs disturb them less. */
 #include "bench.h"
 
-#include "grid/grassfire.h"
+#include "gradient/grid/grassfire.h"
 #include "math/ldlt.h"
 #include "math/ordering.h"
-#include "solver/dissection.h"
+#include "gradient/solver/dissection.h"
 
 #include <stdbool.h>
 

@@ -7,9 +7,9 @@
 #include "../obj.h"
 #include "bench.h"
 #include "face_stretch.h"
-#include "surface/half_edges.h"
-#include "surface/sphere.h"
-#include "surface/sphere_certificate.h"
+#include "match/surface/half_edges.h"
+#include "match/sphere/sphere.h"
+#include "match/sphere/sphere_certificate.h"
 
 enum { N_RUNS = 3 };
 

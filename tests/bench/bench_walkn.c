@@ -1,7 +1,7 @@
 /* What it costs to walk along integral lines in 2 to 6 dimensions. Run by hand on a quiet
  * machine. */
-#include "trace/walk2.h"
-#include "trace/walkn.h"
+#include "gradient/trace/walk2.h"
+#include "gradient/trace/walkn.h"
 
 #include "../hard_masks.h"
 #include "../random.h"

@@ -4,7 +4,7 @@
 
 #include "../random.h"
 #include "base/env.h"
-#include "kernel/weights.h"
+#include "kernel/weights/weights.h"
 
 enum { SIDE = 101, POINTS = SIDE * SIDE, CORNERS = 4, MANY = 26, REPEATS = 25 };
 

@@ -6,7 +6,7 @@
  * corners, two bytes each, or facets. */
 #include "../meshes.h"
 #include "domain/domain.h"
-#include "domain/simplices.h"
+#include "geometry/simplices.h"
 #include "fuzz.h"
 #include "math/orient.h"
 

@@ -1,6 +1,6 @@
 /* Any bytes as a polygon: its mesh is a triangulated disc, exactly, and every point of it is
  * found. */
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "foliation/certificate.h"
 #include "mesh/finder.h"
 

@@ -1,6 +1,6 @@
 /* Any bytes as a shape, of up to two regions and a curve, and its samples: all are in the shape,
  * those on edges first, none too near another, and they survive being saved. */
-#include "kernel/sampling.h"
+#include "kernel/sampling/sampling.h"
 
 #include "outlines.h"
 

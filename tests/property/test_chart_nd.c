@@ -1,7 +1,7 @@
 /* What holds for the gradient coordinates of solids and masks of any dimension. */
 #include "chart/chart.h"
 #include "chart/gradient_line.h"
-#include "grid/kuhn_simplex.h"
+#include "gradient/grid/kuhn_simplex.h"
 
 #include "../faulty.h"
 #include "../npy.h"

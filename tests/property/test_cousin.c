@@ -1,7 +1,7 @@
 /* What holds for every shape of a kind, tried on all of them: in the plane the tree is a cousin
  * tree and its order has one critical point; in space neither is true, and the order has to be
  * grown. */
-#include "grid/kuhn.h"
+#include "gradient/grid/kuhn.h"
 #include "icc/stages.h"
 
 #include "../random.h"

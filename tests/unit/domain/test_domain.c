@@ -1,10 +1,10 @@
 /* Polygon domains against brute force in 64-bit integers: which polygons are accepted, what is
  * listed of the others, and where points lie. */
-#include "domain/avl.h"
+#include "geometry/avl.h"
 #include "domain/domain.h"
-#include "domain/locate.h"
-#include "domain/simple.h"
-#include "domain/sweep.h"
+#include "geometry/locate.h"
+#include "geometry/simple.h"
+#include "geometry/sweep.h"
 #include "icc/icc.h"
 
 #include "../../share.h"

@@ -1,8 +1,8 @@
 /* Masks: which are refused, against definitions tried out one by one; their boundaries, as
  * complexes of simplices; their grids; and real ones, where they are at hand. */
 #include "domain/domain.h"
-#include "domain/octants.h"
-#include "grid/lattice.h"
+#include "geometry/octants.h"
+#include "gradient/grid/lattice.h"
 
 #include "../../faulty.h"
 #include "../../npy.h"

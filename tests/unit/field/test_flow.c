@@ -3,7 +3,7 @@
 #include "field/flow_follow.h"
 #include "field/flow_jet.h"
 #include "field/minnorm.h"
-#include "grid/rasterise.h"
+#include "gradient/grid/rasterise.h"
 
 #include "../../random.h"
 

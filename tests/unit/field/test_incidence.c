@@ -1,6 +1,6 @@
 /* Which simplices of a grid a boundary meets, and at which vertices its facets are noted. */
 #include "field/incidence.h"
-#include "grid/rasterise.h"
+#include "gradient/grid/rasterise.h"
 
 #include "../../random.h"
 #include "../../share.h"

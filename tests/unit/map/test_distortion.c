@@ -1,7 +1,7 @@
 /* Energies of one triangle and one tetrahedron: their values, gradients and Hessians. */
-#include "map/dirichlet.h"
-#include "map/singular.h"
-#include "map/untangling.h"
+#include "map/energy/dirichlet.h"
+#include "map/energy/singular.h"
+#include "map/energy/untangling.h"
 
 #include "../../random.h"
 

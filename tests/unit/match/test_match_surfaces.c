@@ -3,8 +3,8 @@
 
 #include "../../faulty.h"
 #include "../../surfaces.h"
-#include "surface/meeting.h"
-#include "surface/simplify_apart.h"
+#include "match/common_mesh/meeting.h"
+#include "match/common_mesh/simplify_apart.h"
 
 #include <check.h>
 #include <stdbool.h>

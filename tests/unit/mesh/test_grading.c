@@ -1,5 +1,5 @@
 /* Points inside a domain that are as dense as the samples of its boundary. */
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "mesh/grading.h"
 #include "mesh/planar.h"
 

@@ -1,5 +1,5 @@
 /* Domain meshes, and finding points in them. */
-#include "domain/locate.h"
+#include "geometry/locate.h"
 #include "foliation/certificate.h"
 #include "math/predicates.h"
 #include "mesh/finder.h"

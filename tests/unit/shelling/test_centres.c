@@ -1,6 +1,6 @@
 /* Centres of meshes, against looking at all vertices. */
 #include "base/error.h"
-#include "domain/simplex.h"
+#include "geometry/simplex.h"
 #include "shelling/centres.h"
 
 #include "../../fluxes.h"

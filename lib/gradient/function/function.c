@@ -1,0 +1,140 @@
+#include "gradient/function/function.h"
+
+#include "base/minmax.h"
+#include "gradient/function/beyond.h"
+#include "math/elementary.h"
+
+#include <stdbool.h>
+
+/* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
+enum { LEAST_EXPONENT = -900 };
+
+icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env)
+{
+    *out = NULL;
+    icc_function *function = iccp_alloc_zero(&env->memory, 1, sizeof *function);
+    if (function == NULL)
+        return ICC_ERR_MEMORY;
+    function->memory = env->memory;
+    function->tree = iccp_tree_retain(tree);
+    const size_t n = tree->grid->n_vertices;
+    function->values = iccp_alloc(&env->memory, n, sizeof *function->values);
+    if (function->values == NULL) {
+        iccp_function_release(function);
+        return ICC_ERR_MEMORY;
+    }
+    for (size_t v = 0; v < n; ++v)
+        function->values[v] = NAN;
+    *out = function;
+    return ICC_OK;
+}
+
+/* From a fraction in [0.5, 1) and an exponent: the same bits whichever way the value is kept. */
+static double log_of(double fraction, int32_t exponent)
+{
+    static const double LN_2 = 0.69314718055994530942;
+    return iccp_ln(fraction) + LN_2 * exponent;
+}
+
+double iccp_function_log(const icc_function *function, size_t v)
+{
+    const icc_tree *tree = function->tree;
+    const double value = function->values[v];
+    int shift;
+    if (tree->generation[v] < 0)
+        return NAN;
+    if (!tree->grid->inside[v] || !(value > 0))
+        return -HUGE_VAL;
+    const double fraction = iccp_frexp(value, &shift);
+    return log_of(fraction, shift + (function->exponent != NULL ? function->exponent[v] : 0));
+}
+
+const double *iccp_function_logs(const icc_function *function)
+{
+    const size_t n = function->tree->grid->n_vertices;
+    const double *known = iccp_once_get(&function->logs);
+    if (known != NULL || !function->has_logs)
+        return known;
+    double *fresh = iccp_alloc(&function->memory, n, sizeof *fresh);
+    if (fresh == NULL)
+        return NULL;
+    for (size_t v = 0; v < n; ++v)
+        fresh[v] = iccp_function_log(function, v);
+    known = iccp_once_keep(&function->logs, fresh);
+    if (known != fresh)
+        iccp_free(&function->memory, fresh);
+    return known;
+}
+
+/* Fractions in place of the values, which are kept for those who want plain numbers. */
+static icc_status assign_exponents(icc_function *function, const iccp_unknowns *unknowns,
+                                   const iccp_scaled *f)
+{
+    const size_t n = function->tree->grid->n_vertices;
+    function->plain = function->values;
+    function->values = iccp_alloc(&function->memory, n, sizeof *function->values);
+    function->exponent = iccp_alloc(&function->memory, n, sizeof *function->exponent);
+    if (function->values == NULL || function->exponent == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v) {
+        function->values[v] = function->plain[v];
+        function->exponent[v] = ICCP_ZERO_EXPONENT;
+    }
+    for (size_t k = 0; k < unknowns->n; ++k) {
+        function->values[unknowns->vertex[k]] = f->fraction[k];
+        function->exponent[unknowns->vertex[k]] = f->exponent[k];
+    }
+    return ICC_OK;
+}
+
+/* What an earlier assignment has left. */
+static void forget(icc_function *function)
+{
+    if (function->plain != NULL) {
+        iccp_free(&function->memory, function->values);
+        function->values = function->plain;
+    }
+    iccp_free(&function->memory, function->exponent);
+    iccp_free(&function->memory, iccp_once_get(&function->logs));
+    iccp_once_init(&function->logs);
+    function->exponent = NULL;
+    function->plain = NULL;
+}
+
+icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
+                                const iccp_scaled *f)
+{
+    const icc_tree *tree = function->tree;
+    bool positive = true;
+    double least_log = 0;
+    int32_t least = 0;
+    forget(function);
+    for (size_t i = 0; i < tree->n_reached; ++i)
+        function->values[tree->order[i]] = 0;
+    for (size_t k = 0; k < unknowns->n; ++k) {
+        function->values[unknowns->vertex[k]] = iccp_scaled_get(f, k, 0);
+        positive = positive && f->fraction[k] > 0;
+        if (positive)
+            least_log = iccp_min(least_log, log_of(f->fraction[k], f->exponent[k]));
+        least = f->exponent[k] < least ? f->exponent[k] : least;
+    }
+    function->has_logs = positive;
+    function->info.least_log = positive ? least_log : 0;
+    icc_status status = ICC_OK;
+    if (positive && least < LEAST_EXPONENT)
+        status = assign_exponents(function, unknowns, f);
+    return status == ICC_OK ? iccp_function_go_beyond(function, unknowns) : status;
+}
+
+void iccp_function_release(icc_function *function)
+{
+    if (function == NULL)
+        return;
+    const iccp_memory memory = function->memory;
+    iccp_tree_release(function->tree);
+    iccp_free(&memory, function->values);
+    iccp_free(&memory, function->exponent);
+    iccp_free(&memory, function->plain);
+    iccp_free(&memory, iccp_once_get(&function->logs));
+    iccp_free(&memory, function);
+}

@@ -1,0 +1,128 @@
+/* Scan conversion of a polygon by the parity rule, all edges first, then all rows.
+ *
+ * Where an edge crosses a row, the first vertex beyond it toggles; summing the toggles up along the
+ * row says what is inside. Edges are half open, so that a row through a polygon vertex counts its
+ * two edges once or as a pair. Vertices of the grid on an edge are marked apart: they are
+ * outside. */
+#include "gradient/grid/scan_polygon.h"
+
+#include "base/minmax.h"
+#include "math/predicates.h"
+
+#include <math.h>
+
+enum { TOGGLE = 1, ON_EDGE = 2 };
+
+static double position(const icc_grid *grid, int k, size_t i)
+{
+    return grid->origin[k] + grid->spacing * (double)i;
+}
+
+/* The first index whose position is at least x, given that rounding moves an estimate by few. */
+static size_t first_from(const icc_grid *grid, int k, double x)
+{
+    const double estimate = floor((x - grid->origin[k]) / grid->spacing);
+    size_t i = estimate > 0.0 ? (size_t)estimate : 0;
+    while (i > 0 && position(grid, k, i - 1) >= x)
+        --i;
+    while (position(grid, k, i) < x)
+        ++i;
+    return i;
+}
+
+static uint8_t *row(const icc_grid *grid, size_t j)
+{
+    return grid->inside + grid->stride[1] * j;
+}
+
+static void mark_horizontal(icc_grid *grid, const double *a, const double *b)
+{
+    const size_t j = first_from(grid, 1, a[1]);
+    if (position(grid, 1, j) > a[1])
+        return;
+    const double end = iccp_max(a[0], b[0]);
+    for (size_t i = first_from(grid, 0, iccp_min(a[0], b[0])); position(grid, 0, i) <= end; ++i)
+        row(grid, j)[i] |= ON_EDGE;
+}
+
+/* Finds the first vertex of row j to the right of the edge from a up to b. */
+static void mark_crossing(icc_grid *grid, size_t j, const double *a, const double *b)
+{
+    double p[2] = {0.0, position(grid, 1, j)};
+    const double x = a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1]));
+    size_t i =
+        first_from(grid, 0, iccp_max(iccp_min(a[0], b[0]), iccp_min(x, iccp_max(a[0], b[0]))));
+    for (; i > 0; --i) {
+        p[0] = position(grid, 0, i - 1);
+        if (iccp_orient2d(a, b, p) > 0)
+            break;
+    }
+    int side = 0;
+    for (;; ++i) {
+        p[0] = position(grid, 0, i);
+        side = iccp_orient2d(a, b, p);
+        if (side < 0)
+            break;
+        if (side == 0)
+            row(grid, j)[i] |= ON_EDGE;
+    }
+    if (p[1] < b[1])
+        row(grid, j)[i] ^= TOGGLE;
+}
+
+/* Each edge is followed upwards and meets the rows from its lower to its upper end, the upper one
+ * excluded for toggles. The work is the number of crossings, so progress is reported by these, not
+ * by edges. */
+static icc_status mark_edges(icc_grid *grid, const icc_domain *domain, const iccp_env *env)
+{
+    size_t n_crossings = 0, next_report = 0;
+    for (size_t e = 0; e < domain->n_facets; ++e) {
+        if (n_crossings >= next_report) {
+            const double share = 0.5 * (double)e / (double)domain->n_facets;
+            if (iccp_progress(env, "grid", share) != ICC_OK)
+                return ICC_ERR_CANCELLED;
+            next_report = n_crossings + ICCP_VERTICES_PER_REPORT;
+        }
+        const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * e];
+        const double *b = domain->vertices + 2 * (size_t)domain->facets[2 * e + 1];
+        if (a[1] > b[1]) {
+            const double *lower = b;
+            b = a;
+            a = lower;
+        }
+        if (a[1] < b[1])
+            for (size_t j = first_from(grid, 1, a[1]); position(grid, 1, j) <= b[1]; ++j)
+                mark_crossing(grid, j, a, b);
+        else
+            mark_horizontal(grid, a, b);
+        n_crossings += 1 + (size_t)((b[1] - a[1]) / grid->spacing);
+    }
+    return ICC_OK;
+}
+
+static icc_status fill_rows(icc_grid *grid, const iccp_env *env)
+{
+    size_t next_report = 0;
+    for (size_t j = 0; j < grid->shape[1]; ++j) {
+        uint8_t *at = row(grid, j);
+        if (j * grid->shape[0] >= next_report) {
+            const double share = 0.5 + 0.5 * (double)j / (double)grid->shape[1];
+            if (iccp_progress(env, "grid", share) != ICC_OK)
+                return ICC_ERR_CANCELLED;
+            next_report += ICCP_VERTICES_PER_REPORT;
+        }
+        uint8_t parity = 0;
+        for (size_t i = 0; i < grid->shape[0]; ++i) {
+            parity ^= at[i] & TOGGLE;
+            at[i] = parity && !(at[i] & ON_EDGE);
+            grid->n_inside += at[i];
+        }
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_scan_polygon(icc_grid *grid, const icc_domain *polygon, const iccp_env *env)
+{
+    const icc_status status = mark_edges(grid, polygon, env);
+    return status == ICC_OK ? fill_rows(grid, env) : status;
+}

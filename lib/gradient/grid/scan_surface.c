@@ -1,0 +1,141 @@
+/* Parity along the rows of the grid, then a closer look at the vertices next to a facet.
+ *
+ * Where a row crosses the boundary is known to rounding, and a row that runs in a facet is moved
+ * aside by an infinitesimal to begin with. So what parity says of a vertex that lies in a facet, or
+ * so near to one that rounding matters, means nothing: these vertices are found facet by facet and
+ * located. */
+#include "gradient/grid/scan_surface.h"
+
+#include "base/minmax.h"
+#include "base/threads.h"
+#include "geometry/simplex.h"
+
+#include <assert.h>
+#include <math.h>
+
+enum {
+    MOST_CROSSINGS = 256
+}; /* of a row; if there are more, its vertices are located one by one */
+
+static const size_t ROWS_PER_CHUNK = 64, FACETS_PER_REPORT = 1 << 10;
+
+/* Distance from a facet, in longest sides of the bounding box, within which a vertex is located.
+ * Crossings are accurate to a few units of rounding, 1e-16, in the distance from the facet's
+ * plane. */
+static const double NEAR = 1e-12;
+
+typedef struct work {
+    icc_grid *grid;
+    const icc_domain *domain;
+} work;
+
+static void position(const icc_grid *grid, uint32_t v, double *p)
+{
+    for (int32_t k = 0; k < grid->dim; ++k)
+        p[k] = grid->origin[k] + grid->spacing * iccp_grid_coordinate(grid, v, k);
+}
+
+static uint8_t locate(const work *w, uint32_t v)
+{
+    double p[ICC_MAX_DIM];
+    position(w->grid, v, p);
+    return iccp_domain_locate(w->domain, p, false, NULL, NULL) == ICC_INSIDE;
+}
+
+static void scan_row(const work *w, uint32_t first)
+{
+    icc_grid *grid = w->grid;
+    iccp_line_crossing crossings[MOST_CROSSINGS];
+    double p[ICC_MAX_DIM];
+    position(grid, first, p);
+    const size_t n = iccp_domain_line(w->domain, 0, p, MOST_CROSSINGS, crossings);
+    const bool usable = n <= MOST_CROSSINGS && n % 2 == 0;
+    size_t n_passed = 0;
+    for (uint32_t i = 0; i < grid->shape[0]; ++i) {
+        const double x = grid->origin[0] + grid->spacing * i;
+        while (usable && n_passed < n && crossings[n_passed].at < x)
+            ++n_passed;
+        grid->inside[first + i] = usable ? n_passed % 2 : locate(w, first + i);
+    }
+}
+
+static icc_status scan_rows(void *argument, size_t begin, size_t end)
+{
+    const work *w = argument;
+    for (size_t row = begin; row < end; ++row)
+        scan_row(w, (uint32_t)(row * w->grid->shape[0]));
+    return ICC_OK;
+}
+
+/* The vertices in a facet's bounding box, widened by `near`: the first and the number along each
+ * axis. False if there are none. */
+static bool find_range(const work *w, uint32_t facet, double near, size_t *first, size_t *n)
+{
+    const icc_grid *grid = w->grid;
+    double box[2 * ICC_MAX_DIM];
+    iccp_facet_box(&w->domain->tree, facet, box);
+    for (int32_t k = 0; k < grid->dim; ++k) {
+        const double low = (box[k] - near - grid->origin[k]) / grid->spacing;
+        const double high = (box[grid->dim + k] + near - grid->origin[k]) / grid->spacing;
+        if (floor(high) < ceil(low))
+            return false;
+        first[k] = (size_t)ceil(low);
+        n[k] = (size_t)(floor(high) - ceil(low)) + 1;
+        assert(first[k] + n[k] <= grid->shape[k]);
+    }
+    return true;
+}
+
+/* Decides anew about the vertices within `near` of a facet. The odometer at[] visits the vertices
+ * of the facet's widened box; few of them are near enough to be located, which costs most. */
+static void locate_near_facet(const work *w, uint32_t facet, double near)
+{
+    const icc_grid *grid = w->grid;
+    const size_t dim = (size_t)grid->dim;
+    const double *corners[ICC_MAX_DIM];
+    size_t first[ICC_MAX_DIM], n[ICC_MAX_DIM], at[ICC_MAX_DIM] = {0};
+    if (!find_range(w, facet, near, first, n))
+        return;
+    iccp_facet_corners(&w->domain->tree, facet, corners);
+    for (;;) {
+        double p[ICC_MAX_DIM], bary[ICC_MAX_DIM];
+        uint32_t v = 0;
+        for (size_t k = 0; k < dim; ++k)
+            v += (uint32_t)((first[k] + at[k]) * grid->stride[k]);
+        position(grid, v, p);
+        if (iccp_simplex_nearest(dim, dim, corners, p, bary) <= near * near)
+            grid->inside[v] = locate(w, v);
+        size_t k = 0;
+        while (k < dim && ++at[k] == n[k])
+            at[k++] = 0;
+        if (k == dim)
+            return;
+    }
+}
+
+static icc_status locate_near_facets(const work *w, const iccp_env *env)
+{
+    const icc_domain *domain = w->domain;
+    double longest = 0;
+    for (int32_t k = 0; k < domain->dim; ++k)
+        longest = iccp_max(longest, domain->upper[k] - domain->lower[k]);
+    for (uint32_t f = 0; f < domain->n_facets; ++f) {
+        if (f % FACETS_PER_REPORT == 0 &&
+            iccp_progress(env, "grid", (double)f / (double)domain->n_facets) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        locate_near_facet(w, f, NEAR * longest);
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_scan_surface(icc_grid *grid, const icc_domain *domain, const iccp_env *env)
+{
+    work w = {grid, domain};
+    const size_t n_rows = grid->n_vertices / grid->shape[0];
+    icc_status status = iccp_for_chunks(env, "grid", n_rows, ROWS_PER_CHUNK, scan_rows, &w);
+    if (status == ICC_OK)
+        status = locate_near_facets(&w, env);
+    for (size_t v = 0; v < grid->n_vertices && status == ICC_OK; ++v)
+        grid->n_inside += grid->inside[v];
+    return status;
+}

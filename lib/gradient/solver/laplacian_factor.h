@@ -1,0 +1,26 @@
+/* The factorised Laplacian of all unknowns, the root's included. */
+#ifndef ICCP_LAPLACIAN_FACTOR_H
+#define ICCP_LAPLACIAN_FACTOR_H
+
+#include "icc/stages.h"
+#include "math/ldlt.h"
+#include "gradient/solver/unknowns.h"
+
+typedef struct iccp_laplacian_factor {
+    iccp_memory memory;
+    iccp_symmetric matrix; /* borrows the four arrays below */
+    size_t *first;
+    uint32_t *column;
+    double *value, *diagonal;
+    iccp_ldlt factor;
+} iccp_laplacian_factor;
+
+/* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure
+ * nothing is left allocated. */
+icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
+                                    icc_function_info *info, const iccp_env *env);
+
+/* Accepts what has only its memories and what has been freed. */
+void iccp_laplacian_factor_free(iccp_laplacian_factor *l);
+
+#endif

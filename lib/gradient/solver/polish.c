@@ -1,0 +1,301 @@
+/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
+ * as a semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that
+ * the iteration converges: it does so nearly always from the empty set, at one generation or so a
+ * step where f gets as small as the bounds, and within a few steps from the last iterates of an
+ * interior point method.
+ *
+ * Active edges tie children to parents. A cluster in which leaves are active is held: its values
+ * are the highest that one of these leaves asks for. The others are then above their bounds, as a
+ * rule by no more than eta times the bound, which is nothing; if it is more than `enough`, they are
+ * inactive. */
+#include "gradient/solver/polish.h"
+
+#include "base/clock.h"
+#include "base/minmax.h"
+#include "base/random.h"
+#include "gradient/solver/inequalities.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
+    TRUST = 3      /* of these are made in full */
+};
+
+/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact
+ * moves by one unknown a step where the function is tiny; with a hundredth, rounding errors get
+ * active. */
+static const double WRONG = 0.1;
+
+enum { LIFTED = 1, RISES = 2, STAYS = 4, TIED = 8, FREED = 16 };
+
+typedef struct state {
+    const iccp_qp *qp;
+    size_t n;
+    double enough, tolerance;
+    uint8_t *active;      /* per inequality */
+    uint8_t *open;        /* per unknown: an active leaf is reached from here by active edges,
+                             downwards */
+    uint8_t *mark;        /* LIFTED: such a leaf bears what would be a negative multiplier of the
+                             unknown's edge; RISES: the cluster of this top pulls at its leaves;
+                             STAYS: but not here; TIED, FREED: the unknown's edge has just become
+                             active, or inactive */
+    uint32_t *top;        /* per unknown: the top of its cluster */
+    uint32_t *variable;   /* of its cluster, or ICCP_NONE if it is held */
+    double *share;        /* of the value of the top */
+    double *held;         /* per top: its value, or 0 */
+    double *f, *gradient; /* per unknown */
+    double *sum;          /* of the multipliers of the children's edges */
+    double *work;
+    double *room;  /* what the arrays of doubles lie in */
+    bool by_rows;  /* see tie_rows() */
+    bool hesitant; /* only every other change is made, by chance */
+    uint64_t random;
+} state;
+
+/* Whether to make a change. Making all of them may lead round in circles. */
+static bool decide(state *s)
+{
+    if (!s->hesitant)
+        return true;
+    return iccp_random(&s->random) >> 63;
+}
+
+static uint8_t *leaf_active(const state *s, size_t j)
+{
+    return &s->active[s->n - 1 + j];
+}
+
+static void find_clusters(state *s)
+{
+    const uint32_t *parent = s->qp->unknowns->parent;
+    for (uint32_t k = 0; k < s->n; ++k) {
+        const bool tied = k > 0 && s->active[k - 1];
+        s->top[k] = tied ? s->top[parent[k]] : k;
+        s->share[k] = tied ? s->share[parent[k]] / s->qp->sigma : 1;
+        s->held[k] = k == 0;
+    }
+}
+
+/* The root holds its cluster, whatever the leaves ask for. */
+static void hold_clusters(state *s)
+{
+    const iccp_qp *p = s->qp;
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_unknown[j], t = s->top[k];
+        if (*leaf_active(s, j) && t > 0)
+            s->held[t] = iccp_max(s->held[t], p->leaf / s->share[k]);
+    }
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_unknown[j];
+        if (s->held[s->top[k]] * s->share[k] > p->leaf + s->enough)
+            *leaf_active(s, j) = 0;
+    }
+}
+
+static iccp_reduction reduce(state *s)
+{
+    size_t n_variables = 0;
+    find_clusters(s);
+    hold_clusters(s);
+    for (uint32_t k = 0; k < s->n; ++k) {
+        const uint32_t t = s->top[k];
+        if (t != k)
+            s->variable[k] = s->variable[t];
+        else
+            s->variable[k] = s->held[k] > 0 ? ICCP_NONE : (uint32_t)n_variables++;
+        if (s->variable[k] == ICCP_NONE)
+            s->f[k] = s->held[t] * s->share[k];
+    }
+    return (iccp_reduction){n_variables, s->variable, s->share};
+}
+
+static icc_status solve(state *s, double *residual, icc_function_info *info, const iccp_env *env)
+{
+    const iccp_qp *p = s->qp;
+    const iccp_reduction reduction = reduce(s);
+    const icc_status status = iccp_energy_minimise(&p->a, &reduction, s->f, info, env);
+    if (status != ICC_OK)
+        return status;
+    const double start = iccp_seconds();
+    const iccp_scaled f = {s->f, NULL}, gradient = {s->gradient, NULL};
+    iccp_energy_gradient(&p->a, s->f, s->work, s->gradient);
+    *residual =
+        iccp_inequalities_residual(p->unknowns, p->sigma - 1, p->leaf, &f, &gradient, s->work);
+    info->seconds_verify += iccp_seconds() - start;
+    return ICC_OK;
+}
+
+/* Returns how many leaves fell below their bound, which makes them active. */
+static size_t correct_leaves(state *s)
+{
+    const iccp_qp *p = s->qp;
+    size_t n_wrong = 0;
+    memset(s->open, 0, s->n);
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_unknown[j];
+        s->open[k] = *leaf_active(s, j);
+        if (!*leaf_active(s, j) && s->f[k] < p->leaf - s->tolerance) {
+            *leaf_active(s, j) = decide(s);
+            ++n_wrong;
+        }
+    }
+    return n_wrong;
+}
+
+/* Makes violated edges active and those with a negative multiplier inactive; returns how many.
+ * Multipliers follow from the gradient from the leaves to the root. Leaves of a held cluster have
+ * multipliers of their own, as many as are needed for the edges above them not to get negative;
+ * what is then left over at the top must not be positive, or the cluster rises. */
+static size_t correct_edges(state *s)
+{
+    const iccp_qp *p = s->qp;
+    size_t n_wrong = 0;
+    memset(s->sum, 0, s->n * sizeof *s->sum);
+    memset(s->mark, 0, s->n);
+    for (size_t k = s->n; k-- > 1;) {
+        const uint32_t q = p->unknowns->parent[k];
+        double multiplier = (s->sum[k] - s->gradient[k]) / p->sigma;
+        uint8_t *active = &s->active[k - 1];
+        if (!*active) {
+            const bool rises = s->open[k] && multiplier > s->tolerance;
+            const bool violated = s->f[q] - p->sigma * s->f[k] < -s->tolerance;
+            s->mark[k] |= rises && decide(s) ? RISES : 0;
+            *active = violated && decide(s);
+            s->mark[k] |= *active ? TIED : 0;
+            n_wrong += (size_t)rises + violated;
+            continue;
+        }
+        if (s->open[k] && multiplier < 0) {
+            s->mark[k] |= LIFTED;
+            multiplier = 0;
+        }
+        s->open[q] |= s->open[k];
+        s->sum[q] += multiplier;
+        if (multiplier < -s->tolerance) {
+            *active = !decide(s);
+            s->mark[k] |= *active ? 0 : FREED;
+            ++n_wrong;
+        }
+    }
+    return n_wrong;
+}
+
+/* Whether an edge follows one next to it that has just become active. */
+static bool follows(const state *s, uint32_t k, uint32_t next)
+{
+    const iccp_qp *p = s->qp;
+    return k > 0 && (s->mark[next] & TIED) && !s->active[k - 1] && !(s->mark[k] & FREED) &&
+           s->f[p->unknowns->parent[k]] - p->sigma * s->f[k] <= s->tolerance;
+}
+
+static void tie(state *s, uint32_t k)
+{
+    s->active[k - 1] = 1;
+    s->mark[k] |= TIED;
+}
+
+/* Where the function is next to nothing, edges that should be active are violated by less than the
+ * tolerance, and would become active one after the other along a row, one a step, each when the one
+ * before it is. So those follow at once that are not slack by more, down the tree and up. From a
+ * set that is far from the right one this is as likely to lead astray. */
+static void tie_rows(state *s)
+{
+    const uint32_t *parent = s->qp->unknowns->parent;
+    for (uint32_t k = 1; k < s->n; ++k)
+        if (follows(s, k, parent[k]))
+            tie(s, k);
+    for (uint32_t k = (uint32_t)s->n; k-- > 1;)
+        if (follows(s, parent[k], k))
+            tie(s, parent[k]);
+}
+
+/* The parts of a rising cluster that are lifted stay, each by itself and in one piece, whatever is
+ * lifted further down in it: edges that were untied there would be violated at once, and be tied
+ * again one by one. The leaves of the rest are inactive from now on. */
+static void let_rise(state *s)
+{
+    const iccp_qp *p = s->qp;
+    for (uint32_t k = 1; k < s->n; ++k) {
+        const uint32_t t = s->top[k];
+        if (t == k || !(s->mark[t] & RISES))
+            continue;
+        if (s->mark[p->unknowns->parent[k]] & STAYS) {
+            s->mark[k] |= STAYS;
+        } else if (s->mark[k] & LIFTED) {
+            s->mark[k] |= STAYS;
+            s->active[k - 1] = 0;
+        }
+    }
+    for (size_t j = 0; j < p->n_leaves; ++j) {
+        const uint32_t k = p->leaf_unknown[j];
+        if ((s->mark[s->top[k]] & RISES) && !(s->mark[k] & STAYS))
+            *leaf_active(s, j) = 0;
+    }
+}
+
+/* The best candidate is kept, whatever becomes of the set. Patience is for steps that neither find
+ * a smaller residual nor fewer wrong inequalities than ever before; when some of it is used up,
+ * only every other change is made, which breaks cycles. */
+static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_function_info *info,
+                          const iccp_env *env)
+{
+    int patience = PATIENCE;
+    size_t fewest = SIZE_MAX;
+    for (size_t k = 0; k < most && patience > 0; ++k) {
+        double residual;
+        const icc_status status = solve(s, &residual, info, env);
+        if (status == ICC_ERR_SOLVER)
+            return ICC_OK; /* what there is so far may do */
+        if (status != ICC_OK)
+            return status;
+        ++info->n_iterations;
+        --patience;
+        if (residual < candidate->residual) {
+            memcpy(candidate->f, s->f, s->n * sizeof *s->f);
+            candidate->residual = residual;
+            patience = PATIENCE;
+        }
+        s->hesitant = patience <= PATIENCE - TRUST;
+        const size_t n_wrong = correct_leaves(s) + correct_edges(s);
+        if (s->by_rows)
+            tie_rows(s);
+        let_rise(s);
+        if (residual <= s->enough || n_wrong == 0)
+            break;
+        if (n_wrong < fewest) {
+            fewest = n_wrong;
+            patience = PATIENCE;
+        }
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
+                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
+{
+    const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
+    state s = {.qp = qp, .n = n, .active = active, .by_rows = by_rows};
+    s.enough = enough;
+    s.tolerance = WRONG * enough;
+    s.top = iccp_alloc(&env->memory, n, 2 * sizeof *s.top);
+    s.open = iccp_alloc(&env->memory, n, 2 * sizeof *s.open);
+    s.room = iccp_alloc(&env->memory, 5 * n + n_work, sizeof *s.room);
+    icc_status status = ICC_ERR_MEMORY;
+    if (s.top != NULL && s.open != NULL && s.room != NULL) {
+        s.variable = s.top + n;
+        s.mark = s.open + n;
+        s.share = s.room;
+        s.held = s.room + n;
+        s.f = s.room + 2 * n;
+        s.gradient = s.room + 3 * n;
+        s.sum = s.room + 4 * n;
+        s.work = s.room + 5 * n;
+        status = iterate(&s, most, candidate, info, env);
+    }
+    iccp_free(&env->memory, s.top);
+    iccp_free(&env->memory, s.open);
+    iccp_free(&env->memory, s.room);
+    return status;
+}

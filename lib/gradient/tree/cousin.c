@@ -1,0 +1,196 @@
+/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
+ * section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section 5.2.
+ *
+ * A generation expands along the first axis, all of it, then along the second, and so on. No vertex
+ * outside has a child inside, so the tree inside does not depend on those outside. It is grown
+ * first, then the vertices outside are added, again generation by generation; in the paper's form
+ * they get no parent.
+ *
+ * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a
+ * gap two cells wide before the inside does, and what it reaches then lies higher than its
+ * neighbours inside, against the purpose of this layer. Here a neighbour of the inside waits for
+ * it. Where vertices inside and outside compete for one between them, the one inside becomes its
+ * parent. */
+#include "gradient/tree/cousin.h"
+
+#include "base/error.h"
+
+#include <assert.h>
+
+static void visit(icc_tree *tree, uint32_t from, uint32_t vertex)
+{
+    tree->generation[vertex] = tree->generation[from] + 1;
+    if (tree->grid->inside[vertex] || tree->form == ICC_TREE_THESIS)
+        tree->parent[vertex] = from;
+    tree->order[tree->n_reached++] = vertex;
+}
+
+/* The generation that a vertex outside is given by the inside, or INT32_MAX. */
+static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
+{
+    int32_t due = INT32_MAX;
+    for (int32_t k = 0; k < tree->grid->dim; ++k)
+        for (int32_t step = -1; step <= 1; step += 2) {
+            const uint32_t u = iccp_grid_neighbour(tree->grid, vertex, k, step);
+            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] >= 0 &&
+                tree->generation[u] < due)
+                due = tree->generation[u] + 1;
+        }
+    return due;
+}
+
+/* Expands order[begin..end), a generation, along one axis into the inside. */
+static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
+{
+    for (size_t i = begin; i < end; ++i)
+        for (int32_t step = -1; step <= 1; step += 2) {
+            const uint32_t v = tree->order[i];
+            const uint32_t u = iccp_grid_neighbour(tree->grid, v, axis, step);
+            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] < 0)
+                visit(tree, v, u);
+        }
+}
+
+/* Whether a vertex outside may expand into another one: not ahead of the inside. */
+static bool may_reach(const icc_tree *tree, uint32_t from, uint32_t vertex)
+{
+    const int32_t due = generation_due(tree, vertex);
+    return due == INT32_MAX || due == tree->generation[from] + 1;
+}
+
+/* The same into the outside. Vertices outside expand only next to the inside. */
+static void expand_outside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
+{
+    for (size_t i = begin; i < end; ++i) {
+        const uint32_t v = tree->order[i];
+        const bool inside = tree->grid->inside[v];
+        if (!inside && generation_due(tree, v) == INT32_MAX)
+            continue;
+        for (int32_t step = -1; step <= 1; step += 2) {
+            const uint32_t u = iccp_grid_neighbour(tree->grid, v, axis, step);
+            if (u != ICCP_NONE && !tree->grid->inside[u] && tree->generation[u] < 0 &&
+                (inside || may_reach(tree, v, u)))
+                visit(tree, v, u);
+        }
+    }
+}
+
+/* The end of the vertices of one generation that begin at order[begin]; there may be none. */
+static size_t end_of(const icc_tree *tree, size_t begin, size_t limit, int32_t generation)
+{
+    size_t end = begin;
+    while (end < limit && tree->generation[tree->order[end]] == generation)
+        ++end;
+    return end;
+}
+
+/* Reports progress when `done` has come to `*next`. */
+static icc_status report(const icc_tree *tree, size_t done, size_t *next, const iccp_env *env)
+{
+    if (done < *next)
+        return ICC_OK;
+    *next = done + ICCP_VERTICES_PER_REPORT;
+    return iccp_progress(env, "tree", 0.5 * (double)done / (double)tree->grid->n_vertices);
+}
+
+static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
+{
+    size_t next_report = 0, begin = 0;
+    tree->generation[tree->root] = 0;
+    tree->order[tree->n_reached++] = tree->root;
+    while (begin < tree->n_reached) {
+        if (report(tree, begin, &next_report, env) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const size_t end = tree->n_reached;
+        for (int32_t a = 0; a < tree->grid->dim; ++a)
+            expand_inside(tree, begin, end, tree->axis_order[a]);
+        begin = end;
+    }
+    tree->n_inside = tree->n_reached;
+    return ICC_OK;
+}
+
+/* Goes through the inside again, and through the vertices outside as they are found. */
+static icc_status grow_outside(icc_tree *tree, const iccp_env *env)
+{
+    size_t next_report = 0, in = 0, out = tree->n_inside;
+    for (int32_t generation = 0; in < tree->n_inside || out < tree->n_reached; ++generation) {
+        if (report(tree, tree->n_inside + in, &next_report, env) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const size_t in_end = end_of(tree, in, tree->n_inside, generation);
+        const size_t out_end = end_of(tree, out, tree->n_reached, generation);
+        for (int32_t a = 0; a < tree->grid->dim; ++a) {
+            expand_outside(tree, in, in_end, tree->axis_order[a]);
+            expand_outside(tree, out, out_end, tree->axis_order[a]);
+        }
+        in = in_end;
+        out = out_end;
+    }
+    return ICC_OK;
+}
+
+/* No vertex visited yet. */
+static icc_tree *new_tree(const icc_grid *grid, const iccp_memory *memory)
+{
+    icc_tree *tree = iccp_alloc_zero(memory, 1, sizeof *tree);
+    if (tree == NULL)
+        return NULL;
+    const size_t n = grid->n_vertices;
+    tree->memory = *memory;
+    atomic_init(&tree->references, 1);
+    tree->grid = iccp_grid_retain(grid);
+    tree->parent = iccp_alloc(memory, n, sizeof *tree->parent);
+    tree->generation = iccp_alloc(memory, n, sizeof *tree->generation);
+    tree->order = iccp_alloc(memory, n, sizeof *tree->order);
+    if (tree->parent == NULL || tree->generation == NULL || tree->order == NULL) {
+        iccp_tree_release(tree);
+        return NULL;
+    }
+    for (size_t v = 0; v < n; ++v) {
+        tree->parent[v] = ICCP_NONE;
+        tree->generation[v] = -1;
+    }
+    return tree;
+}
+
+icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
+                            const int32_t *axis_order, const iccp_env *env, icc_error *err)
+{
+    assert(root < grid->n_vertices && grid->inside[root]);
+    *out = NULL;
+    icc_tree *tree = new_tree(grid, &env->memory);
+    if (tree == NULL)
+        return iccp_fail_memory(err);
+    tree->root = root;
+    tree->form = form;
+    for (int32_t k = 0; k < grid->dim; ++k)
+        tree->axis_order[k] = axis_order != NULL ? axis_order[k] : k;
+    icc_status status = grow_inside(tree, env);
+    if (status == ICC_OK)
+        status = grow_outside(tree, env);
+    if (status != ICC_OK) {
+        iccp_tree_release(tree);
+        return status;
+    }
+    *out = tree;
+    return ICC_OK;
+}
+
+icc_tree *iccp_tree_retain(const icc_tree *tree)
+{
+    icc_tree *shared = (icc_tree *)tree;
+    atomic_fetch_add_explicit(&shared->references, 1, memory_order_relaxed);
+    return shared;
+}
+
+void iccp_tree_release(icc_tree *tree)
+{
+    if (tree == NULL || atomic_fetch_sub(&tree->references, 1) != 1)
+        return;
+    const iccp_memory memory = tree->memory;
+    iccp_grid_release(tree->grid);
+    iccp_free(&memory, tree->parent);
+    iccp_free(&memory, tree->generation);
+    iccp_free(&memory, tree->order);
+    iccp_free(&memory, tree);
+}

@@ -1,0 +1,285 @@
+/* Based on: Huynh and Gingold, section 5.2, for what is to be reached; J. H. C. Whitehead,
+ * Simplicial Spaces, Nuclei and m-Groups, 1939, for how: a vertex whose neighbours in a set form a
+ * contractible part of its link may be added to the set, or taken from it, without a change of the
+ * homotopy type.
+ *
+ * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it only sets the
+ * priority. A set grows from the root: of the vertices that touch it, it takes the first one in
+ * that order whose neighbours in it are contractible, as are then the others (gradient/grid/kuhn.h). A
+ * vertex that is not has to wait until the set has taken another neighbour of it. When all are
+ * taken, no vertex but the root is critical, whatever the shape.
+ *
+ * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose
+ * neighbours in the set are contractible goes, but for the root, and the order is read backwards.
+ * There are shapes, even balls, where both fail: Bing's house with two rooms. */
+#include "gradient/tree/grow.h"
+
+#include "base/error.h"
+#include "base/sort.h"
+#include "gradient/grid/star.h"
+#include "gradient/tree/queue.h"
+
+#include <assert.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+enum {
+    MEMBER = 1, /* is to be taken: inside and reached by the tree; not the root */
+    IN_SET = 2, /* belongs to the set at the moment */
+    CUT = 4,    /* has neighbours beyond the grid */
+    WAITED = 8  /* has been refused */
+};
+
+static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6-D */
+
+typedef struct growth {
+    const icc_tree *tree;
+    const iccp_env *env;
+    const uint32_t *priority; /* the n vertices, the root among them, in the order preferred */
+    uint32_t *sorted;         /* memory of `priority` where it is not the tree's */
+    uint32_t *place;          /* by grid vertex: its index in `priority` */
+    uint8_t *state;           /* by grid vertex: MEMBER | IN_SET | .. */
+    uint32_t *rank;           /* by grid vertex: the result */
+    iccp_queue queue;         /* places, or places from the end, of vertices to be tried */
+    iccp_star star;
+    bool thinning;
+    size_t n, n_taken, n_tests, n_waited;
+} growth;
+
+/* ------------------------------------------------------------ the two ways */
+
+static uint8_t in_set(const growth *g, uint32_t v, int i)
+{
+    return g->state[iccp_star_vertex(&g->star, v, i)] / IN_SET & 1;
+}
+
+static iccp_link_set neighbours_in_set(const growth *g, uint32_t v)
+{
+    iccp_link_set set = {{0, 0}};
+    if (g->state[v] & CUT) {
+        const iccp_link_set within = iccp_star_within(&g->star, v);
+        for (int i = 0; i < g->star.kuhn.n_neighbours; ++i)
+            if (iccp_link_has(&within, i) && in_set(g, v, i))
+                iccp_link_add(&set, i);
+        return set;
+    }
+    for (int i = 0; i < g->star.kuhn.n_neighbours; ++i)
+        set.word[i / 64] |= (uint64_t)in_set(g, v, i) << (i % 64);
+    return set;
+}
+
+/* Puts the neighbours that are not taken yet into the queue. */
+static void queue_neighbours(growth *g, uint32_t v)
+{
+    const uint8_t wanted = g->thinning ? MEMBER | IN_SET : MEMBER;
+    const iccp_link_set within =
+        g->state[v] & CUT ? iccp_star_within(&g->star, v) : g->star.kuhn.all;
+    for (int i = 0; i < g->star.kuhn.n_neighbours; ++i) {
+        if (!iccp_link_has(&within, i))
+            continue;
+        const uint32_t u = iccp_star_vertex(&g->star, v, i);
+        if ((g->state[u] & (MEMBER | IN_SET)) != wanted)
+            continue;
+        const uint32_t place = g->place[u];
+        iccp_queue_push(&g->queue, g->thinning ? (uint32_t)g->n - 1 - place : place);
+    }
+}
+
+/* Into the set, or out of it. */
+static void take_vertex(growth *g, uint32_t v)
+{
+    g->state[v] ^= IN_SET;
+    g->rank[v] = (uint32_t)(g->thinning ? g->n - g->n_taken : g->n_taken);
+    ++g->n_taken;
+    queue_neighbours(g, v);
+}
+
+/* Takes vertices until there are none left to try. A vertex is tried once for each of its
+ * neighbours that is taken, at most. */
+static icc_status take_vertices(growth *g)
+{
+    for (;;) {
+        const uint32_t key = iccp_queue_pop(&g->queue);
+        if (key == UINT32_MAX)
+            return ICC_OK;
+        if (g->n_tests++ % TESTS_PER_REPORT == 0 &&
+            iccp_progress(g->env, "tree", (double)g->n_taken / (double)g->n) != ICC_OK)
+            return ICC_ERR_CANCELLED;
+        const uint32_t v = g->priority[g->thinning ? (uint32_t)g->n - 1 - key : key];
+        const iccp_link_set set = neighbours_in_set(g, v);
+        if (iccp_kuhn_regular(&g->star.kuhn, &set)) {
+            take_vertex(g, v);
+        } else {
+            g->n_waited += (g->state[v] & WAITED) == 0;
+            g->state[v] |= WAITED;
+        }
+    }
+}
+
+/* The root counts as taken either way, and is never tried. */
+static icc_status grow(growth *g)
+{
+    const uint32_t root = g->tree->root;
+    g->thinning = false;
+    g->n_taken = 1;
+    for (size_t i = 0; i < g->n; ++i) {
+        g->rank[g->priority[i]] = ICCP_NONE;
+        g->state[g->priority[i]] &= (uint8_t)~IN_SET;
+    }
+    g->rank[root] = 0;
+    g->state[root] |= IN_SET;
+    queue_neighbours(g, root);
+    return take_vertices(g);
+}
+
+static icc_status thin(growth *g)
+{
+    g->thinning = true;
+    g->n_taken = 1;
+    for (size_t i = 0; i < g->n; ++i) {
+        g->state[g->priority[i]] |= IN_SET;
+        if (g->priority[i] != g->tree->root)
+            iccp_queue_push(&g->queue, (uint32_t)(g->n - 1 - i));
+    }
+    return take_vertices(g);
+}
+
+/* ------------------------------------------------------------------ set-up */
+
+static bool is_higher(const void *context, uint32_t u, uint32_t v)
+{
+    const double *values = context;
+    return values[u] > values[v];
+}
+
+static icc_status set_priority(growth *g, const double *values)
+{
+    g->priority = g->tree->order;
+    if (values == NULL)
+        return ICC_OK;
+    uint32_t *work = iccp_alloc(&g->env->memory, g->n, sizeof *work);
+    g->sorted = iccp_alloc(&g->env->memory, g->n, sizeof *g->sorted);
+    if (work != NULL && g->sorted != NULL) {
+        memcpy(g->sorted, g->tree->order, g->n * sizeof *g->sorted);
+        iccp_sort_indices(g->sorted, work, g->n, values, is_higher);
+    }
+    const bool done = work != NULL && g->sorted != NULL;
+    iccp_free(&g->env->memory, work);
+    g->priority = g->sorted;
+    return done ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Makes place[] the inverse of priority[], marks who is to be taken, and gives nobody a rank. The
+ * root is no MEMBER: it is in the set from the start. */
+static icc_status begin_growth(growth *g, const double *values)
+{
+    const iccp_memory *memory = &g->env->memory;
+    const size_t n_vertices = g->tree->grid->n_vertices;
+    g->state = iccp_alloc_zero(memory, n_vertices, sizeof *g->state);
+    g->place = iccp_alloc(memory, n_vertices, sizeof *g->place);
+    iccp_queue_create(&g->queue, g->n, memory);
+    if (g->state == NULL || g->place == NULL || g->queue.level[0] == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_status status = set_priority(g, values);
+    if (status != ICC_OK)
+        return status;
+    iccp_star_init(&g->star, g->tree->grid, g->n);
+    for (size_t v = 0; v < n_vertices; ++v)
+        g->rank[v] = ICCP_NONE;
+    for (size_t i = 0; i < g->n; ++i) {
+        const uint32_t v = g->priority[i];
+        g->place[v] = (uint32_t)i;
+        g->state[v] = iccp_star_is_cut(&g->star, v) ? MEMBER | CUT : MEMBER;
+    }
+    g->state[g->tree->root] &= (uint8_t)~MEMBER;
+    return ICC_OK;
+}
+
+static void free_growth(growth *g)
+{
+    const iccp_memory *memory = &g->env->memory;
+    iccp_queue_free(&g->queue, memory);
+    iccp_free(memory, g->sorted);
+    iccp_free(memory, g->place);
+    iccp_free(memory, g->state);
+}
+
+/* ------------------------------------------------------------- the outcome */
+
+/* Edges on which the order found is not that of priority[]. */
+static size_t count_reversed(const growth *g)
+{
+    size_t n_reversed = 0;
+    for (size_t k = 0; k < g->n; ++k) {
+        const uint32_t v = g->priority[k];
+        const iccp_link_set within =
+            g->state[v] & CUT ? iccp_star_within(&g->star, v) : g->star.kuhn.all;
+        for (int i = 0; i < g->star.kuhn.n_neighbours; ++i) {
+            const uint32_t u = iccp_star_vertex(&g->star, v, i);
+            n_reversed += iccp_link_has(&within, i) && g->rank[u] < g->rank[v] && g->place[u] > k;
+        }
+    }
+    return n_reversed;
+}
+
+static uint32_t first_without_rank(const growth *g)
+{
+    for (size_t i = 0; i < g->n; ++i)
+        if (g->rank[g->priority[i]] == ICCP_NONE)
+            return g->priority[i];
+    return ICCP_NONE;
+}
+
+static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc_error *err)
+{
+    char at[96];
+    int used = 0;
+    for (int32_t k = 0; k < g->tree->grid->dim; ++k)
+        used += snprintf(at + used, sizeof at - (size_t)used, "%s%" PRIu32, k == 0 ? "" : ", ",
+                         iccp_grid_coordinate(g->tree->grid, report->vertex, k));
+    return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_GRID_VERTEX, report->vertex,
+                        "no order with one critical vertex was found: growth stops before vertex "
+                        "%" PRIu32 " (%s), %zu of %zu left, thinning leaves %zu; try a finer grid",
+                        report->vertex, at, report->n_unplaced, g->n, report->n_remaining);
+}
+
+/* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks
+ * that growth gives are worth having. */
+static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
+{
+    icc_status status = grow(g);
+    if (status != ICC_OK)
+        return status;
+    report->n_deferred = g->n_waited;
+    report->n_unplaced = g->n - g->n_taken;
+    report->vertex = first_without_rank(g);
+    report->method = g->n_waited > 0 ? ICC_GROW_GROWN : ICC_GROW_AS_GIVEN;
+    if (report->n_unplaced > 0) {
+        status = thin(g);
+        report->method = ICC_GROW_THINNED;
+        report->n_remaining = g->n - g->n_taken;
+    }
+    if (status == ICC_OK && report->n_remaining > 0)
+        status = grow(g);
+    if (status != ICC_OK)
+        return status;
+    report->n_tests = g->n_tests;
+    if (report->n_remaining > 0)
+        return fail_stuck(g, report, err);
+    if (report->method != ICC_GROW_AS_GIVEN)
+        report->n_reversed = count_reversed(g);
+    return ICC_OK;
+}
+
+icc_status iccp_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
+                          icc_grow_report *report, const iccp_env *env, icc_error *err)
+{
+    growth g = {.tree = tree, .env = env, .rank = rank, .n = tree->n_inside};
+    *report = (icc_grow_report){.n_vertices = g.n, .vertex = ICCP_NONE};
+    icc_status status = begin_growth(&g, values);
+    if (status == ICC_OK)
+        status = find_order(&g, report, err);
+    free_growth(&g);
+    return iccp_explain(err, status);
+}

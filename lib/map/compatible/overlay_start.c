@@ -1,0 +1,116 @@
+/* docs/theory.md, the mesh map: compatible triangulations of the two cages, made coarse.
+ *
+ * Where diagonals of the two triangulations cross, their overlay has a vertex, and far more
+ * triangles than it needs, most of them slivers, between which Newton's method can hardly move.
+ * Merging vertices leaves few triangles; then both sides move, by turns, the images by the energy
+ * of the map and the points by that of its inverse. Every state is one-to-one. */
+#include "map/compatible/overlay_start.h"
+
+#include "base/minmax.h"
+#include "map/compatible/coarsen.h"
+#include "map/compatible/compatible.h"
+#include "map/compatible/descent.h"
+#include "map/compatible/flips.h"
+#include "map/energy/untangle.h"
+
+#include <math.h>
+
+/* Half of the rounds, as far as progress goes, are TYPICAL. The last is one that lowers the energy
+ * by less than LEAST_GAIN. */
+enum { ROUNDS = 12, TYPICAL_ROUNDS = 2 };
+static const double LEAST_GAIN = 0.05;
+
+/* What a crossing costs until it is merged with others: a microsecond or two. */
+static const double CROSSING = 4;
+
+/* Of a round, on each side. */
+static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
+
+/* The overlay of the cages' own corners. */
+static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                          const iccp_env *env)
+{
+    const size_t n = source->n_facets;
+    uint32_t *pieces = iccp_alloc(&env->memory, n, sizeof *pieces);
+    double *images = iccp_alloc(&env->memory, n, 2 * sizeof *images);
+    iccp_planar corners = {.memory = env->memory};
+    icc_status status = pieces != NULL && images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (size_t f = 0; status == ICC_OK && f < n; ++f)
+        pieces[f] = 1;
+    if (status == ICC_OK)
+        status = iccp_planar_begin(&corners, source, pieces, 0, 0, env);
+    for (uint32_t v = 0; status == ICC_OK && v < n; ++v) {
+        const double along = iccp_planar_along(&corners, source, v, 0);
+        const double bary[2] = {1 - along, along};
+        iccp_domain_facet_point(target, corners.facet[v], bary, images + 2 * (size_t)v);
+    }
+    if (status == ICC_OK)
+        status = iccp_compatible_create(map, &corners, source, images,
+                                        sqrt(target->measure / source->measure), env);
+    iccp_planar_free(&corners);
+    iccp_free(&env->memory, images);
+    iccp_free(&env->memory, pieces);
+    return status;
+}
+
+/* Untangles what rounding has spoilt, on one side and on the other. */
+static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    icc_status status = ICC_OK;
+    for (int side = 0; side < 2; ++side) {
+        size_t n_left = iccp_plmap_count_inverted(map);
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
+        if (status == ICC_OK && n_left > 0)
+            status = iccp_untangle(&simplicial, work, &n_left, env);
+        if (status == ICC_OK && n_left > 0)
+            status = ICC_ERR_CERTIFICATE;
+        iccp_plmap_swap(map);
+    }
+    return status;
+}
+
+icc_status iccp_overlay_round(iccp_plmap *map, iccp_work *work, double *gain, const iccp_env *env)
+{
+    const double before = iccp_plmap_energy(map);
+    size_t n_gone, n_flips;
+    iccp_improvement ignored = {0};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_coarsen(map, ICCP_RISE, &n_gone, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_flip_edges(map, &n_flips, env);
+    if (status == ICC_OK)
+        status = iccp_improve_both_sides(map, &DESCENT, work, &ignored, &part[1]);
+    *gain = 1 - iccp_plmap_energy(map) / before;
+    return status;
+}
+
+icc_status iccp_overlay_relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    double gain = 1;
+    icc_status status = iccp_cut_chords(map);
+    for (size_t k = 0; status == ICC_OK && k < ROUNDS && gain >= LEAST_GAIN; ++k) {
+        const iccp_env round = iccp_round(env, k, TYPICAL_ROUNDS);
+        status = iccp_overlay_round(map, work, &gain, &round);
+    }
+    return status;
+}
+
+icc_status iccp_overlay_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                              double most, iccp_work *work, const iccp_env *env)
+{
+    iccp_work steps = {.left = most};
+    iccp_env part[3];
+    *map = (iccp_plmap){.memory = env->memory};
+    iccp_split(part, 3, (const double[]){1, 1, 2}, env);
+    icc_status status = overlay(map, source, target, &part[0]);
+    if (status == ICC_OK) {
+        iccp_work_charge(work, CROSSING * (double)(map->n_vertices - source->n_facets));
+        status = mend(map, &steps, &part[1]);
+    }
+    steps.left = iccp_min(steps.left, work->left - steps.spent);
+    if (status == ICC_OK)
+        status = iccp_overlay_relax(map, &steps, &part[2]);
+    iccp_work_charge(work, steps.spent);
+    return status;
+}

@@ -1,0 +1,231 @@
+#include "map/compatible/plmap.h"
+
+#include "math/predicates.h"
+
+#include <string.h>
+
+/* Half as much again as is needed, so that n cuts cost O(n). On failure the map is as before. */
+static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
+{
+    const iccp_memory *memory = &map->memory;
+    const size_t n = map->n_vertices, n_corners = 3 * map->corners.n_triangles;
+    bool is_there = true;
+    if (n_vertices > map->vertex_room) {
+        const size_t room = n_vertices + n_vertices / 2;
+        is_there &= iccp_enlarge(memory, &map->points, n, room, 2 * sizeof *map->points);
+        is_there &= iccp_enlarge(memory, &map->images, n, room, 2 * sizeof *map->images);
+        is_there &= iccp_enlarge(memory, &map->fixed, n, room, sizeof *map->fixed);
+        is_there &= iccp_enlarge(memory, &map->facet, n, room, sizeof *map->facet);
+        is_there &= iccp_enlarge(memory, &map->along, n, room, sizeof *map->along);
+        if (is_there)
+            map->vertex_room = room;
+    }
+    if (n_triangles > map->triangle_room) {
+        const size_t room = n_triangles + n_triangles / 2;
+        is_there &=
+            iccp_enlarge(memory, &map->corners.vertex, n_corners, 3 * room, sizeof(uint32_t));
+        is_there &= iccp_enlarge(memory, &map->corners.twin, n_corners, 3 * room, sizeof(uint32_t));
+        if (is_there)
+            map->triangle_room = room;
+    }
+    return is_there ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
+                            const iccp_memory *memory)
+{
+    *map = (iccp_plmap){.memory = *memory, .stretch = stretch};
+    const icc_status status = make_room(map, n_vertices, n_triangles);
+    if (status != ICC_OK) {
+        iccp_plmap_free(map);
+        return status;
+    }
+    map->n_vertices = n_vertices;
+    map->corners.n_triangles = n_triangles;
+    return ICC_OK;
+}
+
+void iccp_plmap_fill(iccp_plmap *map, const double *points, const double *images,
+                     const uint32_t *vertex, const uint32_t *twin)
+{
+    const size_t n_vertices = map->n_vertices, n_triangles = map->corners.n_triangles;
+    memcpy(map->points, points, 2 * n_vertices * sizeof *points);
+    memcpy(map->images, images, 2 * n_vertices * sizeof *images);
+    memcpy(map->corners.vertex, vertex, 3 * n_triangles * sizeof *vertex);
+    memcpy(map->corners.twin, twin, 3 * n_triangles * sizeof *twin);
+}
+
+icc_status iccp_plmap_create(iccp_plmap *map, const iccp_planar *mesh, const icc_domain *domain,
+                             const double *images, double stretch, const iccp_memory *memory)
+{
+    const icc_status status =
+        iccp_plmap_begin(map, mesh->n_vertices, mesh->n_triangles, stretch, memory);
+    if (status == ICC_OK)
+        iccp_plmap_fill(map, mesh->points, images != NULL ? images : mesh->points, mesh->triangles,
+                        mesh->twins);
+    for (uint32_t v = 0; status == ICC_OK && v < mesh->n_vertices; ++v) {
+        map->fixed[v] = v < mesh->n_boundary ? iccp_plmap_sense(domain) : ICCP_FREE;
+        map->facet[v] = map->fixed[v] ? mesh->facet[v] : 0;
+        map->along[v] = map->fixed[v] ? iccp_planar_along(mesh, domain, v, 0) : 0;
+    }
+    return status;
+}
+
+icc_status iccp_plmap_copy(iccp_plmap *map, const iccp_plmap *other, const iccp_memory *memory)
+{
+    const icc_status status = iccp_plmap_begin(map, other->n_vertices, other->corners.n_triangles,
+                                               other->stretch, memory);
+    if (status == ICC_OK) {
+        iccp_plmap_fill(map, other->points, other->images, other->corners.vertex,
+                        other->corners.twin);
+        memcpy(map->fixed, other->fixed, other->n_vertices * sizeof *map->fixed);
+        memcpy(map->facet, other->facet, other->n_vertices * sizeof *map->facet);
+        memcpy(map->along, other->along, other->n_vertices * sizeof *map->along);
+    }
+    return status;
+}
+
+void iccp_plmap_free(iccp_plmap *map)
+{
+    iccp_free(&map->memory, map->points);
+    iccp_free(&map->memory, map->images);
+    iccp_free(&map->memory, map->fixed);
+    iccp_free(&map->memory, map->facet);
+    iccp_free(&map->memory, map->along);
+    iccp_free(&map->memory, map->corners.vertex);
+    iccp_free(&map->memory, map->corners.twin);
+    *map = (iccp_plmap){.memory = map->memory};
+}
+
+bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle)
+{
+    const uint32_t c = 3 * triangle;
+    return iccp_orient2d(iccp_plmap_point(map, c), iccp_plmap_point(map, c + 1),
+                         iccp_plmap_point(map, c + 2)) > 0;
+}
+
+bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle)
+{
+    const uint32_t c = 3 * triangle;
+    return iccp_orient2d(iccp_plmap_image(map, c), iccp_plmap_image(map, c + 1),
+                         iccp_plmap_image(map, c + 2)) > 0;
+}
+
+/* Whether the halves x a m and x m b of the triangle that a corner is in keep its sign at m. */
+static bool can_halve(const double *x, const double *a, const double *b, const double m[2])
+{
+    return iccp_orient2d(x, a, b) <= 0 ||
+           (iccp_orient2d(x, a, m) > 0 && iccp_orient2d(x, m, b) > 0);
+}
+
+static bool can_cut(const iccp_plmap *map, uint32_t corner, const double point[2],
+                    const double image[2])
+{
+    const uint32_t a = iccp_after(corner), b = iccp_before(corner);
+    return can_halve(iccp_plmap_point(map, corner), iccp_plmap_point(map, a),
+                     iccp_plmap_point(map, b), point) &&
+           can_halve(iccp_plmap_image(map, corner), iccp_plmap_image(map, a),
+                     iccp_plmap_image(map, b), image);
+}
+
+static void middle_of(const double *a, const double *b, double m[2])
+{
+    m[0] = 0.5 * a[0] + 0.5 * b[0];
+    m[1] = 0.5 * a[1] + 0.5 * b[1];
+}
+
+/* The lower one has the segment for its facet; the other has, too, or begins the next segment of
+ * the same line. */
+bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
+                        double *from, double *to)
+{
+    const uint8_t *held = map->fixed;
+    for (int k = 0; k < 2; ++k) {
+        const uint32_t low = k == 0 ? a : b, high = k == 0 ? b : a;
+        const bool is_next = map->facet[high] == map->facet[low] + 1 && !(map->along[high] > 0) &&
+                             held[high] == ICCP_ON_LINE;
+        const bool is_same =
+            map->facet[high] == map->facet[low] && map->along[high] > map->along[low];
+        if ((held[low] != ICCP_LINE_BEGIN && held[low] != ICCP_ON_LINE) ||
+            (held[high] != ICCP_ON_LINE) || !(map->along[low] < 1) || !(is_next || is_same))
+            continue;
+        const double ends[2] = {map->along[low], is_next ? 1 : map->along[high]};
+        *facet = map->facet[low];
+        *from = ends[k];
+        *to = ends[1 - k];
+        return true;
+    }
+    return false;
+}
+
+bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex)
+{
+    size_t n = 0;
+    memset(vertex, 0xff, source->n_vertices * sizeof *vertex);
+    for (size_t v = 0; v < map->n_vertices; ++v) {
+        const uint32_t *ends = source->facets + 2 * (size_t)map->facet[v];
+        if (map->fixed[v] == ICCP_FREE || (map->along[v] > 0 && map->along[v] < 1))
+            continue;
+        uint32_t *own = &vertex[ends[map->along[v] > 0]];
+        if (*own != UINT32_MAX)
+            return false;
+        *own = (uint32_t)v;
+        ++n;
+    }
+    return n == source->n_vertices;
+}
+
+/* Vertex m in the middle of the edge from a to b, which may be one of the boundary, the inside
+ * being on its left, or of a line. */
+static void place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)
+{
+    uint32_t facet = 0;
+    double from = 0, to = 0;
+    map->fixed[m] = ICCP_FREE;
+    if (is_boundary) {
+        map->fixed[m] = map->fixed[a];
+        facet = map->facet[a];
+        from = map->along[a];
+        to = map->facet[b] == facet ? map->along[b] : map->fixed[a] == ICCP_ALONG ? 1 : 0;
+    } else if (map->fixed[a] != ICCP_FREE && map->fixed[b] != ICCP_FREE &&
+               iccp_plmap_on_line(map, a, b, &facet, &from, &to))
+        map->fixed[m] = ICCP_ON_LINE;
+    map->facet[m] = facet;
+    map->along[m] = 0.5 * (from + to);
+}
+
+icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done)
+{
+    const uint32_t twin = map->corners.twin[corner];
+    const uint32_t after = iccp_after(corner), before = iccp_before(corner);
+    double point[2], image[2];
+    middle_of(iccp_plmap_point(map, after), iccp_plmap_point(map, before), point);
+    middle_of(iccp_plmap_image(map, after), iccp_plmap_image(map, before), image);
+    *done = can_cut(map, corner, point, image) &&
+            (twin == ICCP_NO_NEIGHBOUR || can_cut(map, twin, point, image));
+    if (!*done)
+        return ICC_OK;
+    const icc_status status = make_room(map, map->n_vertices + 1, map->corners.n_triangles + 2);
+    if (status != ICC_OK)
+        return status;
+    const size_t m = map->n_vertices++;
+    memcpy(map->points + 2 * m, point, sizeof point);
+    memcpy(map->images + 2 * m, image, sizeof image);
+    place_on_edge(map, m, twin == ICCP_NO_NEIGHBOUR, map->corners.vertex[after],
+                  map->corners.vertex[before]);
+    iccp_cut_edge(&map->corners, corner, (uint32_t)m);
+    return ICC_OK;
+}
+
+icc_status iccp_cut_chords(iccp_plmap *map)
+{
+    icc_status status = ICC_OK;
+    for (uint32_t c = 0; status == ICC_OK && c < 3 * map->corners.n_triangles; ++c) {
+        bool done;
+        if (map->corners.twin[c] != ICCP_NO_NEIGHBOUR &&
+            map->fixed[map->corners.vertex[iccp_after(c)]] &&
+            map->fixed[map->corners.vertex[iccp_before(c)]] && !iccp_plmap_is_line(map, c))
+            status = iccp_plmap_cut(map, c, &done);
+    }
+    return status;
+}

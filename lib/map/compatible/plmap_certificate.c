@@ -1,0 +1,114 @@
+/* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple:
+ * then the map of the closed polygons is a homeomorphism (docs/theory.md, the mesh map). */
+#include "map/compatible/plmap_certificate.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+#include "domain/outlines.h"
+
+#include <stdatomic.h>
+#include <string.h>
+
+/* Triangles that a thread looks at at once. */
+enum { GRAIN = 512 };
+
+/* ---- outlines ---- */
+
+/* The vertex after each one of the boundary, UINT32_MAX elsewhere. False when a vertex is followed
+ * by two. */
+static bool link_boundary(const iccp_corners *corners, size_t n_vertices, uint32_t *next)
+{
+    bool is_clear = true;
+    memset(next, 0xff, n_vertices * sizeof *next);
+    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
+            const uint32_t from = corners->vertex[iccp_after(c)];
+            is_clear &= next[from] == UINT32_MAX;
+            next[from] = corners->vertex[iccp_before(c)];
+        }
+    return is_clear;
+}
+
+typedef struct sides {
+    iccp_outlines outlines;
+    const double *places[2]; /* of all vertices */
+} sides;
+
+static icc_status check_side(void *argument, size_t side, const iccp_env *env, icc_error *err)
+{
+    const sides *s = argument;
+    (void)err;
+    return iccp_outlines_check(&s->outlines, s->places[side], env, NULL);
+}
+
+static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const iccp_env *env)
+{
+    sides s = {.places = {map->points, map->images}};
+    uint32_t *next = iccp_alloc(&env->memory, map->n_vertices, sizeof *next);
+    if (next == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = ICC_ERR_BOUNDARY;
+    if (link_boundary(&map->corners, map->n_vertices, next))
+        status = iccp_outlines_create(&s.outlines, map->n_vertices, next, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_side_by_side(env, 2, check_side, &s, NULL);
+    *n_rings = s.outlines.n;
+    iccp_free(&env->memory, next);
+    iccp_outlines_free(&s.outlines);
+    return status;
+}
+
+/* ---- triangles ---- */
+
+/* What is good is counted, so that what was not looked at counts as a fault. */
+typedef struct count {
+    const iccp_plmap *map;
+    atomic_size_t n_good, n_open;
+} count;
+
+/* Triangles that are positive before and after, their edges that have one side or two that agree,
+ * and those with one. */
+static icc_status count_some(void *argument, size_t begin, size_t end)
+{
+    count *all = argument;
+    const iccp_plmap *map = all->map;
+    size_t n_good = 0, n_open = 0;
+    for (uint32_t t = (uint32_t)begin; t < end; ++t)
+        n_good += iccp_plmap_positive_point(map, t) && iccp_plmap_positive_image(map, t);
+    for (uint32_t c = 3 * (uint32_t)begin; c < 3 * end; ++c) {
+        const uint32_t twin = map->corners.twin[c];
+        n_open += twin == ICCP_NO_NEIGHBOUR;
+        n_good += twin == ICCP_NO_NEIGHBOUR ||
+                  (map->corners.twin[twin] == c &&
+                   map->corners.vertex[iccp_after(twin)] == map->corners.vertex[iccp_before(c)] &&
+                   map->corners.vertex[iccp_before(twin)] == map->corners.vertex[iccp_after(c)]);
+    }
+    atomic_fetch_add(&all->n_good, n_good);
+    atomic_fetch_add(&all->n_open, n_open);
+    return ICC_OK;
+}
+
+icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_error *err)
+{
+    const size_t n_triangles = map->corners.n_triangles;
+    iccp_env quiet = *env;
+    count all = {.map = map};
+    quiet.progress = NULL;
+    (void)iccp_for_chunks(&quiet, "check", n_triangles, GRAIN, count_some, &all);
+    const size_t n_faults = 4 * n_triangles - atomic_load(&all.n_good);
+    const size_t n_open = atomic_load(&all.n_open);
+    if (n_faults > 0)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE, "the mesh map cannot be certified: %zu faults",
+                         n_faults);
+    size_t n_rings = 0;
+    const icc_status status = check_outlines(map, &n_rings, env);
+    if (status == ICC_ERR_BOUNDARY)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the boundary of the mesh or of its image is not simple");
+    /* One piece with n_rings - 1 holes. */
+    if (status == ICC_OK && 2 * map->n_vertices + 2 * n_rings != n_triangles + n_open + 4)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "the mesh map cannot be certified: its mesh is "
+                         "not in one piece");
+    return status;
+}

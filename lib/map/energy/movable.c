@@ -1,0 +1,66 @@
+/* The mesh of a cage with many vertices is fine along its boundary and coarse inside. Most of its
+ * triangles lie in a strip whose area is negligible: whatever is done there hardly changes the
+ * energy, and, since the boundary is fixed, nothing inside can move by more than the strip is
+ * wide. */
+#include "map/energy/movable.h"
+
+#include "map/energy/dirichlet.h"
+
+#include <math.h>
+
+/* Meshes with fewer triangles are moved as a whole. */
+enum { FEW = 1 << 17 };
+
+/* Of the energy: what the triangles that are left alone carry above an isometry's, at most. */
+static const double SHARE = 1e-3;
+
+/* Areas are told apart by powers of two: classes from the smallest double's to the largest's. */
+enum { CLASSES = 2200, CLASS_OF_ONE = 1100 };
+
+/* Of each triangle, and what those of a class carry above an isometry's energy. Returns the energy
+ * of all. */
+static double classify(const iccp_simplicial_map *map, uint16_t *class, double excess[CLASSES])
+{
+    double energy = 0;
+    for (size_t t = 0; t < map->n_simplices; ++t) {
+        double element[ICCP_ELEMENT(2)];
+        const double *image[3];
+        int exponent;
+        iccp_simplicial_element(map, t, element);
+        iccp_simplicial_images(2, map, t, image);
+        const double own = iccp_dirichlet_energy(2, element, image);
+        (void)frexp(element[0], &exponent);
+        class[t] = (uint16_t)(CLASS_OF_ONE + exponent);
+        excess[class[t]] += own - 4 * element[0];
+        energy += own;
+    }
+    return energy;
+}
+
+bool iccp_all_are_movable(size_t n_triangles)
+{
+    return n_triangles < FEW;
+}
+
+icc_status iccp_movable_create(uint8_t **movable, const iccp_simplicial_map *map,
+                               const iccp_env *env)
+{
+    *movable = NULL;
+    if (map->dim != 2 || iccp_all_are_movable(map->n_simplices))
+        return ICC_OK;
+    uint16_t *class = iccp_alloc(&env->memory, map->n_simplices, sizeof *class);
+    uint8_t *marks = iccp_alloc_zero(&env->memory, map->n_points, 1);
+    double excess[CLASSES] = {0}, left_alone = 0;
+    size_t limit = 0;
+    *movable = marks;
+    if (class != NULL && marks != NULL) {
+        const double energy = classify(map, class, excess);
+        while (limit < CLASSES && (left_alone += excess[limit]) <= SHARE * energy)
+            ++limit;
+        for (size_t t = 0; t < map->n_simplices; ++t)
+            for (size_t k = 0; k < 3; ++k)
+                marks[map->corners[3 * t + k]] |= class[t] >= limit;
+    }
+    iccp_free(&env->memory, class);
+    return class != NULL && marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}

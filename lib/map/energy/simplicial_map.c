@@ -1,0 +1,191 @@
+#include "map/energy/simplicial_map.h"
+
+#include "base/threads.h"
+#include "map/energy/dirichlet.h"
+#include "math/predicates.h"
+
+#include <stdatomic.h>
+
+/* Simplices that a thread takes at once, and those whose terms wait to be summed in order. */
+enum { GRAIN = 512, BLOCK = 4 * GRAIN };
+
+/* In units of the local coordinates, the largest of which is about 1. */
+static const double NEXT_TO_NOTHING = 1e-45;
+
+iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *images)
+{
+    return (iccp_simplicial_map){.dim = mesh->dim,
+                                 .n_points = mesh->n_points,
+                                 .n_simplices = mesh->n_simplices,
+                                 .corners = mesh->corners,
+                                 .points = mesh->points,
+                                 .images = images,
+                                 .n_fixed = mesh->n_boundary,
+                                 .stretch = 1};
+}
+
+void iccp_simplicial_round(size_t n, double *coordinates)
+{
+    for (size_t i = 0; i < n; ++i)
+        if (fabs(coordinates[i]) < NEXT_TO_NOTHING)
+            coordinates[i] = 0;
+}
+
+void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element)
+{
+    const size_t dim = map->dim;
+    const uint32_t *v = map->corners + (dim + 1) * simplex;
+    double stretched[4][3];
+    const double *corner[4];
+    double stretch = map->stretch;
+    if (map->growth != NULL) {
+        double sum = 0;
+        for (size_t k = 0; k <= dim; ++k)
+            sum += map->growth[v[k]];
+        stretch *= sum / (double)(dim + 1);
+    }
+    for (size_t k = 0; k <= dim; ++k) {
+        for (size_t d = 0; d < dim; ++d)
+            stretched[k][d] = stretch * map->points[dim * v[k] + d];
+        corner[k] = stretched[k];
+    }
+    iccp_element_create(dim, corner, element);
+}
+
+bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex)
+{
+    const double *p[4];
+    if (map->dim == 2) {
+        iccp_simplicial_images(2, map, simplex, p);
+        return iccp_orient2d(p[0], p[1], p[2]) > 0;
+    }
+    iccp_simplicial_images(3, map, simplex, p);
+    return iccp_orient3d(p[0], p[1], p[2], p[3]) > 0;
+}
+
+static bool has_image(const iccp_simplicial_map *map, size_t simplex)
+{
+    const double *p[4];
+    bool is_finite = true;
+    iccp_simplicial_images(map->dim, map, simplex, p);
+    for (size_t k = 0; k <= map->dim; ++k)
+        for (size_t d = 0; d < map->dim; ++d)
+            is_finite = is_finite && isfinite(p[k][d]);
+    return is_finite;
+}
+
+/* What is good is counted, so that what was not looked at counts as inverted. */
+typedef struct counting {
+    const iccp_simplicial_map *map;
+    atomic_size_t n_good;
+} counting;
+
+static icc_status count_some(void *argument, size_t begin, size_t end)
+{
+    counting *c = argument;
+    size_t n_good = 0;
+    for (size_t s = begin; s < end; ++s)
+        n_good += has_image(c->map, s) && iccp_simplicial_is_positive(c->map, s);
+    atomic_fetch_add(&c->n_good, n_good);
+    return ICC_OK;
+}
+
+size_t iccp_simplicial_count_inverted(const iccp_simplicial_map *map)
+{
+    counting c = {.map = map};
+    (void)count_some(&c, 0, map->n_simplices);
+    return map->n_simplices - atomic_load(&c.n_good);
+}
+
+size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    counting c = {.map = map};
+    quiet.progress = NULL;
+    (void)iccp_for_chunks(&quiet, "check", map->n_simplices, GRAIN, count_some, &c);
+    return map->n_simplices - atomic_load(&c.n_good);
+}
+
+bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex)
+{
+    for (size_t k = 0; k <= map->dim; ++k)
+        if (!iccp_simplicial_is_fixed(map, map->corners[(map->dim + 1) * simplex + k]))
+            return true;
+    return false;
+}
+
+bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map)
+{
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        if (!iccp_simplicial_is_free(map, s) && !iccp_simplicial_is_positive(map, s))
+            return true;
+    return false;
+}
+
+void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size_t simplex,
+                              double *jacobian)
+{
+    const double *points = inverse ? map->images : map->points;
+    const double *images = inverse ? map->points : map->images;
+    const uint32_t *v = map->corners + (map->dim + 1) * simplex;
+    const double *from[4], *to[4];
+    double element[ICCP_MAX_ELEMENT];
+    for (size_t k = 0; k <= map->dim; ++k) {
+        from[k] = points + map->dim * v[k];
+        to[k] = images + map->dim * v[k];
+    }
+    iccp_element_create(map->dim, from, element);
+    (void)iccp_element_jacobian(map->dim, element, to, jacobian);
+}
+
+/* Of the simplices from `first` on: the energy and the measure of each. */
+typedef struct terms {
+    const iccp_simplicial_map *map;
+    size_t first;
+    double energy[BLOCK], measure[BLOCK];
+} terms;
+
+static icc_status find_terms(void *argument, size_t begin, size_t end)
+{
+    terms *t = argument;
+    for (size_t k = begin; k < end; ++k) {
+        const double *image[4];
+        double element[ICCP_MAX_ELEMENT];
+        iccp_simplicial_images(t->map->dim, t->map, t->first + k, image);
+        iccp_simplicial_element(t->map, t->first + k, element);
+        t->energy[k] = iccp_dirichlet_energy(t->map->dim, element, image);
+        t->measure[k] = element[0];
+    }
+    return ICC_OK;
+}
+
+static double mean_energy(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    terms t;
+    double sum = 0, measure = 0;
+    t.map = map;
+    for (t.first = 0; t.first < map->n_simplices; t.first += BLOCK) {
+        const size_t left = map->n_simplices - t.first, n = left < BLOCK ? left : BLOCK;
+        if (env != NULL)
+            (void)iccp_for_chunks(env, "improve", n, GRAIN, find_terms, &t);
+        else
+            (void)find_terms(&t, 0, n);
+        for (size_t k = 0; k < n; ++k) {
+            sum += t.energy[k];
+            measure += t.measure[k];
+        }
+    }
+    return sum / measure;
+}
+
+double iccp_simplicial_energy(const iccp_simplicial_map *map)
+{
+    return mean_energy(map, NULL);
+}
+
+double iccp_simplicial_energy_at_once(const iccp_simplicial_map *map, const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    return mean_energy(map, &quiet);
+}

@@ -1,0 +1,182 @@
+/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, on patches round what is
+ * inverted, larger ones in turn: docs/theory.md, the mesh map. */
+#include "map/energy/untangle.h"
+
+#include "base/minmax.h"
+#include "map/energy/newton.h"
+#include "map/energy/patches.h"
+#include "map/energy/untangling.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Rings of neighbours round the inverted simplices that are free to move, 0 means all; steps at
+ * most; and steps without fewer inverted simplices after which it is given up. In space, from a
+ * start that has little to do with the map, many steps go by before epsilon is small enough for
+ * anything to happen. What is left after that in few places, patches mend more often than not. */
+typedef struct patches {
+    int rings, steps, patience;
+} patches;
+
+static const patches PLANE[ICCP_PLANE_ROUNDS] = {
+    {2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 60, 15}};
+static const patches SPACE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 150, 40},
+                                {2, 60, 15}, {5, 60, 15}, {12, 60, 15}};
+
+/* In space, where more than one tetrahedron in MANY is inverted, patches would cost more than all
+ * at once and leave the inverted ones beside them in worse places. */
+enum { MANY = 20 };
+
+/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for
+ * each epsilon; Garanzha et al. take 0.1 with a slower one. */
+static const double SLOWEST = 0.3;
+
+/* Half of the steps of a round, as far as progress goes. */
+static const double TYPICAL_STEPS = 10;
+
+/* Inverted; in space not with all corners fixed, where nothing can be done. */
+static bool is_task(const iccp_simplicial_map *map, size_t simplex)
+{
+    return (map->dim == 2 || iccp_simplicial_is_free(map, simplex)) &&
+           !iccp_simplicial_is_positive(map, simplex);
+}
+
+static size_t count_tasks(const iccp_simplicial_map *map)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        n += is_task(map, s);
+    return n;
+}
+
+/* Ring by ring: what has a corner in the last one is in the next. */
+void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *marks)
+{
+    const size_t n = map->dim + 1;
+    memset(marks, 0, map->n_points);
+    for (size_t s = 0; s < map->n_simplices; ++s)
+        if (is_task(map, s))
+            for (size_t k = 0; k < n; ++k)
+                marks[map->corners[n * s + k]] = 1;
+    for (int ring = 1; ring < rings; ++ring)
+        for (size_t s = 0; s < map->n_simplices; ++s) {
+            const uint32_t *v = map->corners + n * s;
+            bool touches = false;
+            for (size_t k = 0; k < n; ++k)
+                touches |= marks[v[k]] == ring;
+            for (size_t k = 0; touches && k < n; ++k)
+                if (marks[v[k]] == 0)
+                    marks[v[k]] = (uint8_t)(ring + 1);
+        }
+}
+
+/* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
+ * epsilon goes to zero. */
+static icc_status descend(iccp_newton *newton, const patches *round, const iccp_trial *trial,
+                          iccp_work *work, const iccp_env *env)
+{
+    const double begin = work->spent;
+    size_t n_bad, fewest;
+    int since = 0;
+    icc_status status = ICC_OK;
+    double least = iccp_newton_least(newton, &n_bad);
+    double epsilon = iccp_untangling_start(least);
+    fewest = n_bad;
+    for (int k = 0; k < round->steps && since < round->patience && newton->assembly.n_free > 0 &&
+                    iccp_work_take(work, newton->assembly.n_elements);
+         ++k) {
+        double slope;
+        const double before = iccp_newton_energy(newton, ICCP_UNTANGLE, epsilon);
+        const iccp_env part = iccp_round(env, (size_t)k, TYPICAL_STEPS);
+        status = iccp_progress(&part, "repair", 0);
+        if (status == ICC_OK)
+            status = iccp_newton_solve(newton, ICCP_UNTANGLE, epsilon, &slope, &part);
+        if (status != ICC_OK)
+            break;
+        const double after = iccp_newton_move(newton, ICCP_UNTANGLE, epsilon, before, slope);
+        least = iccp_newton_least(newton, &n_bad);
+        since = n_bad < fewest ? 0 : since + 1;
+        fewest = n_bad < fewest ? n_bad : fewest;
+        if (n_bad > trial->most && work->spent - begin >= trial->work)
+            break;
+        if (least > 0 && after >= 0.99 * before)
+            break;
+        epsilon = iccp_untangling_next(epsilon, least, iccp_max(1 - after / before, SLOWEST));
+    }
+    return status == ICC_ERR_SOLVER ? ICC_OK : status;
+}
+
+/* The points with movable[v] != 0, or all. */
+static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t *movable,
+                                   const patches *round, const iccp_trial *trial, iccp_work *work,
+                                   const iccp_env *env)
+{
+    iccp_newton newton;
+    icc_status status = iccp_newton_create(&newton, map, movable, NULL, env);
+    if (status != ICC_OK)
+        return status;
+    status = descend(&newton, round, trial, work, env);
+    iccp_newton_free(&newton);
+    return status;
+}
+
+/* Each patch by itself: its epsilon begins where its own worst triangle asks for it, and it costs
+ * nothing any more once it is done. The trial fails when more would be left in the end if all
+ * patches went like those so far. */
+static icc_status untangle_one_by_one(const iccp_simplicial_map *map, const uint8_t *movable,
+                                      const patches *round, const iccp_trial *trial,
+                                      iccp_work *work, const iccp_env *env)
+{
+    const double begin = work->spent;
+    const size_t n_all = count_tasks(map);
+    size_t n_before = 0, n_after = 0;
+    iccp_patches parts;
+    icc_status status = iccp_patches_create(&parts, map, movable, &env->memory);
+    for (size_t p = 0; status == ICC_OK && p < parts.n; ++p) {
+        const iccp_env own = iccp_round(env, p, (double)parts.n);
+        const iccp_simplicial_map part = iccp_patches_cut_out(&parts, p);
+        const size_t n = count_tasks(&part);
+        const iccp_trial share = {trial->most * n / n_all, trial->work - (work->spent - begin)};
+        if (n > 0)
+            status = untangle_at_once(&part, NULL, round, &share, work, &own);
+        iccp_patches_put_back(&parts, &part);
+        n_before += n;
+        n_after += count_tasks(&part);
+        if (work->spent - begin >= trial->work && n_after * n_all > trial->most * n_before)
+            break;
+    }
+    iccp_patches_free(&parts);
+    return status;
+}
+
+icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
+                                 const iccp_trial *trial, iccp_work *work, const iccp_env *env)
+{
+    static const iccp_trial none = {0, HUGE_VAL};
+    const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
+    trial = trial != NULL ? trial : &none;
+    if (p->rings == 0)
+        return untangle_at_once(map, NULL, p, trial, work, env);
+    iccp_untangle_mark(map, p->rings, marks);
+    return map->dim == 2 ? untangle_one_by_one(map, marks, p, trial, work, env)
+                         : untangle_at_once(map, marks, p, trial, work, env);
+}
+
+icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t *n_left,
+                         const iccp_env *env)
+{
+    const size_t n = map->dim == 2 ? ICCP_PLANE_ROUNDS : sizeof SPACE / sizeof *SPACE;
+    uint8_t *marks = iccp_alloc(&env->memory, map->n_points, 1);
+    icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    size_t n_tasks = count_tasks(map);
+    for (size_t k = 0; status == ICC_OK && n_tasks > 0 && k < n; ++k) {
+        if (map->dim == 3 && SPACE[k].rings > 0 && n_tasks > map->n_simplices / MANY)
+            continue;
+        const iccp_env part = iccp_round(env, k, 1);
+        status = iccp_untangle_patches(map, k, marks, NULL, work, &part);
+        n_tasks = count_tasks(map);
+    }
+    *n_left = iccp_simplicial_count_inverted(map);
+    iccp_free(&env->memory, marks);
+    return status;
+}

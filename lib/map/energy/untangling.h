@@ -1,0 +1,22 @@
+/* The untangling energy of the linear map of one simplex in the plane or in space. */
+#ifndef ICCP_UNTANGLING_H
+#define ICCP_UNTANGLING_H
+
+#include "map/energy/jacobian.h"
+
+/* Finite for every image, but the more it is inverted the higher; `epsilon` says how much is
+ * forgiven. For an isometry the element's area or volume. */
+double iccp_untangling_energy(size_t dim, const double *element, const double *const *image,
+                              double epsilon);
+void iccp_untangling_local(size_t dim, const double *element, const double *const *image,
+                           double epsilon, iccp_local *local);
+
+/* chi(det) = (det + sqrt(epsilon^2 + det^2)) / 2, which stands for the determinant. */
+double iccp_untangling_chi(double epsilon, double det);
+
+/* Epsilon to begin with, when `least` is the smallest determinant; and the next one, whose lower
+ * bound is smaller by the share `fall`. */
+double iccp_untangling_start(double least);
+double iccp_untangling_next(double epsilon, double least, double fall);
+
+#endif

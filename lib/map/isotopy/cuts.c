@@ -1,0 +1,316 @@
+/* R. C. Prim, Shortest connection networks and some generalizations, 1957. The next cut is the
+ * shortest one that joins another component to those which are joined already; how long it is
+ * depends on the cuts that it has to go round, and so is found out only when it comes first by what
+ * is known of it.
+ *
+ * The way in the source decides between which walls and cuts the way in the target leaves and
+ * arrives: then a map that takes the one to the other has one image of each point there. */
+#include "map/isotopy/cuts.h"
+
+#include "base/minmax.h"
+#include "base/random.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A cut is made when it is longer than the next one may be by no more than this share. */
+static const double SLACK = 0.1;
+
+/* Lengths are multiplied by up to 1 + this for trees at random. */
+#define JITTER 1.5
+
+/* What lengths in the other domain count for where one comes first. */
+#define MINOR 0.2
+
+/* Ways that are looked for until the first one that is found will do: so many, and so many for each
+ * component. */
+enum { MOST_WAYS = 64, MOST_WAYS_EACH = 16 };
+
+typedef struct iccp_candidate_cut {
+    uint32_t from, to;
+    double length[2]; /* of the straight lines, in each domain */
+    uint32_t known;   /* how many cuts there were when its way was looked for */
+    double first_key; /* by the straight lines */
+} candidate;
+
+/* ---- candidates: edges of either triangulation between components ---- */
+
+static void visit_edges(iccp_cutter *k, int side, bool enters)
+{
+    const iccp_scene *s = k->scene;
+    const iccp_corners *mesh = &s->mesh[side];
+    for (size_t c = 0; c < 3 * mesh->n_triangles; ++c) {
+        const uint32_t a = mesh->vertex[iccp_after((uint32_t)c)];
+        const uint32_t b = mesh->vertex[iccp_before((uint32_t)c)];
+        if (s->component[a] == s->component[b])
+            continue;
+        if (!enters)
+            ++k->first[s->component[a]];
+        else
+            k->candidate[--k->first[s->component[a]]] = (candidate){
+                .from = a,
+                .to = b,
+                .length = {iccp_distance_between(s->domain[0]->vertices, a, b),
+                           s->scale * iccp_distance_between(s->domain[1]->vertices, a, b)}};
+    }
+}
+
+static icc_status list_candidates(iccp_cutter *k, const iccp_memory *memory)
+{
+    const size_t n = k->scene->n_components;
+    k->first = iccp_alloc_zero(memory, n + 1, sizeof *k->first);
+    if (k->first == NULL)
+        return ICC_ERR_MEMORY;
+    for (int side = 0; side < 2; ++side)
+        visit_edges(k, side, false);
+    for (size_t i = 0; i < n; ++i)
+        k->first[i + 1] += k->first[i];
+    k->candidate = iccp_alloc(memory, k->first[n], sizeof *k->candidate);
+    if (k->candidate == NULL || !iccp_heap_create(&k->queue, k->first[n], memory))
+        return ICC_ERR_MEMORY;
+    for (int side = 0; side < 2; ++side)
+        visit_edges(k, side, true);
+    return ICC_OK;
+}
+
+/* ---- the tree ---- */
+
+/* What lengths in the two domains count for, in which of them a way is free to pass others on
+ * either side, and by which share keys are changed at random at most. */
+typedef struct kind_of_tree {
+    double weight[2];
+    int first;
+    double jitter;
+} kind_of_tree;
+
+static kind_of_tree kind_of(uint64_t tree)
+{
+    static const kind_of_tree kinds[] = {
+        {{1, 1}, 0, JITTER}, {{1, MINOR}, 0, JITTER}, {{MINOR, 1}, 1, JITTER}};
+    kind_of_tree kind = kinds[tree % 3];
+    if (tree < 3)
+        kind.jitter = 0;
+    return kind;
+}
+
+static double weigh(const kind_of_tree *kind, const double length[2])
+{
+    return kind->weight[0] * length[0] + kind->weight[1] * length[1];
+}
+
+static void offer_component(iccp_cutter *k, const uint8_t *joined, uint32_t component,
+                            const kind_of_tree *kind, uint64_t *random)
+{
+    for (size_t i = k->first[component]; i < k->first[component + 1]; ++i) {
+        candidate *c = &k->candidate[i];
+        const double u = kind->jitter * (double)(iccp_random(random) >> 11) * 0x1p-53;
+        c->known = UINT32_MAX;
+        c->first_key = (1 + u) * weigh(kind, c->length);
+        if (!joined[k->scene->component[c->to]])
+            iccp_heap_put(&k->queue, (uint32_t)i, c->first_key);
+    }
+}
+
+/* The ways of a candidate in both domains; their weight, HUGE_VAL where there is none. */
+static icc_status find_ways(iccp_cutter *k, const candidate *c, const kind_of_tree *kind,
+                            double *weight)
+{
+    iccp_way *own = &k->way[kind->first], *other = &k->way[1 - kind->first];
+    icc_status status = iccp_routes_find(&k->routes[kind->first], c->from, ICCP_ANY_SECTOR, c->to,
+                                         ICCP_ANY_SECTOR, HUGE_VAL, own);
+    other->length = HUGE_VAL;
+    if (status == ICC_OK && own->length < HUGE_VAL)
+        status = iccp_routes_find(&k->routes[1 - kind->first], c->from, own->sector[0], c->to,
+                                  own->sector[1], HUGE_VAL, other);
+    *weight = weigh(kind, (const double[]){k->way[0].length, k->scene->scale * k->way[1].length});
+    return status;
+}
+
+static icc_status lay_ways(iccp_cutter *k)
+{
+    icc_status status = iccp_routes_lay(&k->routes[0], &k->way[0]);
+    return status == ICC_OK ? iccp_routes_lay(&k->routes[1], &k->way[1]) : status;
+}
+
+/* Takes candidates until one is laid, and says which component that joins. ICC_ERR_TOPOLOGY when
+ * there are none. */
+static icc_status next_cut(iccp_cutter *k, const kind_of_tree *kind, const uint8_t *joined,
+                           size_t *n_ways, uint32_t *component)
+{
+    const uint32_t n_cuts = (uint32_t)k->routes[0].n_paths;
+    icc_status status = ICC_OK;
+    while (status == ICC_OK && k->queue.n_entries > 0) {
+        const double key = k->queue.entry[0].key;
+        const uint32_t i = iccp_heap_pop(&k->queue);
+        candidate *c = &k->candidate[i];
+        double weight;
+        *component = k->scene->component[c->to];
+        if (joined[*component])
+            continue;
+        status = find_ways(k, c, kind, &weight);
+        if (status != ICC_OK || !(weight < HUGE_VAL))
+            continue;
+        /* Keys that are changed at random stay so. */
+        const double own = iccp_max(key, weight * (c->first_key / weigh(kind, c->length)));
+        const double next = k->queue.n_entries > 0 ? k->queue.entry[0].key : HUGE_VAL;
+        if (c->known == n_cuts || own <= (1 + SLACK) * next || *n_ways == 0)
+            return lay_ways(k);
+        --*n_ways;
+        c->known = n_cuts;
+        iccp_heap_put(&k->queue, i, own);
+    }
+    return status == ICC_OK ? ICC_ERR_TOPOLOGY : status;
+}
+
+static icc_status grow(iccp_cutter *k, uint64_t tree, const iccp_env *env)
+{
+    const kind_of_tree kind = kind_of(tree);
+    const size_t n = k->scene->n_components;
+    size_t n_ways = MOST_WAYS + MOST_WAYS_EACH * n;
+    uint64_t random = tree;
+    uint8_t *joined = iccp_alloc_zero(&env->memory, n, 1);
+    icc_status status = joined != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    uint32_t component = 0;
+    for (int side = 0; side < 2; ++side)
+        iccp_routes_reset(&k->routes[side]);
+    iccp_heap_clear(&k->queue);
+    for (size_t i = 1; status == ICC_OK && i < n; ++i) {
+        joined[component] = 1;
+        offer_component(k, joined, component, &kind, &random);
+        status = iccp_progress(env, "mesh", (double)i / (double)n);
+        if (status == ICC_OK)
+            status = next_cut(k, &kind, joined, &n_ways, &component);
+    }
+    iccp_free(&env->memory, joined);
+    return status;
+}
+
+/* ---- polylines ---- */
+
+/* Puts one more bend on the longest piece. */
+static icc_status bend_once(iccp_polyline *line, const iccp_memory *memory)
+{
+    uint32_t at = 1;
+    for (uint32_t i = 2; i < line->n; ++i)
+        if (iccp_distance_between(line->points, i - 1, i) >
+            iccp_distance_between(line->points, at - 1, at))
+            at = i;
+    const double *p = line->points + 2 * (size_t)(at - 1);
+    const double middle[2] = {0.5 * (p[0] + p[2]), 0.5 * (p[1] + p[3])};
+    const icc_status status = iccp_polyline_add(line, middle, memory);
+    if (status != ICC_OK)
+        return status;
+    memmove(line->points + 2 * (at + 1), line->points + 2 * at,
+            2 * (line->n - 1 - at) * sizeof *line->points);
+    memcpy(line->points + 2 * at, middle, sizeof middle);
+    return ICC_OK;
+}
+
+icc_status iccp_cuts_begin(iccp_cuts *cuts, size_t n, const iccp_memory *memory)
+{
+    *cuts = (iccp_cuts){.memory = *memory, .n = n};
+    cuts->ends = iccp_alloc(memory, n, 2 * sizeof *cuts->ends);
+    cuts->first = iccp_alloc_zero(memory, n + 1, sizeof *cuts->first);
+    return cuts->ends != NULL && cuts->first != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_cuts_add(iccp_cuts *cuts, size_t cut, const uint32_t ends[2], iccp_polyline line[2])
+{
+    icc_status status = ICC_OK;
+    for (int k = 0; k < 2; ++k) {
+        cuts->length[k] += iccp_polyline_length(&line[k]);
+        cuts->straight[k] += iccp_distance_between(line[k].points, 0, (uint32_t)line[k].n - 1);
+    }
+    while (status == ICC_OK && line[0].n != line[1].n)
+        status = bend_once(&line[line[0].n < line[1].n ? 0 : 1], &cuts->memory);
+    if (status != ICC_OK)
+        return status;
+    const size_t n_old = cuts->first[cut], n_bends = line[0].n - 2, n = n_old + n_bends;
+    for (int k = 0; k < 2 && n > cuts->room; ++k) {
+        double *points =
+            iccp_grow(&cuts->memory, cuts->points[k], 2 * n_old, 4 * n, sizeof *points);
+        if (points == NULL)
+            return ICC_ERR_MEMORY;
+        cuts->points[k] = points;
+    }
+    cuts->room = n > cuts->room ? 2 * n : cuts->room;
+    for (int k = 0; k < 2 && n_bends > 0; ++k)
+        memcpy(cuts->points[k] + 2 * n_old, line[k].points + 2, 2 * n_bends * sizeof(double));
+    memcpy(cuts->ends + 2 * cut, ends, 2 * sizeof *ends);
+    cuts->first[cut + 1] = (uint32_t)n;
+    return ICC_OK;
+}
+
+static icc_status draw(iccp_cuts *cuts, const iccp_cutter *k)
+{
+    const iccp_path_ends *path = k->routes[0].path;
+    iccp_lanes lanes[2] = {{NULL}, {NULL}};
+    iccp_polyline line[2] = {{0}, {0}};
+    icc_status status = ICC_OK;
+    for (int side = 0; status == ICC_OK && side < 2; ++side)
+        status = iccp_lanes_create(&lanes[side], &k->routes[side]);
+    for (size_t i = 0; status == ICC_OK && i < cuts->n; ++i) {
+        for (int side = 0; status == ICC_OK && side < 2; ++side) {
+            line[side].n = 0;
+            status = iccp_taut(&line[side], &k->routes[side], &lanes[side], i);
+        }
+        if (status == ICC_OK)
+            status = iccp_cuts_add(cuts, i, path[i].vertex, line);
+    }
+    for (int side = 0; side < 2; ++side) {
+        iccp_lanes_free(&lanes[side], &cuts->memory);
+        iccp_polyline_free(&line[side], &cuts->memory);
+    }
+    return status;
+}
+
+/* ---- all of it ---- */
+
+icc_status iccp_cuts_create(iccp_cuts *cuts, iccp_cutter *cutter, uint64_t tree,
+                            const iccp_env *env)
+{
+    *cuts = (iccp_cuts){.memory = env->memory};
+    icc_status status = grow(cutter, tree, env);
+    if (status == ICC_OK)
+        status = iccp_cuts_begin(cuts, cutter->scene->n_components - 1, &env->memory);
+    if (status == ICC_OK)
+        status = draw(cuts, cutter);
+    if (status != ICC_OK)
+        iccp_cuts_free(cuts);
+    return status;
+}
+
+void iccp_cuts_free(iccp_cuts *cuts)
+{
+    const iccp_memory *memory = &cuts->memory;
+    iccp_free(memory, cuts->ends);
+    iccp_free(memory, cuts->first);
+    iccp_free(memory, cuts->points[0]);
+    iccp_free(memory, cuts->points[1]);
+    *cuts = (iccp_cuts){.memory = *memory};
+}
+
+icc_status iccp_cutter_create(iccp_cutter *k, const iccp_scene *scene, const iccp_env *env)
+{
+    *k = (iccp_cutter){.memory = env->memory, .scene = scene};
+    icc_status status = iccp_routes_create(&k->routes[0], scene, 0, env);
+    if (status == ICC_OK)
+        status = iccp_routes_create(&k->routes[1], scene, 1, env);
+    if (status == ICC_OK)
+        status = list_candidates(k, &env->memory);
+    if (status != ICC_OK)
+        iccp_cutter_free(k);
+    return status;
+}
+
+void iccp_cutter_free(iccp_cutter *k)
+{
+    iccp_free(&k->memory, k->candidate);
+    iccp_free(&k->memory, k->first);
+    iccp_heap_free(&k->queue, &k->memory);
+    for (int side = 0; side < 2; ++side) {
+        iccp_way_free(&k->way[side], &k->memory);
+        iccp_routes_free(&k->routes[side]);
+    }
+    *k = (iccp_cutter){.memory = k->memory};
+}

@@ -1,0 +1,263 @@
+/* Through the mesh the inverse of a map is one affine map for each triangle of the target, so
+ * pictures are drawn triangle by triangle, row by row, without looking for the triangle of a pixel.
+ *
+ * Where a triangle shrinks the picture its rows are sampled more finely and gathered. A pixel
+ * belongs to the triangle that holds its centre: either it is painted by that triangle at once, or
+ * it is the mean of what all triangles that gather have in it. */
+#include "map/picture/warp.h"
+
+#include "base/threads.h"
+#include "map/picture/boundary_pixels.h"
+#include "map/picture/picture_values.h"
+#include "map/picture/scan.h"
+#include "map/picture/warp_points.h"
+
+/* Rows in a task; the triangles that come into them are listed once. */
+enum { ROWS = 8 };
+
+typedef struct warp {
+    const icc_map *map;
+    const icc_picture *target;
+    iccp_sampler source;
+    size_t pixel; /* bytes */
+    const iccp_memory *memory;
+    iccp_place *places; /* of each vertex */
+    iccp_scan *scans;   /* of each triangle */
+    size_t n_bands;
+    size_t *first;     /* n_bands + 1: where a band's triangles begin in `entries` */
+    uint32_t *entries; /* triangles, band after band */
+} warp;
+
+/* ---- triangles ---- */
+
+static void place_vertices(warp *w)
+{
+    const iccp_plmap *pl = &w->map->mesh->pl;
+    for (size_t v = 0; v < pl->n_vertices; ++v) {
+        double from[2], to[2];
+        iccp_frame_out(&w->map->source_domain->frame, 2, pl->points + 2 * v, from);
+        iccp_frame_out(&w->map->target_domain->frame, 2, pl->images + 2 * v, to);
+        w->places[v] = (iccp_place){to[0], to[1], from[0] - 0.5, from[1] - 0.5};
+    }
+}
+
+static void scan_triangles(warp *w)
+{
+    const iccp_corners *corners = &w->map->mesh->pl.corners;
+    for (size_t t = 0; t < corners->n_triangles; ++t) {
+        const iccp_place *places[3];
+        for (size_t k = 0; k < 3; ++k)
+            places[k] = &w->places[corners->vertex[3 * t + k]];
+        iccp_scan_create(&w->scans[t], places);
+    }
+}
+
+/* The bands that a triangle comes into: begin <= band < end. */
+static void find_bands(const warp *w, size_t triangle, size_t *begin, size_t *end)
+{
+    const iccp_scan *scan = &w->scans[triangle];
+    const double height = w->target->height;
+    *begin = *end = 0;
+    if (!(scan->top > 0 && scan->whole.start.y < height))
+        return;
+    *begin = scan->whole.start.y > 0 ? (size_t)scan->whole.start.y / ROWS : 0;
+    *end = scan->top < height ? (size_t)scan->top / ROWS + 1 : w->n_bands;
+}
+
+/* Counts, sums up, and fills from the back, so that each band has its triangles in order. */
+static icc_status list_triangles(warp *w)
+{
+    const size_t n = w->map->mesh->pl.corners.n_triangles;
+    size_t begin, end;
+    for (size_t t = 0; t < n; ++t)
+        for (find_bands(w, t, &begin, &end); begin < end; ++begin)
+            ++w->first[begin];
+    for (size_t b = 1; b <= w->n_bands; ++b)
+        w->first[b] += w->first[b - 1];
+    w->entries = iccp_alloc(w->memory, w->first[w->n_bands], sizeof *w->entries);
+    if (w->entries == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t t = n; t-- > 0;)
+        for (find_bands(w, t, &begin, &end); begin < end; ++begin)
+            w->entries[--w->first[begin]] = (uint32_t)t;
+    return ICC_OK;
+}
+
+static icc_status prepare(warp *w)
+{
+    const iccp_plmap *pl = &w->map->mesh->pl;
+    w->n_bands = ((size_t)w->target->height + ROWS - 1) / ROWS;
+    w->places = iccp_alloc(w->memory, pl->n_vertices, sizeof *w->places);
+    w->scans = iccp_alloc(w->memory, pl->corners.n_triangles, sizeof *w->scans);
+    w->first = iccp_alloc_zero(w->memory, w->n_bands + 1, sizeof *w->first);
+    if (w->places == NULL || w->scans == NULL || w->first == NULL)
+        return ICC_ERR_MEMORY;
+    place_vertices(w);
+    scan_triangles(w);
+    return list_triangles(w);
+}
+
+static void clear(warp *w)
+{
+    iccp_free(w->memory, w->places);
+    iccp_free(w->memory, w->scans);
+    iccp_free(w->memory, w->first);
+    iccp_free(w->memory, w->entries);
+}
+
+/* ---- rows ---- */
+
+/* Rows [begin, end) of the target. */
+typedef struct band {
+    const warp *w;
+    int32_t begin, end;
+    iccp_gathered *gathered; /* one for each pixel; NULL when no triangle gathers */
+} band;
+
+static bool gathers(const iccp_scan *scan)
+{
+    return scan->columns > 1 || scan->rows > 1;
+}
+
+static iccp_gathered *gathered_at(const band *b, int32_t row, size_t column)
+{
+    return b->gathered + (size_t)(row - b->begin) * (size_t)b->w->target->width + column;
+}
+
+static uint8_t *pixel_at(const band *b, int32_t row, size_t column)
+{
+    const icc_picture *p = b->w->target;
+    return (uint8_t *)p->pixels + (size_t)row * p->stride + column * b->w->pixel;
+}
+
+/* Samples of a triangle. All rows are found before any is sampled: that takes long for each alone,
+ * but not for many side by side. */
+typedef struct runs {
+    size_t n;
+    iccp_run run[ROWS * ICCP_MOST_SAMPLES];
+} runs;
+
+/* Adds the samples of one triangle to their pixels. */
+static void gather(const band *b, const iccp_scan *scan, runs *r)
+{
+    const size_t columns = (size_t)scan->columns;
+    const float weight = 1 / (float)(scan->columns * scan->rows);
+    r->n = iccp_scan_rows(scan, b->begin, b->end, scan->columns, scan->rows, b->w->target->width,
+                          r->run);
+    for (size_t k = 0; k < r->n; ++k) {
+        const iccp_run *run = &r->run[k];
+        iccp_sampler_gather(&b->w->source, &run->line, weight, run->begin % columns, columns,
+                            gathered_at(b, run->row, run->begin / columns));
+    }
+}
+
+/* The pixels whose centres one triangle holds: each is in one only. */
+static void find_pixels(const band *b, const iccp_scan *scan, runs *r)
+{
+    r->n = iccp_scan_rows(scan, b->begin, b->end, 1, 1, b->w->target->width, r->run);
+}
+
+static void paint(const band *b, const iccp_scan *scan, runs *r)
+{
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        iccp_sampler_paint(&b->w->source, &r->run[k].line,
+                           pixel_at(b, r->run[k].row, r->run[k].begin));
+}
+
+/* A pixel in whose triangle, a thin one, there was no sample. */
+static void paint_centre(const band *b, int32_t row, size_t column)
+{
+    const icc_map *map = b->w->map;
+    double place[2] = {(double)column + 0.5, row + 0.5}, local[2], image[2];
+    iccp_frame_in(&map->target_domain->frame, 2, place, local);
+    if (iccp_mesh_map_point(map->mesh, true, local, image, NULL) != ICC_OK)
+        return;
+    iccp_frame_out(&map->source_domain->frame, 2, image, place);
+    const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
+    iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
+}
+
+/* The means of what all triangles have gathered, in a run of pixels. */
+static void store_run(const band *b, const iccp_run *run)
+{
+    const size_t end = run->begin + run->line.n;
+    for (size_t i = run->begin, n; i < end; i += n) {
+        const iccp_gathered *gathered = gathered_at(b, run->row, i);
+        for (n = 0; i + n < end && gathered[n].weight > 0;)
+            ++n;
+        iccp_sampler_store(&b->w->source, gathered, n, pixel_at(b, run->row, i));
+        if (n == 0) {
+            paint_centre(b, run->row, i);
+            n = 1;
+        }
+    }
+}
+
+static void store(const band *b, const iccp_scan *scan, runs *r)
+{
+    find_pixels(b, scan, r);
+    for (size_t k = 0; k < r->n; ++k)
+        store_run(b, &r->run[k]);
+}
+
+/* Rows [begin, end) of the target, all in one band. A triangle that does not gather writes its
+ * pixels at once; the others add up before they write. They are taken one after the other, since
+ * neighbouring rows of one come from the same places. Room for what is gathered is made only if a
+ * triangle needs it. */
+static icc_status paint_band(void *argument, size_t begin, size_t end)
+{
+    const warp *w = argument;
+    const uint32_t *first = w->entries + w->first[begin / ROWS];
+    const uint32_t *last = w->entries + w->first[begin / ROWS + 1];
+    band b = {w, (int32_t)begin, (int32_t)end, NULL};
+    runs r;
+    for (const uint32_t *e = first; e < last && b.gathered == NULL; ++e)
+        if (gathers(&w->scans[*e])) {
+            b.gathered = iccp_alloc_zero(w->memory, (end - begin) * (size_t)w->target->width,
+                                         sizeof *b.gathered);
+            if (b.gathered == NULL)
+                return ICC_ERR_MEMORY;
+        }
+    for (const uint32_t *e = first; e < last; ++e)
+        (gathers(&w->scans[*e]) ? gather : paint)(&b, &w->scans[*e], &r);
+    for (const uint32_t *e = first; e < last; ++e)
+        if (gathers(&w->scans[*e]))
+            store(&b, &w->scans[*e], &r);
+    iccp_free(w->memory, b.gathered);
+    return ICC_OK;
+}
+
+static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
+                            const icc_picture *target, const iccp_env *env)
+{
+    warp w = {.map = map,
+              .target = target,
+              .pixel = (size_t)(target->channels * target->bytes),
+              .memory = &env->memory};
+    iccp_sampler_init(&w.source, source);
+    iccp_boundary_pixels boundary;
+    icc_status status = iccp_mesh_map_ready(map->mesh, true);
+    if (status == ICC_OK)
+        status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
+    if (status != ICC_OK)
+        return status;
+    status = prepare(&w);
+    if (status == ICC_OK)
+        status = iccp_for_chunks(env, "warp", (size_t)target->height, ROWS, paint_band, &w);
+    if (status == ICC_OK)
+        iccp_boundary_pixels_decide(&boundary, map, &w.source, target);
+    clear(&w);
+    iccp_boundary_pixels_free(&boundary);
+    return status;
+}
+
+icc_status iccp_map_warp(const icc_map *map, const icc_picture *source, const icc_picture *target,
+                         size_t *n_failed, const iccp_env *env)
+{
+    if (map->mesh == NULL || iccp_picture_has_values(source))
+        return iccp_warp_points(map, source, target, n_failed, env);
+    if (n_failed != NULL)
+        *n_failed = 0;
+    return warp_mesh(map, source, target, env);
+}

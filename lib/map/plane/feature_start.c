@@ -1,0 +1,233 @@
+/* docs/theory.md, features. Both domains are cut open along paths that join their components to a
+ * tree; the polygons that this leaves are overlaid as cages are (map/compatible/overlay.c), for the map of one
+ * to the other must take the boundary of the polygon to that of the other; then the cuts are closed
+ * again. Any two ways to cut the target that correspond to the source's give a map, and none of
+ * these can be moved to another without tearing: which features the images of the cuts pass on
+ * which side makes them different. */
+#include "map/plane/feature_start.h"
+
+#include "base/error.h"
+#include "base/minmax.h"
+#include "map/compatible/candidate.h"
+#include "map/compatible/coarsen.h"
+#include "map/compatible/descent.h"
+#include "map/compatible/flips.h"
+#include "map/isotopy/glue.h"
+#include "map/compatible/overlay_start.h"
+#include "map/compatible/repair.h"
+#include "map/isotopy/ties.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Trees at most; what one costs for each triangle of its overlay, in steps. */
+enum { TREES = 30, COST = 1 };
+
+/* No other tree is tried after one with energy GOOD or less. One with energy FAIR is enough if its
+ * cuts are at most NEARLY_STRAIGHT times as long as straight ones. One whose cuts are straight on
+ * both sides, up to rounding, is always enough, because no tree has shorter cuts. */
+static const double GOOD = 8, FAIR = 100, NEARLY_STRAIGHT = 1.2, STRAIGHT = 1 + 1e-12;
+
+/* Trees whose overlay has so many times the triangles of another one are hardly ever better, and
+ * then by a tenth at most. */
+static const double TOO_MANY = 3;
+
+/* Steps on both sides of a start that is GOOD. */
+static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
+
+/* By one way to cut, as it comes. ICC_ERR_CERTIFICATE when rounding spoils it. */
+static icc_status start_from(iccp_plmap *map, const iccp_scene *scene, const iccp_cuts *cuts,
+                             const iccp_env *env)
+{
+    iccp_cut_polygon polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    iccp_overlay overlay = {.memory = env->memory};
+    icc_status status = ICC_OK;
+    for (int side = 0; status == ICC_OK && side < 2; ++side)
+        status = iccp_cut_polygon_create(&polygon[side], scene, side, cuts, env);
+    if (status == ICC_OK &&
+        (polygon[0].n != polygon[1].n || memcmp(polygon[0].vertex, polygon[1].vertex,
+                                                polygon[0].n * sizeof *polygon[0].vertex) != 0))
+        status = ICC_ERR_CERTIFICATE;
+    if (status == ICC_OK) {
+        const iccp_ngon source = iccp_cut_polygon_ngon(&polygon[0]);
+        const iccp_ngon target = iccp_cut_polygon_ngon(&polygon[1]);
+        status = iccp_overlay_create(&overlay, polygon[0].n, &source, &target, env);
+    }
+    if (status == ICC_OK)
+        status = iccp_glue(map, &overlay, &polygon[0], scene, env);
+    for (uint32_t t = 0; status == ICC_OK && t < map->corners.n_triangles; ++t)
+        if (!iccp_plmap_positive_point(map, t) || !iccp_plmap_positive_image(map, t))
+            status = ICC_ERR_CERTIFICATE;
+    iccp_overlay_free(&overlay);
+    for (int side = 0; side < 2; ++side)
+        iccp_cut_polygon_free(&polygon[side]);
+    if (status != ICC_OK)
+        iccp_plmap_free(map);
+    return status;
+}
+
+/* Whether another tree may do where one did not. */
+static bool is_lost(icc_status status)
+{
+    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
+}
+
+/* Leaves no more triangles than a start needs. */
+static icc_status thin_out(iccp_plmap *map, const iccp_env *env)
+{
+    size_t n_gone;
+    const icc_status status = iccp_cut_chords(map);
+    return status == ICC_OK ? iccp_coarsen(map, ICCP_RISE, &n_gone, env) : status;
+}
+
+/* Infinite, too, where doubles find no area in a triangle. */
+static double energy_of(const iccp_plmap *map)
+{
+    const uint32_t *v = map->corners.vertex;
+    for (size_t t = 0; t < map->corners.n_triangles; ++t)
+        if (!iccp_candidate_is_sound(map, v[3 * t], v[3 * t + 1], v[3 * t + 2]))
+            return HUGE_VAL;
+    return iccp_plmap_energy(map);
+}
+
+/* A start and its energy, HUGE_VAL where there is none. `least`: the fewest triangles of all
+ * overlays so far. */
+static icc_status try_tree(iccp_plmap *map, double *energy, size_t *least, iccp_cuts *cuts,
+                           const iccp_scene *scene, iccp_cutter *cutter, uint64_t tree,
+                           iccp_work *work, const iccp_env *env)
+{
+    icc_status status = iccp_cuts_create(cuts, cutter, tree, env);
+    *energy = HUGE_VAL;
+    if (status == ICC_OK)
+        status = start_from(map, scene, cuts, env);
+    if (status != ICC_OK)
+        return status;
+    const size_t n = map->corners.n_triangles;
+    if (!iccp_work_take(work, COST * n))
+        work->left = 0;
+    *least = n < *least ? n : *least;
+    if ((double)n > TOO_MANY * (double)*least)
+        return ICC_OK;
+    status = thin_out(map, env);
+    if (status == ICC_OK)
+        *energy = energy_of(map);
+    return status;
+}
+
+static double detour_of(const iccp_cuts *cuts, int side)
+{
+    return cuts->straight[side] > 0 ? cuts->length[side] / cuts->straight[side] : 1;
+}
+
+/* The best start of several trees: as many as there is work for, unless the first is GOOD. */
+static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *cutter,
+                         iccp_work *work, iccp_feature_report *report, const iccp_env *env)
+{
+    double best = HUGE_VAL;
+    size_t least = SIZE_MAX;
+    bool is_good = false;
+    icc_status status = ICC_OK;
+    for (uint64_t tree = 0; tree < TREES && !is_good && work->left > 0; ++tree) {
+        iccp_cuts cuts = {.memory = env->memory};
+        iccp_plmap other = {.memory = env->memory};
+        double energy;
+        const iccp_env part = iccp_round(env, (size_t)tree, 2);
+        status = try_tree(&other, &energy, &least, &cuts, scene, cutter, tree, work, &part);
+        if (status == ICC_OK) {
+            const double detour = iccp_max(detour_of(&cuts, 0), detour_of(&cuts, 1));
+            ++report->n_trees;
+            is_good = energy <= GOOD || (energy <= FAIR && detour <= NEARLY_STRAIGHT) ||
+                      (energy < HUGE_VAL && detour <= STRAIGHT);
+            if (energy < best) {
+                const iccp_plmap worse = *map;
+                const iccp_cuts others = report->cuts;
+                *map = other;
+                other = worse;
+                report->cuts = cuts;
+                cuts = others;
+                best = energy;
+            }
+        }
+        iccp_cuts_free(&cuts);
+        iccp_plmap_free(&other);
+        if (is_lost(status))
+            return status;
+    }
+    return best < HUGE_VAL ? ICC_OK : ICC_ERR_RESOLUTION;
+}
+
+/* The start that ties lead to. */
+static icc_status start_from_ties(iccp_plmap *map, const iccp_scene *scene,
+                                  const icc_map_options *options, iccp_feature_report *report,
+                                  const iccp_env *env, icc_error *err)
+{
+    icc_status status =
+        iccp_ties_read(&report->cuts, scene, options->n_ties, options->ties, env, err);
+    if (status != ICC_OK)
+        return status;
+    status = start_from(map, scene, &report->cuts, env);
+    report->n_trees = 1;
+    if (status == ICC_OK)
+        status = thin_out(map, env);
+    return is_lost(status) || status == ICC_OK ? status : ICC_ERR_RESOLUTION;
+}
+
+/* From a GOOD start the images will find the rest of the way alone. */
+static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
+{
+    size_t n_flips;
+    iccp_improvement ignored = {0};
+    if (iccp_plmap_energy(map) > GOOD)
+        return iccp_overlay_relax(map, work, env);
+    const icc_status status = iccp_flip_edges(map, &n_flips, env);
+    return status == ICC_OK ? iccp_improve_both_sides(map, &DESCENT, work, &ignored, env) : status;
+}
+
+icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
+                              const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
+                              iccp_feature_report *report, const iccp_env *env, icc_error *err)
+{
+    iccp_scene *scene = &report->scene;
+    iccp_cutter cutter = {.memory = env->memory};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    *map = (iccp_plmap){.memory = env->memory};
+    *report = (iccp_feature_report){.cuts.memory = env->memory};
+    icc_status status = iccp_scene_create(scene, source, target, env);
+    if (status == ICC_OK && options->ties != NULL)
+        status = start_from_ties(map, scene, options, report, &part[0], err);
+    else if (status == ICC_OK) {
+        status = iccp_cutter_create(&cutter, scene, env);
+        if (status == ICC_OK)
+            status = choose(map, scene, &cutter, trees, report, &part[0]);
+        iccp_cutter_free(&cutter);
+    }
+    if (status == ICC_ERR_RESOLUTION)
+        status = iccp_fail(err, status,
+                           "the features are too close together, or too entangled, for "
+                           "doubles: no start was found");
+    return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
+}
+
+void iccp_feature_report_free(iccp_feature_report *report)
+{
+    iccp_cuts_free(&report->cuts);
+    iccp_scene_free(&report->scene);
+}
+
+icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
+                                   const icc_domain *target, const iccp_cuts *cuts,
+                                   iccp_work *relaxing, const iccp_env *env)
+{
+    iccp_scene scene;
+    *map = (iccp_plmap){.memory = env->memory};
+    icc_status status = iccp_scene_create(&scene, source, target, env);
+    if (status == ICC_OK)
+        status = start_from(map, &scene, cuts, env);
+    iccp_scene_free(&scene);
+    if (status == ICC_OK)
+        status = thin_out(map, env);
+    if (status != ICC_OK)
+        return is_lost(status) ? status : ICC_ERR_RESOLUTION;
+    return relax(map, relaxing, env);
+}

@@ -1,0 +1,209 @@
+/* docs/theory.md, the mesh map: that to a target that has moved, from the one to where it was. */
+#include "map/plane/follow.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "domain/features.h"
+#include "map/compatible/carry.h"
+#include "map/compatible/density.h"
+#include "map/plane/feature_start.h"
+#include "map/plane/fit.h"
+#include "map/compatible/tend.h"
+
+#include <math.h>
+
+/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
+ * next frame continues from here. What is carried has made a step on the way. */
+enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = -1 };
+
+/* A map as coarse as it may be cannot follow. So what is carried along has so many triangles or, in
+ * a square, no edge that is longer than one of so many cells along a side. It should not have many
+ * more triangles than some, and some for each vertex that is given. */
+enum { CARRIED_TRIANGLES = 1000, CARRIED_CELLS = 15, MANY = 1400, MANY_EACH = 8 };
+
+/* Where the way is blocked, times that the mesh is mended before the map is made anew; and where
+ * that cannot be done, or is not, because nothing but the boundary moves. */
+enum { PATIENCE = 0, LAST_PATIENCE = 1 };
+
+/* Moves the boundary's images to where another target wants them. */
+static void move_boundary(iccp_plmap *pl, const icc_domain *target)
+{
+    for (size_t v = 0; v < pl->n_vertices; ++v)
+        if (pl->fixed[v] != ICCP_FREE)
+            iccp_carry_place(pl, target, v, pl->images + 2 * v);
+}
+
+/* The images where they were, in the frame of the new target; where the inside goes from there is
+ * up to the repair. */
+static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
+                        const icc_domain *old_target, const icc_domain *target,
+                        const iccp_newton_plan *plan, const iccp_memory *memory)
+{
+    const icc_status status = iccp_plmap_copy(pl, old, memory);
+    if (status != ICC_OK)
+        return status;
+    iccp_frame_change(&old_target->frame, &target->frame, 2, pl->n_vertices, pl->images);
+    pl->plan = plan;
+    pl->stretch = sqrt(target->measure / source->measure);
+    return ICC_OK;
+}
+
+typedef struct journey {
+    const iccp_isotopy *isotopy;
+    const icc_domain *source, *old_target, *target;
+} journey;
+
+/* What the map would have become, but made anew. *made: whether that could be done; else it stays
+ * as it is. */
+static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
+                          bool *made, const iccp_env *env)
+{
+    iccp_cuts cuts;
+    iccp_plmap fresh = {.memory = env->memory};
+    icc_status status =
+        iccp_isotopy_move(&cuts, made, j->isotopy, j->source, j->old_target, j->target, env);
+    if (status == ICC_OK && *made)
+        status = iccp_feature_start_from(&fresh, j->source, j->target, &cuts, work, env);
+    if (status == ICC_OK && *made)
+        status = iccp_refine_longest(&fresh, longest, CARRIED_TRIANGLES, env);
+    iccp_cuts_free(&cuts);
+    *made = *made && status == ICC_OK;
+    if (*made) {
+        iccp_plmap_free(pl);
+        *pl = fresh;
+    } else {
+        iccp_plmap_free(&fresh);
+    }
+    return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
+}
+
+/* Features must not be torn from one another: no state between is repaired. */
+static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_options *options,
+                        iccp_allowance *work, icc_map_info *info, const iccp_env *env,
+                        icc_error *err)
+{
+    const double begin = iccp_seconds(), stretch = map->pl.stretch;
+    const iccp_grain grain = {iccp_planar_step(j->target, CARRIED_CELLS),
+                              MANY + MANY_EACH * j->source->features->n_places};
+    bool reached = false;
+    double room = 0;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
+    icc_status status = ICC_OK;
+    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
+        status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
+    if (status == ICC_OK)
+        status = iccp_carry(&map->pl, j->target, &grain, PATIENCE, &work->repair, &reached, &room,
+                            &part[0]);
+    if (status == ICC_OK && !reached)
+        status = rebuild(&map->pl, j, grain.longest, &work->overlay, &reached, &part[0]);
+    if (status == ICC_OK && !reached)
+        status = iccp_carry(&map->pl, j->target, &grain, LAST_PATIENCE, &work->repair, &reached,
+                            &room, &part[0]);
+    if (status == ICC_OK && reached)
+        status = iccp_tend(&map->pl, &grain, room, &work->improvement, &part[0]);
+    map->pl.stretch = stretch;
+    info->seconds_repair = iccp_seconds() - begin;
+    if (status == ICC_OK && !reached)
+        return iccp_fail(err, ICC_ERR_CERTIFICATE,
+                         "features moved straight to their new places would meet or come too "
+                         "close: go there another way, in several steps, or make a new map");
+    if (status == ICC_OK)
+        status = iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info,
+                                   &part[1], err);
+    return status;
+}
+
+static bool same_memory(const iccp_memory *a, const iccp_memory *b)
+{
+    return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
+}
+
+/* The plan of Newton's method for the map's mesh, which maps that follow it share; it is made when
+ * the first one does. NULL where they may not live on the same memory. */
+static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    iccp_newton_plan *fresh;
+    *plan = NULL;
+    if (!same_memory(&map->pl.memory, &env->memory))
+        return ICC_OK;
+    *plan = iccp_once_get(&map->plan);
+    if (*plan != NULL)
+        return ICC_OK;
+    const icc_status status = iccp_newton_plan_create(&fresh, &simplicial, env);
+    if (status != ICC_OK)
+        return status;
+    *plan = iccp_once_keep(&map->plan, fresh);
+    if (*plan != fresh)
+        iccp_newton_plan_release(fresh);
+    return ICC_OK;
+}
+
+/* A cage moves at once; where that cannot be repaired, in parts. */
+static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
+                              const icc_domain *source, const icc_domain *old_target,
+                              const icc_domain *target, const icc_improve_options *options,
+                              iccp_allowance *work, icc_map_info *info, const iccp_env *env,
+                              icc_error *err)
+{
+    const iccp_grain grain = {iccp_planar_step(target, CARRIED_CELLS), SIZE_MAX};
+    bool reached = false;
+    double room;
+    icc_map_info own = *info;
+    const iccp_newton_plan *plan = next->pl.plan;
+    move_boundary(&next->pl, target);
+    icc_status status = iccp_refit(next, options, work, info, env, err);
+    if (status != ICC_OK || info->n_unrepaired == 0)
+        return status;
+    iccp_plmap_free(&next->pl);
+    status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_carry(&next->pl, target, &grain, LAST_PATIENCE, &work->overlay, &reached,
+                            &room, env);
+    if (status == ICC_OK && reached)
+        status =
+            iccp_fit_complete(next, options, &iccp_fit_plain, &work->improvement, &own, env, err);
+    if (status == ICC_OK && reached)
+        *info = own;
+    return status;
+}
+
+icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                const iccp_isotopy *isotopy, const icc_domain *source,
+                                const icc_domain *old_target, const icc_domain *target,
+                                int32_t iterations, icc_map_info *info, const iccp_env *env,
+                                icc_error *err)
+{
+    iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
+    *out = NULL;
+    if (next == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_newton_plan *plan = NULL;
+    icc_status status = iterations >= 0 ? plan_of(&plan, map, env) : ICC_OK;
+    if (status == ICC_OK)
+        status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
+    if (status == ICC_OK) {
+        const icc_improve_options options = {.iterations = iterations != 0 ? iterations
+                                                           : source->features != NULL
+                                                               ? CARRY_ITERATIONS
+                                                               : FOLLOW_ITERATIONS,
+                                             .levels = -1};
+        iccp_allowance work = iccp_allow(source->n_facets);
+        work.improvement = iccp_work_unlimited();
+        work.overlay.left = work.overlay_steps;
+        work.all = HUGE_VAL;
+        status = source->features == NULL
+                     ? follow_cage(next, map, source, old_target, target, &options, &work, info,
+                                   env, err)
+                     : carry(next, &(journey){isotopy, source, old_target, target}, &options, &work,
+                             info, env, err);
+        next->work = iccp_spent(&work);
+        iccp_fit_keep_plan(next, plan);
+    }
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = next;
+    else
+        iccp_mesh_map_free(next, &env->memory);
+    return status;
+}

@@ -1,0 +1,413 @@
+/* docs/theory.md, the mesh map. Huynh and Gingold, section 9: a one-to-one map as the start of one
+ * that is fair as well. */
+#include "map/plane/mesh_map.h"
+
+#include "base/clock.h"
+#include "base/error.h"
+#include "base/minmax.h"
+#include "base/threads.h"
+#include "chart/bulk.h"
+#include "domain/features.h"
+#include "map/compatible/candidate.h"
+#include "map/plane/feature_start.h"
+#include "map/plane/fit.h"
+#include "map/isotopy/isotopy.h"
+#include "map/energy/movable.h"
+#include "map/compatible/overlay_start.h"
+#include "map/compatible/plmap_certificate.h"
+
+#include <math.h>
+#include <stdatomic.h>
+#include <string.h>
+
+/* Where an overlay is to be had, this share of a repair's work has to make most of it positive. On
+ * random pairs it did whenever the repair came to an end. */
+static const double TRIAL_SHARE = 0.05;
+
+/* Of a start between domains with features: the energy from which on it counts as entangled. */
+static const double ENTANGLED = 20;
+
+/* Triangles flatter than this, as outlines with much detail have them: where there are more than
+ * A_FEW, the start has been inverted in places in each of seven pairs of more than 400 vertices. */
+static const double FLAT = 0.15;
+enum { A_FEW = 10 };
+
+/* ---- start ---- */
+
+/* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of
+ * others what the charts say. */
+static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
+                               const iccp_planar *mesh, size_t v, double image[2], iccp_path *path)
+{
+    iccp_coords coords;
+    if (v < mesh->n_boundary) {
+        const uint32_t k = (uint32_t)v;
+        const double along = iccp_planar_along(mesh, source->domain, k, 0);
+        const double bary[2] = {1 - along, along};
+        iccp_domain_facet_point(target->domain, mesh->facet[k], bary, image);
+        return ICC_OK;
+    }
+    const icc_status status = iccp_chart_encode_vertex(source, v, &coords);
+    return status == ICC_OK ? iccp_chart_decode(target, &coords, image, NULL, path) : status;
+}
+
+typedef struct charts {
+    const icc_chart *source, *target;
+    const iccp_memory *memory;
+    double *images;
+    atomic_size_t first_lost; /* the first vertex that has no image */
+} charts;
+
+static icc_status find_images(void *argument, size_t begin, size_t end)
+{
+    charts *c = argument;
+    iccp_path path;
+    iccp_path_init(&path, c->memory);
+    icc_status status = ICC_OK;
+    for (size_t v = begin; status == ICC_OK && v < end; ++v) {
+        status = vertex_image(c->source, c->target, c->source->mesh, v, c->images + 2 * v, &path);
+        size_t first = atomic_load(&c->first_lost);
+        while (status != ICC_OK && v < first &&
+               !atomic_compare_exchange_weak(&c->first_lost, &first, v))
+            continue;
+    }
+    iccp_path_clear(&path);
+    return status;
+}
+
+/* What the images of the source chart's mesh take, and what the steps that follow need to know of
+ * the mesh: side by side, where that is. */
+typedef struct start_job {
+    const icc_chart *source, *target;
+    iccp_plmap *pl;
+    iccp_newton_plan *plan;
+} start_job;
+
+/* What it takes to find images: a chart that is ready, and room. */
+static icc_status prepare(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    const start_job *job = argument;
+    (void)err;
+    return k == 0 ? iccp_chart_ready(job->target, true)
+                  : iccp_plmap_create(
+                        job->pl, job->source->mesh, job->source->domain, NULL,
+                        sqrt(job->target->domain->measure / job->source->domain->measure),
+                        &env->memory);
+}
+
+static icc_status find_all_images(start_job *job, const iccp_env *env, icc_error *err)
+{
+    icc_status status = iccp_side_by_side(env, 2, prepare, job, err);
+    charts c = {job->source, job->target, &env->memory, job->pl->images, SIZE_MAX};
+    if (status == ICC_OK)
+        status = iccp_for_chunks(env, "trace", job->source->mesh->n_vertices, 256, find_images, &c);
+    if (iccp_is_point_status(status) && status != ICC_OK)
+        (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
+                        atomic_load(&c.first_lost));
+    return status;
+}
+
+static icc_status run_start(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    start_job *job = argument;
+    const iccp_planar *mesh = job->source->mesh;
+    if (k == 0)
+        return find_all_images(job, env, err);
+    const iccp_simplicial_map map = {.dim = 2,
+                                     .n_points = mesh->n_vertices,
+                                     .n_simplices = mesh->n_triangles,
+                                     .corners = mesh->triangles,
+                                     .n_fixed = mesh->n_boundary};
+    return iccp_newton_plan_create(&job->plan, &map, env);
+}
+
+/* Whether edges are likely to be flipped before the first step, so that what would be known of the
+ * mesh as it is would be of no use. */
+static bool is_doubtful(const iccp_planar *mesh)
+{
+    size_t n_flat = 0;
+    for (size_t t = 0; t < mesh->n_triangles && n_flat <= A_FEW; ++t) {
+        const uint32_t *v = mesh->triangles + 3 * t;
+        n_flat += iccp_roundness(mesh->points + 2 * (size_t)v[0], mesh->points + 2 * (size_t)v[1],
+                                 mesh->points + 2 * (size_t)v[2]) < FLAT;
+    }
+    return n_flat > A_FEW;
+}
+
+/* The map of the source chart's mesh that the two charts give, which may be inverted in places.
+ * `plan`: of that mesh, where it can be made meanwhile and is likely to be of use; or NULL. */
+static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart *source,
+                        const icc_chart *target, bool is_improved, const iccp_env *env,
+                        icc_error *err)
+{
+    const iccp_planar *mesh = source->mesh;
+    start_job job = {source, target, pl, NULL};
+    const bool plans = is_improved && iccp_has_threads(env) && env->budget == NULL &&
+                       iccp_all_are_movable(mesh->n_triangles) && !is_doubtful(mesh);
+    const icc_status status = iccp_side_by_side(env, plans ? 2 : 1, run_start, &job, err);
+    pl->plan = *plan = job.plan;
+    return status;
+}
+
+/* ---- all of it ---- */
+
+iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
+                                 const iccp_memory *memory)
+{
+    iccp_mesh_map *map = iccp_alloc_zero(memory, 1, sizeof *map);
+    if (map != NULL) {
+        map->reach[0] = source->band.reach;
+        map->reach[1] = target->band.reach;
+    }
+    return map;
+}
+
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
+                                icc_error *err)
+{
+    const double begin = iccp_seconds();
+    icc_status status = iccp_progress(env, "check", 0);
+    if (status == ICC_OK)
+        status = iccp_plmap_certify(&map->pl, env, err);
+    const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
+                              .n_triangles = map->pl.corners.n_triangles,
+                              .triangles = map->pl.corners.vertex,
+                              .twins = map->pl.corners.twin};
+    iccp_finder_init(&map->before, &mesh, map->pl.points, map->reach[0], ICCP_MANY_POINTS,
+                     &map->pl.memory);
+    iccp_finder_init(&map->after, &mesh, map->pl.images, map->reach[1], ICCP_MANY_POINTS,
+                     &map->pl.memory);
+    if (status == ICC_OK)
+        status = iccp_finder_budget(&map->before, env);
+    if (status == ICC_OK)
+        status = iccp_finder_budget(&map->after, env);
+    info->n_vertices = map->pl.n_vertices;
+    info->n_simplices = map->pl.corners.n_triangles;
+    info->seconds_certify = iccp_seconds() - begin;
+    return status;
+}
+
+/* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
+ * it comes to a certified map. */
+static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
+                              const icc_domain *target, const icc_improve_options *options,
+                              iccp_allowance *work, icc_map_info *info, const iccp_env *env)
+{
+    const double begin = iccp_seconds();
+    icc_map_info own = *info;
+    iccp_log(env, "%zu triangles could not be repaired: trying the overlay of two triangulations",
+             info->n_unrepaired);
+    iccp_plmap_free(&map->pl);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
+    icc_status status = iccp_overlay_start(&map->pl, source, target, work->overlay_steps,
+                                           iccp_bound(&work->overlay, work), &part[0]);
+    const double seconds = iccp_seconds() - begin;
+    if (status == ICC_ERR_RESOLUTION)
+        iccp_log(env, "the two triangulations cross too often");
+    if (status == ICC_OK)
+        status = iccp_refit(map, options, work, &own, &part[1], NULL);
+    own.n_inverted = info->n_inverted;
+    own.seconds_repair += info->seconds_repair + seconds;
+    if (status == ICC_OK)
+        *info = own;
+    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
+}
+
+icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
+                                const icc_chart *target, int32_t iterations, bool overlay,
+                                icc_map_info *info, const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *map = iccp_mesh_map_new(source->domain, target->domain, &env->memory);
+    *out = NULL;
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_improve_options options = {.iterations = iterations};
+    iccp_allowance work = iccp_allow(source->domain->n_facets);
+    if (overlay)
+        work.trial = TRIAL_SHARE * iccp_bound(&work.repair, &work)->left;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){1, 7, 1}, env);
+    iccp_newton_plan *plan;
+    icc_status status = start(&map->pl, &plan, source, target, iterations >= 0, &part[0], err);
+    if (status == ICC_OK)
+        status = iccp_refit(map, &options, &work, info, &part[1], err);
+    if (status == ICC_OK && info->n_unrepaired > 0 && overlay)
+        status = try_overlay(map, source->domain, target->domain, &options, &work, info, &part[2]);
+    iccp_fit_keep_plan(map, plan);
+    iccp_newton_plan_release(plan);
+    map->work = iccp_spent(&work);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        *out = map;
+    else
+        iccp_mesh_map_free(map, &env->memory);
+    return status;
+}
+
+/* Where the energy is high, features go far round one another, and there is far to go for the
+ * points as well as for the images: with half the work, both move. */
+static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options, iccp_work *work,
+                              const iccp_env *env)
+{
+    iccp_work half = {.left = work->left / 2};
+    iccp_improvement ignored;
+    bool cancelled = false;
+    icc_status status = ICC_OK;
+    if (iccp_plmap_energy(pl) > ENTANGLED)
+        status =
+            iccp_fit_improve(pl, options, &iccp_fit_both_sides, &half, &cancelled, &ignored, env);
+    work->left -= half.spent;
+    work->spent += half.spent;
+    return cancelled ? ICC_ERR_CANCELLED : status;
+}
+
+icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *source,
+                                         const icc_domain *target, const icc_map_options *options,
+                                         icc_map_info *info, const iccp_env *env, icc_error *err)
+{
+    const double begin = iccp_seconds();
+    iccp_mesh_map *map = iccp_mesh_map_new(source, target, &env->memory);
+    *out = NULL;
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    const icc_improve_options improvement = {.iterations = options->iterations};
+    iccp_allowance work = iccp_allow(source->features->n_places);
+    iccp_feature_report report;
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 1, 3}, env);
+    work.overlay.left = work.overlay_steps;
+    icc_status status = iccp_feature_start(&map->pl, source, target, options, &work.repair,
+                                           &work.overlay, &report, &part[0], err);
+    info->seconds_repair = iccp_seconds() - begin;
+    if (status == ICC_OK && options->iterations >= 0)
+        status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
+    map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
+    if (status == ICC_OK)
+        status = iccp_fit_complete(map, &improvement, &iccp_fit_relaxed, &work.improvement, info,
+                                   &part[2], err);
+    bool kept = false;
+    if (status == ICC_OK)
+        status = iccp_isotopy_has_cuts(&kept, &map->pl, &report.scene, &report.cuts, env);
+    info->class_kept = kept;
+    info->n_trees = (int32_t)report.n_trees;
+    iccp_feature_report_free(&report);
+    map->work = iccp_spent(&work);
+    if (status == ICC_OK)
+        *out = map;
+    else
+        iccp_mesh_map_free(map, &env->memory);
+    return status;
+}
+
+icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
+                                 const icc_improve_options *options, icc_improve_report *report,
+                                 const iccp_env *env, icc_error *err)
+{
+    iccp_mesh_map *better = iccp_alloc_zero(&env->memory, 1, sizeof *better);
+    *out = NULL;
+    if (better == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(better->reach, map->reach, sizeof better->reach);
+    iccp_work work = iccp_fit_work(options, n_facets);
+    iccp_improvement improvement = {0};
+    bool cancelled = false;
+    icc_map_info info = {0};
+    report->energy_start = iccp_plmap_energy(&map->pl);
+    icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_fit_improve(&better->pl, options, &iccp_fit_plain, &work, &cancelled,
+                                  &improvement, env);
+    /* A callback that still asks to stop must not keep the result from being finished. */
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    if (status == ICC_OK)
+        status = iccp_mesh_map_finish(better, &info, &quiet, err);
+    if (status != ICC_OK) {
+        iccp_mesh_map_free(better, &env->memory);
+        return status;
+    }
+    better->work = work.spent;
+    report->energy = improvement.energy;
+    report->n_iterations = improvement.n_iterations;
+    report->n_simplices = info.n_simplices;
+    report->n_levels = (int32_t)improvement.n_levels;
+    report->cancelled = cancelled;
+    *out = better;
+    return ICC_OK;
+}
+
+void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)
+{
+    if (map == NULL)
+        return;
+    iccp_plmap_free(&map->pl);
+    iccp_finder_free(&map->before);
+    iccp_finder_free(&map->after);
+    iccp_newton_plan_release(iccp_once_get(&map->plan));
+    iccp_free(memory, map);
+}
+
+/* ---- points ---- */
+
+static const iccp_finder *finder_of(const iccp_mesh_map *map, bool inverse)
+{
+    return inverse ? &map->after : &map->before;
+}
+
+static const double *images_of(const iccp_mesh_map *map, bool inverse)
+{
+    return inverse ? map->pl.points : map->pl.images;
+}
+
+icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
+                               double *image, double *jacobian)
+{
+    iccp_found found;
+    const icc_status status = iccp_finder_find(finder_of(map, inverse), point, &found);
+    if (status == ICC_OK)
+        iccp_mesh_map_image(map, inverse, &found, image, jacobian);
+    return status;
+}
+
+icc_status iccp_mesh_map_ready(const iccp_mesh_map *map, bool inverse)
+{
+    return iccp_finder_ready(finder_of(map, inverse));
+}
+
+void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const double *points,
+                        iccp_found *found)
+{
+    iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
+}
+
+/* Its own coordinate may be rounded. Most points are settled before the memory is asked. */
+bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
+{
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    if ((found->bary[0] > 0) + (found->bary[1] > 0) + (found->bary[2] > 0) > 1)
+        return false;
+    for (size_t k = 0; k < 3; ++k)
+        if (map->pl.fixed[v[k]] >= ICCP_LINE_BEGIN && !(found->bary[(k + 1) % 3] > 0) &&
+            !(found->bary[(k + 2) % 3] > 0)) {
+            *vertex = v[k];
+            return true;
+        }
+    return false;
+}
+
+void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
+                         double *image, double *jacobian)
+{
+    const double *to = images_of(map, inverse), *bary = found->bary;
+    const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;
+    for (size_t d = 0; d < 2; ++d)
+        image[d] = bary[0] * to[2 * (size_t)v[0] + d] + bary[1] * to[2 * (size_t)v[1] + d] +
+                   bary[2] * to[2 * (size_t)v[2] + d];
+    uint32_t given;
+    if (iccp_mesh_map_is_given(map, found, &given))
+        memcpy(image, to + 2 * (size_t)given, 2 * sizeof *to);
+    if (jacobian != NULL) {
+        const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+        iccp_simplicial_jacobian(&simplicial, inverse, found->triangle, jacobian);
+    }
+}

@@ -1,0 +1,240 @@
+/* The edges from a vertex to the points below it are cut, in the image where a plane across its
+ * direction meets them: what was its star has a flat bottom then, which it sees from wherever it is
+ * raised to. How far down the plane may be is tried: volumes are linear in the height, and next to
+ * the vertex those of cells with a cut edge are positive at both ends. Where a neighbour has
+ * nothing below either, the plane has to contain the edge between the two: from far away, that is
+ * as a point without a cut edge, the neighbour sees the bottom in the order in which the vertex saw
+ * it round the edge. */
+#include "map/solid/coat_raise.h"
+
+#include "base/minmax.h"
+#include "math/elementary.h"
+#include "math/vec.h"
+
+#include <string.h>
+
+/* How often the plane is lowered to half of its depth, and images are sunk by half of the way; how
+ * often all of them are sunk. */
+enum { MOST_TRIES = 30, MOST_ROUNDS = 8 };
+
+/* Sines of angles below the plane. */
+static const double FLAT = 0.02;
+
+/* Between the first and the last point round an edge. */
+static const double MOST_TURNS = 0.49999;
+
+/* The points of its star, once each: those inside, and those vertices that have nothing below. */
+static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex, iccp_list *inside,
+                      iccp_list *beside)
+{
+    iccp_tets *m = &cone->mesh;
+    if (!iccp_tets_star(m, vertex))
+        return false;
+    const uint32_t stamp = iccp_tets_stamp(m);
+    m->seen[vertex] = stamp;
+    for (size_t s = 0; s < m->star.n; ++s)
+        for (int k = 0; k < 4; ++k) {
+            const uint32_t v = m->tet[m->star.item[s]].v[k];
+            const bool is_inside = v >= cone->n_fixed;
+            if (m->seen[v] == stamp || !(is_inside || nothing[v] == ICCP_NOTHING_BELOW))
+                continue;
+            m->seen[v] = stamp;
+            if (!iccp_list_push(m, is_inside ? inside : beside, v))
+                return false;
+        }
+    return true;
+}
+
+/* Cuts an edge in the middle; the image of the new point is in the middle, too. */
+static bool cut(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *point)
+{
+    iccp_tets *m = &cone->mesh;
+    const uint32_t ends[2] = {a, b}, first = iccp_tets_towards(m, a, b);
+    double y[3];
+    if (first == ICCP_NO_TET || !iccp_tets_ring(m, a, b, first, SIZE_MAX) ||
+        !iccp_cone_cut(cone, 2, ends, m->ring.n, m->ring.item, point))
+        return false;
+    for (size_t k = 0; k < m->fresh.n; ++k)
+        cone->is_placed[m->fresh.item[k]] = 1;
+    for (int k = 0; k < 3; ++k)
+        y[k] = 0.5 * iccp_cone_image(cone, a)[k] + 0.5 * iccp_cone_image(cone, b)[k];
+    iccp_cone_put(cone, *point, y);
+    return true;
+}
+
+/* Of the image of a point, how far it is below that of the vertex. */
+static double depth_of(const iccp_cone *cone, uint32_t point, const double *from,
+                       const double *direction)
+{
+    const double *x = iccp_cone_image(cone, point);
+    double sum = 0;
+    for (int k = 0; k < 3; ++k)
+        sum += (from[k] - x[k]) * direction[k];
+    return sum;
+}
+
+/* Cuts the edges to points, which become the new ones. */
+static bool cut_all(iccp_cone *cone, uint32_t vertex, iccp_list *inside)
+{
+    for (size_t k = 0; k < inside->n; ++k)
+        if (!cut(cone, vertex, inside->item[k], &inside->item[k]))
+            return false;
+    return true;
+}
+
+/* Moves the new points to a plane at a share of the depth of the nearest one. */
+static void lower_plane(iccp_cone *cone, const double *from, const double *direction,
+                        const iccp_list *inside, double share, double *least)
+{
+    *least *= share;
+    for (size_t k = 0; k < inside->n; ++k) {
+        double x[3];
+        const uint32_t point = inside->item[k];
+        const double part = *least / depth_of(cone, point, from, direction);
+        for (int i = 0; i < 3; ++i)
+            x[i] = from[i] + part * (iccp_cone_image(cone, point)[i] - from[i]);
+        iccp_cone_put(cone, point, x);
+    }
+}
+
+/* All cells that raising changes. */
+static bool is_good(iccp_cone *cone, uint32_t vertex, const iccp_list *inside)
+{
+    bool good = iccp_cone_is_star_good(cone, vertex);
+    for (size_t k = 0; k < inside->n && good; ++k)
+        good = iccp_cone_is_star_good(cone, inside->item[k]);
+    return good;
+}
+
+static bool normalize(double *d)
+{
+    const double length = iccp_vec_norm(3, d);
+    for (int k = 0; k < 3; ++k)
+        d[k] /= length;
+    return length > 0;
+}
+
+/* Takes what is along the axes out of a vector. */
+static void reject(double *d, size_t n, double axis[2][3])
+{
+    for (size_t j = 0; j < n; ++j) {
+        const double dot = iccp_vec_dot(3, d, axis[j]);
+        for (int k = 0; k < 3; ++k)
+            d[k] -= dot * axis[j][k];
+    }
+}
+
+/* A normal of the plane that contains the directions of those beside, two at most, and has the
+ * points inside below: of one there are many, and this is the middle one. False where there is
+ * none; the normal is next to the way up then. */
+static bool tilt(const iccp_cone *cone, const double *from, const double *up,
+                 const iccp_list *inside, const iccp_list *beside, double *normal)
+{
+    double axis[2][3], across[3], least = 0, most = 0;
+    if (beside->n > 2)
+        return false;
+    for (size_t k = 0; k < beside->n; ++k) {
+        for (int i = 0; i < 3; ++i)
+            axis[k][i] = iccp_cone_image(cone, beside->item[k])[i] - from[i];
+        reject(axis[k], k, axis);
+        if (!normalize(axis[k]))
+            return false;
+    }
+    memcpy(normal, up, 3 * sizeof *normal);
+    reject(normal, beside->n, axis);
+    if (!normalize(normal))
+        return false;
+    if (beside->n == 2)
+        return true;
+    iccp_vec_cross(axis[0], normal, across);
+    for (size_t k = 0; k < inside->n; ++k) {
+        double d[3];
+        for (int i = 0; i < 3; ++i)
+            d[i] = from[i] - iccp_cone_image(cone, inside->item[k])[i];
+        const double turns =
+            iccp_atan2_turns(iccp_vec_dot(3, d, across), iccp_vec_dot(3, d, normal));
+        least = iccp_min(least, turns);
+        most = iccp_max(most, turns);
+    }
+    if (!(most - least < MOST_TURNS))
+        return false;
+    double middle[2];
+    iccp_cis_turns(0.5 * (least + most), middle);
+    for (int i = 0; i < 3; ++i)
+        normal[i] = middle[0] * normal[i] + middle[1] * across[i];
+    return true;
+}
+
+/* With planes across a direction, one after the other. False: the vertex is where it was. */
+static bool raise_from(iccp_cone *cone, uint32_t vertex, const double *direction,
+                       const double place[3], const iccp_list *inside)
+{
+    double from[3], least = HUGE_VAL;
+    memcpy(from, iccp_cone_image(cone, vertex), sizeof from);
+    for (size_t k = 0; k < inside->n; ++k)
+        least = iccp_min(least, depth_of(cone, inside->item[k], from, direction));
+    for (int tried = 0; tried < MOST_TRIES && least > 0; ++tried) {
+        lower_plane(cone, from, direction, inside, tried == 0 ? 1 : 0.5, &least);
+        iccp_cone_put(cone, vertex, place);
+        if (is_good(cone, vertex, inside))
+            return true;
+        iccp_cone_put(cone, vertex, from);
+    }
+    if (least > 0)
+        lower_plane(cone, from, direction, inside, ldexp(1, MOST_TRIES - 1), &least);
+    return false;
+}
+
+/* Moves the images of those points inside down that a plane across `normal` would not have below
+ * the vertex, as far as their stars allow. */
+static void sink(iccp_cone *cone, const double *from, const double *normal, const iccp_list *inside)
+{
+    for (size_t k = 0; k < inside->n; ++k) {
+        const uint32_t point = inside->item[k];
+        double old[3], x[3], share = 1;
+        memcpy(old, iccp_cone_image(cone, point), sizeof old);
+        const double length = iccp_vec_distance(3, old, from);
+        bool good = depth_of(cone, point, from, normal) > FLAT * length;
+        for (int tried = 0; tried < MOST_TRIES && !good; ++tried) {
+            share *= 0.5;
+            for (int i = 0; i < 3; ++i)
+                x[i] = old[i] - share * length * normal[i];
+            iccp_cone_put(cone, point, x);
+            good = iccp_cone_is_star_good(cone, point);
+        }
+        if (!good)
+            iccp_cone_put(cone, point, old);
+    }
+}
+
+/* Straight up if that is possible, else with a tilted plane. */
+static bool raise(iccp_cone *cone, uint32_t vertex, const double *apex, const double *place,
+                  iccp_list *inside, const iccp_list *beside)
+{
+    double from[3], up[3], normal[3];
+    memcpy(from, iccp_cone_image(cone, vertex), sizeof from);
+    for (int k = 0; k < 3; ++k)
+        up[k] = place[k] - apex[k];
+    if (!normalize(up))
+        return false;
+    for (int round = 0;
+         round < MOST_ROUNDS && beside->n == 1 && !tilt(cone, from, up, inside, beside, normal);
+         ++round)
+        sink(cone, from, normal, inside);
+    return cut_all(cone, vertex, inside) &&
+           (raise_from(cone, vertex, up, place, inside) ||
+            (beside->n != 0 && tilt(cone, from, up, inside, beside, normal) &&
+             raise_from(cone, vertex, normal, place, inside)));
+}
+
+bool iccp_coat_raise(iccp_cone *cone, const uint32_t *below, uint32_t vertex, const double apex[3],
+                     const double place[3])
+{
+    const iccp_memory *memory = &cone->mesh.memory;
+    iccp_list inside = {0}, beside = {0};
+    const bool raised = list_star(cone, below, vertex, &inside, &beside) &&
+                        raise(cone, vertex, apex, place, &inside, &beside);
+    iccp_free(memory, inside.item);
+    iccp_free(memory, beside.item);
+    return raised;
+}

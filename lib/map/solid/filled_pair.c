@@ -1,0 +1,40 @@
+#include "map/solid/filled_pair.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+#include "geometry/simplices.h"
+#include "fill/fill_domain.h"
+
+typedef struct fill_job {
+    icc_domain **filled;
+    const icc_domain *const *domain;
+} fill_job;
+
+static icc_status fill_one(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    const fill_job *job = argument;
+    if (job->domain[k]->mesh != NULL) {
+        job->filled[k] = iccp_domain_retain(job->domain[k]);
+        return ICC_OK;
+    }
+    const iccp_fill_options options = {ICCP_FILL_RATIO, UINT64_MAX};
+    const icc_status status = iccp_domain_fill(&job->filled[k], job->domain[k], &options, env, err);
+    if (status != ICC_OK)
+        return iccp_fail_side(err, status, (int32_t)k + 1);
+    iccp_log(env, "%s: filled with %zu tetrahedra", k == 0 ? "source" : "target",
+             job->filled[k]->mesh->n_simplices);
+    return ICC_OK;
+}
+
+icc_status iccp_fill_pair(icc_domain *filled[2], const icc_domain *const domains[2],
+                          const iccp_env *env, icc_error *err)
+{
+    fill_job job = {filled, domains};
+    filled[0] = filled[1] = NULL;
+    const icc_status status = iccp_side_by_side(env, 2, fill_one, &job, err);
+    for (int k = 0; status != ICC_OK && k < 2; ++k) {
+        iccp_domain_release(filled[k]);
+        filled[k] = NULL;
+    }
+    return status;
+}

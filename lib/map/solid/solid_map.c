@@ -1,0 +1,323 @@
+/* A map that is linear in every simplex of a mesh is a homeomorphism when it keeps all orientations
+ * and its restriction to the boundary is one onto the target's: Y. Lipman, Bijective Mappings of
+ * Meshes with Boundary and the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
+#include "map/solid/solid_map.h"
+
+#include "base/clock.h"
+#include "domain/domain_file.h"
+#include "map/plane/fit.h"
+#include "map/solid/solid_improve.h"
+#include "map/solid/solid_start.h"
+#include "math/elementary.h"
+#include "math/vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Steps that make a new map fairer. */
+enum { ITERATIONS_OF_NEW = 8 };
+
+/* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by
+ * rounding. */
+static const double ROUNDING = 1e-9;
+
+static size_t count_inverted(const iccp_solid_map *map)
+{
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    return iccp_simplicial_count_inverted(&simplicial);
+}
+
+static icc_status plant(iccp_solid_map *map, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    iccp_facet_tree_create_solid(&map->before, 3, mesh->points, mesh->n_simplices, mesh->corners,
+                                 &env->memory);
+    iccp_facet_tree_create_solid(&map->after, 3, map->images, mesh->n_simplices, mesh->corners,
+                                 &env->memory);
+    return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+/* Without a mesh and images yet. */
+static iccp_solid_map *new_map(const icc_domain *source, const icc_domain *target,
+                               const iccp_memory *memory)
+{
+    iccp_solid_map *map = iccp_alloc_zero(memory, 1, sizeof *map);
+    if (map != NULL) {
+        map->memory = *memory;
+        map->stretch = iccp_cbrt(fabs(target->measure) / fabs(source->measure));
+    }
+    return map;
+}
+
+icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
+                                const icc_improve_options *options, icc_map_info *info,
+                                const iccp_env *env)
+{
+    const double began = iccp_seconds();
+    const iccp_schedule schedule = iccp_fit_schedule(options, &iccp_fit_plain, HUGE_VAL);
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    iccp_work work = iccp_work_unlimited();
+    iccp_improvement improvement = {0};
+    icc_status status = ICC_OK;
+    info->energy = info->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
+    if (options->iterations >= 0) {
+        status = iccp_solid_improve(map, source, &schedule, &work, &improvement, &part);
+        info->energy = improvement.energy;
+        info->n_iterations = improvement.n_iterations;
+    }
+    info->seconds_improve = iccp_seconds() - began;
+    return status;
+}
+
+/* The steps that every new map takes; once more on a finer mesh where it was unfolded, since that
+ * leaves few points where there are the most folds. */
+static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, bool unfolded,
+                              int32_t iterations, icc_map_info *info, const iccp_env *env)
+{
+    const icc_improve_options options = {.iterations =
+                                             iterations == 0 ? ITERATIONS_OF_NEW : iterations,
+                                         .levels = unfolded ? 1 : -1};
+    return iccp_solid_map_relax(map, source, &options, info, env);
+}
+
+icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+{
+    info->n_vertices = map->mesh->n_points;
+    info->n_simplices = map->mesh->n_simplices;
+    return plant(map, env);
+}
+
+icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env)
+{
+    iccp_facet_tree_free(&map->before, &map->memory);
+    iccp_facet_tree_free(&map->after, &map->memory);
+    return plant(map, env);
+}
+
+icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
+                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                 const iccp_env *env)
+{
+    iccp_solid_map *map = new_map(source->domain, target->domain, &env->memory);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){3, 1}, env);
+    *out = NULL;
+    if (map == NULL)
+        return ICC_ERR_MEMORY;
+    bool unfolded;
+    icc_status status = iccp_solid_start(map, source, target, &unfolded, info, &part[0]);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = improve_new(map, source->domain, unfolded, iterations, info, &part[1]);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status = iccp_solid_map_finish(map, info, env);
+    if (status != ICC_OK || info->n_unrepaired > 0) {
+        iccp_solid_map_free(map);
+        return status;
+    }
+    *out = map;
+    return ICC_OK;
+}
+
+/* ---- a better one ---- */
+
+/* The mesh of the domain stays there. */
+static icc_status copy_map(iccp_solid_map *copy, const iccp_solid_map *map)
+{
+    if (map->own != NULL)
+        return iccp_solid_copy(copy, map);
+    const size_t n = 3 * map->mesh->n_points;
+    copy->mesh = map->mesh;
+    copy->images = iccp_alloc(&copy->memory, n, sizeof *copy->images);
+    if (copy->images != NULL)
+        memcpy(copy->images, map->images, n * sizeof *copy->images);
+    return copy->images != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
+                               const icc_domain *source, const icc_domain *target,
+                               const iccp_memory *memory)
+{
+    iccp_solid_map *copy = new_map(source, target, memory);
+    const icc_status status = copy != NULL ? copy_map(copy, map) : ICC_ERR_MEMORY;
+    *out = NULL;
+    if (status != ICC_OK) {
+        iccp_solid_map_free(copy);
+        return status;
+    }
+    *out = copy;
+    return ICC_OK;
+}
+
+icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
+                                  const icc_domain *source, const icc_domain *target,
+                                  const icc_improve_options *options, icc_improve_report *report,
+                                  const iccp_env *env)
+{
+    iccp_solid_map *better;
+    icc_status status = iccp_solid_map_copy(&better, map, source, target, &env->memory);
+    *out = NULL;
+    if (status != ICC_OK)
+        return status;
+    iccp_work work = iccp_fit_work(options, source->n_facets);
+    const iccp_schedule schedule =
+        iccp_fit_schedule(options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    iccp_improvement improvement = {0};
+    const iccp_simplicial_map simplicial = iccp_solid_simplicial(better);
+    report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
+    status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
+    report->cancelled = status == ICC_ERR_CANCELLED;
+    if (status == ICC_OK || status == ICC_ERR_CANCELLED)
+        status = count_inverted(better) == 0 ? plant(better, env) : ICC_ERR_CERTIFICATE;
+    if (status != ICC_OK) {
+        iccp_solid_map_free(better);
+        return status;
+    }
+    report->energy = improvement.energy;
+    report->n_iterations = improvement.n_iterations;
+    report->n_simplices = better->mesh->n_simplices;
+    report->n_levels = (int32_t)improvement.n_levels;
+    *out = better;
+    return ICC_OK;
+}
+
+/* ---- as bytes ---- */
+
+/* Images of the boundary are the target's vertices. */
+static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *source,
+                        const icc_domain *target)
+{
+    const icc_status status = iccp_filling_visit(b, &map->own, source);
+    if (status != ICC_OK)
+        return status;
+    if (b->reads)
+        map->mesh = map->own != NULL ? map->own : source->mesh;
+    const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
+    iccp_blob_require(b, iccp_blob_has(b, n, 3 * ICCP_F64));
+    if (b->reads)
+        map->images = iccp_blob_alloc(b, map->mesh->n_points, 3 * sizeof *map->images);
+    if (b->status != ICC_OK)
+        return b->status;
+    if (b->reads)
+        memcpy(map->images, target->vertices, 3 * n_rim * sizeof *map->images);
+    iccp_blob_f64(b, 3 * n, map->images + 3 * n_rim);
+    return b->status;
+}
+
+static icc_status certify(iccp_solid_map *map, const iccp_env *env)
+{
+    const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
+    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) && count_inverted(map) == 0
+               ? plant(map, env)
+               : ICC_ERR_FORMAT;
+}
+
+icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
+                                const icc_domain *target, icc_map_info *info, const iccp_env *env)
+{
+    if (!b->reads)
+        return visit(b, *map, source, target);
+    *map = NULL;
+    if (source->mesh == NULL)
+        return ICC_ERR_FORMAT;
+    iccp_solid_map *read = new_map(source, target, &env->memory);
+    if (read == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = visit(b, read, source, target);
+    if (status == ICC_OK)
+        status = certify(read, env);
+    if (status != ICC_OK) {
+        iccp_solid_map_free(read);
+        return status;
+    }
+    info->n_vertices = read->mesh->n_points;
+    info->n_simplices = read->mesh->n_simplices;
+    *map = read;
+    return ICC_OK;
+}
+
+void iccp_solid_map_free(iccp_solid_map *map)
+{
+    if (map == NULL)
+        return;
+    const iccp_memory memory = map->memory;
+    iccp_facet_tree_free(&map->before, &memory);
+    iccp_facet_tree_free(&map->after, &memory);
+    iccp_simplices_free(map->own);
+    iccp_free(&memory, map->images);
+    iccp_free(&memory, map);
+}
+
+/* The corners of a simplex before or after. */
+static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const double *corner[4])
+{
+    const double *points = after ? map->images : map->mesh->points;
+    for (size_t k = 0; k < 4; ++k)
+        corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
+}
+
+/* Returns the least. */
+static double barycentric(const double *const corner[4], const double *point, double *bary)
+{
+    double edge[3][3], normal[3], from[3], least = HUGE_VAL, det = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        from[k] = point[k] - corner[0][k];
+        for (size_t e = 0; e < 3; ++e)
+            edge[e][k] = corner[e + 1][k] - corner[0][k];
+    }
+    bary[0] = 1;
+    for (size_t e = 0; e < 3; ++e) {
+        iccp_vec_cross(edge[(e + 1) % 3], edge[(e + 2) % 3], normal);
+        det = e == 0 ? iccp_vec_dot(3, edge[0], normal) : det;
+        bary[e + 1] = iccp_vec_dot(3, from, normal) / det;
+        bary[0] -= bary[e + 1];
+    }
+    for (size_t k = 0; k < 4; ++k)
+        least = bary[k] < least ? bary[k] : least;
+    return least;
+}
+
+/* The simplex that holds a point, or the one that it is least outside of by rounding. */
+static bool find(const iccp_solid_map *map, bool inverse, const double *point, uint32_t *simplex,
+                 double *bary)
+{
+    double box[6] = {point[0], point[1], point[2], point[0], point[1], point[2]};
+    double best = -ROUNDING, tried[4];
+    iccp_facet_query query;
+    uint32_t t;
+    bool found = false;
+    iccp_facet_query_start(&query, inverse ? &map->after : &map->before, box);
+    while (best < 0 && iccp_facet_query_next(&query, &t)) {
+        const double *corner[4];
+        set_corners(map, inverse, t, corner);
+        const double least = barycentric(corner, point, tried);
+        if (!(least > best))
+            continue;
+        found = true;
+        best = least;
+        *simplex = t;
+        memcpy(bary, tried, sizeof tried);
+    }
+    return found;
+}
+
+icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const double *point,
+                                double *image, double *jacobian)
+{
+    uint32_t simplex;
+    double bary[4];
+    const double *from[4], *to[4];
+    if (!find(map, inverse, point, &simplex, bary))
+        return ICC_ERR_TRACE;
+    set_corners(map, inverse, simplex, from);
+    set_corners(map, !inverse, simplex, to);
+    for (size_t k = 0; k < 3; ++k)
+        image[k] = to[0][k] + (bary[1] * (to[1][k] - to[0][k]) + bary[2] * (to[2][k] - to[0][k]) +
+                               bary[3] * (to[3][k] - to[0][k]));
+    if (jacobian != NULL) {
+        const iccp_simplicial_map simplicial = iccp_simplicial_map_of(map->mesh, map->images);
+        iccp_simplicial_jacobian(&simplicial, inverse, simplex, jacobian);
+    }
+    return ICC_OK;
+}

@@ -1,0 +1,174 @@
+/* Based on: J. Cohen, D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings,
+ * 1997: each point of the surface that was given keeps a partner on the coarser one, so that only
+ * what is beside a changed place has to be measured. */
+#include "match/common_mesh/covering.h"
+
+#include "match/surface/corner_angle.h"
+
+/* What is told to be near once is so when it is measured another way. */
+static const double rounding = 1 - 1e-9;
+
+/* A normal stays within 60 degrees of that of the surface. */
+static const double least_cosine = 0.5;
+
+bool iccp_covering_create(iccp_covering *c, const iccp_half_edges *given, const double *x_given,
+                          size_t n_points, const double *points, double most,
+                          const iccp_facet_tree *coarse, const iccp_memory *memory)
+{
+    *c = (iccp_covering){.x = points, .most2 = rounding * most * most};
+    iccp_facet_tree_create(&c->given, 3, x_given, given->n_faces, given->origin, memory);
+    c->first = iccp_alloc(memory, coarse->n, sizeof *c->first);
+    c->next = iccp_alloc(memory, n_points, sizeof *c->next);
+    if (c->given.boxes == NULL || c->first == NULL || c->next == NULL)
+        return false;
+    for (size_t f = 0; f < coarse->n; ++f)
+        c->first[f] = ICCP_NO_EDGE;
+    for (uint32_t i = 0; i < n_points; ++i) {
+        double bary[3], off2;
+        const uint32_t f = iccp_facet_tree_nearest(coarse, points + 3 * (size_t)i, bary, &off2);
+        c->next[i] = c->first[f];
+        c->first[f] = i;
+    }
+    return true;
+}
+
+void iccp_covering_free(iccp_covering *c, const iccp_memory *memory)
+{
+    iccp_facet_tree_free(&c->given, memory);
+    iccp_free(memory, c->first);
+    iccp_free(memory, c->next);
+}
+
+/* The squared distance of a point from a triangle. C. Ericson, Real-Time Collision Detection, 2005,
+ * section 5.1.5: which corner, side or face is nearest is told by the signs of products. */
+static double distance2(const iccp_corners *t, const double *p)
+{
+    double ab[3], ac[3], at[3][3], d[3][2];
+    for (int k = 0; k < 3; ++k) {
+        ab[k] = t->at[1][k] - t->at[0][k];
+        ac[k] = t->at[2][k] - t->at[0][k];
+    }
+    for (int i = 0; i < 3; ++i) {
+        for (int k = 0; k < 3; ++k)
+            at[i][k] = p[k] - t->at[i][k];
+        d[i][0] = iccp_vec_dot(3, ab, at[i]);
+        d[i][1] = iccp_vec_dot(3, ac, at[i]);
+    }
+    double v = 0, w = 0;
+    const double va = d[1][0] * d[2][1] - d[2][0] * d[1][1];
+    const double vb = d[2][0] * d[0][1] - d[0][0] * d[2][1];
+    const double vc = d[0][0] * d[1][1] - d[1][0] * d[0][1];
+    const double from_b = d[1][1] - d[1][0], from_c = d[2][0] - d[2][1];
+    if (d[0][0] <= 0 && d[0][1] <= 0)
+        v = w = 0;
+    else if (d[1][0] >= 0 && from_b <= 0)
+        v = 1;
+    else if (d[2][1] >= 0 && from_c <= 0)
+        w = 1;
+    else if (vc <= 0 && d[0][0] >= 0 && d[1][0] <= 0)
+        v = d[0][0] / (d[0][0] - d[1][0]);
+    else if (vb <= 0 && d[0][1] >= 0 && d[2][1] <= 0)
+        w = d[0][1] / (d[0][1] - d[2][1]);
+    else if (va <= 0 && from_b >= 0 && from_c >= 0)
+        v = 1 - (w = from_b / (from_b + from_c));
+    else {
+        v = vb / (va + vb + vc);
+        w = vc / (va + vb + vc);
+    }
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double off = at[0][k] - v * ab[k] - w * ac[k];
+        sum += off * off;
+    }
+    return sum;
+}
+
+/* How far the mean of some corners is off the surface, squared; *faces_so if the triangle faces as
+ * that does there. */
+static double look_at(const iccp_covering *c, const iccp_corners *t, const double weight[3],
+                      const double normal[3], bool *faces_so)
+{
+    const double *right[3];
+    double p[3], bary[3], wanted[3], off2;
+    for (int k = 0; k < 3; ++k)
+        p[k] = weight[0] * t->at[0][k] + weight[1] * t->at[1][k] + weight[2] * t->at[2][k];
+    iccp_facet_corners(&c->given, iccp_facet_tree_nearest(&c->given, p, bary, &off2), right);
+    iccp_triangle_normal(wanted, right[0], right[1], right[2]);
+    *faces_so = *faces_so || iccp_vec_dot(3, normal, wanted) >
+                                 least_cosine * iccp_vec_norm(3, normal) * iccp_vec_norm(3, wanted);
+    return off2;
+}
+
+/* Whether a triangle's middle, and that of its first side, are near the surface, and it faces as
+ * that does at one of its middles. Its other sides are first sides of others, or were there. */
+static bool fits(const iccp_covering *c, const iccp_corners *t)
+{
+    static const double middles[4][3] = {
+        {1 / 3., 1 / 3., 1 / 3.}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
+    bool faces_so = false;
+    double normal[3];
+    iccp_triangle_normal(normal, t->at[0], t->at[1], t->at[2]);
+    for (int i = 0; i < 2; ++i)
+        if (look_at(c, t, middles[i], normal, &faces_so) > c->most2)
+            return false;
+    for (int i = 2; i < 4 && !faces_so; ++i)
+        (void)look_at(c, t, middles[i], normal, &faces_so);
+    return faces_so;
+}
+
+bool iccp_covering_allows(iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
+                          const iccp_corners *triangles)
+{
+    size_t t = 0;
+    for (size_t k = 0; k < n_old; ++k)
+        for (uint32_t before = ICCP_NO_EDGE, i = c->first[old[k]]; i != ICCP_NO_EDGE;
+             before = i, i = c->next[i]) {
+            size_t tries = 0;
+            /* Its neighbour was near to this one. */
+            while (tries < n && !(distance2(&triangles[t], c->x + 3 * (size_t)i) <= c->most2)) {
+                t = t + 1 == n ? 0 : t + 1;
+                ++tries;
+            }
+            if (tries == n) {
+                /* What was too far off is looked at first another time. */
+                if (before != ICCP_NO_EDGE) {
+                    c->next[before] = c->next[i];
+                    c->next[i] = c->first[old[k]];
+                    c->first[old[k]] = i;
+                }
+                return false;
+            }
+        }
+    for (t = 0; t < n; ++t)
+        if (!fits(c, &triangles[t]))
+            return false;
+    return true;
+}
+
+void iccp_covering_replace(iccp_covering *c, size_t n_old, const uint32_t *old, size_t n,
+                           const iccp_corners *triangles, const uint32_t *numbers)
+{
+    uint32_t list = ICCP_NO_EDGE;
+    for (size_t k = 0; k < n_old; ++k) {
+        for (uint32_t i = c->first[old[k]], next; i != ICCP_NO_EDGE; i = next) {
+            next = c->next[i];
+            c->next[i] = list;
+            list = i;
+        }
+        c->first[old[k]] = ICCP_NO_EDGE;
+    }
+    for (uint32_t i = list, next; i != ICCP_NO_EDGE; i = next) {
+        double least = HUGE_VAL;
+        size_t best = 0;
+        next = c->next[i];
+        for (size_t t = 0; t < n; ++t) {
+            const double off2 = distance2(&triangles[t], c->x + 3 * (size_t)i);
+            if (off2 < least) {
+                least = off2;
+                best = t;
+            }
+        }
+        c->next[i] = c->first[numbers[best]];
+        c->first[numbers[best]] = i;
+    }
+}

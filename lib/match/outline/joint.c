@@ -1,0 +1,106 @@
+#include "match/outline/joint.h"
+
+#include "base/error.h"
+#include "domain/features.h"
+
+#include <string.h>
+
+#define NONE UINT32_MAX
+
+icc_status iccp_joint_create(iccp_joint *joint, const icc_domain *source, const icc_domain *target,
+                             size_t n_landmarks, const iccp_memory *memory)
+{
+    const size_t n = source->n_vertices + target->n_vertices + n_landmarks;
+    const size_t n_features = source->features != NULL ? source->features->n : 0;
+    bool has_all = true;
+    for (int e = 0; e < 2; ++e) {
+        joint->origin[e] = iccp_alloc(memory, n, sizeof *joint->origin[e]);
+        joint->points[e] = iccp_alloc(memory, n, 2 * sizeof *joint->points[e]);
+        joint->feature[e] = iccp_alloc_zero(memory, n_features, sizeof *joint->feature[e]);
+        has_all = has_all && joint->origin[e] != NULL && joint->points[e] != NULL &&
+                  joint->feature[e] != NULL;
+    }
+    joint->first = iccp_alloc(memory, n_features + 1, sizeof *joint->first);
+    return has_all && joint->first != NULL ? ICC_OK : ICC_ERR_MEMORY;
+}
+
+void iccp_joint_free(iccp_joint *joint, const iccp_memory *memory)
+{
+    for (int e = 0; e < 2; ++e) {
+        iccp_free(memory, joint->origin[e]);
+        iccp_free(memory, joint->points[e]);
+        iccp_free(memory, joint->feature[e]);
+    }
+    iccp_free(memory, joint->first);
+}
+
+/* A vertex as it was given, or a point of an edge. */
+static void point_of(double *point, const iccp_outline *outline, uint32_t vertex, double share)
+{
+    if (vertex != NONE) {
+        iccp_domain_given(outline->domain, outline->vertex[vertex], point);
+        return;
+    }
+    double along, p[2], q[2];
+    const size_t k = iccp_outline_edge(outline, share, &along);
+    iccp_domain_given(outline->domain, outline->vertex[k], p);
+    iccp_domain_given(outline->domain, outline->vertex[(k + 1) % outline->n], q);
+    for (int e = 0; e < 2; ++e)
+        point[e] = p[e] + along * (q[e] - p[e]);
+}
+
+void iccp_joint_add(iccp_joint *joint, const iccp_outline *outline, const iccp_common *common)
+{
+    size_t first = 0;
+    for (size_t k = 0; k < common->n; ++k)
+        if (common->vertex[2 * k] == 0)
+            first = k;
+    for (size_t k = 0; k < common->n; ++k) {
+        const size_t on = !outline[0].is_back || k == 0 ? k : common->n - k;
+        const size_t at = (first + on) % common->n, to = joint->n++;
+        const uint32_t *const vertex = common->vertex + 2 * at;
+        for (size_t e = 0; e < 2; ++e) {
+            joint->origin[e][to] = vertex[e] == NONE ? NONE : outline[e].vertex[vertex[e]];
+            point_of(joint->points[e] + 2 * to, &outline[e], vertex[e], common->share[2 * at + e]);
+        }
+        joint->n_joined += vertex[0] != NONE && vertex[1] != NONE;
+        if (outline[0].end > 0 && vertex[0] == outline[0].end)
+            break;
+    }
+}
+
+void iccp_joint_add_vertices(iccp_joint *joint, const icc_domain *const *domains,
+                             const uint32_t *first, size_t n)
+{
+    for (size_t k = 0; k < n; ++k) {
+        const size_t to = joint->n++;
+        for (size_t e = 0; e < 2; ++e) {
+            joint->origin[e][to] = first[e] + (uint32_t)k;
+            iccp_domain_given(domains[e], joint->origin[e][to], joint->points[e] + 2 * to);
+        }
+    }
+    joint->n_joined += n;
+}
+
+void iccp_joint_end_outer(iccp_joint *joint)
+{
+    joint->first[0] = (uint32_t)joint->n;
+}
+
+void iccp_joint_end_feature(iccp_joint *joint, int32_t kind)
+{
+    const size_t f = joint->n_features++, first = joint->first[f];
+    for (int e = 0; e < 2; ++e)
+        joint->feature[e][f] = (icc_feature){
+            .kind = kind, .n_vertices = joint->n - first, .vertices = joint->points[e] + 2 * first};
+    joint->first[f + 1] = (uint32_t)joint->n;
+}
+
+icc_status iccp_joint_domain(icc_domain **out, iccp_joint *joint, size_t side, const iccp_env *env,
+                             icc_error *err)
+{
+    const icc_status status =
+        iccp_domain_create_features(out, joint->first[0], joint->points[side], joint->n_features,
+                                    joint->feature[side], env, err);
+    return status == ICC_OK ? status : iccp_fail_side(err, status, (int32_t)side + 1);
+}

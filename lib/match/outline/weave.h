@@ -1,0 +1,41 @@
+/* Two outlines as their vertices are woven into one another. */
+#ifndef ICCP_WEAVE_H
+#define ICCP_WEAVE_H
+
+#include "match/outline/outline.h"
+
+/* A vertex of one outline or of both, or a landmark. */
+typedef struct iccp_event {
+    double at[2]; /* shares, unwrapped from the cut */
+    uint32_t vertex[2];
+    double d; /* how far, by the shorter edge, they were; less than 0: a landmark */
+    bool is_fixed;
+} iccp_event;
+
+typedef struct iccp_weave {
+    const iccp_outline *outline[2];
+    size_t n[2];
+    double cut[2]; /* where both outlines are cut open */
+    double *place; /* of all vertices, source's first: shares from the cut */
+    double *edge;  /* the shorter edge at each */
+    uint32_t *order[2], *work;
+    double *knot; /* pairs: the pairing from the cut to the cut */
+    size_t n_knots;
+    double *bent; /* the same through all joined vertices */
+    size_t n_bent;
+    iccp_event *join, *event;
+    size_t n_joins, n_events;
+    unsigned char *is_joined; /* of all vertices */
+} iccp_weave;
+
+/* Where n monotone knots take x on side `from`. */
+double iccp_weave_follow(const double *knot, size_t n, int from, double x);
+
+/* In order along the source, then along the target; for iccp_sort(). */
+int iccp_event_by_source(const void *a, const void *b);
+
+/* Finds the joins: landmarks, and pairs of vertices that lie near one another; `drop`: so near in
+ * shares of the perimeter in any case. In order along both. */
+void iccp_weave_join(iccp_weave *w, size_t n_landmarks, const double *landmarks, double drop);
+
+#endif
