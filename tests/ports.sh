@@ -97,7 +97,7 @@ build_windows() {
 
 unit_tests_windows() {
     wanted=.
-    [ $tests = all ] || wanted="^unit/(base|math|map/test_(sampler|warp|map_file)|field|match)"
+    [ $tests = all ] || wanted="^unit/(base|math|map/(picture/|test_map_file)|field|match)"
     ctest --test-dir "$work/build" --tests-regex "$wanted" --no-tests=error --output-on-failure --parallel "$jobs"
     # The command: once; and with --long by its own tests but for those that make links, terminals, pipes of one file and
     # programs that are scripts, which Wine does not hand on. They run hundreds of programs, of which Wine's server fails

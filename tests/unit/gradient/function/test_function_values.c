@@ -3,9 +3,9 @@
 #include "gradient/function/edges.h"
 #include "icc/stages.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../shapes.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../shapes.h"
 
 #include <check.h>
 #include <math.h>

@@ -5,11 +5,11 @@
 #include "gradient/grid/rasterise.h"
 #include "math/predicates.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../shapes.h"
-#include "../../share.h"
-#include "../../surfaces.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../shapes.h"
+#include "../../../share.h"
+#include "../../../surfaces.h"
 
 #include <check.h>
 #include <math.h>

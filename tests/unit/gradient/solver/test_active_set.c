@@ -5,10 +5,10 @@
 #include "gradient/solver/active_set.h"
 #include "gradient/solver/inequalities.h"
 
-#include "../../faulty.h"
-#include "../../hard_masks.h"
-#include "../../random.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../hard_masks.h"
+#include "../../../random.h"
+#include "../../../share.h"
 
 #include <check.h>
 #include <stdlib.h>

@@ -7,10 +7,10 @@
 #include "gradient/solver/nested.h"
 #include "gradient/solver/polish.h"
 
-#include "../../faulty.h"
-#include "../../hard_masks.h"
-#include "../../random.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../hard_masks.h"
+#include "../../../random.h"
+#include "../../../share.h"
 
 #include <check.h>
 #include <math.h>

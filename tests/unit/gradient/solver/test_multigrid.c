@@ -4,10 +4,10 @@
 #include "gradient/solver/mg_cg.h"
 #include "gradient/solver/tied.h"
 
-#include "../../faulty.h"
-#include "../../hard_masks.h"
-#include "../../random.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../hard_masks.h"
+#include "../../../random.h"
+#include "../../../share.h"
 
 #include <check.h>
 #include <string.h>

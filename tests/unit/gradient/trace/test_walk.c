@@ -1,7 +1,7 @@
 /* Walks over hand-made functions, and the boundary, against what can be said without walking. */
 #include "gradient/trace/walk2.h"
 
-#include "../../random.h"
+#include "../../../random.h"
 
 #include <check.h>
 #include <math.h>

@@ -4,9 +4,9 @@
 #include "gradient/trace/walk2.h"
 #include "gradient/trace/walkn.h"
 
-#include "../../random.h"
-#include "../../share.h"
-#include "../../surfaces.h"
+#include "../../../random.h"
+#include "../../../share.h"
+#include "../../../surfaces.h"
 
 #include <check.h>
 #include <math.h>

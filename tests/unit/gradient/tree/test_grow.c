@@ -8,9 +8,9 @@
 #include "gradient/tree/queue.h"
 #include "gradient/tree/ranks.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../share.h"
 
 #include <check.h>
 #include <math.h>

@@ -3,9 +3,9 @@
 #include "icc/stages.h"
 #include "gradient/tree/cousin.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../shapes.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../shapes.h"
 
 #include <check.h>
 #include <string.h>

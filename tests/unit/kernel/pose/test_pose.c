@@ -1,5 +1,5 @@
 /* Poses: their derivatives, affine maps, and turns of handles. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 
 #include <math.h>
 #include <string.h>

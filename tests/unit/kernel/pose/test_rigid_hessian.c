@@ -1,7 +1,7 @@
 /* The Hessian of rigid parts: the same by products with the derivatives and as a matrix. */
 #include "kernel/pose/rigid_hessian.h"
 
-#include "../../random.h"
+#include "../../../random.h"
 #include "base/error.h"
 #include "math/vec.h"
 

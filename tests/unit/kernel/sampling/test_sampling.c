@@ -1,8 +1,8 @@
 /* Samplings: grids, blue noise, the caller's points, bytes. */
-#include "../../faulty.h"
-#include "../../gaussians.h"
-#include "../../random.h"
-#include "../../regions.h"
+#include "../../../faulty.h"
+#include "../../../gaussians.h"
+#include "../../../random.h"
+#include "../../../regions.h"
 #include "base/blob.h"
 #include "kernel/sampling/point_list.h"
 #include "kernel/sampling/sampling.h"

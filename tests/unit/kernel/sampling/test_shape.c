@@ -1,7 +1,7 @@
 /* Shapes: regions, walls and curves; cells. */
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../regions.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../regions.h"
 #include "geometry/segment.h"
 #include "kernel/sampling/cells.h"
 #include "kernel/sampling/shape.h"

@@ -1,5 +1,5 @@
 /* Bindings as bytes: they come back bit for bit, and anything else is refused. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 #include "base/blob.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 /* Weights of handles: sums, reproduction, edges, initial weights and units. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 
 #include <math.h>
 #include <string.h>

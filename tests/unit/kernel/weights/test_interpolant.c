@@ -2,8 +2,8 @@
  * solution. Sections and figures are those of Sakaridis, Kernel Coordinates, 2016. */
 #include "kernel/weights/interpolant.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
 #include "base/error.h"
 
 #include <check.h>

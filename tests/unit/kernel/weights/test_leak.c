@@ -1,6 +1,6 @@
 /* Diffusion stays in the shape: section 4.6 of the thesis claims that weights follow the shape, but
  * its kernel reaches across gaps (digest: 11 to 25 % of the weight on the other limb of a U). */
-#include "../../regions.h"
+#include "../../../regions.h"
 #include "icc/kernel.h"
 
 #include <stdlib.h>

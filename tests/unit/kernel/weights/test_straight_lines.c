@@ -1,5 +1,5 @@
 /* Lines that stay straight, share ends, or stay parallel. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #include "kernel/weights/structure.h"
 #include "kernel/weights/weights.h"
 
-#include "../../random.h"
+#include "../../../random.h"
 
 #include <check.h>
 #include <math.h>

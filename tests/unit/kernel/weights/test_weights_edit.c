@@ -1,5 +1,5 @@
 /* Weights made from others: painted, repainted, by another method, stiffened. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Failing allocations, cancelled calls and several threads: no leak, no other bit. */
-#include "../../faulty.h"
-#include "../../handle_fixtures.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../handle_fixtures.h"
+#include "../../../share.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* What weights, bindings and poses refuse, and what they name as its cause. */
-#include "../../handle_fixtures.h"
+#include "../../../handle_fixtures.h"
 
 #include <math.h>
 #include <string.h>

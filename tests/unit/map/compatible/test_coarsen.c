@@ -3,8 +3,8 @@
 #include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
 
-#include "../../faulty.h"
-#include "../../plmaps.h"
+#include "../../../faulty.h"
+#include "../../../plmaps.h"
 
 static iccp_plmap shaken(int k, int32_t cells)
 {

@@ -2,7 +2,7 @@
 #include "map/compatible/compatible.h"
 #include "math/predicates.h"
 
-#include "../../hard_shapes.h"
+#include "../../../hard_shapes.h"
 
 #include <check.h>
 #include <stdlib.h>

@@ -3,8 +3,8 @@
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/plmap_certificate.h"
 
-#include "../../faulty.h"
-#include "../../plmaps.h"
+#include "../../../faulty.h"
+#include "../../../plmaps.h"
 
 typedef struct pair {
     icc_domain *source, *target;

@@ -5,8 +5,8 @@
 #include "map/compatible/plmap_certificate.h"
 #include "map/compatible/repair.h"
 
-#include "../../faulty.h"
-#include "../../plmaps.h"
+#include "../../../faulty.h"
+#include "../../../plmaps.h"
 
 /* Without limits of work. */
 static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)

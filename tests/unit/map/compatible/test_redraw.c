@@ -2,8 +2,8 @@
 #include "base/error.h"
 #include "map/compatible/redraw.h"
 
-#include "../../faulty.h"
-#include "../../plmaps.h"
+#include "../../../faulty.h"
+#include "../../../plmaps.h"
 
 /* Images of a few inner vertices change places, by turns: each with one three edges away. */
 static iccp_plmap tangled(int k, size_t n_swaps)

@@ -1,7 +1,7 @@
 /* Which points of a large map are worth moving. */
 #include "map/energy/movable.h"
 
-#include "../../faulty.h"
+#include "../../../faulty.h"
 #include "map/energy/dirichlet.h"
 
 #include <check.h>

@@ -3,8 +3,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "../../faulty.h"
-#include "../../meshes.h"
+#include "../../../faulty.h"
+#include "../../../meshes.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"
 #include "map/compatible/improve.h"

@@ -7,9 +7,9 @@
 #include "map/compatible/plmap_certificate.h"
 #include "math/predicates.h"
 
-#include "../../feature_mixes.h"
-#include "../../feature_pairs.h"
-#include "../../share.h"
+#include "../../../feature_mixes.h"
+#include "../../../feature_pairs.h"
+#include "../../../share.h"
 
 #include <stdlib.h>
 

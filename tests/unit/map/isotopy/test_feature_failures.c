@@ -1,8 +1,8 @@
 /* Maps of domains with features without memory, and without patience: made, with ties and without,
  * improved, followed and loaded; nothing is left behind, and nothing is wrong. */
-#include "../../faulty.h"
-#include "../../feature_pairs.h"
-#include "../../saved.h"
+#include "../../../faulty.h"
+#include "../../../feature_pairs.h"
+#include "../../../saved.h"
 
 #include "map/map.h"
 

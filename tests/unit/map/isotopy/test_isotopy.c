@@ -3,9 +3,9 @@
 #include "map/map.h"
 #include "map/isotopy/word_motion.h"
 
-#include "../../feature_pairs.h"
-#include "../../saved.h"
-#include "../../share.h"
+#include "../../../feature_pairs.h"
+#include "../../../saved.h"
+#include "../../../share.h"
 
 typedef struct given_tie {
     icc_tie_info info;

@@ -3,7 +3,7 @@
 #include "map/map.h"
 #include "map/compatible/plmap_certificate.h"
 
-#include "../../feature_pairs.h"
+#include "../../../feature_pairs.h"
 
 #include <stddef.h>
 #include <stdlib.h>

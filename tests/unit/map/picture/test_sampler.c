@@ -1,7 +1,7 @@
 /* Every way to sample that this processor supports gives the bits of plain C. */
 #include "map/picture/sampler.h"
 
-#include "../../random.h"
+#include "../../../random.h"
 
 #include <check.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "map/picture/warp.h"
 #include "map/picture/warp_points.h"
 
-#include "../../pictures.h"
+#include "../../../pictures.h"
 
 #include <check.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Pictures of values: floats, many channels, other interpolations, missing samples. */
 #include <icc/icc.h>
 
-#include "../../pictures.h"
+#include "../../../pictures.h"
 
 #include <check.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* A mesh in space onto a star-shaped target: every tetrahedron exactly positive on both sides, the
  * boundary as it was given, and what is told when there is no such map; a coat on a map onto a ball;
  * pockets of a map in which something is inverted. */
-#include "../../faulty.h"
-#include "../../meshes.h"
+#include "../../../faulty.h"
+#include "../../../meshes.h"
 #include "base/error.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"

@@ -1,6 +1,6 @@
 /* A point of all half-spaces is found however thin what they have in common is, and none where they
  * have nothing in common. */
-#include "../../random.h"
+#include "../../../random.h"
 #include "map/solid/halfspaces.h"
 #include "math/vec.h"
 

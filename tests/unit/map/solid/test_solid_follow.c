@@ -1,9 +1,9 @@
 /* Maps of meshes in space that follow a target: every frame is a certified map onto it, about as
  * fair as one made at once; what is asked of a new map may be asked of one that has followed. */
-#include "../../faulty.h"
-#include "../../meshes.h"
-#include "../../saved.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../meshes.h"
+#include "../../../saved.h"
+#include "../../../share.h"
 #include "domain/domain.h"
 #include "map/energy/newton.h"
 

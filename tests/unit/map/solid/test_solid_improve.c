@@ -1,9 +1,9 @@
 /* Maps of meshes in space made fair: affine ones are found, spoilt ones recover, every mesh on the
  * way is that of a one-to-one map, and results neither depend on threads nor get lost. */
-#include "../../faulty.h"
-#include "../../meshes.h"
-#include "../../saved.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../meshes.h"
+#include "../../../saved.h"
+#include "../../../share.h"
 #include "domain/domain.h"
 #include "map/solid/solid_improve.h"
 

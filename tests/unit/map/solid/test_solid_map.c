@@ -1,8 +1,8 @@
 /* Map kind mesh in space: every tetrahedron positive, there and back, derivatives, and what happens
  * when the repair fails. */
-#include "../../faulty.h"
-#include "../../meshes.h"
-#include "../../share.h"
+#include "../../../faulty.h"
+#include "../../../meshes.h"
+#include "../../../share.h"
 
 #include <icc/icc.h>
 

@@ -1,5 +1,5 @@
 /* Triangles that change: what is allowed makes none of them meet, looked at pair by pair. */
-#include "../../hard_bodies.h"
+#include "../../../hard_bodies.h"
 #include "base/env.h"
 #include "match/common_mesh/clearance.h"
 #include "match/common_mesh/meeting.h"

@@ -1,7 +1,7 @@
 /* Two drawings on the sphere, cut by one another: signs that are never 0 are those of one and the
  * same moved drawing; crossings are those that all pairs of edges have; faces cover the sphere. */
-#include "../../faulty.h"
-#include "../../surfaces.h"
+#include "../../../faulty.h"
+#include "../../../surfaces.h"
 #include "base/env.h"
 #include "match/surface/direction.h"
 #include "match/surface/perturbed.h"

@@ -1,8 +1,8 @@
 /* Paths through lattices: of least cost, of known steps, in memory of their own. */
 #include "match/outline/lattice_path.h"
 
-#include "../../faulty.h"
-#include "../../random.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
 
 #include <math.h>
 

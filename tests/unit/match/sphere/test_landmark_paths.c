@@ -1,5 +1,5 @@
 /* Paths between landmarks of two surfaces, short ones and even ones. */
-#include "../../surfaces.h"
+#include "../../../surfaces.h"
 #include "base/env.h"
 #include "match/sphere/landmark_paths.h"
 

@@ -1,6 +1,6 @@
 /* Drawings that are moved on one another: their energy, what stays, edges that are halved and made
  * whole again, and pairs that are found by their distances. */
-#include "../../hard_bodies.h"
+#include "../../../hard_bodies.h"
 #include "base/env.h"
 #include "icc/icc.h"
 #include "match/surface/direction.h"

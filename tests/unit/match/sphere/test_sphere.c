@@ -1,8 +1,8 @@
 /* Drawings of closed surfaces on the sphere: surfaces shrink and grow, drawings are one-to-one, and
  * what is not is told. */
-#include "../../faulty.h"
-#include "../../hard_bodies.h"
-#include "../../obj.h"
+#include "../../../faulty.h"
+#include "../../../hard_bodies.h"
+#include "../../../obj.h"
 #include "base/env.h"
 #include "icc/icc.h"
 #include "match/sphere/decimate.h"
