@@ -6,9 +6,9 @@
 #include "domain/domain.h"
 #include "domain/features.h"
 #include "domain/mesh_domain.h"
+#include "fill/fill_domain.h"
 #include "geometry/polygon_check.h"
 #include "geometry/simplices.h"
-#include "fill/fill_domain.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,9 +1,9 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "match/outline/landmarks.h"
 #include "match/match_apply.h"
 #include "match/match_file.h"
+#include "match/outline/landmarks.h"
 
 #include <math.h>
 #include <string.h>

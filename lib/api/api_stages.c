@@ -11,12 +11,12 @@
 #include "gradient/grid/lattice.h"
 #include "gradient/grid/rasterise.h"
 #include "gradient/grid/refine.h"
-#include "icc/stages.h"
-#include "mesh/triangulate.h"
 #include "gradient/tree/cousin.h"
 #include "gradient/tree/grow.h"
 #include "gradient/tree/ranks.h"
 #include "gradient/tree/verify.h"
+#include "icc/stages.h"
+#include "mesh/triangulate.h"
 
 #include <math.h>
 

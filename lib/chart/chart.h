@@ -8,10 +8,10 @@
 #include "base/blob.h"
 #include "domain/domain.h"
 #include "field/flow.h"
+#include "gradient/trace/path.h"
 #include "icc/icc.h"
 #include "mesh/planar.h"
 #include "shelling/leafn.h"
-#include "gradient/trace/path.h"
 
 /* Coordinates of one point. */
 typedef struct iccp_coords {

@@ -13,9 +13,9 @@
 #include "gradient/function/make_function.h"
 #include "gradient/grid/grassfire.h"
 #include "gradient/grid/rasterise.h"
-#include "math/elementary.h"
 #include "gradient/tree/create_ranked.h"
 #include "gradient/tree/verify.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,9 +8,9 @@
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_field.h"
+#include "chart/curves.h"
 #include "chart/low_discrepancy.h"
 #include "gradient/function/function.h"
-#include "chart/curves.h"
 #include "math/elementary.h"
 #include "math/orient.h"
 

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "domain/complex.h"
-#include "geometry/crossings.h"
 #include "domain/simplicial.h"
+#include "geometry/crossings.h"
 #include "geometry/triangles.h"
 
 #include <string.h>

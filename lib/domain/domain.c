@@ -3,11 +3,11 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "domain/features.h"
-#include "geometry/locate.h"
 #include "domain/mask.h"
+#include "domain/simplicial.h"
+#include "geometry/locate.h"
 #include "geometry/polygon_check.h"
 #include "geometry/simplices.h"
-#include "domain/simplicial.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* One plane sweep over all rings, lines and points tells whether there is a defect, and how they
- * lie in one another (geometry/sweep.h). Only if there is one are rings looked at one by one, so that
- * what is said is what is said of a polygon by itself. */
+ * lie in one another (geometry/sweep.h). Only if there is one are rings looked at one by one, so
+ * that what is said is what is said of a polygon by itself. */
 #include "domain/features_check.h"
 
 #include "base/error.h"

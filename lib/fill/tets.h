@@ -6,9 +6,9 @@
 #define ICCP_TETS_H
 
 #include "base/env.h"
-#include "geometry/simplices.h"
 #include "fill/metric.h"
 #include "fill/points.h"
+#include "geometry/simplices.h"
 
 #include <stdbool.h>
 

@@ -1,8 +1,8 @@
 #include "foliation/harmonic_file.h"
 
 #include "domain/domain_file.h"
-#include "geometry/polygon_check.h"
 #include "foliation/certificate.h"
+#include "geometry/polygon_check.h"
 #include "mesh/corners.h"
 
 #include <string.h>

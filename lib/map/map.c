@@ -5,11 +5,11 @@
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_create.h"
+#include "chart/digits.h"
 #include "domain/features_check.h"
 #include "map/energy/affine.h"
-#include "chart/digits.h"
-#include "map/solid/filled_pair.h"
 #include "map/plane/follow.h"
+#include "map/solid/filled_pair.h"
 #include "map/solid/solid_follow.h"
 
 #include <string.h>

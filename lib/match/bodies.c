@@ -1,11 +1,10 @@
-/* Each surface is drawn on the sphere (match/sphere/sphere.h), one drawing is turned to lie on the other
- * (match/sphere/rotation.h), and each is moved on the other (match/sphere/relax.h). With landmarks both are
- * drawn by way of the same few triangles (match/sphere/landmark_sphere.h). Equal ones are drawn in the
- * same way (match/sphere/equal_surfaces.h). */
+/* Each surface is drawn on the sphere (match/sphere/sphere.h), one drawing is turned to lie on the
+ * other (match/sphere/rotation.h), and each is moved on the other (match/sphere/relax.h). With
+ * landmarks both are drawn by way of the same few triangles (match/sphere/landmark_sphere.h). Equal
+ * ones are drawn in the same way (match/sphere/equal_surfaces.h). */
 #include "match/bodies.h"
 
 #include "base/error.h"
-#include "math/vec.h"
 #include "match/sphere/close_vertices.h"
 #include "match/sphere/equal_surfaces.h"
 #include "match/sphere/helpers.h"
@@ -15,6 +14,7 @@
 #include "match/sphere/relax.h"
 #include "match/sphere/rotation.h"
 #include "match/sphere/sphere.h"
+#include "math/vec.h"
 
 #include <string.h>
 

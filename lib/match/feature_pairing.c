@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "domain/features.h"
 #include "match/feature_partners.h"
-#include "match/outline/landmarks.h"
 #include "match/mean_value.h"
+#include "match/outline/landmarks.h"
 #include "match/outline/ring_pairing.h"
 #include "math/elementary.h"
 

@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "match/feature_pairing.h"
 #include "match/feature_partners.h"
-#include "match/outline/landmarks.h"
 #include "match/match_apply.h"
+#include "match/outline/landmarks.h"
 #include "match/outline/ring_pairing.h"
 #include "match/surfaces.h"
 

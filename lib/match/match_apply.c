@@ -1,8 +1,8 @@
 #include "match/match_apply.h"
 
 #include "base/threads.h"
-#include "geometry/away.h"
 #include "domain/features.h"
+#include "geometry/away.h"
 #include "math/vec.h"
 
 enum { AT_ONCE = 1024 };

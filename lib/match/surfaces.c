@@ -1,16 +1,16 @@
 /* Both surfaces are drawn on the sphere (match/bodies.h) and cut by one another
- * (match/common_mesh/sphere_overlay.h), so that they have the same triangles, which are then made fewer
- * (match/common_mesh/simplify_apart.h). */
+ * (match/common_mesh/sphere_overlay.h), so that they have the same triangles, which are then made
+ * fewer (match/common_mesh/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
 #include "match/bodies.h"
-#include "math/elementary.h"
-#include "match/surface/corner_angle.h"
-#include "match/sphere/landmark_paths.h"
 #include "match/common_mesh/simplify_apart.h"
+#include "match/sphere/landmark_paths.h"
+#include "match/surface/corner_angle.h"
 #include "match/surface/stretch.h"
+#include "math/elementary.h"
 
 /* Of the diagonal. */
 static const double default_tolerance = 1e-3;

@@ -12,8 +12,8 @@
 #include "../obj.h"
 #include "bench.h"
 #include "face_stretch.h"
-#include "match/surface/corner_angle.h"
 #include "match/sphere/decimate.h"
+#include "match/surface/corner_angle.h"
 #include "match/surface/half_edges.h"
 
 static _Noreturn void fail(const char *what)

@@ -5,9 +5,9 @@
 #include "bench.h"
 
 #include "gradient/grid/grassfire.h"
+#include "gradient/solver/dissection.h"
 #include "math/ldlt.h"
 #include "math/ordering.h"
-#include "gradient/solver/dissection.h"
 
 #include <stdbool.h>
 

@@ -7,9 +7,9 @@
 #include "../obj.h"
 #include "bench.h"
 #include "face_stretch.h"
-#include "match/surface/half_edges.h"
 #include "match/sphere/sphere.h"
 #include "match/sphere/sphere_certificate.h"
+#include "match/surface/half_edges.h"
 
 enum { N_RUNS = 3 };
 

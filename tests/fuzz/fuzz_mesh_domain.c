@@ -6,8 +6,8 @@
  * corners, two bytes each, or facets. */
 #include "../meshes.h"
 #include "domain/domain.h"
-#include "geometry/simplices.h"
 #include "fuzz.h"
+#include "geometry/simplices.h"
 #include "math/orient.h"
 
 static void give_facets(test_mesh *m)

@@ -1,7 +1,7 @@
 /* Any bytes as a polygon: its mesh is a triangulated disc, exactly, and every point of it is
  * found. */
-#include "geometry/locate.h"
 #include "foliation/certificate.h"
+#include "geometry/locate.h"
 #include "mesh/finder.h"
 
 #include "outlines.h"

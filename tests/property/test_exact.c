@@ -3,9 +3,9 @@
  * are; the share of the way is measured in |dx| + |dy|, which needs no square root; every decision
  * is that of foliation/leaf2.c. With arc length in place of it, the library's doubles are compared
  * as well. */
-#include "geometry/locate.h"
 #include "foliation/harmonic.h"
 #include "foliation/psi.h"
+#include "geometry/locate.h"
 #include "icc/icc.h"
 
 #include "../hard_shapes.h"

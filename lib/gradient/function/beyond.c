@@ -1,7 +1,7 @@
 /* Zeros on the boundary itself: values outside go on along lines through them, as the equation has
- * it (gradient/solver/unknowns.h): F. Gibou, R. P. Fedkiw, L.-T. Cheng, M. Kang, A second-order-accurate
- * symmetric discretization of the Poisson equation on irregular domains, J. Comput. Phys. 176,
- * 2002. */
+ * it (gradient/solver/unknowns.h): F. Gibou, R. P. Fedkiw, L.-T. Cheng, M. Kang, A
+ * second-order-accurate symmetric discretization of the Poisson equation on irregular domains, J.
+ * Comput. Phys. 176, 2002. */
 #include "gradient/function/beyond.h"
 
 /* Calls an action for each unknown beside a vertex outside: with that vertex, the unknown and the

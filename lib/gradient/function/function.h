@@ -3,8 +3,8 @@
 #define ICCP_FUNCTION_H
 
 #include "base/once.h"
-#include "math/scaled.h"
 #include "gradient/solver/unknowns.h"
+#include "math/scaled.h"
 
 struct icc_function {
     iccp_memory memory;

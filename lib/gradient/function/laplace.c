@@ -7,11 +7,11 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "gradient/function/critical_points.h"
-#include "math/elementary.h"
 #include "gradient/solver/active_set.h"
 #include "gradient/solver/bilaplace.h"
 #include "gradient/solver/inequalities.h"
 #include "gradient/solver/tied.h"
+#include "math/elementary.h"
 
 /* A function on its way: everything here is borrowed but for the arrays. */
 typedef struct job {

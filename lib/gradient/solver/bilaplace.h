@@ -2,9 +2,9 @@
 #ifndef ICCP_BILAPLACE_H
 #define ICCP_BILAPLACE_H
 
+#include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/scaled.h"
-#include "gradient/solver/unknowns.h"
 
 /* Without inequalities. f: unknowns->n entries, normalised on return; 1 at the root. The maximum
  * may be elsewhere. Adds to `info` (work, n_inner, seconds_*) and sets both residuals.

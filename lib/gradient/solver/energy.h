@@ -3,9 +3,9 @@
 #ifndef ICCP_ENERGY_H
 #define ICCP_ENERGY_H
 
+#include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/gram.h"
-#include "gradient/solver/unknowns.h"
 
 /* The Laplacians of the vertices inside, one row of A each in the order of `unknowns`, and for
  * ICC_FUNCTION_CLAMPED below them those of the vertices outside next to them, whether or not the

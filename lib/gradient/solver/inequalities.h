@@ -2,8 +2,8 @@
 #ifndef ICCP_INEQUALITIES_H
 #define ICCP_INEQUALITIES_H
 
-#include "math/scaled.h"
 #include "gradient/solver/unknowns.h"
+#include "math/scaled.h"
 
 /* Of a positive, normalised function: how many are violated, by (1 + eta) * child > parent, the
  * product rounded once. */

@@ -2,9 +2,9 @@
 #ifndef ICCP_LAPLACIAN_FACTOR_H
 #define ICCP_LAPLACIAN_FACTOR_H
 
+#include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/ldlt.h"
-#include "gradient/solver/unknowns.h"
 
 typedef struct iccp_laplacian_factor {
     iccp_memory memory;

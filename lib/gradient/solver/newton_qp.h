@@ -3,8 +3,8 @@
 #ifndef ICCP_NEWTON_QP_H
 #define ICCP_NEWTON_QP_H
 
-#include "math/ldlt.h"
 #include "gradient/solver/qp.h"
+#include "math/ldlt.h"
 
 typedef struct iccp_newton_qp {
     iccp_memory memory;

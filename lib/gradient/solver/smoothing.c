@@ -10,8 +10,8 @@
 
 #include "base/clock.h"
 #include "base/minmax.h"
-#include "math/elementary.h"
 #include "gradient/solver/inequalities.h"
+#include "math/elementary.h"
 
 #include <math.h>
 #include <string.h>

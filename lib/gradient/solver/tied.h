@@ -13,8 +13,8 @@
 #ifndef ICCP_TIED_H
 #define ICCP_TIED_H
 
-#include "math/scaled.h"
 #include "gradient/solver/unknowns.h"
+#include "math/scaled.h"
 
 typedef struct iccp_ties {
     const uint32_t *top; /* n: the unknown that each is tied to, itself if to none. top[k] <= k and

@@ -5,10 +5,10 @@
  * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
 #include "base/clock.h"
 #include "base/minmax.h"
-#include "math/ldlt.h"
 #include "gradient/solver/dissection.h"
 #include "gradient/solver/inequalities.h"
 #include "gradient/solver/tied.h"
+#include "math/ldlt.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -178,7 +178,8 @@ static icc_status find_residual(const assembly *a, const iccp_scaled *x, const i
 }
 
 /* Whether every component is about what it should be, by its residual. Entries of the factor that
- * underflow, which the bands of gradient/solver/dissection.c are to prevent, spoil whole stretches. */
+ * underflow, which the bands of gradient/solver/dissection.c are to prevent, spoil whole stretches.
+ */
 static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
 {
     for (size_t u = 0; u < a->n; ++u) {

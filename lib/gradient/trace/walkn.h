@@ -25,10 +25,11 @@ typedef struct iccp_walkn {
     iccp_jetn *jet;    /* NULL when derivatives are not wanted */
 } iccp_walkn;
 
-/* Stands at a point in lattice coordinates; `direction` as in gradient/trace/walk2.h. From a point that lies
- * on a face, the walk goes into the simplex to which `ahead` points, if the gradient there does not
- * lead out of it again; NULL: the steepest way. When `jet` is not NULL it holds the derivative of
- * the point and is carried along. ICC_ERR_TRACE when the point is not in a simplex with values. */
+/* Stands at a point in lattice coordinates; `direction` as in gradient/trace/walk2.h. From a point
+ * that lies on a face, the walk goes into the simplex to which `ahead` points, if the gradient
+ * there does not lead out of it again; NULL: the steepest way. When `jet` is not NULL it holds the
+ * derivative of the point and is carried along. ICC_ERR_TRACE when the point is not in a simplex
+ * with values. */
 icc_status iccp_walkn_start(iccp_walkn *walk, const icc_function *function, int direction,
                             const double *x, const double *ahead, iccp_jetn *jet);
 

@@ -5,9 +5,9 @@
  *
  * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it only sets the
  * priority. A set grows from the root: of the vertices that touch it, it takes the first one in
- * that order whose neighbours in it are contractible, as are then the others (gradient/grid/kuhn.h). A
- * vertex that is not has to wait until the set has taken another neighbour of it. When all are
- * taken, no vertex but the root is critical, whatever the shape.
+ * that order whose neighbours in it are contractible, as are then the others
+ * (gradient/grid/kuhn.h). A vertex that is not has to wait until the set has taken another
+ * neighbour of it. When all are taken, no vertex but the root is critical, whatever the shape.
  *
  * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose
  * neighbours in the set are contractible goes, but for the root, and the order is read backwards.

@@ -2,8 +2,8 @@
 #ifndef ICCP_NODE_SET_H
 #define ICCP_NODE_SET_H
 
-#include "kernel/weights/interpolant.h"
 #include "kernel/sampling/sampling.h"
+#include "kernel/weights/interpolant.h"
 #include "kernel/weights/structure.h"
 #include "kernel/weights/weights.h"
 

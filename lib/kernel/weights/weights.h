@@ -3,8 +3,8 @@
 #ifndef ICCP_WEIGHTS_H
 #define ICCP_WEIGHTS_H
 
-#include "kernel/weights/kernel_matrix.h"
 #include "kernel/sampling/shape.h"
+#include "kernel/weights/kernel_matrix.h"
 
 /* Nodes: the handles first, then those on lines, then samples. Points are in local coordinates,
  * which the interpolant works in, too; the shape knows the caller's. */

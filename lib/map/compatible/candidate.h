@@ -3,8 +3,8 @@
 #define ICCP_CANDIDATE_H
 
 #include "base/minmax.h"
-#include "map/energy/dirichlet.h"
 #include "map/compatible/plmap.h"
+#include "map/energy/dirichlet.h"
 #include "math/predicates.h"
 #include "math/vec.h"
 

@@ -6,8 +6,8 @@
 #include "map/compatible/plmap.h"
 
 /* The overlay of triangulations by diagonals of two polygons with n corners. ICC_ERR_BOUNDARY when
- * one of them is not simple and counter-clockwise; ICC_ERR_RESOLUTION as in map/compatible/overlay.h. The
- * overlay is to be freed on failure, too. */
+ * one of them is not simple and counter-clockwise; ICC_ERR_RESOLUTION as in
+ * map/compatible/overlay.h. The overlay is to be freed on failure, too. */
 icc_status iccp_compatible_overlay(iccp_overlay *overlay, size_t n, const double *points,
                                    const double *images, const iccp_env *env);
 

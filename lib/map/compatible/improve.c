@@ -4,8 +4,8 @@
 #include "base/minmax.h"
 #include "base/sort.h"
 #include "base/threads.h"
-#include "map/energy/dirichlet.h"
 #include "map/compatible/flips.h"
+#include "map/energy/dirichlet.h"
 #include "math/vec.h"
 
 #include <math.h>

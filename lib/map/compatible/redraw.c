@@ -1,7 +1,7 @@
 /* A disc of triangles that cannot be untangled as they are joined has a map all the same when its
  * border is a simple polygon before and after the map: by their compatible triangulations
- * (map/compatible/compatible.h). Rings of neighbours are added until it is, and the map of the disc is fair.
- */
+ * (map/compatible/compatible.h). Rings of neighbours are added until it is, and the map of the disc
+ * is fair. */
 #include "map/compatible/redraw.h"
 
 #include "map/compatible/compatible.h"

@@ -6,8 +6,8 @@
 
 #include "map/compatible/coarsen.h"
 #include "map/compatible/descent.h"
-#include "map/energy/dirichlet.h"
 #include "map/compatible/flips.h"
+#include "map/energy/dirichlet.h"
 #include "map/energy/newton.h"
 
 #include <string.h>

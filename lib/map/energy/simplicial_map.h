@@ -16,7 +16,7 @@ typedef struct iccp_simplicial_map {
     double *images;          /* dim of each */
     size_t n_fixed;          /* the images of the first points are fixed, */
     const uint8_t *fixed;    /* and of those with fixed[v] != 0, unless this is NULL */
-    const struct iccp_newton_plan *plan; /* of a map of the same mesh (map/energy/newton.h), or NULL */
+    const struct iccp_newton_plan *plan; /* for a map of the same mesh (energy/newton.h), or NULL */
     double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
                        or volumes are the same and energies are those of shape alone */
     const double *growth; /* and by the mean of these for the corners of a simplex, unless NULL */

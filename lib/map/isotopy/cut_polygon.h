@@ -2,8 +2,8 @@
 #ifndef ICCP_CUT_POLYGON_H
 #define ICCP_CUT_POLYGON_H
 
-#include "map/isotopy/cuts.h"
 #include "map/compatible/overlay.h"
+#include "map/isotopy/cuts.h"
 
 /* Its corners are met on the way round along the walls and cuts, the inside being on the left; a
  * vertex may be met several times. Edge i runs from corner i to corner i + 1. */

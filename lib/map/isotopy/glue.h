@@ -2,8 +2,8 @@
 #ifndef ICCP_GLUE_H
 #define ICCP_GLUE_H
 
-#include "map/isotopy/cut_polygon.h"
 #include "map/compatible/plmap.h"
+#include "map/isotopy/cut_polygon.h"
 
 /* The map whose mesh is the overlay of the two cut polygons, one of which is `polygon`, with the
  * sides of cuts and lines joined. Cuts are forgotten; the vertices of rings, lines and points are

@@ -3,8 +3,8 @@
 #ifndef ICCP_WORD_H
 #define ICCP_WORD_H
 
-#include "map/isotopy/cuts.h"
 #include "map/compatible/plmap.h"
+#include "map/isotopy/cuts.h"
 
 /* A triangulation, counter-clockwise. */
 typedef struct iccp_net {

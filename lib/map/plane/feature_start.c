@@ -1,9 +1,9 @@
 /* docs/theory.md, features. Both domains are cut open along paths that join their components to a
- * tree; the polygons that this leaves are overlaid as cages are (map/compatible/overlay.c), for the map of one
- * to the other must take the boundary of the polygon to that of the other; then the cuts are closed
- * again. Any two ways to cut the target that correspond to the source's give a map, and none of
- * these can be moved to another without tearing: which features the images of the cuts pass on
- * which side makes them different. */
+ * tree; the polygons that this leaves are overlaid as cages are (map/compatible/overlay.c), for the
+ * map of one to the other must take the boundary of the polygon to that of the other; then the cuts
+ * are closed again. Any two ways to cut the target that correspond to the source's give a map, and
+ * none of these can be moved to another without tearing: which features the images of the cuts pass
+ * on which side makes them different. */
 #include "map/plane/feature_start.h"
 
 #include "base/error.h"
@@ -12,9 +12,9 @@
 #include "map/compatible/coarsen.h"
 #include "map/compatible/descent.h"
 #include "map/compatible/flips.h"
-#include "map/isotopy/glue.h"
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/repair.h"
+#include "map/isotopy/glue.h"
 #include "map/isotopy/ties.h"
 
 #include <math.h>

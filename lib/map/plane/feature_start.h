@@ -2,9 +2,9 @@
 #ifndef ICCP_FEATURE_START_H
 #define ICCP_FEATURE_START_H
 
-#include "map/isotopy/cuts.h"
 #include "map/compatible/plmap.h"
 #include "map/energy/work.h"
+#include "map/isotopy/cuts.h"
 
 /* What is known of a start. The caller frees it in any case. */
 typedef struct iccp_feature_report {

@@ -2,8 +2,8 @@
 #ifndef ICCP_FIT_H
 #define ICCP_FIT_H
 
-#include "map/plane/mesh_map.h"
 #include "map/energy/work.h"
+#include "map/plane/mesh_map.h"
 
 /* Work that is left and spent. */
 typedef struct iccp_allowance {

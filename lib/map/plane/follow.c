@@ -6,9 +6,9 @@
 #include "domain/features.h"
 #include "map/compatible/carry.h"
 #include "map/compatible/density.h"
+#include "map/compatible/tend.h"
 #include "map/plane/feature_start.h"
 #include "map/plane/fit.h"
-#include "map/compatible/tend.h"
 
 #include <math.h>
 

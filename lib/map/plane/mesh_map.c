@@ -9,12 +9,12 @@
 #include "chart/bulk.h"
 #include "domain/features.h"
 #include "map/compatible/candidate.h"
-#include "map/plane/feature_start.h"
-#include "map/plane/fit.h"
-#include "map/isotopy/isotopy.h"
-#include "map/energy/movable.h"
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/plmap_certificate.h"
+#include "map/energy/movable.h"
+#include "map/isotopy/isotopy.h"
+#include "map/plane/feature_start.h"
+#include "map/plane/fit.h"
 
 #include <math.h>
 #include <stdatomic.h>

@@ -22,8 +22,8 @@ iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *tar
                                  const iccp_memory *memory);
 
 /* Starts from two charts that were made together: their images of the source chart's mesh; or,
- * where these cannot be repaired and `overlay` says so, from what map/compatible/overlay_start.h makes of the
- * domains alone. Fills in the mesh's members of `info`. When no start leads to a map,
+ * where these cannot be repaired and `overlay` says so, from what map/compatible/overlay_start.h
+ * makes of the domains alone. Fills in the mesh's members of `info`. When no start leads to a map,
  * info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. `iterations` as in icc_map_options. */
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const icc_chart *target, int32_t iterations, bool overlay,

@@ -7,8 +7,8 @@
 #ifndef ICCP_CONE_H
 #define ICCP_CONE_H
 
-#include "geometry/simplices.h"
 #include "fill/tets.h"
+#include "geometry/simplices.h"
 #include "map/solid/halfspaces.h"
 
 #include <math.h>

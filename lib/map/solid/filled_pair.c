@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "geometry/simplices.h"
 #include "fill/fill_domain.h"
+#include "geometry/simplices.h"
 
 typedef struct fill_job {
     icc_domain **filled;

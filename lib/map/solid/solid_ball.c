@@ -2,8 +2,8 @@
 
 #include "base/minmax.h"
 #include "chart/chart_create.h"
-#include "geometry/simplices.h"
 #include "fill/fill_domain.h"
+#include "geometry/simplices.h"
 #include "map/solid/cone_map.h"
 #include "math/vec.h"
 

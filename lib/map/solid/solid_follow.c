@@ -4,11 +4,11 @@
 #include "map/solid/solid_follow.h"
 
 #include "base/clock.h"
-#include "map/energy/affine.h"
 #include "map/compatible/carry.h"
+#include "map/energy/affine.h"
 #include "map/energy/mesh_repair.h"
-#include "map/solid/solid_improve.h"
 #include "map/energy/untangle.h"
+#include "map/solid/solid_improve.h"
 #include "math/vec.h"
 
 #include <math.h>

@@ -8,8 +8,8 @@
 #include "base/minmax.h"
 #include "geometry/simplices.h"
 #include "map/energy/mesh_repair.h"
-#include "map/solid/solid_cuts.h"
 #include "map/energy/untangle.h"
+#include "map/solid/solid_cuts.h"
 #include "math/elementary.h"
 #include "math/vec.h"
 

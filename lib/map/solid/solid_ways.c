@@ -2,9 +2,9 @@
 
 #include "base/clock.h"
 #include "base/threads.h"
-#include "map/solid/cone_map.h"
 #include "chart/curves.h"
 #include "map/energy/mesh_repair.h"
+#include "map/solid/cone_map.h"
 #include "map/solid/solid_chords.h"
 #include "map/solid/solid_edit.h"
 #include "map/solid/solid_mend.h"

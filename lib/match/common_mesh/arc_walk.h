@@ -26,10 +26,11 @@ typedef struct iccp_arc_walk {
     uint32_t *crossed; /* the other's half-edges, from right to left, in the order of the way */
 } iccp_arc_walk;
 
-/* Directions are as if moved by match/surface/perturbed.h, so that edges pass no vertices and overlap no
- * edges but those that are of both. Both drawings are certified. ICC_ERR_RESOLUTION if there are
- * more than `most` crossings; ICC_ERR_MEMORY, ICC_ERR_CANCELLED; to be freed in any case. O(1) for
- * each edge and crossing, besides O(n) for the first vertex and O(degree) at common ones. */
+/* Directions are as if moved by match/surface/perturbed.h, so that edges pass no vertices and
+ * overlap no edges but those that are of both. Both drawings are certified. ICC_ERR_RESOLUTION if
+ * there are more than `most` crossings; ICC_ERR_MEMORY, ICC_ERR_CANCELLED; to be freed in any case.
+ * O(1) for each edge and crossing, besides O(n) for the first vertex and O(degree) at common ones.
+ */
 icc_status iccp_arc_walk_create(iccp_arc_walk *walk, const iccp_drawing *walked,
                                 const iccp_drawing *other, size_t most, const iccp_env *env,
                                 icc_error *err);

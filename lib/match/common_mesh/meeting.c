@@ -1,7 +1,7 @@
 #include "match/common_mesh/meeting.h"
 
-#include "geometry/facet_tree.h"
 #include "domain/simplicial.h"
+#include "geometry/facet_tree.h"
 #include "geometry/triangles.h"
 
 /* Marks the corners of triangles that meet others, or have no area; whether there are any. */

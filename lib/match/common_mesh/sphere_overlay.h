@@ -28,8 +28,8 @@ typedef struct iccp_sphere_overlay {
 
 /* Of two certified drawings, directions by vertex, all of both surfaces being there. Vertices of
  * both that have the same direction are one; an edge between two such vertices in both drawings is
- * one. Everything else is as if moved by match/surface/perturbed.h: where a vertex lies on an edge, or
- * edges overlap, faces without area come about.
+ * one. Everything else is as if moved by match/surface/perturbed.h: where a vertex lies on an edge,
+ * or edges overlap, faces without area come about.
  *
  * By exact signs alone: both drawings have been walked through the other with the same crossings,
  * and the faces make a sphere. ICC_ERR_RESOLUTION if there are more than `most_crossings`, or 2^28;

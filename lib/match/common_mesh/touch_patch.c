@@ -1,6 +1,6 @@
 /* What a change of common triangles does: to their shape, to how one surface is stretched to become
- * the other (match/surface/stretch.h), to how far both are off (match/common_mesh/covering.h) and to what meets
- * (match/common_mesh/clearance.h). */
+ * the other (match/surface/stretch.h), to how far both are off (match/common_mesh/covering.h) and
+ * to what meets (match/common_mesh/clearance.h). */
 #include "match/common_mesh/touch_patch.h"
 
 #include "base/minmax.h"

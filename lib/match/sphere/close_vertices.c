@@ -3,8 +3,8 @@
 #include "match/sphere/close_vertices.h"
 
 #include "base/minmax.h"
-#include "match/surface/direction.h"
 #include "match/sphere/drawn_finder.h"
+#include "match/surface/direction.h"
 
 #include <string.h>
 

@@ -5,8 +5,8 @@
 
 #include "base/heap.h"
 #include "base/minmax.h"
-#include "math/vec.h"
 #include "match/sphere/landmark_paths.h"
+#include "math/vec.h"
 
 #include <math.h>
 

@@ -2,8 +2,8 @@
  * 2015. */
 #include "match/sphere/drawn_star.h"
 
-#include "math/vec.h"
 #include "match/surface/direction.h"
+#include "math/vec.h"
 
 #include <math.h>
 

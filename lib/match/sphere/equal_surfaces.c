@@ -3,8 +3,8 @@
  * that has most neighbours is followed to each that it may become. */
 #include "match/sphere/equal_surfaces.h"
 
-#include "math/vec.h"
 #include "match/sphere/sphere.h"
+#include "math/vec.h"
 
 #include <string.h>
 

@@ -2,9 +2,9 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "math/vec.h"
 #include "match/sphere/rotation.h"
 #include "match/sphere/sphere.h"
+#include "math/vec.h"
 
 static bool is_taken(const uint32_t *vertices, size_t n, uint32_t v)
 {

@@ -1,6 +1,6 @@
 /* Based on: V. Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models,
- * 2004, for two surfaces that grow from a base (match/sphere/landmark_base.h); here both drawings grow
- * together, each moved on the other, so that every face is positive at any time. */
+ * 2004, for two surfaces that grow from a base (match/sphere/landmark_base.h); here both drawings
+ * grow together, each moved on the other, so that every face is positive at any time. */
 #include "match/sphere/landmark_sphere.h"
 
 #include "base/error.h"

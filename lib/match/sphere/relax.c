@@ -4,8 +4,8 @@
 #include "match/sphere/relax.h"
 
 #include "base/minmax.h"
-#include "match/surface/direction.h"
 #include "match/sphere/drawn_finder.h"
+#include "match/surface/direction.h"
 #include "match/surface/kernel_room.h"
 #include "match/surface/newton_step.h"
 

@@ -26,9 +26,9 @@ void iccp_relaxation_free(iccp_relaxation *r, const iccp_memory *memory);
 
 /* Moves the vertices of both that are there and not fixed, one by one, by steps `longer` times as
  * long as Newton's, in rounds, at most `most_rounds`, until one lowers the energy of
- * match/sphere/composed_star.h, which may be severe, by less than .3 %. *left: the energy then, of all
- * stars of both. Every face stays positive, exactly, and every star goes round once. The same on
- * every machine. ICC_ERR_MEMORY, ICC_ERR_CANCELLED without a text. */
+ * match/sphere/composed_star.h, which may be severe, by less than .3 %. *left: the energy then, of
+ * all stars of both. Every face stays positive, exactly, and every star goes round once. The same
+ * on every machine. ICC_ERR_MEMORY, ICC_ERR_CANCELLED without a text. */
 icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, int most_rounds,
                       double *left, const iccp_env *env);
 

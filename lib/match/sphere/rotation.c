@@ -1,12 +1,12 @@
 #include "match/sphere/rotation.h"
 
 #include "base/minmax.h"
-#include "match/surface/corner_angle.h"
 #include "match/sphere/decimate.h"
-#include "match/surface/direction.h"
 #include "match/sphere/drawn_finder.h"
-#include "match/surface/drawn_place.h"
 #include "match/sphere/sphere_certificate.h"
+#include "match/surface/corner_angle.h"
+#include "match/surface/direction.h"
+#include "match/surface/drawn_place.h"
 #include "match/surface/stretch.h"
 
 #include <string.h>

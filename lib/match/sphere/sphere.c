@@ -8,11 +8,11 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "match/sphere/decimate.h"
-#include "match/surface/direction.h"
 #include "match/sphere/drawn_star.h"
+#include "match/sphere/sphere_certificate.h"
+#include "match/surface/direction.h"
 #include "match/surface/kernel_room.h"
 #include "match/surface/newton_step.h"
-#include "match/sphere/sphere_certificate.h"
 
 #include <math.h>
 #include <string.h>

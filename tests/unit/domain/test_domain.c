@@ -1,7 +1,7 @@
 /* Polygon domains against brute force in 64-bit integers: which polygons are accepted, what is
  * listed of the others, and where points lie. */
-#include "geometry/avl.h"
 #include "domain/domain.h"
+#include "geometry/avl.h"
 #include "geometry/locate.h"
 #include "geometry/simple.h"
 #include "geometry/sweep.h"

@@ -1,6 +1,6 @@
 /* Domain meshes, and finding points in them. */
-#include "geometry/locate.h"
 #include "foliation/certificate.h"
+#include "geometry/locate.h"
 #include "math/predicates.h"
 #include "mesh/finder.h"
 

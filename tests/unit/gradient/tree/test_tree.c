@@ -1,7 +1,7 @@
 /* Algorithm 2 against itself as it is printed, what becomes of the vertices outside, and the cousin
  * rule where it is known to hold and known to fail. */
-#include "icc/stages.h"
 #include "gradient/tree/cousin.h"
+#include "icc/stages.h"
 
 #include "../../../faulty.h"
 #include "../../../random.h"

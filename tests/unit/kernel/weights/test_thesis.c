@@ -1,8 +1,8 @@
 /* Where Sakaridis' thesis is wrong or silent, and what happens here instead: one test for each
  * point, with the thesis' own behaviour beside it where that can be asked for. */
 #include "icc/kernel.h"
-#include "kernel/weights/interpolant.h"
 #include "kernel/sampling/sampling.h"
+#include "kernel/weights/interpolant.h"
 
 #include <check.h>
 #include <float.h>

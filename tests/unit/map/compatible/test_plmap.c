@@ -1,9 +1,9 @@
 /* Piecewise linear maps: refining, untangling and improving them. */
 #include "base/error.h"
 #include "map/compatible/improve.h"
-#include "map/energy/newton.h"
 #include "map/compatible/plmap_certificate.h"
 #include "map/compatible/repair.h"
+#include "map/energy/newton.h"
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"

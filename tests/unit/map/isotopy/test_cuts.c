@@ -2,9 +2,9 @@
  * polygons that these leave, and the map that closes them again. By brute force in exact
  * arithmetic. */
 #include "geometry/segment.h"
-#include "map/plane/feature_start.h"
-#include "map/isotopy/glue.h"
 #include "map/compatible/plmap_certificate.h"
+#include "map/isotopy/glue.h"
+#include "map/plane/feature_start.h"
 #include "math/predicates.h"
 
 #include "../../../feature_mixes.h"

@@ -1,7 +1,7 @@
 /* Which way round one another features go: ties in and out, and words of crossed edges. */
 #include "map/isotopy/isotopy.h"
-#include "map/map.h"
 #include "map/isotopy/word_motion.h"
+#include "map/map.h"
 
 #include "../../../feature_pairs.h"
 #include "../../../saved.h"

@@ -11,8 +11,8 @@
 #include "map/solid/cone_map.h"
 #include "map/solid/solid_chords.h"
 #include "map/solid/solid_pockets.h"
-#include "math/predicates.h"
 #include "match/sphere/sphere.h"
+#include "math/predicates.h"
 
 /* A bar has 2 x 2 x 8 cells. */
 enum { LENGTH = 8, WIDTH = 2 };

@@ -3,11 +3,11 @@
 #include "../../../faulty.h"
 #include "../../../surfaces.h"
 #include "base/env.h"
+#include "match/common_mesh/shared_vertices.h"
+#include "match/common_mesh/sphere_overlay.h"
+#include "match/sphere/sphere.h"
 #include "match/surface/direction.h"
 #include "match/surface/perturbed.h"
-#include "match/common_mesh/shared_vertices.h"
-#include "match/sphere/sphere.h"
-#include "match/common_mesh/sphere_overlay.h"
 
 #include <check.h>
 #include <gmp.h>

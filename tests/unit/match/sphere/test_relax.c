@@ -3,12 +3,12 @@
 #include "../../../hard_bodies.h"
 #include "base/env.h"
 #include "icc/icc.h"
-#include "match/surface/direction.h"
 #include "match/sphere/drawn_finder.h"
 #include "match/sphere/likely_pairs.h"
 #include "match/sphere/relax.h"
 #include "match/sphere/sphere.h"
 #include "match/sphere/split_surface.h"
+#include "match/surface/direction.h"
 
 #include <check.h>
 #include <stdlib.h>

@@ -6,9 +6,9 @@
 #include "base/env.h"
 #include "icc/icc.h"
 #include "match/sphere/decimate.h"
-#include "match/surface/direction.h"
 #include "match/sphere/sphere.h"
 #include "match/sphere/sphere_certificate.h"
+#include "match/surface/direction.h"
 
 #include <check.h>
 #include <stdlib.h>
