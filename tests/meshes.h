@@ -291,7 +291,8 @@ static inline int mesh_tetgen(test_mesh *m, size_t n_vertices, const double *ver
         (void)printf("tetgen is not installed: %s skipped\n", tag);
         return 0;
     }
-    (void)snprintf(path, sizeof path, "%s.tetgen", tag);
+    const char *mode = getenv("ICC_TEST_MODE"); /* the same program runs in several modes at once */
+    (void)snprintf(path, sizeof path, "%s.%s.tetgen", tag, mode != NULL ? mode : "default");
     (void)snprintf(command, sizeof command, "tetgen -pYq1.4zQ '%s.smesh' >/dev/null 2>&1", path);
     char name[256];
     (void)snprintf(name, sizeof name, "%s.smesh", path);
