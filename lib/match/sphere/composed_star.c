@@ -10,11 +10,15 @@
 
 #include <string.h>
 
-/* A face counts as somewhat fatter than it is: this share of its squared sides is added to each. */
-static const double fatter = 1e-4;
+/* A face counts as somewhat fatter than it is: this share of its squared sides is added to each.
+ * `thickness` is added too, so that faces without any area have a metric. */
+static const double fatter = 1e-4, thickness = 1e-14;
 
 /* Directions of the ring are at most so far away: their cosine. */
 static const double least_cosine = 0.1;
+
+/* Overlaps of two faces that are smaller come from rounding. */
+static const double least_area = 1e-24;
 
 /* Faces that a star may overlap. */
 enum { MOST_OTHERS = 4000, MOST_CORNERS = 8 };
@@ -68,7 +72,7 @@ static void measure(iccp_seen_face *f, const iccp_drawn_surface *s, uint32_t a, 
     f->gram[0] = iccp_vec_dot(3, g, g);
     f->gram[1] = iccp_vec_dot(3, g, h);
     f->gram[2] = iccp_vec_dot(3, h, h);
-    const double more = fatter * 2 * (f->gram[0] - f->gram[1] + f->gram[2]) + 1e-14;
+    const double more = fatter * 2 * (f->gram[0] - f->gram[1] + f->gram[2]) + thickness;
     f->gram[0] += more;
     f->gram[1] += 0.5 * more;
     f->gram[2] += more;
@@ -284,7 +288,7 @@ double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3])
         if (n < 3)
             continue;
         const double area = middle(q, (const double(*)[3])work[1], n);
-        if (!(area > 1e-24))
+        if (!(area > least_area))
             continue;
         const double u = metric(g, a, q), v = metric(h, b, q);
         const double e =
