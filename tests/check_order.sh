@@ -12,37 +12,50 @@ complain() {
     failed=1
 }
 
-# The sources that TREE/CMakeLists.txt lists in the variable VARIABLE, in their order.
-listed() {
-    sed -n "/^set($2\$/,/)/p" "$1/CMakeLists.txt" | tr -d ')' | tr -s ' ' '\n' | grep '\.[ch]$'
+# Reads the sources found in a tree. Reads the list in TREE/CMakeLists.txt, and the files that it lists, by itself.
+# shellcheck disable=SC2016 # awk's variables
+order='
+function complain(text) {
+    print text
+    failed = 1
 }
 
-included() {
-    sed -n 's|^[[:space:]]*#[[:space:]]*include[[:space:]]*"\([^"]*\)".*|\1|p' "$1"
+# Complains about each include in a listed file that names no file above it.
+function check_includes(file,   path, line, answer) {
+    path = tree "/" file
+    while ((answer = (getline line < path)) > 0) {
+        if (line !~ /^[ \t]*#[ \t]*include[ \t]*"/) continue
+        split(line, part, "\"")
+        if (part[2] !~ /^icc\// && !(part[2] in listed))
+            complain(path " includes \"" part[2] "\", which is not listed above it")
+    }
+    close(path)
+    if (answer < 0) complain(tree "/CMakeLists.txt lists " file ", which does not exist")
+    else listed[file]
 }
+
+BEGIN {
+    table = tree "/CMakeLists.txt"
+    while ((getline line < table) > 0) {
+        if (line == "set(" variable) in_list = 1
+        if (!in_list) continue
+        n = split(line, word, /[ \t)]+/)
+        for (k = 1; k <= n; ++k)
+            if (word[k] ~ /[.][ch]$/) {
+                check_includes(word[k])
+                ++n_listed
+            }
+        if (line ~ /\)/) in_list = 0
+    }
+    # A rule that finds nothing to look at holds for the wrong reason.
+    if (n_listed == 0) complain("no sources found in " tree)
+}
+!($0 in listed) { complain(tree "/CMakeLists.txt lacks " $0) }
+END { exit failed }
+'
 
 check_tree() {
-    tree=$1
-    list=$(listed "$tree" "$2") || true
-    # A rule that finds nothing to look at holds for the wrong reason.
-    [ -n "$list" ] || complain "no sources found in $tree"
-    for file in $(cd "$tree" && find . -name '*.[ch]' | sed 's|^\./||'); do
-        echo "$list" | grep -qx "$file" || complain "$tree/CMakeLists.txt lacks $file"
-    done
-    above=
-    for file in $list; do
-        [ -f "$tree/$file" ] || { complain "$tree/CMakeLists.txt lists $file, which does not exist"; continue; }
-        for name in $(included "$tree/$file"); do
-            case $name in
-                icc/*) continue ;;
-            esac
-            case " $above " in
-                *" $name "*) ;;
-                *) complain "$tree/$file includes \"$name\", which is not listed above it" ;;
-            esac
-        done
-        above="$above $file"
-    done
+    (cd "$1" && find . -name '*.[ch]' | sed 's|^\./||') | awk -v tree="$1" -v variable="$2" "$order" || failed=1
 }
 
 # The base names below a folder, each as often as different folders have it.
