@@ -1,7 +1,8 @@
-/* The checksum is the one of IEEE 802.3, clause 3.2.9, as PNG and gzip have it. It covers all bytes
- * but its own, so that no single changed bit goes unnoticed. Eight bytes at a time: M. Kounavis,
- * F. Berry, A systematic approach to building high performance software-based CRC generators,
- * 2005; and several strands side by side, none of which waits for another. */
+/* Objects as bytes. The checksum is that of IEEE 802.3, clause 3.2.9, which PNG and gzip use. It
+ * covers all bytes except its own, so every single changed byte is noticed. The code reads eight
+ * bytes at a time: M. Kounavis, F. Berry, A systematic approach to building high performance
+ * software-based CRC generators, 2005. It also runs several strands side by side, and none waits
+ * for another. */
 #include "base/blob.h"
 
 #include "base/compiler.h"
@@ -9,7 +10,7 @@
 
 #include <string.h>
 
-/* The header: "LICC", kind, version, checksum, and the length of the whole in 8 bytes. */
+/* The header: "LICC", kind, version, checksum, and the length of the whole object in 8 bytes. */
 enum { KIND_AT = 4, VERSION_AT = 8, CHECKSUM_AT = 12, LENGTH_AT = 16, HEADER = 24 };
 
 static const char MAGIC[4] = {'L', 'I', 'C', 'C'};
@@ -47,7 +48,7 @@ static uint64_t word_at(const unsigned char *at)
     return word;
 }
 
-/* Polynomials modulo that of the checksum; the highest bit is the coefficient of 1. */
+/* A state is a polynomial modulo that of the checksum. The highest bit is the coefficient of 1. */
 static const uint32_t POLYNOMIAL = 0xedb88320u, ONE = (uint32_t)1 << 31;
 
 static uint32_t times_x(uint32_t a)
@@ -63,7 +64,7 @@ static uint32_t times(uint32_t a, uint32_t b)
     return product;
 }
 
-/* What n more bytes do to a state: x^(8 n). */
+/* Returns x^(8 n), the factor by which n more bytes multiply a state. */
 static uint32_t power_of(size_t n)
 {
     uint32_t power = ONE, square = ONE >> 8;
@@ -72,7 +73,7 @@ static uint32_t power_of(size_t n)
     return power;
 }
 
-/* by[k][byte]: what a byte gives that k others follow. */
+/* by[k][byte] is the contribution of a byte that k others follow. */
 typedef struct tables {
     uint32_t by[8][256];
 } tables;
@@ -107,7 +108,7 @@ static ICCP_INLINE uint32_t add_word(const tables *t, uint32_t crc, uint64_t wor
            t->by[1][w >> 48 & 0xff] ^ t->by[0][w >> 56];
 }
 
-/* Strands of as many words each, one behind the other; then the rest. */
+/* Four strands of equal length, one behind the other, and then the remaining bytes. */
 static uint32_t add_many(const tables *t, uint32_t crc, const unsigned char *data, size_t n)
 {
     const size_t length = n / 32 * 8;
@@ -138,7 +139,7 @@ bool iccp_blob_has(const iccp_blob *b, size_t n, size_t size)
     return !b->reads || n <= (b->size - b->at) / size;
 }
 
-/* The number that is written or, reading, the one that is there. */
+/* Returns `value` after writing it, or the number that was read. */
 static uint64_t visit_number(iccp_blob *b, uint64_t value, int n_bytes)
 {
     const size_t size = (size_t)n_bytes;
@@ -154,7 +155,7 @@ static uint64_t visit_number(iccp_blob *b, uint64_t value, int n_bytes)
     return value;
 }
 
-/* Numbers of `size` bytes, from one place to another that has them in the other order. */
+/* Copies numbers of `size` bytes and reverses the order of their bytes. */
 static void turn_round(unsigned char *to, const unsigned char *from, size_t n, size_t size)
 {
     for (size_t i = 0; i < n; ++i)
@@ -162,7 +163,7 @@ static void turn_round(unsigned char *to, const unsigned char *from, size_t n, s
             to[size * i + k] = from[size * i + size - 1 - k];
 }
 
-/* Numbers as the machine has them, and as they are written. */
+/* Copies numbers between the machine's byte order and the written one. */
 static void copy(void *to, const void *from, size_t n, size_t size)
 {
     if (is_little_endian())
@@ -300,7 +301,7 @@ void *iccp_blob_alloc(iccp_blob *b, size_t n, size_t size)
     return items;
 }
 
-/* Room for an array whose items are left to be read, else NULL. */
+/* Allocates an array if the bytes for its items are left, else returns NULL. */
 static void *alloc_array(iccp_blob *b, size_t n, size_t size)
 {
     iccp_blob_require(b, iccp_blob_has(b, n, size));

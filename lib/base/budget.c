@@ -1,10 +1,11 @@
+/* Limits what a call may spend on rebuilding an object. */
 #include "base/budget.h"
 
 #include "base/error.h"
 
 static const double DEFAULT_LIMIT = 256e6;
 
-/* Multiplications for each byte: some ten seconds for the default. */
+/* Multiplications allowed for each byte: about ten seconds for the default limit. */
 static const double WORK_PER_BYTE = 40;
 
 iccp_env iccp_budget_begin(iccp_budget *budget, const iccp_env *env)

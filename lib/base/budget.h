@@ -1,7 +1,7 @@
-/* What a call may spend: objects that are rebuilt from a few bytes could ask for any amount of
- * memory and time. Whoever is about to allocate, or to compute, more than a fixed multiple of what
- * it was given asks first. Refused, it returns ICC_ERR_CANCELLED, which everything passes on; the
- * call that set the budget says why. */
+/* Limits what a call may spend. Objects that are rebuilt from a few bytes could ask for any amount
+ * of memory and time. So code asks first if it is about to allocate, or to compute, more than a
+ * fixed multiple of its input. If the budget is exceeded, the request returns ICC_ERR_CANCELLED,
+ * which every caller passes on. The call that set the budget then says why. */
 #ifndef ICCP_BUDGET_H
 #define ICCP_BUDGET_H
 
@@ -11,23 +11,23 @@
 
 typedef struct iccp_budget {
     double limit;       /* bytes that the caller allows */
-    double bytes, work; /* left: bytes, and multiplications */
-    double wanted;      /* bytes that were refused; 0: none */
+    double bytes, work; /* bytes and multiplications that are left */
+    double wanted;      /* bytes that were refused, or 0 */
     bool is_long;       /* multiplications were refused */
 } iccp_budget;
 
-/* As icc_env::load_limit says. The part of `env` that lives on it. */
+/* Starts a budget as icc_env::load_limit says. Returns `env` with this budget. */
 iccp_env iccp_budget_begin(iccp_budget *budget, const iccp_env *env);
 
-/* Memory for as long as the call lasts, or its result. */
+/* Asks for memory that the call, or its result, keeps. */
 icc_status iccp_budget_keep(const iccp_env *env, double bytes);
 
-/* Memory that is given back soon. */
+/* Asks for memory that is freed soon. */
 icc_status iccp_budget_borrow(const iccp_env *env, double bytes);
 
 icc_status iccp_budget_work(const iccp_env *env, double multiplications);
 
-/* ICC_ERR_FORMAT with the reason if something was refused; else `status`. */
+/* Returns ICC_ERR_FORMAT with the reason if a request was refused, else `status`. */
 icc_status iccp_budget_end(const iccp_budget *budget, icc_status status, icc_error *err);
 
 #endif

@@ -9,7 +9,7 @@ double iccp_seconds(void)
 #ifdef CLOCK_MONOTONIC
     clock_gettime(CLOCK_MONOTONIC, &now);
 #else
-    timespec_get(&now, TIME_UTC); /* what C11 has; it goes back where the time of day is set back */
+    timespec_get(&now, TIME_UTC); /* C11's clock; it goes back if someone sets the time back */
 #endif
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }

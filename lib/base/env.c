@@ -1,3 +1,5 @@
+/* Reads the caller's environment, and places the progress of each part in that of the whole
+ * call. */
 #include "base/env.h"
 
 #include "base/error.h"

@@ -1,4 +1,21 @@
-/* The caller's environment, with its defaults filled in. */
+/* The caller's environment, with its defaults filled in.
+ *
+ * Legend of lib/base, which knows nothing of geometry. Begin with this file.
+ * - environment: memory functions, callbacks and threads of one call. Each function that allocates,
+ *   reports or runs loops takes one.
+ * - part: the environment of one step of a call. It maps the step's progress from 0 to 1 into the
+ *   progress of the whole call.
+ * - share: a fraction of a call's work, in [0, 1].
+ * - stage: the name of a step that the progress callback sees.
+ * - chunk, job, team: a piece of a parallel loop (threads.h), a loop that other threads may help
+ *   with, and these threads (team.h).
+ * - budget: limits of memory and time for rebuilding objects from bytes (budget.h).
+ * - blob: an object as bytes (blob.h).
+ * - fail: functions that describe a failure in the caller's icc_error and return its status
+ *   (error.h).
+ *
+ * Invariants: results do not depend on the number of threads. No variables keep state between
+ * calls. Allocations whose size overflows fail (memory.h). */
 #ifndef ICCP_ENV_H
 #define ICCP_ENV_H
 
@@ -6,15 +23,15 @@
 #include "base/memory.h"
 #include "icc/base.h"
 
-/* The last report of a call. */
+/* The last progress report of a call. */
 typedef struct iccp_reported {
-    const char *stage; /* NULL: none so far */
+    const char *stage; /* NULL: none yet */
     double share;      /* of the whole call */
 } iccp_reported;
 
-/* What all functions take. A call consists of parts, which have parts of their own: each has an
- * environment that places its shares among those of the whole call. One that is all zeros but for
- * the callbacks stands for a whole call, too. */
+/* The environment that all functions take. A call consists of parts, which have parts of their own.
+ * Each part has an environment that places its shares among those of the whole call. An environment
+ * that is all zeros except for the callbacks also stands for a whole call. */
 typedef struct iccp_env {
     iccp_memory memory;
     void *user;
@@ -22,36 +39,37 @@ typedef struct iccp_env {
     int32_t (*progress)(void *user, const char *stage, double share);
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
     int32_t threads;
-    const char *stage;    /* named in place of what the part's own parts are called; NULL: those */
-    double before, after; /* shares of the whole call that come before this part and after it */
+    const char *stage;          /* replaces the stage names of the part's own parts, unless NULL */
+    double before, after;       /* shares of the whole call before this part and at its end */
     struct iccp_team *team;     /* base/team.h; NULL: loops start threads of their own */
     uint64_t load_limit;        /* 0: the default */
     struct iccp_budget *budget; /* base/budget.h; NULL: no limits */
-    iccp_reported *reported;    /* of the whole call: shares never fall; NULL: nobody looks */
-    iccp_reported own;          /* what `reported` of the whole call points at */
+    iccp_reported *reported;    /* shared by all parts, so that shares never fall; NULL: unused */
+    iccp_reported own;          /* where `reported` of the whole call points */
 } iccp_env;
 
-/* Checks and completes the caller's env (which may be NULL). `out` must stay where it is during the
- * call. */
+/* Checks the caller's env, which may be NULL, and fills in defaults. `out` must keep its address
+ * during the call. */
 icc_status iccp_env_read(iccp_env *out, const icc_env *env, icc_error *err);
 
-/* The part of `env` from one share of it to another, in [0, 1]. All that it reports is of `stage`,
- * unless a part that it belongs to has one; NULL leaves the names to its own parts. Names are those
- * that icc/base.h lists. */
+/* Returns the part of `env` from share `from` to share `to`, in [0, 1]. All its reports carry the
+ * name `stage`, unless a part that contains it has a name already. NULL leaves the names to its own
+ * parts. icc/base.h lists the names. */
 iccp_env iccp_part(const iccp_env *env, const char *stage, double from, double to);
 
-/* Parts that follow one another, by what they cost. */
+/* Makes n consecutive parts whose shares are proportional to their costs. */
 void iccp_split(iccp_env *parts, size_t n, const double *cost, const iccp_env *env);
 
-/* Round k of who knows how many: `typical` of them are half of the part. */
+/* Returns the part for round k of an unknown number of rounds. The first `typical` rounds take half
+ * of `env`. */
 iccp_env iccp_round(const iccp_env *env, size_t k, double typical);
 
-/* Reports that a share of the part `env` is done; ICC_ERR_CANCELLED when the caller wants to stop.
- * Calling thread only. */
+/* Reports that a share of the part `env` is done. Returns ICC_ERR_CANCELLED when the caller wants
+ * to stop. For the calling thread only. */
 icc_status iccp_progress(const iccp_env *env, const char *stage, double share);
 
-/* The end of a call that returns `status`: one that succeeds has the share 1 for its last report,
- * if it made any. */
+/* Ends a call and returns `status`. If the call succeeded and has reported progress, it reports the
+ * share 1. */
 icc_status iccp_finish(const iccp_env *env, icc_status status);
 
 /* Sends one line to the caller's log, if there is one. */

@@ -1,3 +1,4 @@
+/* Fills in the caller's icc_error. */
 #include "base/error.h"
 
 #include <stdarg.h>
@@ -5,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Bytes of the caller's struct that may be written. A size of 0 stands for the members of version
- * 0.1, which every caller has. */
+/* Returns how many bytes of the caller's struct may be written. A size of 0 stands for the members
+ * of version 0.1, which every caller has. */
 static size_t room_of(const icc_error *err)
 {
     const size_t first = offsetof(icc_error, message) + sizeof err->message;
@@ -14,8 +15,8 @@ static size_t room_of(const icc_error *err)
     return size < sizeof *err ? size : sizeof *err;
 }
 
-/* A caller compiled against an older header has a shorter struct: fill a copy, then hand over as
- * much of it as the caller has room for. */
+/* Copies as much of `full` as the caller has room for, because a caller compiled with an older
+ * header has a shorter struct. */
 static void hand_over(icc_error *err, icc_error *full)
 {
     const size_t size = room_of(err);
@@ -77,7 +78,8 @@ icc_status iccp_explain(icc_error *err, icc_status status)
     return status;
 }
 
-/* Puts the side's name in front of the message, whose end is cut off if there is no room. */
+/* Puts the side's name in front of the message. If there is no room, the end of the message is cut
+ * off. */
 static void name_side(icc_error *err, int32_t side)
 {
     enum { N_NAME = 8 };

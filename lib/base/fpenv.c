@@ -1,5 +1,5 @@
-/* On x86 one register holds all settings that matter, and in most callers it has the default
- * already. Reading it takes two nanoseconds, but C's functions take a hundred. */
+/* On x86 one register holds all relevant settings, and most callers have its default value. Reading
+ * it takes two nanoseconds, while C's functions take a hundred. */
 #include "base/fpenv.h"
 
 #ifdef ICCP_HAS_FPENV
@@ -7,7 +7,7 @@
 #ifdef __SSE2_MATH__
 #include <xmmintrin.h>
 
-enum { FLAGS = 0x3f, DEFAULT = 0x1f80 }; /* raised exceptions; all exceptions masked */
+enum { FLAGS = 0x3f, DEFAULT = 0x1f80 }; /* flags of raised exceptions; all exceptions masked */
 #endif
 
 void iccp_fpenv_enter(iccp_fpenv *env)

@@ -1,24 +1,24 @@
-/* The library computes in C's default floating-point environment, whatever the caller's is. So
- * results are the same bits in each rounding mode, with subnormal numbers flushed to zero or not,
- * and with traps or without.
+/* Makes the library compute in C's default floating-point environment, whatever the caller's is. So
+ * results have the same bits in each rounding mode, with or without traps, and with or without
+ * flushing subnormal numbers to zero.
  *
  * Each exported function that computes begins with ICCP_ENTER, which installs the default. Wherever
- * the function returns, the caller gets its own environment back, exception flags included. Threads
- * that a call starts inherit its environment (POSIX), so only tasks on the caller's threads enter
- * once more. */
+ * the function returns, the caller gets its own environment back, including exception flags.
+ * Threads that a call starts inherit its environment (POSIX). So only tasks on the caller's threads
+ * enter once more. */
 #ifndef ICCP_FPENV_H
 #define ICCP_FPENV_H
 
 #include <fenv.h>
 
-/* WebAssembly has one rounding mode only. Compilers other than GCC and Clang lack the attribute. */
+/* WebAssembly has only one rounding mode. Compilers other than GCC and Clang lack the attribute. */
 #if defined(__GNUC__) && defined(FE_UPWARD)
 #define ICCP_HAS_FPENV
 
 typedef struct iccp_fpenv {
     fenv_t callers;
     unsigned int mxcsr; /* on x86: the caller's control and status register */
-    int is_default;     /* the caller has the default already; `callers` is not set */
+    int is_default;     /* the caller's environment is the default; `callers` is not set */
 } iccp_fpenv;
 
 void iccp_fpenv_enter(iccp_fpenv *env);

@@ -1,6 +1,6 @@
-/* Based on: J. W. J. Williams, Algorithm 232: Heapsort, 1964. Four children to a node, as in D. B.
- * Johnson, Priority Queues with Update and Finding Minimum Spanning Trees, 1975: fewer levels,
- * fewer cache lines. */
+/* Priority queue. Based on J. W. J. Williams, Algorithm 232: Heapsort, 1964. Nodes have four
+ * children, as in D. B. Johnson, Priority Queues with Update and Finding Minimum Spanning Trees,
+ * 1975. So there are fewer levels and fewer cache lines. */
 #include "base/heap.h"
 
 #include <string.h>

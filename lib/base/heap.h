@@ -1,4 +1,4 @@
-/* A queue of numbers with keys that may change, which gives out the one with the smallest key. */
+/* Priority queue of numbers whose keys may change. The smallest key comes out first. */
 #ifndef ICCP_HEAP_H
 #define ICCP_HEAP_H
 
@@ -15,21 +15,22 @@ typedef struct iccp_heap_entry {
 typedef struct iccp_heap {
     size_t n_entries;
     iccp_heap_entry *entry;
-    uint32_t *place; /* of each number among the entries; UINT32_MAX: it is not there */
+    uint32_t *place; /* place of each number among the entries; UINT32_MAX: not in the queue */
 } iccp_heap;
 
-/* For numbers below n; empty. False if there is no memory, to be freed all the same. */
+/* Makes an empty queue for numbers below n. Returns false if memory is missing; free the queue in
+ * either case. */
 bool iccp_heap_create(iccp_heap *heap, size_t n, const iccp_memory *memory);
 void iccp_heap_free(iccp_heap *heap, const iccp_memory *memory);
 
-/* Takes everything out. */
+/* Removes all numbers. */
 void iccp_heap_clear(iccp_heap *heap);
 
-/* Takes in a number, or gives it another key. O(log n). */
+/* Inserts a number, or changes its key. O(log n). */
 void iccp_heap_put(iccp_heap *heap, uint32_t number, double key);
 
-/* Takes out the number with the smallest key; of equal ones, the smallest number. The heap is not
- * empty. O(log n). */
+/* Removes and returns the number with the smallest key; among equal keys, the smallest number. The
+ * queue must not be empty. O(log n). */
 uint32_t iccp_heap_pop(iccp_heap *heap);
 
 #endif

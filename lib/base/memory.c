@@ -1,3 +1,4 @@
+/* Allocates through the caller's functions. */
 #include "base/memory.h"
 
 #include <assert.h>

@@ -1,5 +1,5 @@
-/* fmin() and fmax() without a call, and with one answer on every machine where both are zeros: the
- * second. Of a number and NaN they give the number, too. */
+/* fmin() and fmax() without a function call. If both numbers are zeros, the result is the second on
+ * every machine. If one is NaN, the result is the other. */
 #ifndef ICCP_MINMAX_H
 #define ICCP_MINMAX_H
 

@@ -1,3 +1,4 @@
+/* Reads and writes size-first structs. */
 #include "base/options.h"
 
 #include "base/error.h"

@@ -1,11 +1,11 @@
-/* A generator of pseudorandom numbers for decisions by chance that are the same every time. */
+/* Pseudorandom numbers for random decisions that are the same in every run. */
 #ifndef ICCP_RANDOM_H
 #define ICCP_RANDOM_H
 
 #include <stdint.h>
 
 /* SplitMix64: G. Steele, D. Lea, C. Flood, Fast splittable pseudorandom number generators, 2014.
- * Any state will do to begin with. */
+ * Any initial state will do. */
 static inline uint64_t iccp_random(uint64_t *state)
 {
     uint64_t z = *state += 0x9e3779b97f4a7c15u;

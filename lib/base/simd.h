@@ -1,5 +1,5 @@
-/* Instructions beyond those that every processor has: loops that gain from them are compiled for
- * these as well, and what runs is chosen by iccp_simd(). The bits must be the same. */
+/* Vector instructions that not every processor has. Loops that gain from them are also compiled for
+ * these, and iccp_simd() chooses at run time. All versions must give the same bits. */
 #ifndef ICCP_SIMD_H
 #define ICCP_SIMD_H
 
@@ -10,7 +10,7 @@
 #define ICCP_AVX512 __attribute__((target("avx512f")))
 #endif
 
-/* WebAssembly cannot ask: a module has vectors of 128 bits everywhere or nowhere. */
+/* WebAssembly has no test at run time: a module uses 128-bit vectors everywhere or nowhere. */
 #ifdef __wasm_simd128__
 #define ICCP_HAS_WASM_SIMD
 #endif
@@ -22,12 +22,13 @@ typedef enum iccp_simd_level {
     ICCP_SIMD_AVX512
 } iccp_simd_level;
 
-/* The highest level that is used, if the processor has it: CMake's option ICC_SIMD. */
+/* The highest level that the library uses: CMake's option ICC_SIMD. */
 #ifndef ICCP_SIMD_MOST
 #define ICCP_SIMD_MOST ICCP_SIMD_AVX512
 #endif
 
-/* The highest that this processor has: it has all below, too. */
+/* Returns the highest level that this processor has and the library may use. A processor with one
+ * level has all lower ones. */
 static inline iccp_simd_level iccp_simd(void)
 {
 #ifdef ICCP_HAS_SIMD

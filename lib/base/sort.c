@@ -32,7 +32,7 @@ static int order(const heap *h, size_t i, size_t k)
     return h->compare(h->items + h->size * i, h->items + h->size * k);
 }
 
-/* Lets an item sink among the first n until none below it is greater. */
+/* Lets an item sink among the first n until no item below it is greater. */
 static void sink(const heap *h, size_t i, size_t n)
 {
     for (size_t child; (child = 2 * i + 1) < n; i = child) {
@@ -90,7 +90,7 @@ static void sort_by_digit(uint64_t *to, const uint64_t *from, size_t n, int shif
         to[start[from[i] >> shift & mask]++] = from[i];
 }
 
-/* Least digit first: four of them, so that the keys end where they were. */
+/* Least significant digit first. Four passes leave the sorted keys in the original array. */
 void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift)
 {
     sort_by_digit(work, keys, n, shift);

@@ -1,4 +1,4 @@
-/* Sorting without memory of its own, which qsort() may take. */
+/* Sorting without allocation, which qsort() may need. */
 #ifndef ICCP_SORT_H
 #define ICCP_SORT_H
 
@@ -9,16 +9,17 @@
 #include <stdint.h>
 #include <string.h>
 
-/* As qsort(), NULL being fine for no items. Of equal items any may come first. O(n log n). */
+/* Like qsort(), but `items` may be NULL if n is 0. The order of equal items is not specified. O(n
+ * log n). */
 void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));
 
-/* Sorts keys by their bits from `shift`, 28 to 36, on; equal ones stay in their order. `work` has
+/* Sorts keys by their bits from `shift` (28 to 36) upwards. Equal keys keep their order. `work` has
  * room for n. O(n). */
 void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift);
 
-/* The counting sort: items by their keys below n_keys, which are their first members, uint32_t.
- * Those with key k become sorted[first[k]] up to first[k + 1], in the order they had; `first` is
- * n_keys + 1 zeros before. Inlined: items of a known size are copied fast. O(n + n_keys). */
+/* Counting sort. The key of an item is its first member, a uint32_t below n_keys. Items with key k
+ * become sorted[first[k]] up to first[k + 1] and keep their order. On entry `first` holds n_keys +
+ * 1 zeros. The function is inlined so that items of a known size are copied fast. O(n + n_keys). */
 static ICCP_INLINE void iccp_sort_by_count(void *sorted, uint32_t *first, size_t n_keys,
                                            const void *items, size_t n, size_t size)
 {
@@ -31,29 +32,31 @@ static ICCP_INLINE void iccp_sort_by_count(void *sorted, uint32_t *first, size_t
     }
     for (size_t k = 0; k < n_keys; ++k)
         first[k + 1] += first[k];
-    /* From the ends, which leaves `first` at the beginnings. */
+    /* Backwards, so that `first` ends at the beginnings. */
     for (size_t i = n; i-- > 0;) {
         memcpy(&key, from + size * i, sizeof key);
         memcpy(to + size * --first[key], from + size * i, size);
     }
 }
 
-/* By the same sort, which of n groups of `size` keys below n_keys have each: for key k, once for
- * each time that they do, groups[first[k]] up to first[k + 1], rising. `first` is zeros before. */
+/* Lists, for each key below n_keys, the groups that contain it. There are n groups of `size` keys
+ * each. The groups of key k are groups[first[k]] up to first[k + 1], in rising order, once for each
+ * time that they contain k. On entry `first` is zeros. */
 void iccp_list_groups(uint32_t *groups, uint32_t *first, size_t n_keys, const uint32_t *keys,
                       size_t n, size_t size);
 
-/* Of n items, one that none is greater than comes first; and the first of them becomes the last,
- * one of the greatest among the others the first. O(n) and O(log n): where a few are enough. */
+/* Sorts only as many items as the caller takes. begin() moves a smallest item to the front, in
+ * O(n). next() moves the first item to the end and a smallest of the others to the front, in O(log
+ * n). */
 void iccp_sort_begin(void *items, size_t n, size_t size,
                      int (*compare)(const void *, const void *));
 void iccp_sort_next(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));
 
-/* Whether index a belongs before index b. */
+/* Returns true if index a belongs before index b. */
 typedef bool (*iccp_is_less)(const void *context, uint32_t a, uint32_t b);
 
-/* Merges in[0..n_left) and in[n_left..n) into out. Outlines come in long monotone runs, so two
- * halves are often in order already. */
+/* Merges in[0..n_left) and in[n_left..n) into out. Outlines have long monotone runs, so the two
+ * halves are often already in order. */
 static ICCP_INLINE void iccp_merge_indices(uint32_t *out, const uint32_t *in, size_t n_left,
                                            size_t n, const void *context, iccp_is_less is_less)
 {
@@ -69,9 +72,9 @@ static ICCP_INLINE void iccp_merge_indices(uint32_t *out, const uint32_t *in, si
             out[k] = in[right++];
 }
 
-/* Sorts n indices; equal ones stay in their order. `work` has room for n. Merge sort from the
- * bottom up (D. E. Knuth, The Art of Computer Programming 3, section 5.2.4), inlined so that
- * comparisons cost no calls. */
+/* Sorts n indices; equal ones keep their order. `work` has room for n. Bottom-up merge sort (D. E.
+ * Knuth, The Art of Computer Programming 3, section 5.2.4), inlined so that comparisons cost no
+ * calls. */
 static ICCP_INLINE void iccp_sort_indices(uint32_t *indices, uint32_t *work, size_t n,
                                           const void *context, iccp_is_less is_less)
 {

@@ -1,18 +1,19 @@
-/* A thread that has nothing to do watches for the next job for a while, since loops come in quick
- * succession, and then sleeps. Jobs are few at a time, and joined under one lock. */
+/* Threads that live as long as one call. An idle thread watches for the next job for a while,
+ * because loops follow each other quickly, and then sleeps. There are few jobs at a time, and
+ * threads join them under one lock. */
 #include "base/team.h"
 
 #ifdef ICC_WITH_THREADS
 
 #include "base/clock.h"
 
-/* Seconds that a thread watches before it sleeps: twice what it takes to wake one. */
+/* Seconds that a thread watches before it sleeps: twice the time to wake a thread. */
 static const double WATCH = 1e-4;
 
-/* Looks between two at the clock. */
+/* How often a watching thread looks before it checks the clock again. */
 enum { LOOKS = 64 };
 
-/* Tells a processor that runs two threads which one of them only waits. */
+/* Tells a processor that runs two threads that this one only waits. */
 static void relax(void)
 {
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
@@ -20,7 +21,7 @@ static void relax(void)
 #endif
 }
 
-/* Watches until *value is no longer, or is, `old`, but not for ever. */
+/* Watches *value for a limited time, until it differs from `old`, or until it equals `old`. */
 static void watch(const atomic_size_t *value, size_t old, bool until_equal)
 {
     const double end = iccp_seconds() + WATCH;
@@ -33,9 +34,10 @@ static void watch(const atomic_size_t *value, size_t old, bool until_equal)
     while (iccp_seconds() < end);
 }
 
-/* ---- those who help ---- */
+/* ---- helpers ---- */
 
-/* The newest job that wants another thread: what is posted inside another one holds that up. */
+/* Returns the newest job that wants another thread. A job that was posted inside another one delays
+ * that one, so it goes first. */
 static iccp_job *find_job(const iccp_team *team)
 {
     iccp_job *job = team->last;
@@ -44,7 +46,7 @@ static iccp_job *find_job(const iccp_team *team)
     return job;
 }
 
-/* With the lock held before and after. A job may be gone as soon as its last helper has left. */
+/* The lock is held before and after. A job may be gone as soon as its last helper has left. */
 static void help(iccp_team *team, iccp_job *job)
 {
     ++job->n_joined;
@@ -57,7 +59,7 @@ static void help(iccp_team *team, iccp_job *job)
         pthread_cond_broadcast(&team->left);
 }
 
-/* Helps where it can; else watches and, when nothing has come, sleeps. */
+/* Helps with jobs. If there are none, watches for a while and then sleeps. */
 static void *serve(void *argument)
 {
     iccp_team *team = argument;
@@ -84,7 +86,7 @@ static void *serve(void *argument)
     return NULL;
 }
 
-/* ---- those who post ---- */
+/* ---- posting ---- */
 
 void iccp_team_begin(iccp_team *team, size_t n_threads)
 {
@@ -117,7 +119,7 @@ void iccp_team_end(iccp_team *team)
     pthread_mutex_destroy(&team->lock);
 }
 
-/* After a failure to start a thread no other is tried. */
+/* After one failure to start a thread, tries no other. */
 static void start_threads(iccp_team *team, size_t wanted)
 {
     while (team->n < wanted && team->n < team->most)

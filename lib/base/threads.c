@@ -1,3 +1,4 @@
+/* Parallel loops over chunks, and tasks side by side. */
 #include "base/threads.h"
 
 #include "base/error.h"
@@ -32,9 +33,9 @@ typedef struct loop {
     iccp_chunk chunk;
     void *argument;
     size_t n, grain, n_chunks;
-    atomic_size_t next; /* next chunk to hand out */
+    atomic_size_t next; /* next chunk to give out */
     atomic_bool stop;
-    atomic_flag lock; /* guards the two below; held for a few instructions, after failures only */
+    atomic_flag lock; /* guards the two below; taken for a few instructions, after failures only */
     size_t failed_chunk;
     icc_status status;
 } loop;
@@ -56,8 +57,8 @@ static void run_chunk(loop *l, size_t index)
     atomic_store(&l->stop, true);
 }
 
-/* Hands out the next chunk. Chunks are handed out in order, so every chunk before one that failed
- * has run or is running: the first failure is the same for every number of threads. */
+/* Gives out the next chunk. Chunks go out in order, so every chunk before a failed one has run or
+ * is running. So the first failure is the same for every number of threads. */
 static bool take_chunk(loop *l, size_t *index)
 {
     if (atomic_load(&l->stop))
@@ -66,8 +67,8 @@ static bool take_chunk(loop *l, size_t *index)
     return *index < l->n_chunks;
 }
 
-/* The calling thread takes chunks like the others and is the only one that reports progress, so
- * that the callback need not be safe for threads. */
+/* The calling thread takes chunks like the others. Only it reports progress, so the callback need
+ * not be thread-safe. */
 static icc_status run_this_thread(loop *l, const iccp_env *env, const char *stage)
 {
     icc_status status = ICC_OK;
@@ -90,7 +91,7 @@ static void take_chunks(void *argument)
         run_chunk(l, index);
 }
 
-/* Progress is reported once before other threads come, which may take all the chunks. */
+/* Reports progress once before other threads come, because they may take all the chunks. */
 static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stage)
 {
     if (env->threads <= 1 || l->n_chunks <= 1)
@@ -109,12 +110,13 @@ static icc_status run_own_threads(loop *l, const iccp_env *env, const char *stag
     return status;
 }
 
-/* Tasks that the caller's parallel_for gets at once: progress is reported between rounds. */
+/* Number of tasks that the caller's parallel_for gets at once. Progress is reported between
+ * rounds. */
 enum { ROUND = 256 };
 
 typedef struct task_round {
     loop *l;
-    size_t first; /* chunk that task 0 stands for */
+    size_t first; /* chunk of task 0 */
     atomic_flag taken[ROUND];
 } task_round;
 
@@ -126,8 +128,8 @@ static void round_task(void *argument, size_t index)
         run_chunk(r->l, r->first + index);
 }
 
-/* Certificates must not depend on what a parallel_for leaves out or does twice: each task is done
- * once, by this thread if need be. */
+/* Certificates must not depend on a parallel_for that skips tasks or runs some twice. So each task
+ * runs exactly once, if necessary on this thread. */
 static icc_status run_callers_threads(loop *l, const iccp_env *env, const char *stage)
 {
     task_round r = {.l = l};
@@ -164,12 +166,12 @@ typedef struct sides {
     iccp_side task;
     void *argument;
     size_t n;
-    const void *caller; /* its thread */
-    atomic_size_t stop; /* tasks from this one on need not go on */
+    const void *caller; /* identifies the calling thread */
+    atomic_size_t stop; /* tasks from this one on need not continue */
     struct side *side;
 } sides;
 
-/* A task, and the lines that it logs: they wait until all tasks are done. */
+/* One task, and the lines that it logs. They wait until all tasks are done. */
 enum { MOST_LINES = 4, LINE = 240 };
 
 typedef struct side {
@@ -179,13 +181,14 @@ typedef struct side {
     char line[MOST_LINES][LINE];
 } side;
 
-/* C gives each thread an errno of its own, so its address tells threads apart. */
+/* Every thread has its own errno in C, so the address of errno identifies the thread. */
 static const void *this_thread(void)
 {
     return &errno;
 }
 
-/* What a failure of task k leaves to the others: those before it still decide what is returned. */
+/* Stops the tasks after a failed task k. Those before it continue, because they still decide the
+ * result. */
 static void stop_from(sides *s, size_t k)
 {
     size_t stop = atomic_load(&s->stop);
@@ -230,7 +233,7 @@ static icc_status run_side(void *argument, size_t begin, size_t end)
     return status;
 }
 
-/* The loop itself reports nothing and stops at nothing but a failure: tasks do. */
+/* The loop itself reports nothing and stops only at a failure. Tasks report and stop. */
 static icc_status run_sides(const iccp_env *env, size_t n, iccp_side task, void *argument,
                             icc_error *err)
 {

@@ -1,10 +1,11 @@
-/* Corners of triangles in one list: triangle t has 3 t, 3 t + 1 and 3 t + 2, counter-clockwise. */
+/* Corners of triangles in one list. Triangle t has the corners 3 t, 3 t + 1 and 3 t + 2,
+ * counter-clockwise. */
 #ifndef ICCP_TRIANGLE_CORNERS_H
 #define ICCP_TRIANGLE_CORNERS_H
 
 #include <stdint.h>
 
-/* The next corner of the triangle, counter-clockwise; and the one before. */
+/* The next corner of the triangle, counter-clockwise. */
 static inline uint32_t iccp_after(uint32_t corner)
 {
     return corner % 3 == 2 ? corner - 2 : corner + 1;

@@ -1,4 +1,4 @@
-/* The version: the only place where it is written down. CMakeLists.txt reads it from here. */
+/* The version of the library. CMakeLists.txt reads it from here; it is written nowhere else. */
 #ifndef ICCP_VERSION_H
 #define ICCP_VERSION_H
 
