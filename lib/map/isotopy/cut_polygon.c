@@ -1,49 +1,50 @@
-/* Triangulated by walls, cuts and diagonals between vertices, what is inside becomes a polygon when
- * its triangles are parted along all walls and cuts: the cuts join the components to a tree. */
+/* The inside of a domain is triangulated with walls, cuts and diagonals between vertices. It is
+ * then parted along all walls and cuts. The result is one polygon, because the cuts join the
+ * components to a tree. */
 #include "map/isotopy/cut_polygon.h"
 
 #include <string.h>
 
 static const uint32_t NONE = ICCP_NO_NEIGHBOUR;
 
-/* All points of one side, the scene's vertices and then the bends. */
-static double *list_points(const iccp_scene *scene, int side, const iccp_cuts *cuts,
+/* All points of one side: the domain's vertices, then the bends. */
+static double *list_points(const iccp_domain_pair *domains, int side, const iccp_cuts *cuts,
                            const iccp_memory *memory)
 {
     const size_t n_bends = cuts->first[cuts->n];
-    double *points = iccp_alloc(memory, scene->n + n_bends, 2 * sizeof *points);
+    double *points = iccp_alloc(memory, domains->n + n_bends, 2 * sizeof *points);
     if (points == NULL)
         return NULL;
-    memcpy(points, scene->domain[side]->vertices, 2 * scene->n * sizeof *points);
+    memcpy(points, domains->domain[side]->vertices, 2 * domains->n * sizeof *points);
     if (n_bends > 0)
-        memcpy(points + 2 * scene->n, cuts->points[side], 2 * n_bends * sizeof *points);
+        memcpy(points + 2 * domains->n, cuts->points[side], 2 * n_bends * sizeof *points);
     return points;
 }
 
-/* The walls of the scene and the pieces of the cuts. */
-static icc_status list_walls(iccp_walls *walls, const iccp_scene *scene, const iccp_cuts *cuts,
-                             const iccp_memory *memory)
+/* Collects the walls of the domain and the pieces of the cuts. */
+static icc_status list_walls(iccp_walls *walls, const iccp_domain_pair *domains,
+                             const iccp_cuts *cuts, const iccp_memory *memory)
 {
-    const size_t n_bends = cuts->first[cuts->n], n = scene->n_walls + n_bends + cuts->n;
+    const size_t n_bends = cuts->first[cuts->n], n = domains->n_walls + n_bends + cuts->n;
     uint32_t *pairs = iccp_alloc(memory, n, 2 * sizeof *pairs), *pair = pairs;
     if (pairs == NULL)
         return ICC_ERR_MEMORY;
-    memcpy(pairs, scene->pairs, 2 * scene->n_walls * sizeof *pairs);
-    pair += 2 * scene->n_walls;
+    memcpy(pairs, domains->pairs, 2 * domains->n_walls * sizeof *pairs);
+    pair += 2 * domains->n_walls;
     for (size_t i = 0; i < cuts->n; ++i) {
         *pair++ = cuts->ends[2 * i];
         for (uint32_t bend = cuts->first[i]; bend < cuts->first[i + 1]; ++bend)
             for (int twice = 0; twice < 2; ++twice)
-                *pair++ = (uint32_t)scene->n + bend;
+                *pair++ = (uint32_t)domains->n + bend;
         *pair++ = cuts->ends[2 * i + 1];
     }
-    const icc_status status = iccp_walls_create(walls, scene->n + n_bends, n, pairs, memory);
+    const icc_status status = iccp_walls_create(walls, domains->n + n_bends, n, pairs, memory);
     iccp_free(memory, pairs);
     return status;
 }
 
 typedef struct round_trip {
-    const iccp_corners *mesh; /* with vertices of the scene, and bends */
+    const iccp_corners *mesh; /* its vertices are the domain's vertices and the bends */
     const iccp_walls *walls;
     uint32_t *number; /* of each corner of the mesh: the polygon's corner there */
     uint32_t *edge;   /* of each corner of the mesh: the polygon's edge that it faces */
@@ -55,8 +56,8 @@ static bool is_wall(const round_trip *w, uint32_t corner)
     return iccp_walls_have(w->walls, v[iccp_after(corner)], v[iccp_before(corner)]);
 }
 
-/* From the edge that a corner faces to the next one on the way round; gives the mesh's corners at
- * the vertex in between, as far as the polygon reaches there, a number. */
+/* Goes from the edge that a corner faces to the next edge of the polygon. Sets the polygon's corner
+ * for all corners of the mesh between these two edges. */
 static uint32_t next_edge(const round_trip *w, uint32_t facing, uint32_t number)
 {
     for (;;) {
@@ -68,7 +69,7 @@ static uint32_t next_edge(const round_trip *w, uint32_t facing, uint32_t number)
     }
 }
 
-/* The corner that faces the first edge of the outer ring from inside. */
+/* Returns the corner inside the domain that faces the first edge of the outer ring. */
 static uint32_t find_begin(const iccp_corners *mesh, const icc_domain *domain)
 {
     const uint32_t a = domain->orientation > 0 ? 0 : 1, b = 1 - a;
@@ -78,8 +79,8 @@ static uint32_t find_begin(const iccp_corners *mesh, const icc_domain *domain)
     return c;
 }
 
-/* Goes round once. ICC_ERR_TOPOLOGY when that does not meet all corners of the mesh's triangles, so
- * that the cuts do not make it a polygon. */
+/* Walks once around the polygon. ICC_ERR_TOPOLOGY if the walk does not meet all corners of the
+ * mesh's triangles, which means that the cuts do not make one polygon. */
 static icc_status go_round(const round_trip *w, iccp_cut_polygon *p, uint32_t begin)
 {
     uint32_t facing = begin, n = 0;
@@ -94,7 +95,8 @@ static icc_status go_round(const round_trip *w, iccp_cut_polygon *p, uint32_t be
     return n == p->n ? ICC_OK : ICC_ERR_TOPOLOGY;
 }
 
-/* Parts the triangles along the edges, and gives them the polygon's corners. */
+/* Parts the triangles along the polygon's edges. Replaces their vertices by the polygon's
+ * corners. */
 static void part(const round_trip *w, iccp_cut_polygon *p, const double *points)
 {
     for (size_t c = 0; c < 3 * w->mesh->n_triangles; ++c) {
@@ -133,21 +135,21 @@ static icc_status open_up(iccp_cut_polygon *p, const iccp_corners *mesh, const i
     return status;
 }
 
-icc_status iccp_cut_polygon_create(iccp_cut_polygon *polygon, const iccp_scene *scene, int side,
-                                   const iccp_cuts *cuts, const iccp_env *env)
+icc_status iccp_cut_polygon_create(iccp_cut_polygon *polygon, const iccp_domain_pair *domains,
+                                   int side, const iccp_cuts *cuts, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    const icc_domain *domain = scene->domain[side];
-    double *points = list_points(scene, side, cuts, memory);
+    const icc_domain *domain = domains->domain[side];
+    double *points = list_points(domains, side, cuts, memory);
     iccp_walls walls = {0};
     iccp_corners mesh = {0};
     *polygon = (iccp_cut_polygon){.memory = *memory};
     icc_status status = ICC_ERR_MEMORY;
     if (points != NULL)
-        status = list_walls(&walls, scene, cuts, memory);
+        status = list_walls(&walls, domains, cuts, memory);
     if (status == ICC_OK)
-        status = iccp_scene_triangulate(&mesh, domain, scene->n + cuts->first[cuts->n], points,
-                                        &walls, env);
+        status = iccp_triangulate_inside(&mesh, domain, domains->n + cuts->first[cuts->n], points,
+                                         &walls, env);
     if (status == ICC_OK)
         status = open_up(polygon, &mesh, domain, &walls, points);
     else if (status != ICC_ERR_MEMORY && status != ICC_ERR_CANCELLED)

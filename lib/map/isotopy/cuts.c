@@ -1,10 +1,11 @@
 /* R. C. Prim, Shortest connection networks and some generalizations, 1957. The next cut is the
- * shortest one that joins another component to those which are joined already; how long it is
- * depends on the cuts that it has to go round, and so is found out only when it comes first by what
- * is known of it.
+ * shortest one that joins another component to the components joined before. The length of a cut
+ * depends on the cuts that it has to go around. So it is computed only when the cut comes first
+ * by its known lower bound.
  *
- * The way in the source decides between which walls and cuts the way in the target leaves and
- * arrives: then a map that takes the one to the other has one image of each point there. */
+ * The path in the source decides between which walls and cuts the path in the target leaves and
+ * arrives. Then each point there has only one image under a map that takes one path to the
+ * other. */
 #include "map/isotopy/cuts.h"
 
 #include "base/minmax.h"
@@ -13,31 +14,31 @@
 #include <math.h>
 #include <string.h>
 
-/* A cut is made when it is longer than the next one may be by no more than this share. */
+/* A cut is accepted if it exceeds the lower bound of the next candidate by at most this share. */
 static const double SLACK = 0.1;
 
-/* Lengths are multiplied by up to 1 + this for trees at random. */
+/* Random trees multiply each length by a random factor between 1 and 1 + JITTER. */
 #define JITTER 1.5
 
-/* What lengths in the other domain count for where one comes first. */
+/* Weight of the lengths in the less important domain, for trees that prefer one domain. */
 #define MINOR 0.2
 
-/* Ways that are looked for until the first one that is found will do: so many, and so many for each
+/* Number of searches before the first path found is accepted: a constant, plus a number for each
  * component. */
-enum { MOST_WAYS = 64, MOST_WAYS_EACH = 16 };
+enum { MOST_SEARCHES = 64, MOST_SEARCHES_EACH = 16 };
 
 typedef struct iccp_candidate_cut {
     uint32_t from, to;
-    double length[2]; /* of the straight lines, in each domain */
-    uint32_t known;   /* how many cuts there were when its way was looked for */
-    double first_key; /* by the straight lines */
+    double length[2]; /* of the straight line, in each domain */
+    uint32_t known;   /* the number of cuts when its path was searched */
+    double first_key; /* from the straight lines */
 } candidate;
 
 /* ---- candidates: edges of either triangulation between components ---- */
 
 static void visit_edges(iccp_cutter *k, int side, bool enters)
 {
-    const iccp_scene *s = k->scene;
+    const iccp_domain_pair *s = k->domains;
     const iccp_corners *mesh = &s->mesh[side];
     for (size_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         const uint32_t a = mesh->vertex[iccp_after((uint32_t)c)];
@@ -57,7 +58,7 @@ static void visit_edges(iccp_cutter *k, int side, bool enters)
 
 static icc_status list_candidates(iccp_cutter *k, const iccp_memory *memory)
 {
-    const size_t n = k->scene->n_components;
+    const size_t n = k->domains->n_components;
     k->first = iccp_alloc_zero(memory, n + 1, sizeof *k->first);
     if (k->first == NULL)
         return ICC_ERR_MEMORY;
@@ -75,8 +76,9 @@ static icc_status list_candidates(iccp_cutter *k, const iccp_memory *memory)
 
 /* ---- the tree ---- */
 
-/* What lengths in the two domains count for, in which of them a way is free to pass others on
- * either side, and by which share keys are changed at random at most. */
+/* weight: factors for the lengths in the two domains. first: the domain that is searched first;
+ * its path may pass other cuts on either side. jitter: the largest random change of a key, as a
+ * share. */
 typedef struct kind_of_tree {
     double weight[2];
     int first;
@@ -106,56 +108,57 @@ static void offer_component(iccp_cutter *k, const uint8_t *joined, uint32_t comp
         const double u = kind->jitter * (double)(iccp_random(random) >> 11) * 0x1p-53;
         c->known = UINT32_MAX;
         c->first_key = (1 + u) * weigh(kind, c->length);
-        if (!joined[k->scene->component[c->to]])
+        if (!joined[k->domains->component[c->to]])
             iccp_heap_put(&k->queue, (uint32_t)i, c->first_key);
     }
 }
 
-/* The ways of a candidate in both domains; their weight, HUGE_VAL where there is none. */
-static icc_status find_ways(iccp_cutter *k, const candidate *c, const kind_of_tree *kind,
-                            double *weight)
+/* Finds the paths of a candidate in both domains. *weight is HUGE_VAL if there is none. */
+static icc_status find_paths(iccp_cutter *k, const candidate *c, const kind_of_tree *kind,
+                             double *weight)
 {
-    iccp_way *own = &k->way[kind->first], *other = &k->way[1 - kind->first];
-    icc_status status = iccp_routes_find(&k->routes[kind->first], c->from, ICCP_ANY_SECTOR, c->to,
-                                         ICCP_ANY_SECTOR, HUGE_VAL, own);
+    iccp_found_path *own = &k->found[kind->first], *other = &k->found[1 - kind->first];
+    icc_status status = iccp_path_search_find(&k->search[kind->first], c->from, ICCP_ANY_SECTOR,
+                                              c->to, ICCP_ANY_SECTOR, HUGE_VAL, own);
     other->length = HUGE_VAL;
     if (status == ICC_OK && own->length < HUGE_VAL)
-        status = iccp_routes_find(&k->routes[1 - kind->first], c->from, own->sector[0], c->to,
-                                  own->sector[1], HUGE_VAL, other);
-    *weight = weigh(kind, (const double[]){k->way[0].length, k->scene->scale * k->way[1].length});
+        status = iccp_path_search_find(&k->search[1 - kind->first], c->from, own->sector[0], c->to,
+                                       own->sector[1], HUGE_VAL, other);
+    *weight =
+        weigh(kind, (const double[]){k->found[0].length, k->domains->scale * k->found[1].length});
     return status;
 }
 
-static icc_status lay_ways(iccp_cutter *k)
+static icc_status lay_paths(iccp_cutter *k)
 {
-    icc_status status = iccp_routes_lay(&k->routes[0], &k->way[0]);
-    return status == ICC_OK ? iccp_routes_lay(&k->routes[1], &k->way[1]) : status;
+    icc_status status = iccp_path_search_lay(&k->search[0], &k->found[0]);
+    return status == ICC_OK ? iccp_path_search_lay(&k->search[1], &k->found[1]) : status;
 }
 
-/* Takes candidates until one is laid, and says which component that joins. ICC_ERR_TOPOLOGY when
- * there are none. */
+/* Tries candidates until one is laid. *component is the component that it joins. ICC_ERR_TOPOLOGY
+ * if no candidate is left. */
 static icc_status next_cut(iccp_cutter *k, const kind_of_tree *kind, const uint8_t *joined,
-                           size_t *n_ways, uint32_t *component)
+                           size_t *n_searches, uint32_t *component)
 {
-    const uint32_t n_cuts = (uint32_t)k->routes[0].n_paths;
+    const uint32_t n_cuts = (uint32_t)k->search[0].n_paths;
     icc_status status = ICC_OK;
     while (status == ICC_OK && k->queue.n_entries > 0) {
         const double key = k->queue.entry[0].key;
         const uint32_t i = iccp_heap_pop(&k->queue);
         candidate *c = &k->candidate[i];
         double weight;
-        *component = k->scene->component[c->to];
+        *component = k->domains->component[c->to];
         if (joined[*component])
             continue;
-        status = find_ways(k, c, kind, &weight);
+        status = find_paths(k, c, kind, &weight);
         if (status != ICC_OK || !(weight < HUGE_VAL))
             continue;
-        /* Keys that are changed at random stay so. */
+        /* The new key keeps the candidate's random factor. */
         const double own = iccp_max(key, weight * (c->first_key / weigh(kind, c->length)));
         const double next = k->queue.n_entries > 0 ? k->queue.entry[0].key : HUGE_VAL;
-        if (c->known == n_cuts || own <= (1 + SLACK) * next || *n_ways == 0)
-            return lay_ways(k);
-        --*n_ways;
+        if (c->known == n_cuts || own <= (1 + SLACK) * next || *n_searches == 0)
+            return lay_paths(k);
+        --*n_searches;
         c->known = n_cuts;
         iccp_heap_put(&k->queue, i, own);
     }
@@ -165,21 +168,21 @@ static icc_status next_cut(iccp_cutter *k, const kind_of_tree *kind, const uint8
 static icc_status grow(iccp_cutter *k, uint64_t tree, const iccp_env *env)
 {
     const kind_of_tree kind = kind_of(tree);
-    const size_t n = k->scene->n_components;
-    size_t n_ways = MOST_WAYS + MOST_WAYS_EACH * n;
+    const size_t n = k->domains->n_components;
+    size_t n_searches = MOST_SEARCHES + MOST_SEARCHES_EACH * n;
     uint64_t random = tree;
     uint8_t *joined = iccp_alloc_zero(&env->memory, n, 1);
     icc_status status = joined != NULL ? ICC_OK : ICC_ERR_MEMORY;
     uint32_t component = 0;
     for (int side = 0; side < 2; ++side)
-        iccp_routes_reset(&k->routes[side]);
+        iccp_path_search_reset(&k->search[side]);
     iccp_heap_clear(&k->queue);
     for (size_t i = 1; status == ICC_OK && i < n; ++i) {
         joined[component] = 1;
         offer_component(k, joined, component, &kind, &random);
         status = iccp_progress(env, "mesh", (double)i / (double)n);
         if (status == ICC_OK)
-            status = next_cut(k, &kind, joined, &n_ways, &component);
+            status = next_cut(k, &kind, joined, &n_searches, &component);
     }
     iccp_free(&env->memory, joined);
     return status;
@@ -187,7 +190,7 @@ static icc_status grow(iccp_cutter *k, uint64_t tree, const iccp_env *env)
 
 /* ---- polylines ---- */
 
-/* Puts one more bend on the longest piece. */
+/* Puts another bend in the middle of the longest piece. */
 static icc_status bend_once(iccp_polyline *line, const iccp_memory *memory)
 {
     uint32_t at = 1;
@@ -243,16 +246,16 @@ icc_status iccp_cuts_add(iccp_cuts *cuts, size_t cut, const uint32_t ends[2], ic
 
 static icc_status draw(iccp_cuts *cuts, const iccp_cutter *k)
 {
-    const iccp_path_ends *path = k->routes[0].path;
+    const iccp_path_ends *path = k->search[0].path;
     iccp_lanes lanes[2] = {{NULL}, {NULL}};
     iccp_polyline line[2] = {{0}, {0}};
     icc_status status = ICC_OK;
     for (int side = 0; status == ICC_OK && side < 2; ++side)
-        status = iccp_lanes_create(&lanes[side], &k->routes[side]);
+        status = iccp_lanes_create(&lanes[side], &k->search[side]);
     for (size_t i = 0; status == ICC_OK && i < cuts->n; ++i) {
         for (int side = 0; status == ICC_OK && side < 2; ++side) {
             line[side].n = 0;
-            status = iccp_taut(&line[side], &k->routes[side], &lanes[side], i);
+            status = iccp_shorten_path(&line[side], &k->search[side], &lanes[side], i);
         }
         if (status == ICC_OK)
             status = iccp_cuts_add(cuts, i, path[i].vertex, line);
@@ -272,7 +275,7 @@ icc_status iccp_cuts_create(iccp_cuts *cuts, iccp_cutter *cutter, uint64_t tree,
     *cuts = (iccp_cuts){.memory = env->memory};
     icc_status status = grow(cutter, tree, env);
     if (status == ICC_OK)
-        status = iccp_cuts_begin(cuts, cutter->scene->n_components - 1, &env->memory);
+        status = iccp_cuts_begin(cuts, cutter->domains->n_components - 1, &env->memory);
     if (status == ICC_OK)
         status = draw(cuts, cutter);
     if (status != ICC_OK)
@@ -290,12 +293,12 @@ void iccp_cuts_free(iccp_cuts *cuts)
     *cuts = (iccp_cuts){.memory = *memory};
 }
 
-icc_status iccp_cutter_create(iccp_cutter *k, const iccp_scene *scene, const iccp_env *env)
+icc_status iccp_cutter_create(iccp_cutter *k, const iccp_domain_pair *domains, const iccp_env *env)
 {
-    *k = (iccp_cutter){.memory = env->memory, .scene = scene};
-    icc_status status = iccp_routes_create(&k->routes[0], scene, 0, env);
+    *k = (iccp_cutter){.memory = env->memory, .domains = domains};
+    icc_status status = iccp_path_search_create(&k->search[0], domains, 0, env);
     if (status == ICC_OK)
-        status = iccp_routes_create(&k->routes[1], scene, 1, env);
+        status = iccp_path_search_create(&k->search[1], domains, 1, env);
     if (status == ICC_OK)
         status = list_candidates(k, &env->memory);
     if (status != ICC_OK)
@@ -309,8 +312,8 @@ void iccp_cutter_free(iccp_cutter *k)
     iccp_free(&k->memory, k->first);
     iccp_heap_free(&k->queue, &k->memory);
     for (int side = 0; side < 2; ++side) {
-        iccp_way_free(&k->way[side], &k->memory);
-        iccp_routes_free(&k->routes[side]);
+        iccp_found_path_free(&k->found[side], &k->memory);
+        iccp_path_search_free(&k->search[side]);
     }
     *k = (iccp_cutter){.memory = k->memory};
 }

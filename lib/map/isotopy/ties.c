@@ -1,3 +1,5 @@
+/* Reads and checks the caller's ties. Overlaps and wrong orders show when the domains are cut
+ * open along the ties. */
 #include "map/isotopy/ties.h"
 
 #include "base/error.h"
@@ -7,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Of bends, in local coordinates. */
+/* Largest coordinate of a bend, in local coordinates. */
 static const double FARTHEST = 2;
 
 /* ---- reading ---- */
@@ -30,7 +32,7 @@ static icc_status read_tie(icc_tie *tie, const icc_tie *ties, size_t i, size_t n
     return ICC_OK;
 }
 
-/* From one end to the other, in local coordinates. */
+/* Reads a polyline from one end to the other, in local coordinates. */
 static icc_status read_line(iccp_polyline *line, const icc_domain *domain, const icc_tie *tie,
                             size_t i, int side, const iccp_memory *memory, icc_error *err)
 {
@@ -43,7 +45,8 @@ static icc_status read_line(iccp_polyline *line, const icc_domain *domain, const
         const double *p = bends + 2 * k;
         double local[2];
         iccp_frame_in(&domain->frame, 2, p, local);
-        /* No vertex is farther from zero than 1, and signs are exact for numbers like these. */
+        /* No vertex is farther from zero than 1. The predicates are exact for numbers of this
+         * size. */
         if (!(fabs(local[0]) <= FARTHEST && fabs(local[1]) <= FARTHEST) ||
             !iccp_frame_holds(&domain->frame, 2, p))
             return iccp_fail_side(err,
@@ -59,16 +62,17 @@ static icc_status read_line(iccp_polyline *line, const icc_domain *domain, const
                : status;
 }
 
-static icc_status read_ties(iccp_cuts *cuts, const iccp_scene *scene, size_t n, const icc_tie *ties,
-                            icc_error *err)
+static icc_status read_ties(iccp_cuts *cuts, const iccp_domain_pair *domains, size_t n,
+                            const icc_tie *ties, icc_error *err)
 {
     iccp_polyline line[2] = {{0}, {0}};
     icc_status status = iccp_cuts_begin(cuts, n, &cuts->memory);
     for (size_t i = 0; status == ICC_OK && i < n; ++i) {
         icc_tie tie;
-        status = read_tie(&tie, ties, i, scene->n, err);
+        status = read_tie(&tie, ties, i, domains->n, err);
         for (int side = 0; status == ICC_OK && side < 2; ++side)
-            status = read_line(&line[side], scene->domain[side], &tie, i, side, &cuts->memory, err);
+            status =
+                read_line(&line[side], domains->domain[side], &tie, i, side, &cuts->memory, err);
         if (status == ICC_OK)
             status = iccp_cuts_add(cuts, i, tie.vertex, line);
     }
@@ -79,17 +83,17 @@ static icc_status read_ties(iccp_cuts *cuts, const iccp_scene *scene, size_t n, 
 
 /* ---- checking ---- */
 
-/* The one whose tie closes a ring; n if there is none. `group`: of each component, the smallest
- * number of those joined with it. */
-static size_t find_ring(const iccp_cuts *cuts, const iccp_scene *scene, uint32_t *group)
+/* Returns the first tie that closes a ring, or n. `group`: for each component, the smallest number
+ * of a component joined with it. */
+static size_t find_ring(const iccp_cuts *cuts, const iccp_domain_pair *domains, uint32_t *group)
 {
-    for (uint32_t c = 0; c < scene->n_components; ++c)
+    for (uint32_t c = 0; c < domains->n_components; ++c)
         group[c] = c;
     for (size_t i = 0; i < cuts->n; ++i) {
         uint32_t end[2];
         for (int k = 0; k < 2; ++k)
-            for (end[k] = scene->component[cuts->ends[2 * i + (size_t)k]]; group[end[k]] != end[k];
-                 end[k] = group[end[k]])
+            for (end[k] = domains->component[cuts->ends[2 * i + (size_t)k]];
+                 group[end[k]] != end[k]; end[k] = group[end[k]])
                 continue;
         if (end[0] == end[1])
             return i;
@@ -98,45 +102,45 @@ static size_t find_ring(const iccp_cuts *cuts, const iccp_scene *scene, uint32_t
     return cuts->n;
 }
 
-static icc_status check_tree(const iccp_cuts *cuts, const iccp_scene *scene, icc_error *err)
+static icc_status check_tree(const iccp_cuts *cuts, const iccp_domain_pair *domains, icc_error *err)
 {
-    const size_t n = scene->n_components - 1;
+    const size_t n = domains->n_components - 1;
     if (cuts->n != n)
         return iccp_fail(err, ICC_ERR_TOPOLOGY,
                          "%zu ties: there must be as many as features, which are %zu", cuts->n, n);
     uint32_t *group = iccp_alloc(&cuts->memory, n + 1, sizeof *group);
     if (group == NULL)
         return iccp_fail_memory(err);
-    const size_t i = find_ring(cuts, scene, group);
+    const size_t i = find_ring(cuts, domains, group);
     iccp_free(&cuts->memory, group);
     return i == n ? ICC_OK
                   : iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, (int64_t)i,
                                  "tie %zu joins what the ties before it join already", i);
 }
 
-/* Whether the first n ties meet walls or one another on a side. */
-static icc_status first_meet(const iccp_cuts *cuts, const iccp_scene *scene, int side, size_t n,
-                             bool *meet, const iccp_env *env)
+/* *meet becomes true if the first n ties meet walls or one another on a side. */
+static icc_status first_meet(const iccp_cuts *cuts, const iccp_domain_pair *domains, int side,
+                             size_t n, bool *meet, const iccp_env *env)
 {
     iccp_cuts some = *cuts;
     iccp_cut_polygon polygon;
     some.n = n;
-    const icc_status status = iccp_cut_polygon_create(&polygon, scene, side, &some, env);
+    const icc_status status = iccp_cut_polygon_create(&polygon, domains, side, &some, env);
     if (status == ICC_OK)
         iccp_cut_polygon_free(&polygon);
     *meet = status == ICC_ERR_CERTIFICATE;
     return status == ICC_ERR_TOPOLOGY || *meet ? ICC_OK : status;
 }
 
-/* The first one that meets a wall, or one before it: by halves. */
-static icc_status fail_meeting(const iccp_cuts *cuts, const iccp_scene *scene, int side,
+/* Finds the first tie that meets a wall or an earlier tie, by bisection. */
+static icc_status fail_meeting(const iccp_cuts *cuts, const iccp_domain_pair *domains, int side,
                                const iccp_env *env, icc_error *err)
 {
     size_t low = 0, high = cuts->n;
     while (high - low > 1) {
         const size_t middle = low + (high - low) / 2;
         bool meet;
-        const icc_status status = first_meet(cuts, scene, side, middle, &meet, env);
+        const icc_status status = first_meet(cuts, domains, side, middle, &meet, env);
         if (status != ICC_OK)
             return status;
         if (meet)
@@ -152,7 +156,8 @@ static icc_status fail_meeting(const iccp_cuts *cuts, const iccp_scene *scene, i
                           side + 1);
 }
 
-/* The tie along which two vertices of a cut polygon are neighbours; n if that is a wall. */
+/* Returns the tie that joins two neighbouring corners of a cut polygon, or n if they are joined by
+ * a wall. */
 static size_t tie_between(const iccp_cuts *cuts, size_t n_vertices, uint32_t a, uint32_t b)
 {
     const uint32_t bend = a >= n_vertices ? a : b;
@@ -166,17 +171,17 @@ static size_t tie_between(const iccp_cuts *cuts, size_t n_vertices, uint32_t a, 
     return cuts->n;
 }
 
-/* Where the ways round differ, a tie is between other neighbours. */
-static icc_status check_order(const iccp_cuts *cuts, const iccp_scene *scene,
+/* Compares the two cut polygons. Where they differ, a tie lies between different neighbours. */
+static icc_status check_order(const iccp_cuts *cuts, const iccp_domain_pair *domains,
                               const iccp_cut_polygon polygon[2], icc_error *err)
 {
     for (uint32_t i = 1; i < polygon[0].n; ++i) {
         const uint32_t from = polygon[0].vertex[i - 1], *to = polygon[0].vertex + i;
         if (*to == polygon[1].vertex[i])
             continue;
-        size_t tie = tie_between(cuts, scene->n, from, *to);
+        size_t tie = tie_between(cuts, domains->n, from, *to);
         if (tie == cuts->n)
-            tie = tie_between(cuts, scene->n, from, polygon[1].vertex[i]);
+            tie = tie_between(cuts, domains->n, from, polygon[1].vertex[i]);
         return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, tie < cuts->n ? (int64_t)tie : -1,
                             "tie %zu leaves a vertex between other neighbours in the target than "
                             "in the source",
@@ -185,30 +190,30 @@ static icc_status check_order(const iccp_cuts *cuts, const iccp_scene *scene,
     return ICC_OK;
 }
 
-static icc_status check_ties(const iccp_cuts *cuts, const iccp_scene *scene, const iccp_env *env,
-                             icc_error *err)
+static icc_status check_ties(const iccp_cuts *cuts, const iccp_domain_pair *domains,
+                             const iccp_env *env, icc_error *err)
 {
     iccp_cut_polygon polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
-    icc_status status = check_tree(cuts, scene, err);
+    icc_status status = check_tree(cuts, domains, err);
     for (int side = 0; status == ICC_OK && side < 2; ++side) {
-        status = iccp_cut_polygon_create(&polygon[side], scene, side, cuts, env);
+        status = iccp_cut_polygon_create(&polygon[side], domains, side, cuts, env);
         if (status == ICC_ERR_CERTIFICATE)
-            status = fail_meeting(cuts, scene, side, env, err);
+            status = fail_meeting(cuts, domains, side, env, err);
     }
     if (status == ICC_OK)
-        status = check_order(cuts, scene, polygon, err);
+        status = check_order(cuts, domains, polygon, err);
     for (int side = 0; side < 2; ++side)
         iccp_cut_polygon_free(&polygon[side]);
     return status;
 }
 
-icc_status iccp_ties_read(iccp_cuts *cuts, const iccp_scene *scene, size_t n, const icc_tie *ties,
-                          const iccp_env *env, icc_error *err)
+icc_status iccp_ties_read(iccp_cuts *cuts, const iccp_domain_pair *domains, size_t n,
+                          const icc_tie *ties, const iccp_env *env, icc_error *err)
 {
     *cuts = (iccp_cuts){.memory = env->memory};
-    icc_status status = read_ties(cuts, scene, n, ties, err);
+    icc_status status = read_ties(cuts, domains, n, ties, err);
     if (status == ICC_OK)
-        status = check_ties(cuts, scene, env, err);
+        status = check_ties(cuts, domains, env, err);
     if (status != ICC_OK)
         iccp_cuts_free(cuts);
     return status;

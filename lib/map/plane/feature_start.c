@@ -14,7 +14,7 @@
 #include "map/compatible/flips.h"
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/repair.h"
-#include "map/isotopy/glue.h"
+#include "map/isotopy/close_cuts.h"
 #include "map/isotopy/ties.h"
 
 #include <math.h>
@@ -36,7 +36,7 @@ static const double TOO_MANY = 3;
 static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
 
 /* By one way to cut, as it comes. ICC_ERR_CERTIFICATE when rounding spoils it. */
-static icc_status start_from(iccp_plmap *map, const iccp_scene *scene, const iccp_cuts *cuts,
+static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, const iccp_cuts *cuts,
                              const iccp_env *env)
 {
     iccp_cut_polygon polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
@@ -54,7 +54,7 @@ static icc_status start_from(iccp_plmap *map, const iccp_scene *scene, const icc
         status = iccp_overlay_create(&overlay, polygon[0].n, &source, &target, env);
     }
     if (status == ICC_OK)
-        status = iccp_glue(map, &overlay, &polygon[0], scene, env);
+        status = iccp_close_cuts(map, &overlay, &polygon[0], scene, env);
     for (uint32_t t = 0; status == ICC_OK && t < map->corners.n_triangles; ++t)
         if (!iccp_plmap_positive_point(map, t) || !iccp_plmap_positive_image(map, t))
             status = ICC_ERR_CERTIFICATE;
@@ -93,7 +93,7 @@ static double energy_of(const iccp_plmap *map)
 /* A start and its energy, HUGE_VAL where there is none. `least`: the fewest triangles of all
  * overlays so far. */
 static icc_status try_tree(iccp_plmap *map, double *energy, size_t *least, iccp_cuts *cuts,
-                           const iccp_scene *scene, iccp_cutter *cutter, uint64_t tree,
+                           const iccp_domain_pair *scene, iccp_cutter *cutter, uint64_t tree,
                            iccp_work *work, const iccp_env *env)
 {
     icc_status status = iccp_cuts_create(cuts, cutter, tree, env);
@@ -120,7 +120,7 @@ static double detour_of(const iccp_cuts *cuts, int side)
 }
 
 /* The best start of several trees: as many as there is work for, unless the first is GOOD. */
-static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *cutter,
+static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cutter *cutter,
                          iccp_work *work, iccp_feature_report *report, const iccp_env *env)
 {
     double best = HUGE_VAL;
@@ -157,7 +157,7 @@ static icc_status choose(iccp_plmap *map, const iccp_scene *scene, iccp_cutter *
 }
 
 /* The start that ties lead to. */
-static icc_status start_from_ties(iccp_plmap *map, const iccp_scene *scene,
+static icc_status start_from_ties(iccp_plmap *map, const iccp_domain_pair *scene,
                                   const icc_map_options *options, iccp_feature_report *report,
                                   const iccp_env *env, icc_error *err)
 {
@@ -187,13 +187,13 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err)
 {
-    iccp_scene *scene = &report->scene;
+    iccp_domain_pair *scene = &report->scene;
     iccp_cutter cutter = {.memory = env->memory};
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
     *map = (iccp_plmap){.memory = env->memory};
     *report = (iccp_feature_report){.cuts.memory = env->memory};
-    icc_status status = iccp_scene_create(scene, source, target, env);
+    icc_status status = iccp_domain_pair_create(scene, source, target, env);
     if (status == ICC_OK && options->ties != NULL)
         status = start_from_ties(map, scene, options, report, &part[0], err);
     else if (status == ICC_OK) {
@@ -212,19 +212,19 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
 void iccp_feature_report_free(iccp_feature_report *report)
 {
     iccp_cuts_free(&report->cuts);
-    iccp_scene_free(&report->scene);
+    iccp_domain_pair_free(&report->scene);
 }
 
 icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
                                    const icc_domain *target, const iccp_cuts *cuts,
                                    iccp_work *relaxing, const iccp_env *env)
 {
-    iccp_scene scene;
+    iccp_domain_pair scene;
     *map = (iccp_plmap){.memory = env->memory};
-    icc_status status = iccp_scene_create(&scene, source, target, env);
+    icc_status status = iccp_domain_pair_create(&scene, source, target, env);
     if (status == ICC_OK)
         status = start_from(map, &scene, cuts, env);
-    iccp_scene_free(&scene);
+    iccp_domain_pair_free(&scene);
     if (status == ICC_OK)
         status = thin_out(map, env);
     if (status != ICC_OK)

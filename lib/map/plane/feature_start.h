@@ -8,9 +8,9 @@
 
 /* What is known of a start. The caller frees it in any case. */
 typedef struct iccp_feature_report {
-    size_t n_trees;   /* of cuts that led to a start */
-    iccp_cuts cuts;   /* those that it was made with */
-    iccp_scene scene; /* of both domains */
+    size_t n_trees;         /* of cuts that led to a start */
+    iccp_cuts cuts;         /* those that it was made with */
+    iccp_domain_pair scene; /* of both domains */
 } iccp_feature_report;
 
 /* A map that takes every feature of one domain to the same of the other, vertex by vertex, and is

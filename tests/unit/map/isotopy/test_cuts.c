@@ -1,9 +1,9 @@
-/* How domains with features are cut open: the scene, routes through it, cuts drawn taut, the
- * polygons that these leave, and the map that closes them again. By brute force in exact
- * arithmetic. */
+/* How domains with features are cut open: the triangulations, the path search, the drawing of cuts,
+ * the polygons that the cuts leave, and the map that closes them again. Checked by brute force in
+ * exact arithmetic. */
 #include "geometry/segment.h"
 #include "map/compatible/plmap_certificate.h"
-#include "map/isotopy/glue.h"
+#include "map/isotopy/close_cuts.h"
 #include "map/plane/feature_start.h"
 #include "math/predicates.h"
 
@@ -56,9 +56,9 @@ static const double *vertex_of(const icc_domain *domain, uint32_t vertex)
     return domain->vertices + 2 * (size_t)vertex;
 }
 
-/* ---- scenes ---- */
+/* ---- triangulations ---- */
 
-static void check_triangulation(const iccp_scene *s, int side)
+static void check_triangulation(const iccp_domain_pair *s, int side)
 {
     const icc_domain *domain = s->domain[side];
     const iccp_corners *mesh = &s->mesh[side];
@@ -92,14 +92,14 @@ static void check_triangulation(const iccp_scene *s, int side)
     ck_assert_uint_eq(n_walls, domain->n_facets + 2 * (s->n_walls - domain->n_facets));
 }
 
-START_TEST(scenes_are_triangulated)
+START_TEST(pairs_are_triangulated)
 {
     const iccp_env env = default_env();
     for (int k = 0; k < 2 * N_PLANS + share_of(N_MIXES); ++k) {
         pair p = pair_number(k);
         const iccp_features *features = p.domain[0]->features;
-        iccp_scene s;
-        ck_assert_int_eq(iccp_scene_create(&s, p.domain[0], p.domain[1], &env), ICC_OK);
+        iccp_domain_pair s;
+        ck_assert_int_eq(iccp_domain_pair_create(&s, p.domain[0], p.domain[1], &env), ICC_OK);
         ck_assert(s.n == p.domain[0]->n_vertices && s.n_components == features->n + 1);
         ck_assert_uint_eq(s.n_walls, features->n_places - features->n_points);
         for (size_t v = 0; v < s.n; ++v) {
@@ -111,13 +111,13 @@ START_TEST(scenes_are_triangulated)
         }
         check_triangulation(&s, 0);
         check_triangulation(&s, 1);
-        iccp_scene_free(&s);
+        iccp_domain_pair_free(&s);
         free_pair(&p);
     }
 }
 END_TEST
 
-/* ---- routes ---- */
+/* ---- path search ---- */
 
 /* A square with a wall in its middle and a point on either side of it. */
 static plan walled(void)
@@ -131,91 +131,91 @@ static plan walled(void)
 
 /* Round the wall by one of its ends; not across it, nor, once a path leads from the wall to the edge
  * of the square, past that. */
-START_TEST(routes_go_round)
+START_TEST(paths_go_round)
 {
     const iccp_env env = default_env();
     const plan p = walled();
     icc_domain *domain = plan_domain(&p);
-    iccp_scene scene;
-    iccp_routes routes;
-    iccp_way way = {0};
-    ck_assert_int_eq(iccp_scene_create(&scene, domain, domain, &env), ICC_OK);
-    ck_assert_int_eq(iccp_routes_create(&routes, &scene, 0, &env), ICC_OK);
-    const size_t n_bare = routes.mesh.n_triangles;
+    iccp_domain_pair domains;
+    iccp_path_search search;
+    iccp_found_path found = {0};
+    ck_assert_int_eq(iccp_domain_pair_create(&domains, domain, domain, &env), ICC_OK);
+    ck_assert_int_eq(iccp_path_search_create(&search, &domains, 0, &env), ICC_OK);
+    const size_t n_bare = search.mesh.n_triangles;
     for (int round = 0; round < 2; ++round) {
         /* Neighbours: straight. */
-        ck_assert_int_eq(
-            iccp_routes_find(&routes, 6, ICCP_ANY_SECTOR, 4, ICCP_ANY_SECTOR, HUGE_VAL, &way),
-            ICC_OK);
-        ck_assert(way.is_straight && way.n == 1);
-        ck_assert_int_eq(
-            iccp_routes_find(&routes, 6, ICCP_ANY_SECTOR, 7, ICCP_ANY_SECTOR, HUGE_VAL, &way),
-            ICC_OK);
-        const double there = way.length;
-        ck_assert(!way.is_straight && way.n >= 2 && there < HUGE_VAL);
-        ck_assert(way.sector[0] == ICCP_WHOLE_SECTOR && way.sector[1] == ICCP_WHOLE_SECTOR);
-        for (size_t k = 0; k < way.n; ++k) {
-            const uint32_t c = way.corner[k];
-            ck_assert(!iccp_walls_have(&scene.walls, routes.mesh.vertex[iccp_after(c)],
-                                       routes.mesh.vertex[iccp_before(c)]));
+        ck_assert_int_eq(iccp_path_search_find(&search, 6, ICCP_ANY_SECTOR, 4, ICCP_ANY_SECTOR,
+                                               HUGE_VAL, &found),
+                         ICC_OK);
+        ck_assert(found.is_straight && found.n == 1);
+        ck_assert_int_eq(iccp_path_search_find(&search, 6, ICCP_ANY_SECTOR, 7, ICCP_ANY_SECTOR,
+                                               HUGE_VAL, &found),
+                         ICC_OK);
+        const double there = found.length;
+        ck_assert(!found.is_straight && found.n >= 2 && there < HUGE_VAL);
+        ck_assert(found.sector[0] == ICCP_WHOLE_SECTOR && found.sector[1] == ICCP_WHOLE_SECTOR);
+        for (size_t k = 0; k < found.n; ++k) {
+            const uint32_t c = found.corner[k];
+            ck_assert(!iccp_walls_have(&domains.walls, search.mesh.vertex[iccp_after(c)],
+                                       search.mesh.vertex[iccp_before(c)]));
         }
         /* No longer than it may be. */
-        ck_assert_int_eq(
-            iccp_routes_find(&routes, 6, ICCP_ANY_SECTOR, 7, ICCP_ANY_SECTOR, 0.9 * there, &way),
-            ICC_OK);
-        ck_assert(!(way.length < HUGE_VAL));
+        ck_assert_int_eq(iccp_path_search_find(&search, 6, ICCP_ANY_SECTOR, 7, ICCP_ANY_SECTOR,
+                                               0.9 * there, &found),
+                         ICC_OK);
+        ck_assert(!(found.length < HUGE_VAL));
         /* From each end of the wall to the edge of the square. */
         for (uint32_t end = 4; end < 6; ++end) {
-            ck_assert_int_eq(iccp_routes_find(&routes, end, ICCP_ANY_SECTOR, end == 4 ? 0 : 2,
-                                              ICCP_ANY_SECTOR, HUGE_VAL, &way),
+            ck_assert_int_eq(iccp_path_search_find(&search, end, ICCP_ANY_SECTOR, end == 4 ? 0 : 2,
+                                                   ICCP_ANY_SECTOR, HUGE_VAL, &found),
                              ICC_OK);
-            ck_assert(way.length < HUGE_VAL);
-            ck_assert_int_eq(iccp_routes_lay(&routes, &way), ICC_OK);
-            ck_assert_int_eq(iccp_routes_find(&routes, 6, ICCP_WHOLE_SECTOR, 7, ICCP_WHOLE_SECTOR,
-                                              HUGE_VAL, &way),
+            ck_assert(found.length < HUGE_VAL);
+            ck_assert_int_eq(iccp_path_search_lay(&search, &found), ICC_OK);
+            ck_assert_int_eq(iccp_path_search_find(&search, 6, ICCP_WHOLE_SECTOR, 7,
+                                                   ICCP_WHOLE_SECTOR, HUGE_VAL, &found),
                              ICC_OK);
-            ck_assert((way.length < HUGE_VAL) == (end == 4));
-            ck_assert(end == 5 || way.length >= there);
+            ck_assert((found.length < HUGE_VAL) == (end == 4));
+            ck_assert(end == 5 || found.length >= there);
         }
-        ck_assert_uint_eq(routes.n_paths, 2);
-        ck_assert_uint_gt(routes.mesh.n_triangles, n_bare);
-        iccp_routes_reset(&routes);
-        ck_assert(routes.n_paths == 0 && routes.mesh.n_triangles == n_bare);
+        ck_assert_uint_eq(search.n_paths, 2);
+        ck_assert_uint_gt(search.mesh.n_triangles, n_bare);
+        iccp_path_search_reset(&search);
+        ck_assert(search.n_paths == 0 && search.mesh.n_triangles == n_bare);
     }
-    iccp_way_free(&way, &env.memory);
-    iccp_routes_free(&routes);
-    iccp_scene_free(&scene);
+    iccp_found_path_free(&found, &env.memory);
+    iccp_path_search_free(&search);
+    iccp_domain_pair_free(&domains);
     icc_domain_free(domain);
 }
 END_TEST
 
 /* The shortest line between two lanes, and no bend where none is needed. */
-START_TEST(lines_are_taut)
+START_TEST(lines_are_short)
 {
     const iccp_env env = default_env();
     const plan p = walled();
     icc_domain *domain = plan_domain(&p);
-    iccp_scene scene;
-    iccp_routes routes;
+    iccp_domain_pair domains;
+    iccp_path_search search;
     iccp_lanes lanes;
-    iccp_way way = {0};
+    iccp_found_path found = {0};
     iccp_polyline line = {0};
-    ck_assert_int_eq(iccp_scene_create(&scene, domain, domain, &env), ICC_OK);
-    ck_assert_int_eq(iccp_routes_create(&routes, &scene, 0, &env), ICC_OK);
+    ck_assert_int_eq(iccp_domain_pair_create(&domains, domain, domain, &env), ICC_OK);
+    ck_assert_int_eq(iccp_path_search_create(&search, &domains, 0, &env), ICC_OK);
     static const uint32_t ends[2][2] = {{6, 7}, {6, 4}};
     for (int k = 0; k < 2; ++k) {
-        ck_assert_int_eq(iccp_routes_find(&routes, ends[k][0], ICCP_ANY_SECTOR, ends[k][1],
-                                          ICCP_ANY_SECTOR, HUGE_VAL, &way),
+        ck_assert_int_eq(iccp_path_search_find(&search, ends[k][0], ICCP_ANY_SECTOR, ends[k][1],
+                                               ICCP_ANY_SECTOR, HUGE_VAL, &found),
                          ICC_OK);
-        ck_assert_int_eq(iccp_routes_lay(&routes, &way), ICC_OK);
+        ck_assert_int_eq(iccp_path_search_lay(&search, &found), ICC_OK);
     }
-    ck_assert_int_eq(iccp_lanes_create(&lanes, &routes), ICC_OK);
-    for (size_t v = 0; v < routes.n_vertices - scene.n; ++v)
+    ck_assert_int_eq(iccp_lanes_create(&lanes, &search), ICC_OK);
+    for (size_t v = 0; v < search.n_vertices - domains.n; ++v)
         ck_assert(lanes.share[2 * v] > 0 && lanes.share[2 * v] < lanes.share[2 * v + 1] &&
                   lanes.share[2 * v + 1] < 1);
     for (size_t k = 0; k < 2; ++k) {
         line.n = 0;
-        ck_assert_int_eq(iccp_taut(&line, &routes, &lanes, k), ICC_OK);
+        ck_assert_int_eq(iccp_shorten_path(&line, &search, &lanes, k), ICC_OK);
         ck_assert_mem_eq(line.points, vertex_of(domain, ends[k][0]), 2 * sizeof *line.points);
         ck_assert_mem_eq(line.points + 2 * (line.n - 1), vertex_of(domain, ends[k][1]),
                          2 * sizeof *line.points);
@@ -228,9 +228,9 @@ START_TEST(lines_are_taut)
     }
     iccp_polyline_free(&line, &env.memory);
     iccp_lanes_free(&lanes, &env.memory);
-    iccp_way_free(&way, &env.memory);
-    iccp_routes_free(&routes);
-    iccp_scene_free(&scene);
+    iccp_found_path_free(&found, &env.memory);
+    iccp_path_search_free(&search);
+    iccp_domain_pair_free(&domains);
     icc_domain_free(domain);
 }
 END_TEST
@@ -244,7 +244,7 @@ typedef struct pieces {
     uint32_t *name;
 } pieces;
 
-static pieces pieces_of(const iccp_cuts *cuts, const iccp_scene *s, int side)
+static pieces pieces_of(const iccp_cuts *cuts, const iccp_domain_pair *s, int side)
 {
     const size_t room = cuts->n + cuts->first[cuts->n];
     pieces p = {0, malloc(2 * room * sizeof *p.ends), malloc(2 * room * sizeof *p.name)};
@@ -280,7 +280,7 @@ static bool are_apart(const double *const *x, const uint32_t *x_name, const doub
     return how == 0;
 }
 
-static void check_apart(const iccp_cuts *cuts, const iccp_scene *s, int side)
+static void check_apart(const iccp_cuts *cuts, const iccp_domain_pair *s, int side)
 {
     pieces p = pieces_of(cuts, s, side);
     size_t n_meeting = 0;
@@ -299,7 +299,7 @@ static void check_apart(const iccp_cuts *cuts, const iccp_scene *s, int side)
 }
 
 /* A tree of all components. */
-static void check_tree(const iccp_cuts *cuts, const iccp_scene *s)
+static void check_tree(const iccp_cuts *cuts, const iccp_domain_pair *s)
 {
     uint32_t group[PLAN_FEATURES + MIX_FEATURES + 1];
     ck_assert_uint_eq(cuts->n, s->n_components - 1);
@@ -316,8 +316,8 @@ static void check_tree(const iccp_cuts *cuts, const iccp_scene *s)
 
 /* Goes round once, each edge of a ring once and each of a line or cut twice, the inside on the
  * left; its triangles fill it. */
-static void check_polygon(const iccp_cut_polygon *p, const iccp_cuts *cuts, const iccp_scene *s,
-                          int side)
+static void check_polygon(const iccp_cut_polygon *p, const iccp_cuts *cuts,
+                          const iccp_domain_pair *s, int side)
 {
     const icc_domain *domain = s->domain[side];
     size_t n_open = 0;
@@ -353,7 +353,7 @@ static void check_polygon(const iccp_cut_polygon *p, const iccp_cuts *cuts, cons
 
 /* The overlay of both polygons, closed: a certified map, with every vertex on its partner and lines
  * made of edges. */
-static void check_closed(const iccp_cut_polygon polygon[2], const iccp_scene *s)
+static void check_closed(const iccp_cut_polygon polygon[2], const iccp_domain_pair *s)
 {
     const iccp_env env = default_env();
     const icc_domain *source = s->domain[0], *target = s->domain[1];
@@ -364,7 +364,7 @@ static void check_closed(const iccp_cut_polygon polygon[2], const iccp_scene *s)
     uint32_t vertex[MIX_VERTICES + PLAN_VERTICES];
     size_t n_pieces = 0;
     ck_assert_int_eq(iccp_overlay_create(&overlay, polygon[0].n, &ngon[0], &ngon[1], &env), ICC_OK);
-    ck_assert_int_eq(iccp_glue(&map, &overlay, &polygon[0], s, &env), ICC_OK);
+    ck_assert_int_eq(iccp_close_cuts(&map, &overlay, &polygon[0], s, &env), ICC_OK);
     ck_assert_uint_eq(map.corners.n_triangles, overlay.corners.n_triangles);
     if (iccp_plmap_certify(&map, &env, NULL) == ICC_OK) {
         ck_assert(iccp_plmap_find_vertices(&map, source, vertex));
@@ -388,9 +388,9 @@ START_TEST(cuts_leave_polygons)
     int n_made = 0, n_tried = 0;
     for (int k = 0; k < 2 * N_PLANS + share_of(N_MIXES); ++k) {
         pair p = pair_number(k);
-        iccp_scene s;
+        iccp_domain_pair s;
         iccp_cutter cutter;
-        ck_assert_int_eq(iccp_scene_create(&s, p.domain[0], p.domain[1], &env), ICC_OK);
+        ck_assert_int_eq(iccp_domain_pair_create(&s, p.domain[0], p.domain[1], &env), ICC_OK);
         ck_assert_int_eq(iccp_cutter_create(&cutter, &s, &env), ICC_OK);
         for (uint64_t tree = 0; tree < TREES; ++tree) {
             iccp_cuts c;
@@ -400,7 +400,7 @@ START_TEST(cuts_leave_polygons)
             for (int side = 0; side < 2; ++side)
                 ck_assert(c.length[side] >= c.straight[side] * (1 - 1e-12));
             ++n_tried;
-            /* Rounding may be in the way of long ways round. */
+            /* Rounding may prevent an answer for long detours. */
             icc_status status[2];
             for (int side = 0; side < 2; ++side)
                 status[side] = iccp_cut_polygon_create(&polygon[side], &s, side, &c, &env);
@@ -422,7 +422,7 @@ START_TEST(cuts_leave_polygons)
             iccp_cuts_free(&c);
         }
         iccp_cutter_free(&cutter);
-        iccp_scene_free(&s);
+        iccp_domain_pair_free(&s);
         free_pair(&p);
     }
     ck_assert_int_ge(100 * n_made, 95 * n_tried);
@@ -435,14 +435,14 @@ START_TEST(no_polygon)
     const iccp_env env = default_env();
     const plan p = walled();
     icc_domain *domain = plan_domain(&p);
-    iccp_scene s;
+    iccp_domain_pair s;
     iccp_cut_polygon polygon;
     static const uint32_t ends[3][6] = {{0, 4, 6, 7, 7, 1},  /* across the wall */
                                         {0, 4, 6, 2, 7, 0},  /* across it, too */
                                         {0, 4, 3, 5, 0, 6}}; /* a ring, and point 7 left out */
     static const icc_status expected[3] = {ICC_ERR_CERTIFICATE, ICC_ERR_CERTIFICATE,
                                            ICC_ERR_TOPOLOGY};
-    ck_assert_int_eq(iccp_scene_create(&s, domain, domain, &env), ICC_OK);
+    ck_assert_int_eq(iccp_domain_pair_create(&s, domain, domain, &env), ICC_OK);
     for (int k = 0; k < 3; ++k) {
         iccp_cuts c;
         ck_assert_int_eq(iccp_cuts_begin(&c, 3, &env.memory), ICC_OK);
@@ -450,7 +450,7 @@ START_TEST(no_polygon)
         ck_assert_int_eq(iccp_cut_polygon_create(&polygon, &s, 0, &c, &env), expected[k]);
         iccp_cuts_free(&c);
     }
-    iccp_scene_free(&s);
+    iccp_domain_pair_free(&s);
     icc_domain_free(domain);
 }
 END_TEST
@@ -496,9 +496,9 @@ int main(void)
 {
     Suite *suite = suite_create("cuts");
     TCase *c = tcase_create("cuts");
-    tcase_add_test(c, scenes_are_triangulated);
-    tcase_add_test(c, routes_go_round);
-    tcase_add_test(c, lines_are_taut);
+    tcase_add_test(c, pairs_are_triangulated);
+    tcase_add_test(c, paths_go_round);
+    tcase_add_test(c, lines_are_short);
     tcase_add_test(c, cuts_leave_polygons);
     tcase_add_test(c, no_polygon);
     tcase_add_test(c, starts_are_maps);

@@ -1,6 +1,6 @@
-/* Which way round one another features go: ties in and out, and words of crossed edges. */
+/* Isotopy classes of maps with features: ties in and out, and sequences of crossed edges. */
 #include "map/isotopy/isotopy.h"
-#include "map/isotopy/word_motion.h"
+#include "map/isotopy/sequence_motion.h"
 #include "map/map.h"
 
 #include "../../../feature_pairs.h"
@@ -67,7 +67,7 @@ static icc_map *map_with(const icc_domain *source, const icc_domain *target, siz
     return map;
 }
 
-/* Another map, by the ties of one: the same way round. */
+/* The ties of a map give another map of the same class. */
 static void check_returned(const icc_map *map)
 {
     given_tie given[MOST_TIES];
@@ -110,27 +110,29 @@ static size_t spiral(int turns, double *bends)
 }
 
 /* What the tie from the corner crosses in the domain. */
-static void read_word(iccp_words *words, const icc_domain *domain, size_t n, const double *bends)
+static void read_sequence(iccp_sequences *sequences, const icc_domain *domain, size_t n,
+                          const double *bends)
 {
     iccp_env env;
-    iccp_scene scene;
-    iccp_net net;
+    iccp_domain_pair domains;
+    iccp_triangulation triangulation;
     double local[6 * PLACES];
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_scene_create(&scene, domain, domain, &env), ICC_OK);
-    ck_assert_int_eq(
-        iccp_net_create(&net, &scene.mesh[1], scene.n, domain->vertices, &scene.walls, &env.memory),
-        ICC_OK);
+    ck_assert_int_eq(iccp_domain_pair_create(&domains, domain, domain, &env), ICC_OK);
+    ck_assert_int_eq(iccp_triangulation_create(&triangulation, &domains.mesh[1], domains.n,
+                                               domain->vertices, &domains.walls, &env.memory),
+                     ICC_OK);
     for (size_t k = 0; k < n; ++k)
         iccp_frame_in(&domain->frame, 2, bends + 2 * k, local + 2 * k);
-    ck_assert_int_eq(iccp_words_begin(words, 1, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_word_read(&words->word[0], &net, 0, 4, n, local, &env), ICC_OK);
-    iccp_net_free(&net, &env.memory);
-    iccp_scene_free(&scene);
+    ck_assert_int_eq(iccp_sequences_begin(sequences, 1, &env.memory), ICC_OK);
+    ck_assert_int_eq(
+        iccp_sequence_read(&sequences->sequence[0], &triangulation, 0, 4, n, local, &env), ICC_OK);
+    iccp_triangulation_free(&triangulation, &env.memory);
+    iccp_domain_pair_free(&domains);
 }
 
 /* Both when it is drawn with few bends and as the image of the straight line. */
-static void check_tie_from_corner(const icc_map *map, const iccp_words *wanted)
+static void check_tie_from_corner(const icc_map *map, const iccp_sequences *wanted)
 {
     given_tie given[MOST_TIES];
     icc_tie ties[MOST_TIES];
@@ -140,12 +142,12 @@ static void check_tie_from_corner(const icc_map *map, const iccp_words *wanted)
     ck_assert(ties[k].vertex[0] == 0 && ties[k].vertex[1] == 4 && ties[k].n_source == 0);
     ck_assert(ties[1 - k].vertex[0] == 4 && ties[1 - k].vertex[1] == 5 &&
               ties[1 - k].n_target == 0);
-    iccp_words drawn;
-    read_word(&drawn, map->target_domain, ties[k].n_target, ties[k].target);
-    ck_assert(iccp_words_same(&drawn, wanted));
-    iccp_words own = {.n = 1, .word = &map->isotopy->words.word[k]};
-    ck_assert(iccp_words_same(&own, wanted));
-    iccp_words_free(&drawn);
+    iccp_sequences drawn;
+    read_sequence(&drawn, map->target_domain, ties[k].n_target, ties[k].target);
+    ck_assert(iccp_sequences_same(&drawn, wanted));
+    iccp_sequences own = {.n = 1, .sequence = &map->isotopy->sequences.sequence[k]};
+    ck_assert(iccp_sequences_same(&own, wanted));
+    iccp_sequences_free(&drawn);
     free_ties(given, n);
 }
 
@@ -162,9 +164,9 @@ START_TEST(turns)
         const icc_tie ties[2] = {
             {.size = sizeof *ties, .vertex = {0, 4}, .n_target = n, .target = bends},
             {.size = sizeof *ties, .vertex = {4, 5}}};
-        iccp_words wanted;
-        read_word(&wanted, domain, n, bends);
-        ck_assert((wanted.word[0].n == 0) == (k == 0));
+        iccp_sequences wanted;
+        read_sequence(&wanted, domain, n, bends);
+        ck_assert((wanted.sequence[0].n == 0) == (k == 0));
         icc_map *map = map_with(domain, domain, 2, ties, 0), *better, *next, *loaded;
         const icc_map_info info = info_of(map);
         ck_assert_double_le(info.energy, LARGEST[k]);
@@ -189,7 +191,7 @@ START_TEST(turns)
         icc_map_free(next);
         icc_map_free(better);
         icc_map_free(map);
-        iccp_words_free(&wanted);
+        iccp_sequences_free(&wanted);
     }
     icc_domain_free(domain);
 }
@@ -299,8 +301,8 @@ START_TEST(carried_round)
 }
 END_TEST
 
-/* Words that move with vertices to other places and back are what they were, whatever flips on the
- * way. */
+/* Sequences that move with the vertices to other places and back are unchanged, whatever edges flip
+ * on the way. */
 START_TEST(there_and_back)
 {
     random_source r = {8};
@@ -312,38 +314,40 @@ START_TEST(there_and_back)
         const plan here = random_plan(&r, n), there = random_plan(&r, n);
         icc_domain *domains[2] = {plan_domain(&here), plan_domain(&there)};
         icc_map *map = map_with(domains[0], domains[0], 0, NULL, -1);
-        iccp_scene scene;
-        iccp_net net;
-        iccp_moving_net moving;
+        iccp_domain_pair pair;
+        iccp_triangulation triangulation;
+        iccp_moving_triangulation moving;
         bool arrived;
-        ck_assert_int_eq(iccp_scene_create(&scene, domains[0], domains[0], &env), ICC_OK);
-        ck_assert_int_eq(iccp_net_create(&net, &scene.mesh[1], scene.n, domains[0]->vertices,
-                                         &scene.walls, &env.memory),
+        ck_assert_int_eq(iccp_domain_pair_create(&pair, domains[0], domains[0], &env), ICC_OK);
+        ck_assert_int_eq(iccp_triangulation_create(&triangulation, &pair.mesh[1], pair.n,
+                                                   domains[0]->vertices, &pair.walls, &env.memory),
                          ICC_OK);
+        ck_assert_int_eq(iccp_moving_triangulation_create(&moving, &triangulation, pair.n,
+                                                          domains[0]->vertices, &env.memory),
+                         ICC_OK);
+        iccp_sequences *sequences = &map->isotopy->sequences;
         ck_assert_int_eq(
-            iccp_moving_net_create(&moving, &net, scene.n, domains[0]->vertices, &env.memory),
-            ICC_OK);
-        iccp_words *words = &map->isotopy->words;
-        ck_assert_int_eq(iccp_words_move(words, &moving, domains[1]->vertices, &arrived, &env),
-                         ICC_OK);
+            iccp_sequences_move(sequences, &moving, domains[1]->vertices, &arrived, &env), ICC_OK);
         if (arrived) {
-            ck_assert_int_eq(iccp_words_move(words, &moving, domains[0]->vertices, &arrived, &env),
-                             ICC_OK);
+            ck_assert_int_eq(
+                iccp_sequences_move(sequences, &moving, domains[0]->vertices, &arrived, &env),
+                ICC_OK);
             ck_assert(arrived);
-            iccp_words back;
+            iccp_sequences back;
             iccp_cuts tree;
-            ck_assert_int_eq(iccp_cuts_begin(&tree, words->n, &env.memory), ICC_OK);
-            for (size_t k = 0; k < words->n; ++k)
-                memcpy(tree.ends + 2 * k, words->word[k].ends, 2 * sizeof *tree.ends);
-            ck_assert_int_eq(iccp_words_of_cuts(&back, &tree, &moving.net, &env), ICC_OK);
-            ck_assert(iccp_words_same(words, &back));
-            iccp_words_free(&back);
+            ck_assert_int_eq(iccp_cuts_begin(&tree, sequences->n, &env.memory), ICC_OK);
+            for (size_t k = 0; k < sequences->n; ++k)
+                memcpy(tree.ends + 2 * k, sequences->sequence[k].ends, 2 * sizeof *tree.ends);
+            ck_assert_int_eq(iccp_sequences_of_cuts(&back, &tree, &moving.triangulation, &env),
+                             ICC_OK);
+            ck_assert(iccp_sequences_same(sequences, &back));
+            iccp_sequences_free(&back);
             iccp_cuts_free(&tree);
             ++n_moved;
         }
-        iccp_moving_net_free(&moving);
-        iccp_net_free(&net, &env.memory);
-        iccp_scene_free(&scene);
+        iccp_moving_triangulation_free(&moving);
+        iccp_triangulation_free(&triangulation, &env.memory);
+        iccp_domain_pair_free(&pair);
         icc_map_free(map);
         icc_domain_free(domains[0]);
         icc_domain_free(domains[1]);
@@ -352,54 +356,60 @@ START_TEST(there_and_back)
 }
 END_TEST
 
-/* ---- words ---- */
+/* ---- sequences ---- */
 
-/* A square with a point in its middle: four triangles round it. */
-START_TEST(words)
+/* A square with a point in its middle: four triangles around it. */
+START_TEST(sequences)
 {
     static uint32_t vertex[12], twin[12];
     static const uint32_t corners[12] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
     static const double points[10] = {0, 0, 4, 0, 4, 4, 0, 4, 2, 2};
     iccp_corners mesh = {vertex, twin, 4};
-    iccp_net net;
+    iccp_triangulation triangulation;
     iccp_env env;
     bool is_manifold;
-    iccp_word word = {.n = 0};
+    iccp_sequence sequence = {.n = 0};
     memcpy(vertex, corners, sizeof vertex);
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     ck_assert_int_eq(iccp_find_twins(&mesh, 5, &is_manifold, &env), ICC_OK);
-    ck_assert_int_eq(iccp_net_create(&net, &mesh, 5, points, NULL, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_triangulation_create(&triangulation, &mesh, 5, points, NULL, &env.memory),
+                     ICC_OK);
     /* Through the vertex in the middle: past it, always on the same side. */
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 0, NULL, &env), ICC_OK);
-    ck_assert(word.n == 1 && word.sides[0] == 1 && word.sides[1] == 4);
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 2, 0, NULL, &env), ICC_OK);
+    ck_assert(sequence.n == 1 && sequence.sides[0] == 1 && sequence.sides[1] == 4);
     /* Along edges, and with bends on them. */
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 4, 0, NULL, &env), ICC_OK);
-    ck_assert_uint_eq(word.n, 0);
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 4, 2, (const double[]){1, 1, 1.5, 1.5}, &env),
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 4, 0, NULL, &env), ICC_OK);
+    ck_assert_uint_eq(sequence.n, 0);
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 4, 2,
+                                        (const double[]){1, 1, 1.5, 1.5}, &env),
                      ICC_OK);
-    ck_assert_uint_eq(word.n, 0);
-    /* Round the middle, and round it the other way. */
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 2, (const double[]){1, 3, 2, 3}, &env),
-                     ICC_OK);
-    ck_assert(word.n == 1 && word.sides[0] == 4 && word.sides[1] == 3);
+    ck_assert_uint_eq(sequence.n, 0);
+    /* Around the middle on either side. */
     ck_assert_int_eq(
-        iccp_word_read(&word, &net, 0, 2, 3, (const double[]){1, 3, 1, 3, 1, 0.5}, &env), ICC_OK);
-    ck_assert(word.n == 1 && word.sides[0] == 1 && word.sides[1] == 4);
+        iccp_sequence_read(&sequence, &triangulation, 0, 2, 2, (const double[]){1, 3, 2, 3}, &env),
+        ICC_OK);
+    ck_assert(sequence.n == 1 && sequence.sides[0] == 4 && sequence.sides[1] == 3);
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 2, 3,
+                                        (const double[]){1, 3, 1, 3, 1, 0.5}, &env),
+                     ICC_OK);
+    ck_assert(sequence.n == 1 && sequence.sides[0] == 1 && sequence.sides[1] == 4);
     /* Once more than round, and back. */
     const double round[8] = {3, 1, 3, 3, 1, 3, 1, 0.5};
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 4, round, &env), ICC_OK);
-    ck_assert_uint_eq(word.n, 5);
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 2, 4, round, &env), ICC_OK);
+    ck_assert_uint_eq(sequence.n, 5);
     /* A turn about its own end is none. */
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 4, 4, round, &env), ICC_OK);
-    ck_assert_uint_eq(word.n, 0);
+    ck_assert_int_eq(iccp_sequence_read(&sequence, &triangulation, 0, 4, 4, round, &env), ICC_OK);
+    ck_assert_uint_eq(sequence.n, 0);
     /* Outside. */
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 1, (const double[]){5, 2}, &env),
-                     ICC_ERR_TOPOLOGY);
-    ck_assert_int_eq(iccp_word_read(&word, &net, 0, 2, 1, (const double[]){-1, 2}, &env),
-                     ICC_ERR_TOPOLOGY);
-    ck_assert_uint_eq(mesh.vertex[iccp_net_edge(&net, 1, 4)], 0);
-    iccp_free(&env.memory, word.sides);
-    iccp_net_free(&net, &env.memory);
+    ck_assert_int_eq(
+        iccp_sequence_read(&sequence, &triangulation, 0, 2, 1, (const double[]){5, 2}, &env),
+        ICC_ERR_TOPOLOGY);
+    ck_assert_int_eq(
+        iccp_sequence_read(&sequence, &triangulation, 0, 2, 1, (const double[]){-1, 2}, &env),
+        ICC_ERR_TOPOLOGY);
+    ck_assert_uint_eq(mesh.vertex[iccp_triangulation_edge(&triangulation, 1, 4)], 0);
+    iccp_free(&env.memory, sequence.sides);
+    iccp_triangulation_free(&triangulation, &env.memory);
 }
 END_TEST
 
@@ -412,7 +422,7 @@ int main(void)
     tcase_add_test(c, random_returned);
     tcase_add_test(c, carried_round);
     tcase_add_test(c, there_and_back);
-    tcase_add_test(c, words);
+    tcase_add_test(c, sequences);
     suite_add_tcase(suite, c);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);

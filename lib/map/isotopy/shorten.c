@@ -1,8 +1,8 @@
-/* The shortest way through a sequence of gates is found by a funnel: D. T. Lee, F. P. Preparata,
- * Euclidean shortest paths in the presence of rectilinear barriers, 1984. The gates are shares of
- * the edges that a path crosses, one for each path across an edge, disjoint and away from the
- * edge's ends; so paths neither meet one another nor a vertex. */
-#include "map/isotopy/taut.h"
+/* A funnel finds the shortest path through a sequence of gates: D. T. Lee, F. P. Preparata,
+ * Euclidean shortest paths in the presence of rectilinear barriers, 1984. Each path has its own
+ * gate on each edge that it crosses. The gates on an edge are disjoint and do not reach its ends,
+ * so paths meet neither one another nor a vertex. */
+#include "map/isotopy/shorten.h"
 
 #include "math/elementary.h"
 #include "math/predicates.h"
@@ -11,12 +11,12 @@
 
 static const uint32_t NONE = ICCP_NO_NEIGHBOUR;
 
-/* What is left free on either side of a lane, as a share of what it has of its edge. */
+/* Free margin on either side of a lane, as a share of the path's part of the edge. */
 static const double MARGIN = 0.2;
 
-icc_status iccp_lanes_create(iccp_lanes *lanes, const iccp_routes *r)
+icc_status iccp_lanes_create(iccp_lanes *lanes, const iccp_path_search *r)
 {
-    const size_t n = r->scene->n, n_corners = 3 * r->scene->mesh[r->side].n_triangles;
+    const size_t n = r->domains->n, n_corners = 3 * r->domains->mesh[r->side].n_triangles;
     lanes->share = iccp_alloc_zero(&r->memory, r->n_vertices - n, 2 * sizeof *lanes->share);
     if (lanes->share == NULL)
         return ICC_ERR_MEMORY;
@@ -74,12 +74,12 @@ void iccp_polyline_free(iccp_polyline *line, const iccp_memory *memory)
 }
 
 /* The right and the left end of a crossing's lane. */
-static void gate_of(const iccp_routes *r, const iccp_lanes *lanes, uint32_t vertex,
+static void gate_of(const iccp_path_search *r, const iccp_lanes *lanes, uint32_t vertex,
                     double gate[2][2])
 {
-    const size_t k = vertex - r->scene->n;
+    const size_t k = vertex - r->domains->n;
     const iccp_crossing *c = &r->crossing[k];
-    const uint32_t *v = r->scene->mesh[r->side].vertex;
+    const uint32_t *v = r->domains->mesh[r->side].vertex;
     const double *a = r->points + 2 * (size_t)v[iccp_after(c->edge)];
     const double *b = r->points + 2 * (size_t)v[iccp_before(c->edge)];
     for (int side = 0; side < 2; ++side) {
@@ -89,16 +89,16 @@ static void gate_of(const iccp_routes *r, const iccp_lanes *lanes, uint32_t vert
     }
 }
 
-/* Whether the point lies right (side 0) or left (side 1) of the ray from a to b, or on it. */
+/* Returns true if p lies right (side 0) or left (side 1) of the ray from a to b, or on it. */
 static bool is_beyond(const double *a, const double *b, const double *p, int side)
 {
     const double area = iccp_area2d(a, b, p);
     return side == 0 ? area <= 0 : area >= 0;
 }
 
-/* Gates in, bends out: between the two sides of the funnel, which begin at its apex, lies all that
- * can be seen from there. When one side passes the other, the other's end is the next bend, and
- * becomes the apex. */
+/* Turns gates into bends. The funnel begins at its apex, and everything visible from there lies
+ * between its two sides. When one side passes the other, the end of the other side is the next bend
+ * and becomes the apex. */
 static icc_status pull(iccp_polyline *line, const double (*gates)[2][2], size_t n,
                        const double from[2], const iccp_memory *memory)
 {
@@ -108,7 +108,7 @@ static icc_status pull(iccp_polyline *line, const double (*gates)[2][2], size_t 
     for (size_t k = 0; status == ICC_OK && k < n; ++k)
         for (int side = 0; side < 2; ++side) {
             const double *p = gates[k][side];
-            /* Not narrower: the side stays. */
+            /* The gate does not narrow this side. */
             if (end[side] != apex && !is_beyond(apex, end[side], p, 1 - side))
                 continue;
             if (end[1 - side] == apex || is_beyond(apex, end[1 - side], p, side)) {
@@ -126,8 +126,8 @@ static icc_status pull(iccp_polyline *line, const double (*gates)[2][2], size_t 
     return status;
 }
 
-icc_status iccp_taut(iccp_polyline *line, const iccp_routes *r, const iccp_lanes *lanes,
-                     size_t path)
+icc_status iccp_shorten_path(iccp_polyline *line, const iccp_path_search *r,
+                             const iccp_lanes *lanes, size_t path)
 {
     const iccp_path_ends *ends = &r->path[path];
     const double *from = r->points + 2 * (size_t)ends->vertex[0];
@@ -137,7 +137,7 @@ icc_status iccp_taut(iccp_polyline *line, const iccp_routes *r, const iccp_lanes
     if (gates == NULL)
         return ICC_ERR_MEMORY;
     for (uint32_t v = ends->first; v < ends->first + ends->n && !ends->is_straight; ++v)
-        if (r->crossing[v - r->scene->n].edge != NONE)
+        if (r->crossing[v - r->domains->n].edge != NONE)
             gate_of(r, lanes, v, gates[n++]);
     memcpy(gates[n][0], to, 2 * sizeof *to);
     memcpy(gates[n++][1], to, 2 * sizeof *to);

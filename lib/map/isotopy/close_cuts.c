@@ -1,6 +1,6 @@
-/* Corners of the cut polygon that come together when partners are joined become one vertex:
- * their classes are sets that are joined (base/sets.h). */
-#include "map/isotopy/glue.h"
+/* Two edges of the cut polygon that are partners become one edge. Their corners become common
+ * vertices, which are found with disjoint sets (base/sets.h). */
+#include "map/isotopy/close_cuts.h"
 
 #include "base/sets.h"
 
@@ -8,7 +8,8 @@
 
 static const uint32_t NONE = ICCP_NO_NEIGHBOUR;
 
-/* The corners of the polygon, joined; those with the smallest numbers stand for the others. */
+/* Joins the corners at both ends of partner edges. The smallest number in each set stands for the
+ * set. */
 static void join_corners(uint32_t *leader, const iccp_cut_polygon *p)
 {
     iccp_sets_begin(leader, p->n);
@@ -21,8 +22,8 @@ static void join_corners(uint32_t *leader, const iccp_cut_polygon *p)
     }
 }
 
-/* Numbers of vertices: number[i] for what was vertex i of the overlay. Returns how many there
- * are. */
+/* Sets number[i] to the vertex of the map for vertex i of the overlay. Returns the number of
+ * vertices of the map. */
 static uint32_t number_vertices(uint32_t *number, uint32_t *leader, uint32_t n, size_t n_vertices)
 {
     uint32_t n_left = 0;
@@ -33,8 +34,8 @@ static uint32_t number_vertices(uint32_t *number, uint32_t *leader, uint32_t n, 
     return n_left;
 }
 
-/* Triangles with the new vertices; `facing` is of each edge of the polygon the corner that faces
- * it. */
+/* Fills in the map's triangles. `facing` is work space: for each edge of the polygon, the corner
+ * that faces it. */
 static void join_triangles(iccp_plmap *map, const iccp_overlay *o, const iccp_cut_polygon *p,
                            const uint32_t *number, uint32_t *facing)
 {
@@ -51,7 +52,8 @@ static void join_triangles(iccp_plmap *map, const iccp_overlay *o, const iccp_cu
             c->twin[facing[i]] = facing[p->partner[i]];
 }
 
-/* Where a vertex of the domain is, for one that the edge of the polygon at it does not say. */
+/* Records the place of a vertex on a line or a point. The polygon's edge at such a vertex does not
+ * tell the facet. */
 static void place_feature(iccp_plmap *map, uint32_t v, const iccp_feature *f, uint32_t vertex)
 {
     const uint32_t place = vertex - f->first;
@@ -63,11 +65,12 @@ static void place_feature(iccp_plmap *map, uint32_t v, const iccp_feature *f, ui
     map->along[v] = is_last ? 1 : 0;
 }
 
-/* The facet of a ring that an edge from vertex a to vertex b, the inside on its left, is. */
+/* Records the facet of a ring for vertex v. The polygon's edge from a to b lies on the ring and has
+ * the inside on its left. */
 static void place_on_ring(iccp_plmap *map, uint32_t v, const icc_domain *domain,
-                          const iccp_scene *scene, uint32_t a, uint32_t b)
+                          const iccp_domain_pair *domains, uint32_t a, uint32_t b)
 {
-    const uint32_t component = scene->component[a];
+    const uint32_t component = domains->component[a];
     const iccp_feature *f = component > 0 ? &domain->features->item[component - 1] : NULL;
     const uint32_t first = f != NULL ? f->first : 0;
     const uint32_t first_facet = f != NULL ? f->first_facet : 0;
@@ -78,9 +81,9 @@ static void place_on_ring(iccp_plmap *map, uint32_t v, const icc_domain *domain,
 }
 
 static void place_vertices(iccp_plmap *map, const iccp_overlay *o, const iccp_cut_polygon *p,
-                           const iccp_scene *scene, const uint32_t *number)
+                           const iccp_domain_pair *domains, const uint32_t *number)
 {
-    const icc_domain *domain = scene->domain[0];
+    const icc_domain *domain = domains->domain[0];
     memset(map->fixed, 0, map->n_vertices);
     memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
     memset(map->along, 0, map->n_vertices * sizeof *map->along);
@@ -90,17 +93,18 @@ static void place_vertices(iccp_plmap *map, const iccp_overlay *o, const iccp_cu
     }
     for (uint32_t i = 0; i < p->n; ++i) {
         const uint32_t a = p->vertex[i], b = p->vertex[i + 1 < p->n ? i + 1 : 0];
-        const uint32_t component = a < scene->n ? scene->component[a] : 0;
+        const uint32_t component = a < domains->n ? domains->component[a] : 0;
         if (p->partner[i] == NONE)
-            place_on_ring(map, number[i], domain, scene, a, b);
-        else if (a < scene->n && component > 0 &&
+            place_on_ring(map, number[i], domain, domains, a, b);
+        else if (a < domains->n && component > 0 &&
                  domain->features->item[component - 1].kind != ICC_FEATURE_HOLE)
             place_feature(map, number[i], &domain->features->item[component - 1], a);
     }
 }
 
-icc_status iccp_glue(iccp_plmap *map, const iccp_overlay *overlay, const iccp_cut_polygon *polygon,
-                     const iccp_scene *scene, const iccp_env *env)
+icc_status iccp_close_cuts(iccp_plmap *map, const iccp_overlay *overlay,
+                           const iccp_cut_polygon *polygon, const iccp_domain_pair *domains,
+                           const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     uint32_t *leader = iccp_alloc(memory, polygon->n, sizeof *leader);
@@ -110,10 +114,10 @@ icc_status iccp_glue(iccp_plmap *map, const iccp_overlay *overlay, const iccp_cu
     if (leader != NULL && number != NULL) {
         join_corners(leader, polygon);
         const uint32_t n = number_vertices(number, leader, polygon->n, overlay->n_vertices);
-        status = iccp_plmap_begin(map, n, overlay->corners.n_triangles, 1 / scene->scale, memory);
+        status = iccp_plmap_begin(map, n, overlay->corners.n_triangles, 1 / domains->scale, memory);
     }
     if (status == ICC_OK) {
-        place_vertices(map, overlay, polygon, scene, number);
+        place_vertices(map, overlay, polygon, domains, number);
         join_triangles(map, overlay, polygon, number, leader);
     }
     iccp_free(memory, leader);

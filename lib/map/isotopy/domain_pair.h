@@ -1,0 +1,57 @@
+/* Two domains whose features correspond, each triangulated by its own vertices and walls.
+ *
+ * Words of this folder
+ * - component: the outer ring, or one feature (a hole, a line or a point).
+ * - wall: an edge of a ring or a segment of a line. No path crosses a wall.
+ * - bare triangulation: the triangulation of a domain that has no vertices but the domain's own.
+ * - cut: a pair of corresponding paths, one in each domain, that joins two components.
+ * - tie: the public name (icc_tie) of a cut that the caller gives or reads.
+ * - crossing: the place where a path crosses an edge of the bare triangulation.
+ * - sequence: the edges that a path crosses, in order. It is the path's isotopy class.
+ * - class: two maps are in one class if one can be moved to the other while it stays one-to-one.
+ *
+ * Invariants
+ * - The cuts form a tree that joins all components. So cutting a domain open leaves one polygon.
+ * - Both domains' cuts leave each vertex in the same order, between the same walls.
+ * - Predicates decide on which side a path passes a vertex, so classes are exact.
+ *
+ * Ways
+ * - Without ties: cuts.h chooses cuts, path_search.h finds their paths, shorten.h draws them.
+ * - With ties: ties.h reads the caller's cuts.
+ * - Map to class: isotopy.h, by crossing_sequence.h. After a motion: sequence_motion.h.
+ *
+ * Begin with cuts.h and isotopy.h. docs/theory.md explains the method under "features". */
+#ifndef ICCP_DOMAIN_PAIR_H
+#define ICCP_DOMAIN_PAIR_H
+
+#include "domain/features.h"
+#include "mesh/corners.h"
+
+/* Vertices are those of the domains. Component 0 is the outer ring, and component 1 + k is feature
+ * k. */
+typedef struct iccp_domain_pair {
+    iccp_memory memory;
+    const icc_domain *domain[2]; /* source, target */
+    size_t n;                    /* vertices */
+    size_t n_components, n_walls;
+    uint32_t *component; /* of each vertex */
+    uint32_t *pairs;     /* 2 n_walls vertices: edges of the rings and segments of the lines */
+    iccp_walls walls;
+    iccp_corners mesh[2]; /* the bare triangulations, constrained Delaunay; twins join triangles
+                             across lines, not across rings */
+    double scale;         /* multiplies lengths in the target to compare them with lengths in the
+                             source */
+} iccp_domain_pair;
+
+icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *source,
+                                   const icc_domain *target, const iccp_env *env);
+void iccp_domain_pair_free(iccp_domain_pair *domains);
+
+/* The constrained Delaunay triangulation of the inside of one domain. The first of the n points are
+ * the domain's vertices, and the walls include the domain's walls. The caller frees the arrays of
+ * `mesh`. */
+icc_status iccp_triangulate_inside(iccp_corners *mesh, const icc_domain *domain, size_t n,
+                                   const double *points, const iccp_walls *walls,
+                                   const iccp_env *env);
+
+#endif
