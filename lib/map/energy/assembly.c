@@ -8,13 +8,13 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-/* Added to the diagonal, relative to its mean: where negative curvature was left out the Hessian
- * may be singular. */
+/* This share of the mean diagonal is added to the diagonal. Without it the Hessian may be singular,
+ * because negative curvature is left out. */
 static const double SHIFT = 1e-10;
 
-/* Elements that a thread takes at once; the most parts of the points that look for their neighbours
- * at the same time, each of which goes through all elements; and the stretches in which elements
- * are listed. */
+/* GRAIN: elements that a thread takes at once. MOST_SEARCHES: threads that list neighbours at the
+ * same time, each of which reads all elements. STRETCHES: pieces into which the list of elements is
+ * divided. */
 enum { GRAIN = 1024, MOST_SEARCHES = 4, STRETCHES = 16 };
 
 /* ---- pattern ---- */
@@ -25,7 +25,7 @@ static ICCP_INLINE uint32_t slot_of(size_t dim, const iccp_assembly *s, size_t e
     return s->slot[s->corners[(dim + 1) * s->simplex[element] + corner]];
 }
 
-/* Numbers the free points, and lists the simplices that have one. */
+/* Numbers the free points, and lists the simplices that have a free corner. */
 static icc_status list_parts(iccp_assembly *s, const iccp_simplicial_map *map,
                              const uint8_t *movable)
 {
@@ -52,15 +52,15 @@ static icc_status list_parts(iccp_assembly *s, const iccp_simplicial_map *map,
     return ICC_OK;
 }
 
-/* Where the neighbours of the free points are listed, until their columns are written. */
+/* Holds the neighbours of the free points until their columns are written. */
 typedef struct lists {
     iccp_assembly *s;
-    size_t *room;     /* where the list of each begins */
-    uint32_t *degree; /* how long it is */
+    size_t *room;     /* where each point's list begins */
+    uint32_t *degree; /* the length of each list */
     uint32_t *list;
 } lists;
 
-/* Neighbours of free points [begin, end) among all free ones, each once. */
+/* Lists the free neighbours of free points [begin, end), each once. */
 static ICCP_INLINE void list_neighbours(size_t dim, const lists *l, size_t begin, size_t end)
 {
     const iccp_assembly *s = l->s;
@@ -134,7 +134,8 @@ static icc_status build_pattern(lists *l, const iccp_env *env)
                              : ICC_ERR_MEMORY;
 }
 
-/* Neighbours are listed with room for each pair of corners, then the pattern without it. */
+/* Lists the neighbours first, with room for every pair of corners. Then writes the pattern in
+ * exactly the room that it needs. */
 static icc_status find_pattern(iccp_assembly *s, const iccp_env *env)
 {
     const size_t dim = s->dim;
@@ -163,7 +164,7 @@ static icc_status find_pattern(iccp_assembly *s, const iccp_env *env)
     return status;
 }
 
-/* Room for the sums. */
+/* Allocates the sums. */
 static icc_status make_room(iccp_assembly *s)
 {
     const size_t n = s->dim * s->n_free;
@@ -236,7 +237,7 @@ typedef struct elimination {
     const uint32_t *position;
 } elimination;
 
-/* Pairs of corners whose entry the factorisation does not read are left out. */
+/* Leaves out pairs of corners whose entry the factorisation does not read. */
 static icc_status leave_out(void *argument, size_t begin, size_t end)
 {
     const elimination *el = argument;
@@ -253,7 +254,7 @@ static icc_status leave_out(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The parts in which an element has a corner, each once; how many there are. */
+/* Lists the parts in which an element has a corner, each once. Returns their number. */
 static ICCP_INLINE size_t parts_of(size_t dim, const iccp_assembly *s, size_t element,
                                    uint32_t part[4])
 {
@@ -270,11 +271,12 @@ static ICCP_INLINE size_t parts_of(size_t dim, const iccp_assembly *s, size_t el
     return n;
 }
 
-/* Elements are listed in stretches, each by one thread. */
+/* Each thread lists the elements of one stretch. */
 typedef struct listing {
     iccp_assembly *s;
-    size_t stretch; /* elements of each */
-    size_t *place;  /* by stretch and part: how many elements it has there, then where they go */
+    size_t stretch; /* elements of a stretch */
+    size_t *place;  /* by stretch and part: first the number of elements, then their place in the
+                       list */
 } listing;
 
 static icc_status count_elements(void *argument, size_t begin, size_t end)
@@ -299,7 +301,8 @@ static icc_status place_elements(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Two passes: the first counts the elements of each part, the second fills them in, in order. */
+/* Works in two passes: the first counts the elements of each part, and the second fills them in, in
+ * order. */
 static icc_status list_elements(iccp_assembly *s, const iccp_env *env)
 {
     const size_t stretch = s->n_elements / STRETCHES + 1;
@@ -362,7 +365,7 @@ void iccp_assembly_begin(iccp_assembly *assembly, size_t begin, size_t end)
     memset(s->value + s->first[row], 0, n_values * sizeof *s->value);
 }
 
-/* First each corner's gradient and own block, then the blocks of each pair of corners. */
+/* Adds each corner's gradient and own block, then the blocks of all pairs of corners. */
 static ICCP_INLINE void add(size_t dim, iccp_assembly *s, size_t part, size_t element,
                             const iccp_local *local)
 {

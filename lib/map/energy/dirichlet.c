@@ -30,8 +30,9 @@ static ICCP_INLINE void mix_modes(size_t dim, const iccp_singular *s, size_t k, 
             mode[dim * r + c] = a * s->u[k][r] * s->v[l][c] + b * s->u[l][r] * s->v[k][c];
 }
 
-/* The modes of the sum of h(sigma_k), h = sigma^2 + sigma^-2: the singular values themselves, and a
- * flip and a twist for each two of them. Only twists may have negative curvature. */
+/* Adds the modes of the sum of h(sigma_k), where h = sigma^2 + sigma^-2. They are the singular
+ * values themselves, and a flip and a twist for each pair of them. Only twists may have negative
+ * curvature. */
 static ICCP_INLINE void add_newton_modes(size_t dim, const double *element, const iccp_singular *s,
                                          double *hessian)
 {
@@ -58,7 +59,7 @@ static ICCP_INLINE void add_newton_modes(size_t dim, const double *element, cons
         }
 }
 
-/* The same in space, where the Hessian is put together from blocks. */
+/* Sets the Hessian in space, which is put together from blocks. */
 static void set_newton3(const double *element, const iccp_singular *s, double *hessian)
 {
     iccp_modes h;
@@ -78,7 +79,7 @@ static void set_newton3(const double *element, const iccp_singular *s, double *h
     iccp_modes_hessian(element, &h, s, hessian);
 }
 
-/* SLIM's weights: |W (J - R)|^2 has the energy's gradient; W^2 = u diag(m) u^T. */
+/* Adds SLIM's quadratic model: |W (J - R)|^2 has the energy's gradient, and W^2 = u diag(m) u^T. */
 static ICCP_INLINE void add_majorant(size_t dim, const double *element, const iccp_singular *s,
                                      double *hessian)
 {
@@ -102,7 +103,7 @@ static ICCP_INLINE void add_majorant(size_t dim, const double *element, const ic
         }
 }
 
-/* By J the gradient is the sum of h'(sigma_k) u_k v_k^T. */
+/* The gradient with respect to J is the sum of h'(sigma_k) u_k v_k^T. */
 static ICCP_INLINE void set_local(size_t dim, const double *element, const double *const *image,
                                   bool majorise, iccp_local *local)
 {

@@ -8,11 +8,11 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* |J|^2 + |J^-1|^2 times the element's area or volume: 2 dim times it for an isometry, infinite
- * when the image is not positive. */
+/* Returns |J|^2 + |J^-1|^2 times the element's area or volume. It is 2 dim times the measure for an
+ * isometry, and infinite if the image is not positive. */
 double iccp_dirichlet_energy(size_t dim, const double *element, const double *const *image);
 
-/* In the plane, where |J^-1| = |J| / det. */
+/* The plane's version, where |J^-1| = |J| / det. */
 static ICCP_INLINE double iccp_dirichlet_energy2(const double *element, const double *const *image)
 {
     double j[4];
@@ -20,20 +20,21 @@ static ICCP_INLINE double iccp_dirichlet_energy2(const double *element, const do
     return det > 0 ? element[0] * iccp_squared_norm(2, j) * (1 + 1 / (det * det)) : HUGE_VAL;
 }
 
-/* With `majorise`, the Hessian is that of SLIM's quadratic model, which copes with a bad start;
- * otherwise the energy's own. The image must be positive. */
+/* With `majorise`, the Hessian is that of SLIM's quadratic model, which copes with a bad start.
+ * Without it, the Hessian is the energy's own. The image must be positive. */
 void iccp_dirichlet_local(size_t dim, const double *element, const double *const *image,
                           bool majorise, iccp_local *local);
 
-/* Triangles that are looked at side by side, some of which may be one: their elements, and the
- * images of corner k of each. */
+/* Triangles that are computed side by side: their elements, and the images of corner k of each.
+ * Several of them may be the same triangle. */
 enum { ICCP_DIRICHLET_LANES = 4 };
 typedef struct iccp_dirichlet_batch {
     const double *element[ICCP_DIRICHLET_LANES], *image[3][ICCP_DIRICHLET_LANES];
 } iccp_dirichlet_batch;
 
-/* What iccp_dirichlet_local() gives for each triangle of a batch, and the same bits, with the
- * instructions of that level; with those of AVX2; and with WebAssembly's vectors. */
+/* Sets what iccp_dirichlet_local() gives for each triangle of a batch, with the same bits. The
+ * first function chooses the instructions by the level. The others use AVX2 and WebAssembly's
+ * vectors. */
 void iccp_dirichlet_locals(iccp_simd_level level, const iccp_dirichlet_batch *batch, bool majorise,
                            iccp_local *local);
 void iccp_dirichlet_locals_avx2(const iccp_dirichlet_batch *batch, bool majorise,

@@ -1,4 +1,5 @@
-/* Four triangles side by side. */
+/* Computes the symmetric Dirichlet energy's derivatives for four triangles side by side, with
+ * AVX2. */
 #include "base/simd.h"
 
 #ifdef ICCP_HAS_SIMD

@@ -1,7 +1,9 @@
-/* As dirichlet.c in the plane, operation by operation, for LANES triangles side by side: what is
- * chosen there by a branch is blended here. What includes this file says for which processor
- * (TARGET), and has gather(), which takes number i of each array, square_root(), and store(), which
- * puts four numbers of each triangle where they belong. */
+/* Does the same as dirichlet.c in the plane, operation by operation, for LANES triangles side by
+ * side. A branch there is a blend here.
+ *
+ * The file that includes this one names the processor (TARGET). It also defines three functions:
+ * gather() takes number i of each array, square_root() takes roots, and store() writes four numbers
+ * of each triangle. */
 #ifndef ICCP_DIRICHLET_LANES_H
 #define ICCP_DIRICHLET_LANES_H
 
@@ -9,9 +11,10 @@
 
 #include <stdint.h>
 
-/* Lane l of every number is triangle l's. */
+/* Lane l of every number belongs to triangle l. */
 typedef double reals __attribute__((vector_size(8 * LANES)));
-typedef int64_t masks __attribute__((vector_size(8 * LANES))); /* all bits of a lane, or none */
+/* each lane has all bits set, or none */
+typedef int64_t masks __attribute__((vector_size(8 * LANES)));
 
 typedef struct triangles {
     reals element[ICCP_ELEMENT(2)], j[4];
@@ -23,7 +26,7 @@ TARGET static ICCP_INLINE void gather(const double *const *array, size_t i, real
 TARGET static ICCP_INLINE void square_root(const reals *x, reals *root);
 TARGET static ICCP_INLINE void store(const reals x[4], double *const *to);
 
-/* a where the mask is set, elsewhere b. */
+/* Chooses a where the mask is set and b elsewhere. */
 TARGET static ICCP_INLINE void blend(const masks *where, const reals *a, const reals *b, reals *x)
 {
     *x = (reals)((*where & (masks)*a) | (~*where & (masks)*b));
@@ -43,7 +46,7 @@ TARGET static ICCP_INLINE void take(triangles *t, const iccp_dirichlet_batch *ba
     }
 }
 
-/* iccp_singular_find() */
+/* See iccp_singular_find(). */
 TARGET static ICCP_INLINE void find_singular(triangles *t)
 {
     const reals *j = t->j, one = (reals){0} + 1;
@@ -71,7 +74,7 @@ TARGET static ICCP_INLINE void find_singular(triangles *t)
     t->u[1][0] = -t->u[0][1];
 }
 
-/* iccp_pull_back() */
+/* See iccp_pull_back(). */
 TARGET static ICCP_INLINE void pull_back(const triangles *t, const reals by_j[4],
                                          const reals *factor, reals by_corner[6])
 {
@@ -92,7 +95,8 @@ TARGET static ICCP_INLINE void set_gradient(triangles *t)
     pull_back(t, by_j, &t->element[0], t->gradient);
 }
 
-/* iccp_add_mode() of each mode in turn, entry by entry: the sum of one stays in a register. */
+/* Does iccp_add_mode() for each mode in turn, entry by entry, so that each sum stays in a
+ * register. */
 TARGET static ICCP_INLINE void add_modes(triangles *t, reals mode[4][4], const reals weight[4])
 {
     const reals one = (reals){0} + 1;
@@ -109,7 +113,7 @@ TARGET static ICCP_INLINE void add_modes(triangles *t, reals mode[4][4], const r
     }
 }
 
-/* A twist of negative curvature gets the weight 0. */
+/* A twist with negative curvature gets the weight 0. */
 TARGET static ICCP_INLINE void add_newton_modes(triangles *t)
 {
     const double half = sqrt(0.5);
@@ -151,7 +155,7 @@ TARGET static ICCP_INLINE void add_majorant(triangles *t)
         }
 }
 
-/* Of the six numbers of a gradient, the two in the middle are stored twice. */
+/* Stores the results. The two middle numbers of the six of a gradient are stored twice. */
 TARGET static ICCP_INLINE void give(const triangles *t, iccp_local *local)
 {
     double *to[LANES];
@@ -167,7 +171,7 @@ TARGET static ICCP_INLINE void give(const triangles *t, iccp_local *local)
     }
 }
 
-/* What iccp_dirichlet_local() gives for triangles first, ..., first + LANES - 1 of a batch. */
+/* Sets what iccp_dirichlet_local() gives for triangles first, ..., first + LANES - 1 of a batch. */
 TARGET static ICCP_INLINE void set_locals(const iccp_dirichlet_batch *batch, size_t first,
                                           bool majorise, iccp_local *local)
 {

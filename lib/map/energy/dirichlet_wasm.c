@@ -1,4 +1,5 @@
-/* Two triangles side by side, twice: WebAssembly's vectors have 128 bits. */
+/* Computes the symmetric Dirichlet energy's derivatives for two triangles side by side, twice,
+ * because WebAssembly's vectors have 128 bits. */
 #include "base/simd.h"
 
 #ifdef ICCP_HAS_WASM_SIMD

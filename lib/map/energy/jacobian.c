@@ -1,3 +1,4 @@
+/* The linear map of one simplex: adding modes to a Hessian. */
 #include "map/energy/jacobian.h"
 
 void iccp_element_create(size_t dim, const double *const *corner, double *element)
@@ -8,7 +9,7 @@ void iccp_element_create(size_t dim, const double *const *corner, double *elemen
         iccp_element_fill(3, corner, element);
 }
 
-/* Two columns at a time, which compilers turn into vector instructions. */
+/* Handles two columns at a time, which compilers turn into vector instructions. */
 static ICCP_INLINE void add_mode(size_t dim, const double *element, const double *mode,
                                  double weight, double *hessian)
 {

@@ -1,4 +1,4 @@
-/* The linear map of one simplex in the plane or in space, dim = 2 or 3. */
+/* The linear map of one simplex in the plane or in space, where dim is 2 or 3. */
 #ifndef ICCP_JACOBIAN_H
 #define ICCP_JACOBIAN_H
 
@@ -6,30 +6,31 @@
 
 #include <stddef.h>
 
-/* Doubles of an element, which is a simplex before the map: its area or volume, then the gradients
- * of its dim + 1 barycentric coordinates. */
+/* The number of doubles in an element. An element describes a simplex before the map: its area or
+ * volume, then the gradients of its dim + 1 barycentric coordinates. */
 #define ICCP_ELEMENT(dim) (1 + (dim) * ((dim) + 1))
 enum { ICCP_MAX_ELEMENT = ICCP_ELEMENT(3) };
 
-/* An energy of one simplex by the images of its corners, n = dim (dim + 1) coordinates corner by
- * corner. The Hessian, n by n, is symmetric and positive semidefinite: negative curvature is left
- * out. */
+/* The derivatives of one simplex's energy with respect to the images of its corners. These have n =
+ * dim (dim + 1) coordinates, corner by corner. The Hessian, n by n, is symmetric and positive
+ * semidefinite, because negative curvature is left out. */
 typedef struct iccp_local {
     double gradient[12];
     double hessian[144];
 } iccp_local;
 
-/* iccp_orient() of the corners is 1. */
+/* Fills in an element. The corners must be positive: iccp_orient() of them is 1. */
 void iccp_element_create(size_t dim, const double *const *corner, double *element);
 
-/* Adds weight q q^T to a Hessian, where q is what the direction `mode` in the space of Jacobians,
- * row by row, means for the corners. */
+/* Adds weight q q^T to a Hessian. Here q is the direction `mode` in the space of Jacobians, row by
+ * row, translated to the images of the corners. */
 void iccp_add_mode(size_t dim, const double *element, const double *mode, double weight,
                    double *hessian);
 
-/* ---- parts of energies; a constant `dim` makes them straight code ---- */
+/* ---- parts of energies; a constant `dim` turns their loops into straight code ---- */
 
-/* The Jacobian, row by row, when the corners go to the images. Returns its determinant. */
+/* Computes the Jacobian, row by row, of the map that takes the corners to the images. Returns its
+ * determinant. */
 static ICCP_INLINE double iccp_element_jacobian(size_t dim, const double *element,
                                                 const double *const *image, double *j)
 {
@@ -74,8 +75,8 @@ static ICCP_INLINE void iccp_cofactors(size_t dim, const double *j, double *cofa
     }
 }
 
-/* As iccp_element_create(). By Cramer's rule: the gradients are the cofactors of the edges from
- * corner 0 over their determinant. */
+/* Fills in an element as iccp_element_create() does. Uses Cramer's rule: the gradients are the
+ * cofactors of the edges from corner 0, divided by their determinant. */
 static ICCP_INLINE void iccp_element_fill(size_t dim, const double *const *corner, double *element)
 {
     double edge[9], det = 0;
@@ -96,7 +97,7 @@ static ICCP_INLINE void iccp_element_fill(size_t dim, const double *const *corne
     }
 }
 
-/* What a direction in the space of Jacobians, row by row, means for the corners. */
+/* Translates a direction in the space of Jacobians, row by row, to the images of the corners. */
 static ICCP_INLINE void iccp_pull_back(size_t dim, const double *element, const double *by_j,
                                        double factor, double *by_corner)
 {

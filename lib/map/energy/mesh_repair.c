@@ -1,3 +1,4 @@
+/* Repairs the image of a caller's mesh: gives every point an image, then untangles. */
 #include "map/energy/mesh_repair.h"
 
 #include "map/energy/untangle.h"
@@ -24,8 +25,8 @@ static void add_corner(const iccp_simplices *mesh, const double *images, uint32_
     sum[mesh->dim] += 1;
 }
 
-/* Puts the points that have neighbours with images to the mean of these; returns whether any is
- * left. `sum`: dim + 1 for each point. */
+/* Moves each point without an image to the mean of its neighbours' images, if there are any.
+ * Returns true if points without an image are left. `sum` has dim + 1 numbers for each point. */
 static bool place_ring(const iccp_simplices *mesh, double *images, double *sum)
 {
     const size_t n = mesh->dim + 1;

@@ -1,21 +1,22 @@
-/* Repairing the image of a caller's mesh. */
+/* Repairs the image of a caller's mesh. */
 #ifndef ICCP_MESH_REPAIR_H
 #define ICCP_MESH_REPAIR_H
 
 #include "geometry/simplices.h"
 
-/* Moves the images, dim coordinates each, of inner points of a mesh in 2-D or 3-D until the images
- * of all simplices are positive, as far as that goes, or as so many steps for each do: HUGE_VAL, no
- * limit but those of iccp_untangle(). Inner points that have none, but coordinates that are not
- * finite, get one first. */
+/* Moves the images of inner points of a mesh in 2-D or 3-D until the images of all simplices are
+ * positive. The images have dim coordinates each. It may fail, or stop after `most` steps for each
+ * simplex. HUGE_VAL leaves only the limits of iccp_untangle(). An inner point whose image is not
+ * finite first gets an image by iccp_mesh_place(). */
 icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, double most,
                             const iccp_env *env);
 
-/* That: the mean of its neighbours' images, ring by ring from the boundary. */
+/* Gives inner points without a finite image the mean of their neighbours' images, ring by ring from
+ * the boundary. */
 icc_status iccp_mesh_place(const iccp_simplices *mesh, double *images, const iccp_env *env);
 
-/* Makes coordinates of the images of inner points 0 that are next to nothing beside the largest, so
- * that there is room for exact signs. */
+/* Sets tiny coordinates of inner points' images to 0, so that exact signs can be computed. Tiny
+ * means next to nothing beside the largest coordinate. */
 void iccp_mesh_round(const iccp_simplices *mesh, double *images);
 
 #endif

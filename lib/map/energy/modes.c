@@ -1,11 +1,11 @@
-/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019: in
- * the basis of the singular vectors the Hessian falls apart. */
+/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019: the
+ * Hessian is block diagonal in the basis of the singular vectors. */
 #include "map/energy/modes.h"
 
 typedef double matrix[3][3];
 
-/* The block of two corners whose gradients have coordinates `a` and `b` in the basis v, in the
- * basis u and then in that of space. */
+/* Computes the block of two corners. Their gradients have coordinates `a` and `b` in the basis v.
+ * The block is built in the basis u and then turned to that of space. */
 static void set_block(const iccp_modes *h, const iccp_singular *s, const double *a, const double *b,
                       double factor, matrix block)
 {

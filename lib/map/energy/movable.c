@@ -1,7 +1,6 @@
 /* The mesh of a cage with many vertices is fine along its boundary and coarse inside. Most of its
- * triangles lie in a strip whose area is negligible: whatever is done there hardly changes the
- * energy, and, since the boundary is fixed, nothing inside can move by more than the strip is
- * wide. */
+ * triangles lie in a strip whose area is negligible, so moving them hardly changes the energy. The
+ * boundary is fixed, so leaving them alone moves nothing inside by more than the strip's width. */
 #include "map/energy/movable.h"
 
 #include "map/energy/dirichlet.h"
@@ -11,14 +10,15 @@
 /* Meshes with fewer triangles are moved as a whole. */
 enum { FEW = 1 << 17 };
 
-/* Of the energy: what the triangles that are left alone carry above an isometry's, at most. */
+/* The triangles left alone may carry at most this share of the energy, counted above an
+ * isometry's. */
 static const double SHARE = 1e-3;
 
-/* Areas are told apart by powers of two: classes from the smallest double's to the largest's. */
+/* Areas are sorted into classes by powers of two, from the smallest double to the largest. */
 enum { CLASSES = 2200, CLASS_OF_ONE = 1100 };
 
-/* Of each triangle, and what those of a class carry above an isometry's energy. Returns the energy
- * of all. */
+/* Finds the class of each triangle, and the energy above an isometry's that each class carries.
+ * Returns the energy of all triangles. */
 static double classify(const iccp_simplicial_map *map, uint16_t *class, double excess[CLASSES])
 {
     double energy = 0;

@@ -1,5 +1,5 @@
-/* Projected Newton: J. Smith, S. Schaefer, Bijective parameterization with free boundaries, 2015.
- * Steps are solved for by factors in the plane and by conjugate gradients in space. */
+/* Projected Newton method: J. Smith, S. Schaefer, Bijective parameterization with free boundaries,
+ * 2015. A sparse factorisation computes the step in the plane, conjugate gradients in space. */
 #include "map/energy/newton.h"
 
 #include "base/minmax.h"
@@ -10,8 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Conjugate gradients end at this residual; at the second one where one simplex has most of the
- * energy, so that the step is nearly all about it. */
+/* Conjugate gradients end at this residual. The finer one is used if one simplex has most of the
+ * energy, because then nearly all of the step serves that simplex. */
 static const double RESIDUAL = 1e-2, FINE_RESIDUAL = 1e-3;
 
 /* ---- set-up ---- */
@@ -25,7 +25,7 @@ static icc_status find_elements(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* What is done side by side: nothing but the pattern is common to both. */
+/* Two tasks that run at the same time. They share only the pattern. */
 static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     iccp_newton *s = argument;
@@ -37,8 +37,8 @@ static icc_status begin_side(void *argument, size_t k, const iccp_env *env, icc_
     return ICC_OK;
 }
 
-/* In the plane the order of elimination takes one thread longer than the first Hessian: others make
- * that meanwhile, if it is known of which energy. */
+/* In the plane, finding the order of elimination takes one thread longer than the first Hessian. So
+ * other threads compute that Hessian meanwhile, if its energy is known. */
 static icc_status begin(iccp_newton *s, const iccp_energy *first, bool has_order,
                         const iccp_env *env)
 {
@@ -127,7 +127,7 @@ static icc_status solve_directly(iccp_newton *s, const iccp_symmetric *hessian, 
     return ICC_OK;
 }
 
-/* In space. */
+/* Used in space. */
 static icc_status solve_by_directions(iccp_newton *s, const iccp_symmetric *hessian,
                                       iccp_energy energy, const iccp_env *env)
 {
@@ -155,7 +155,7 @@ icc_status iccp_newton_solve(iccp_newton *newton, iccp_energy energy, double eps
     return s->map.dim == 3 || *slope <= 0 ? ICC_OK : ICC_ERR_SOLVER;
 }
 
-/* What the motion of an element's fixed corners is felt as by its free ones. */
+/* Adds the pull that the motion of an element's fixed corners exerts on its free corners. */
 static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pull)
 {
     const size_t dim = s->map.dim, n = dim * (dim + 1);
@@ -179,7 +179,7 @@ static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pul
     }
 }
 
-/* Copies what there is for free points. */
+/* Copies the free points' values to an array of all points. */
 static void hand_out(const iccp_newton *s, const double *free_points, double *all)
 {
     const size_t dim = s->map.dim;
@@ -188,7 +188,7 @@ static void hand_out(const iccp_newton *s, const double *free_points, double *al
                dim * sizeof *all);
 }
 
-/* With one factorisation for both. */
+/* Computes both answers with one factorisation. */
 static icc_status answer_and_rest(iccp_newton *s, const iccp_symmetric *hessian, double *motion,
                                   double *rest, const iccp_env *env)
 {

@@ -7,23 +7,24 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the way to the first flip. */
+/* Longest step, as a share of the way to the first flip. */
 static const double SHARE_OF_FLIP = 0.9;
 
-/* Sufficient decrease (Armijo); by how much a step is shortened, and how often. In space, where
- * nobody knows beforehand how far it is to the first flip, by less. */
+/* DECREASE: sufficient decrease (Armijo). SHORTER: factor by which a step is shortened, at most
+ * MAX_CUTS times. Steps in space are shortened less, because the way to the first flip is not known
+ * there. */
 static const double DECREASE = 1e-4, SHORTER = 0.5, SHORTER_IN_SPACE = 0.7;
 enum { MAX_CUTS = 40, MAX_CUTS_IN_SPACE = 60 };
 
-/* In space, the share of a motion that is looked at first, and how it is shortened. */
+/* In space: the share of a motion that is tried first, and the factor by which it is shortened. */
 static const double FARTHEST = 2, CLOSER = 0.9;
 
-/* Longer steps are tried where the first lowers the energy by this share, in space; in the plane,
- * by so many times what a step of 1 does in the model, which is too stiff where negative curvature
- * has been left out. */
+/* A longer step is tried if the first one lowers the energy a lot. In space that is this share of
+ * the energy. In the plane it is this multiple of the fall that the model predicts for a step of 1.
+ * The model is too stiff where negative curvature is left out. */
 static const double LARGE_FALL = 0.3, BETTER = 1.5;
 
-/* The smallest positive root of det(t) = a + b t + c t^2, where a > 0; infinite when there is
+/* The smallest positive root of det(t) = a + b t + c t^2, where a > 0, or infinity if there is
  * none. */
 static double first_root(double a, double b, double c)
 {
@@ -38,7 +39,7 @@ static double first_root(double a, double b, double c)
     return low > 0 ? low : high > 0 ? high : HUGE_VAL;
 }
 
-/* How far corners can go along d before their triangle loses its area. */
+/* How far corners can move along d before their triangle loses its area. */
 static double flip_along(const double *const p[3], const double d[3][2])
 {
     const double ux = p[1][0] - p[0][0], uy = p[1][1] - p[0][1];
@@ -61,8 +62,8 @@ static double flip_of(const iccp_newton *s, size_t e)
     return flip_along(p, (const double(*)[2])d);
 }
 
-/* A cubic is positive where its Bernstein coefficients are: of the volume of corners p that go
- * along d, up to the share t of the way. */
+/* Returns true if a tetrahedron p that moves along d keeps a positive volume up to the share t of
+ * the way. The volume is a cubic in t. It is positive if its Bernstein coefficients are. */
 static bool keeps_volume(const double *const p[4], const double *const d[4], double t)
 {
     double edge[2][9], cofactor[2][9], b[4] = {0};
@@ -128,7 +129,8 @@ static icc_status find_flips(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* How far the step can go before the first triangle loses its area, which is quadratic along it. */
+/* How far the step can go before the first triangle loses its area. The area is quadratic along the
+ * step. */
 static double flip_limit(const iccp_newton *s)
 {
     limit l = {s, HUGE_VAL};
@@ -169,9 +171,9 @@ static bool all_positive(const iccp_newton *s)
     return atomic_load(&v.is_positive);
 }
 
-/* Beyond a length, below `most`, as long as the energy falls. In space, where a simplex is all
- * but flat, Newton's model of its energy, of which most is 1 / sigma^2, only takes it a third
- * farther from that at a time. */
+/* Doubles the length, up to `most`, as long as the energy falls. In space a nearly flat simplex
+ * has an energy of about 1 / sigma^2. There a single Newton step increases sigma only by about a
+ * third. */
 static double go_on(iccp_newton *s, iccp_energy energy, double before, double length, double most)
 {
     const bool in_space = s->map.dim == 3;
@@ -186,8 +188,8 @@ static double go_on(iccp_newton *s, iccp_energy energy, double before, double le
     return before;
 }
 
-/* In space nothing but the energy, infinite for what is inverted, keeps a first step of 1 from
- * flips. */
+/* In space the first step of 1 is not limited beforehand. Only the energy prevents flips there,
+ * because it is infinite for inverted simplices. */
 double iccp_newton_move(iccp_newton *newton, iccp_energy energy, double epsilon, double before,
                         double slope)
 {

@@ -1,4 +1,4 @@
-/* What the files of Newton's method share: map/energy/newton.h. */
+/* What the files that implement map/energy/newton.h share. */
 #ifndef ICCP_NEWTON_PARTS_H
 #define ICCP_NEWTON_PARTS_H
 
@@ -14,16 +14,18 @@ struct iccp_newton_plan {
     iccp_assembly assembly; /* without sums */
     iccp_ldlt factor;       /* without numbers */
     size_t n_points, n_simplices;
-    uint32_t *corners; /* the mesh that it is for */
+    uint32_t *corners; /* the mesh that the plan is for */
 };
 
 /* Elements that a thread takes at once. */
 enum { ICCP_NEWTON_GRAIN = 512 };
 
-/* In space with threads, elements whose gradients and Hessians wait to be summed. */
+/* In space with threads: the number of elements whose gradients and Hessians are computed before
+ * they are summed. */
 enum { ICCP_NEWTON_WAITING = 1024 };
 
-/* On all threads. Chunks do not fail, and a loop without progress cannot be stopped. */
+/* Runs a loop on all threads. Its chunks cannot fail, and without progress it cannot be
+ * cancelled. */
 static inline void iccp_newton_run(const iccp_newton *s, size_t n, size_t grain, iccp_chunk chunk,
                                    void *argument)
 {
@@ -37,17 +39,17 @@ static ICCP_INLINE const double *iccp_newton_images(size_t dim, const iccp_newto
     return s->element + ICCP_ELEMENT(dim) * e;
 }
 
-/* The order of elimination; and the parts in which the matrix is summed from then on. */
+/* Find the order of elimination, then the parts in which the matrix is summed. */
 icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env);
 icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor,
                               const iccp_env *env);
 
-/* The gradient and the Hessian at the images as they are, unless they have been summed ahead: by
- * this thread alone, before there are parts. */
+/* Sums the gradient and the Hessian at the present images, unless they have been summed ahead.
+ * iccp_newton_sum_ahead() uses this thread alone and needs no parts. */
 void iccp_newton_sum(iccp_newton *newton, iccp_energy energy, double epsilon);
 void iccp_newton_sum_ahead(iccp_newton *newton, iccp_energy energy);
 
-/* Whether one simplex has more than half of the Dirichlet energy. Sets the terms. */
+/* Returns true if one simplex has more than half of the Dirichlet energy. Sets the terms. */
 bool iccp_newton_has_worst(const iccp_newton *newton);
 
 #endif

@@ -1,9 +1,9 @@
-/* What Newton's method keeps from one set of images to the next. */
+/* The plan of Newton's method, which is kept from one set of images to the next. */
 #include "map/energy/newton_parts.h"
 
 #include <string.h>
 
-/* Rows of a part of the assembly. */
+/* Rows in one part of the assembly. */
 enum { PART_ROWS = 1024 };
 
 icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, const iccp_env *env)
@@ -12,7 +12,7 @@ icc_status iccp_newton_order(const iccp_assembly *assembly, iccp_ldlt *factor, c
     return iccp_ldlt_analyse(factor, &hessian, 2, env);
 }
 
-/* Without threads parts would only cost. */
+/* Uses one part without threads, because parts would only cost time. */
 icc_status iccp_newton_divide(iccp_assembly *assembly, const iccp_ldlt *factor, const iccp_env *env)
 {
     const size_t n_threads = env->threads > 1 ? (size_t)env->threads : 1;
@@ -28,7 +28,7 @@ icc_status iccp_newton_plan_create(iccp_newton_plan **out, const iccp_simplicial
     if (plan == NULL)
         return ICC_ERR_MEMORY;
     const size_t n_corners = 3 * map->n_simplices;
-    iccp_env alone = *env; /* others have something else to do: searches would be in turn */
+    iccp_env alone = *env; /* one search by this thread; the others have other work */
     alone.threads = 1;
     plan->memory = plan->assembly.memory = plan->factor.memory = env->memory;
     atomic_init(&plan->references, 1);

@@ -1,5 +1,5 @@
-/* Sums over the elements: the energy, its gradient and its Hessian. One order for all numbers of
- * threads. */
+/* Sums over the elements: the energy, its gradient and its Hessian. The order of summation is the
+ * same for all numbers of threads. */
 #include "base/minmax.h"
 #include "map/energy/dirichlet.h"
 #include "map/energy/newton_parts.h"
@@ -7,10 +7,10 @@
 
 #include <math.h>
 
-/* Points whose sums a thread begins at once. */
+/* Points whose sums a thread clears at once. */
 enum { POINTS = 256 };
 
-/* Of the elements that wait, those that a thread takes at once. */
+/* Elements waiting to be summed that a thread takes at once. */
 enum { FEW = 64 };
 
 /* A loop over the elements, or over the parts of the assembly. */
@@ -18,7 +18,7 @@ typedef struct loop {
     iccp_newton *s;
     iccp_energy energy;
     double epsilon;
-    size_t first; /* of the elements that wait */
+    size_t first; /* the first of the waiting elements */
 } loop;
 
 static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, iccp_energy energy,
@@ -38,7 +38,7 @@ static icc_status find_terms(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* With threads the terms are found first; their sum has one order. */
+/* With threads, all terms are computed first. They are always summed in the same order. */
 static ICCP_INLINE double sum_energy(size_t dim, const iccp_newton *s, iccp_energy energy,
                                      double epsilon)
 {
@@ -87,7 +87,7 @@ static void find_local(const loop *l, size_t e, iccp_local *local)
         iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
 }
 
-/* In the plane, and not while it is untangled, several side by side. */
+/* Computes several triangles side by side, in the plane and for the Dirichlet energy. */
 static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *local)
 {
     iccp_dirichlet_batch batch;
@@ -105,7 +105,7 @@ static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *loca
     iccp_dirichlet_locals(iccp_simd(), &batch, l->energy == ICCP_DIRICHLET_MAJORISED, local);
 }
 
-/* Elements list[begin] .. list[end - 1], or begin .. end - 1. */
+/* Adds elements list[begin] .. list[end - 1], or begin .. end - 1 if `list` is NULL. */
 static void add_elements(const loop *l, size_t part, const uint32_t *list, size_t begin, size_t end)
 {
     iccp_local local[ICCP_DIRICHLET_LANES];
@@ -144,8 +144,8 @@ static icc_status find_locals(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* In space most elements would be in several parts. What they add takes long to find, and little to
- * sum in order. */
+/* In space most elements would lie in several parts. So threads compute the elements' derivatives,
+ * which takes long, and one thread sums them in order, which is quick. */
 static void assemble_some(loop *l)
 {
     const size_t left = l->s->assembly.n_elements - l->first,

@@ -1,5 +1,5 @@
-/* Patches are the components of the points that may be moved, by triangles: sets that are joined
- * (base/sets.h). */
+/* Patches are the connected components of the movable points, where two corners of one triangle are
+ * connected. They are found with disjoint sets (base/sets.h). */
 #include "map/energy/patches.h"
 
 #include "base/sets.h"
@@ -13,7 +13,7 @@ static bool is_movable(const iccp_patches *s, uint32_t point)
     return s->movable[point] && !iccp_simplicial_is_fixed(s->map, point);
 }
 
-/* The movable corner of a triangle that comes first, or NONE. */
+/* Returns the first movable corner of a triangle, or NONE. */
 static uint32_t handle_of(const iccp_patches *s, size_t triangle)
 {
     const uint32_t *v = s->map->corners + 3 * triangle;
@@ -23,7 +23,7 @@ static uint32_t handle_of(const iccp_patches *s, size_t triangle)
     return NONE;
 }
 
-/* Corners of one triangle that may be moved get one leader. */
+/* Joins the movable corners of each triangle. */
 static void join(iccp_patches *s, uint32_t *leader)
 {
     iccp_sets_begin(leader, s->map->n_points);
@@ -35,8 +35,8 @@ static void join(iccp_patches *s, uint32_t *leader)
     }
 }
 
-/* Patches are numbered as their first triangles are; then each triangle is put in its place.
- * Returns how many the largest patch has. */
+/* Numbers the patches in the order of their first triangles, then lists the triangles patch by
+ * patch. Returns the number of triangles in the largest patch. */
 static size_t sort(iccp_patches *s, uint32_t *leader)
 {
     uint32_t *const patch = s->local;

@@ -1,3 +1,4 @@
+/* Piecewise linear maps: signs, energies and Jacobians of their simplices. */
 #include "map/energy/simplicial_map.h"
 
 #include "base/threads.h"
@@ -6,7 +7,8 @@
 
 #include <stdatomic.h>
 
-/* Simplices that a thread takes at once, and those whose terms wait to be summed in order. */
+/* GRAIN: simplices that a thread takes at once. BLOCK: simplices whose terms are computed before
+ * they are summed in order. */
 enum { GRAIN = 512, BLOCK = 4 * GRAIN };
 
 /* In units of the local coordinates, the largest of which is about 1. */
@@ -74,7 +76,7 @@ static bool has_image(const iccp_simplicial_map *map, size_t simplex)
     return is_finite;
 }
 
-/* What is good is counted, so that what was not looked at counts as inverted. */
+/* Counts positive simplices, so that simplices that were not checked count as inverted. */
 typedef struct counting {
     const iccp_simplicial_map *map;
     atomic_size_t n_good;
@@ -138,7 +140,7 @@ void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size
     (void)iccp_element_jacobian(map->dim, element, to, jacobian);
 }
 
-/* Of the simplices from `first` on: the energy and the measure of each. */
+/* The energy and the measure of each simplex from `first` on. */
 typedef struct terms {
     const iccp_simplicial_map *map;
     size_t first;

@@ -1,5 +1,5 @@
-/* A map that is linear in every simplex of a mesh in the plane or in space: what energies,
- * untangling and improvement see of it. */
+/* A map that is linear in every simplex of a mesh, in the plane or in space. Energies, untangling
+ * and improvement work on this view of a map. */
 #ifndef ICCP_SIMPLICIAL_MAP_H
 #define ICCP_SIMPLICIAL_MAP_H
 
@@ -14,15 +14,16 @@ typedef struct iccp_simplicial_map {
     const uint32_t *corners; /* dim + 1 points of each simplex, which is positive before the map */
     const double *points;    /* dim of each */
     double *images;          /* dim of each */
-    size_t n_fixed;          /* the images of the first points are fixed, */
-    const uint8_t *fixed;    /* and of those with fixed[v] != 0, unless this is NULL */
+    size_t n_fixed;          /* the images of the first n_fixed points are fixed, */
+    const uint8_t *fixed;    /* and those with fixed[v] != 0, unless `fixed` is NULL */
     const struct iccp_newton_plan *plan; /* for a map of the same mesh (energy/newton.h), or NULL */
-    double stretch; /* lengths before the map are multiplied by this for energies, so that the areas
-                       or volumes are the same and energies are those of shape alone */
-    const double *growth; /* and by the mean of these for the corners of a simplex, unless NULL */
+    double stretch;       /* factor for lengths before the map in energies. It makes both areas or
+                       volumes equal, so that energies measure shape alone */
+    const double *growth; /* a further factor for each simplex: the mean of this over its
+                             corners, unless NULL */
 } iccp_simplicial_map;
 
-/* The map of a mesh without a stretch. */
+/* Returns the map of a mesh, with a stretch of 1. */
 iccp_simplicial_map iccp_simplicial_map_of(const iccp_simplices *mesh, double *images);
 
 static inline bool iccp_simplicial_is_fixed(const iccp_simplicial_map *map, uint32_t point)
@@ -37,35 +38,35 @@ static ICCP_INLINE void iccp_simplicial_images(size_t dim, const iccp_simplicial
         image[k] = map->images + dim * map->corners[(dim + 1) * simplex + k];
 }
 
-/* Makes coordinates 0 that are next to nothing beside the largest, which is about 1, so that there
- * is room for exact signs. */
+/* Sets coordinates to 0 that are tiny beside the largest one, which is about 1. Exact signs can
+ * then be computed. */
 void iccp_simplicial_round(size_t n, double *coordinates);
 
-/* Of a simplex before the map, stretched. */
+/* Computes the element of a simplex before the map, stretched. */
 void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element);
 
-/* Whether the image of a simplex is positive, exactly; and how many are not, or have none: numbers
- * that are not finite. */
+/* Returns true if the image of a simplex is positive, exactly. The second function counts the
+ * simplices whose image is not positive or not finite. */
 bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex);
 size_t iccp_simplicial_count_inverted(const iccp_simplicial_map *map);
 size_t iccp_simplicial_count_at_once(const iccp_simplicial_map *map, const iccp_env *env);
 
-/* Whether the image of a corner is not fixed. */
+/* Returns true if some corner of the simplex has a free image. */
 bool iccp_simplicial_is_free(const iccp_simplicial_map *map, size_t simplex);
 
-/* Whether the image of a simplex whose corners are all fixed is not positive: no repair can help
- * it. Only the images of fixed points are looked at. */
+/* Returns true if a simplex with only fixed corners has an image that is not positive, which no
+ * repair can mend. Only the images of fixed points are read. */
 bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map);
 
-/* Of one simplex, forward or back; row by row. */
+/* The Jacobian of one simplex or of its inverse, row by row. */
 void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size_t simplex,
                               double *jacobian);
 
-/* Mean of the symmetric Dirichlet energy over the stretched area or volume: 2 dim for an isometry,
- * infinite when a simplex is not positive. */
+/* The mean of the symmetric Dirichlet energy over the stretched area or volume. It is 2 dim for an
+ * isometry, and infinite if a simplex is not positive. */
 double iccp_simplicial_energy(const iccp_simplicial_map *map);
 
-/* The same on all threads of `env`, and the same bits; so is the count above. */
+/* Computes the energy on all threads of `env`, with the same bits. */
 double iccp_simplicial_energy_at_once(const iccp_simplicial_map *map, const iccp_env *env);
 
 #endif

@@ -1,5 +1,5 @@
-/* From the eigenvectors v of J^T J; u follows from J v. The last pair is what the others leave, so
- * that both are rotations and the sign of the determinant is in the last value. */
+/* Finds the eigenvectors v of J^T J; then u follows from J v. The last pair is chosen to make both
+ * u and v rotations. So the last value carries the sign of the determinant. */
 #include "map/energy/singular.h"
 
 #include "math/jacobi.h"
@@ -9,7 +9,7 @@
 
 /* ---- in the plane ---- */
 
-/* The angle of v is half that of (p, q), where J^T J is a multiple of 1 plus (p, q; q, -p). */
+/* J^T J is a multiple of 1 plus (p, q; q, -p). The angle of v is half that of (p, q). */
 static void find2(const double *j, iccp_singular *s)
 {
     const double a = j[0] * j[0] + j[2] * j[2], d = j[1] * j[1] + j[3] * j[3];
@@ -46,7 +46,7 @@ static void normalise(double *a)
         a[k] /= length;
 }
 
-/* Any direction at right angles to u. */
+/* Sets w to any direction at right angles to u. */
 static void set_beside(const double *u, double *w)
 {
     const int k = fabs(u[0]) < 0.6 ? 0 : 1;
@@ -61,8 +61,8 @@ static void multiply(const double *j, const double *a, double *b)
         b[r] = iccp_vec_dot(3, j + 3 * r, a);
 }
 
-/* The eigenvectors of J^T J by falling eigenvalues, the last one reversed if need be, so
- * that they are a rotation. */
+/* Sets the eigenvectors of J^T J, by falling eigenvalues. The last one is reversed if needed to
+ * make them a rotation. */
 static void set_right(const double *j, iccp_singular *s)
 {
     enum { SWEEPS = 8 };
@@ -82,7 +82,7 @@ static void set_right(const double *j, iccp_singular *s)
     iccp_vec_cross(s->v[0], s->v[1], s->v[2]);
 }
 
-/* Gram-Schmidt on J v; where that vanishes, as for a flat image, any directions do. */
+/* Applies Gram-Schmidt to J v. If J v vanishes, as for a flat image, any directions will do. */
 static void find3(const double *j, iccp_singular *s)
 {
     double image[3];

@@ -1,5 +1,5 @@
-/* J. Nocedal, S. Wright, Numerical Optimization, section 7.1, preconditioned by the blocks of the
- * points: factors of space fill up too much for a mesh as a whole. */
+/* J. Nocedal, S. Wright, Numerical Optimization, section 7.1, preconditioned by the points'
+ * diagonal blocks. In space the factors of a whole mesh would fill up too much. */
 #include "map/energy/truncated_cg.h"
 
 #include "base/minmax.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A pivot of a point's block that is smaller than this share of its diagonal is rounding. */
+/* A pivot below this share of its diagonal, in a point's block, is caused by rounding. */
 static const double SMALLEST_PIVOT = 1e-13;
 
 enum { MAX_DIRECTIONS = 200 };
@@ -17,7 +17,7 @@ enum { MAX_DIRECTIONS = 200 };
 /* Rows that a thread takes at once. */
 enum { GRAIN = 2048 };
 
-/* L D L^T of each point's block: the three pivots and the three entries of L. */
+/* L D L^T of each point's block: three pivots and three entries of L. */
 static void factorise_blocks(const iccp_symmetric *h, double *factor)
 {
     for (size_t i = 0; i < h->n; i += 3, factor += 6) {
@@ -63,8 +63,8 @@ static icc_status apply(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Every iterate from 0 on is a direction of descent, so that it may end anywhere: when the residual
- * is small, or before a direction without curvature. */
+/* Every iterate from 0 on is a direction of descent, so the loop may end anywhere. It ends when the
+ * residual is small, or before a direction without positive curvature. */
 icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradient, double *step,
                              double residual, double *work, const char *stage, const iccp_env *env)
 {

@@ -1,12 +1,15 @@
 /* V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, Foldover-free maps in
- * 50 lines of code, 2021: with chi for the determinant of J, the energy is
- *     (1 - s) |J|^2 / (dim chi^(2 / dim)) + s (1 + det^2) / (2 chi).
- * It is taken as a function A(N, D) of N = |J|^2 and D = det J. In the plane J is a rotation scaled
- * by p / sqrt 2 and a reflection scaled by q / sqrt 2, N = p^2 + q^2 and D = (p^2 - q^2) / 2: the
- * Hessian falls apart into turning the one, turning the other, and both scales. In space its
- * eigenvectors are those of B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic
- * distortion energies, 2019: for each pair of singular vectors a flip and a twist, and three in the
- * space of the singular values. */
+ * 50 lines of code, 2021. The energy is (1 - s) |J|^2 / (dim chi^(2 / dim)) + s (1 + det^2) / (2
+ * chi), where chi stands for the determinant of J. It is taken as a function A(N, D) of N = |J|^2
+ * and D = det J.
+ *
+ * In the plane J is the sum of a rotation scaled by p / sqrt 2 and a reflection scaled by q / sqrt
+ * 2. Then N = p^2 + q^2 and D = (p^2 - q^2) / 2. So the Hessian splits into three blocks: turning
+ * the rotation, turning the reflection, and both scales.
+ *
+ * In space its eigenvectors are those of B. Smith, F. de Goes, T. Kim, Analytic eigensystems for
+ * isotropic distortion energies, 2019. They are a flip and a twist for each pair of singular
+ * vectors, and three vectors in the space of the singular values. */
 #include "map/energy/untangling.h"
 
 #include "base/minmax.h"
@@ -16,7 +19,7 @@
 
 #include <string.h>
 
-/* The share of the area or volume term: small, so that angles decide. */
+/* The share of the area or volume term. It is small, so that angles decide. */
 static const double MEASURE_SHARE = 1.0 / 128;
 
 double iccp_untangling_chi(double epsilon, double det)
@@ -37,7 +40,7 @@ double iccp_untangling_next(double epsilon, double least, double fall)
     return least < mu ? 2 * sqrt(mu * (mu - least)) : 1e-10;
 }
 
-/* A(N, D) and its derivatives; it is linear in N. */
+/* A(N, D) and its derivatives. A is linear in N. */
 typedef struct profile {
     double value, by_n, by_d, by_nd, by_dd;
 } profile;
@@ -65,7 +68,7 @@ static ICCP_INLINE profile evaluate(size_t dim, double n, double det, double eps
 /* ---- in the plane ---- */
 
 typedef struct polar {
-    double length, c, s; /* a complex number; of 0 the direction is any */
+    double length, c, s; /* a complex number; if it is 0, any direction will do */
 } polar;
 
 static polar polar_of(double x, double y)
@@ -81,8 +84,8 @@ static void add_positive(const double *element, const double *mode, double curva
         iccp_add_mode(2, element, mode, element[0] * curvature, hessian);
 }
 
-/* Four modes, of which those with negative curvature are left out: turning either part, and two of
- * both scales, whose 2 by 2 Hessian `a` one rotation diagonalises. */
+/* Adds four modes and leaves out those with negative curvature. Two modes turn the rotation and the
+ * reflection. The other two mix both scales; a rotation diagonalises their 2 by 2 Hessian `a`. */
 static void set_hessian2(const double *element, const double *j, const profile *p, double *hessian)
 {
     const double half = sqrt(0.5);
@@ -111,7 +114,7 @@ static void set_hessian2(const double *element, const double *j, const profile *
 
 /* ---- in space ---- */
 
-/* Flips and twists are known; the three modes of the singular values are the eigenvectors of a
+/* Flips and twists are known. The three modes of the singular values are the eigenvectors of a
  * matrix. */
 static void set_curvature3(const profile *p, const double *sigma, iccp_modes *h)
 {
@@ -146,7 +149,7 @@ static void set_hessian3(const double *element, const double *j, const profile *
     iccp_modes_hessian(element, &h, &s, hessian);
 }
 
-/* ---- in either ---- */
+/* ---- plane and space ---- */
 
 static ICCP_INLINE double energy_of(size_t dim, const double *element, const double *const *image,
                                     double epsilon)

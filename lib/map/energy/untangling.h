@@ -4,8 +4,8 @@
 
 #include "map/energy/jacobian.h"
 
-/* Finite for every image, but the more it is inverted the higher; `epsilon` says how much is
- * forgiven. For an isometry the element's area or volume. */
+/* The energy is finite for every image and grows the more the image is inverted. A larger `epsilon`
+ * makes it grow less. For an isometry it is the element's area or volume. */
 double iccp_untangling_energy(size_t dim, const double *element, const double *const *image,
                               double epsilon);
 void iccp_untangling_local(size_t dim, const double *element, const double *const *image,
@@ -14,8 +14,8 @@ void iccp_untangling_local(size_t dim, const double *element, const double *cons
 /* chi(det) = (det + sqrt(epsilon^2 + det^2)) / 2, which stands for the determinant. */
 double iccp_untangling_chi(double epsilon, double det);
 
-/* Epsilon to begin with, when `least` is the smallest determinant; and the next one, whose lower
- * bound is smaller by the share `fall`. */
+/* iccp_untangling_start() gives the first epsilon if `least` is the smallest determinant. The other
+ * function gives the next epsilon, whose lower bound is smaller by the share `fall`. */
 double iccp_untangling_start(double least);
 double iccp_untangling_next(double epsilon, double least, double fall);
 

@@ -1,9 +1,9 @@
-/* What a map may cost, counted in steps of Newton's method times simplices; work of other kinds is
- * counted as so many of them. No clock is read, so that the same input gives the same bits; in the
- * plane each takes a quarter of a microsecond to half of one, in untangling too.
+/* The cost of a map, counted in Newton steps times simplices. Other kinds of work are converted to
+ * this unit. No clock is read, so the same input gives the same bits. In the plane one unit takes
+ * 0.25 to 0.5 microseconds, also in untangling.
  *
- * All that makes a mesh map of the plane from its start comes out of one budget (map/plane/fit.c):
- * untangling; the crossings of an overlay, which have to be found and merged; steps on it; and
+ * One budget pays for everything that makes a plane mesh map from its start (map/plane/fit.c). That
+ * is untangling, finding and merging the crossings of an overlay, steps on the overlay, and
  * improvement. */
 #ifndef ICCP_WORK_H
 #define ICCP_WORK_H
@@ -22,21 +22,21 @@ static inline iccp_work iccp_work_unlimited(void)
     return (iccp_work){.left = HUGE_VAL};
 }
 
-/* Whether there is enough left for a step on so many simplices. */
+/* Returns true if enough is left for a step on this many simplices. */
 static inline bool iccp_work_fits(const iccp_work *work, size_t n_simplices)
 {
     return (double)n_simplices <= work->left;
 }
 
-/* After work that was done anyway, be it more than was left. */
+/* Books work that was done anyway, even if it exceeds the budget. */
 static inline void iccp_work_charge(iccp_work *work, double cost)
 {
     work->left -= cost;
     work->spent += cost;
 }
 
-/* Before a step on so many simplices: false, and nothing is taken, when that is more than is
- * left. */
+/* Books a step on this many simplices before it is done. Returns false and books nothing if too
+ * little is left. */
 static inline bool iccp_work_take(iccp_work *work, size_t n_simplices)
 {
     const bool fits = iccp_work_fits(work, n_simplices);
