@@ -1,5 +1,6 @@
-/* Scan conversion is right up to rounding, and half-open; domains are closed and decided exactly.
- * The few centres where that can differ are asked for one by one. */
+/* Scan conversion is correct up to rounding, and its intervals are half-open. Domains are closed,
+ * and points are located in them exactly. The few pixels where this can matter are decided one by
+ * one. */
 #include "map/picture/boundary_pixels.h"
 
 #include "base/minmax.h"
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the largest coordinate. Domains count points up to 1e-14 outside as boundary, which
- * is far more than rounding of the coordinates, and crossings of rows are off by a few units in the
+/* In units of the largest coordinate. A domain counts points up to 1e-14 outside as boundary, which
+ * is far more than the rounding of coordinates. Crossings of rows are off by a few units in the
  * last place, 1e-16. */
 static const double CLOSE = 1e-13;
 
@@ -39,14 +40,15 @@ static icc_status add(iccp_boundary_pixels *boundary, const icc_picture *target,
     return ICC_OK;
 }
 
-/* The first of n centres that is not before x. */
+/* Returns the first of n pixel centres that is not before x. */
 static int32_t first_centre(double x, int32_t n)
 {
     const double k = ceil(x - 0.5);
     return !(k > 0) ? 0 : k < n ? (int32_t)k : n;
 }
 
-/* Where the segment a b, a below b, is at a height; at one of its ends beyond them. */
+/* Returns x where the segment from a to b, with a below b, reaches a height. Beyond the segment it
+ * returns the x of the nearer end. */
 static double x_at(const double a[2], const double b[2], double y)
 {
     if (y <= a[1])
@@ -102,8 +104,8 @@ void iccp_boundary_pixels_free(iccp_boundary_pixels *boundary)
 
 /* ---- deciding ---- */
 
-/* Where a centre comes from; false when it is outside. Centres that are inside and yet in no
- * triangle are within rounding of the boundary. */
+/* Finds the source point of a pixel's centre. Returns false if the centre is outside. A centre that
+ * is inside but in no triangle lies within rounding of the boundary. */
 static bool origin(const icc_map *map, const double centre[2], double place[2])
 {
     const icc_domain *from = map->target_domain, *to = map->source_domain;

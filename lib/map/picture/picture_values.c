@@ -1,9 +1,10 @@
-/* Linear interpolation, and cubic after R. Keys, Cubic Convolution Interpolation for Digital Image
- * Processing, 1981, which is exact for quadratic functions. Beyond the edge its pixels go on.
+/* Linear interpolation, and cubic interpolation after R. Keys, Cubic Convolution Interpolation for
+ * Digital Image Processing, 1981, which is exact for quadratic functions. Pixels at the edge are
+ * continued beyond it.
  *
- * Which samples are missing is decided by the pixel that a place lies in, so that what is known
- * neither grows nor shrinks; those around it that are known make up the value, by the weights that
- * are left to them. */
+ * A sample is missing if the pixel that contains the place is missing. So the known area neither
+ * grows nor shrinks. The value is interpolated from the known pixels around, and their weights are
+ * scaled to a sum of 1. */
 #include "map/picture/picture_values.h"
 
 #include "base/minmax.h"
@@ -11,14 +12,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Up to four pixels along an axis, the one that holds the place, and what each counts. */
+/* Up to four pixels along an axis: their weights, and which one contains the place. */
 typedef struct taps {
     int n;
     int32_t at[4], own;
     double weights[4];
 } taps;
 
-static const double PLACES = 1048576; /* in a pixel: 2^20 */
+static const double PLACES = 1048576; /* units of a place in a pixel: 2^20 */
 
 bool iccp_picture_has_values(const icc_picture *source)
 {
@@ -48,7 +49,7 @@ static double get_sample(const icc_picture *p, int32_t column, int32_t row, int3
     }
 }
 
-/* Whole numbers are rounded, half of them upwards, and kept in range. */
+/* Writes a sample. Integers are rounded, halves upwards, and clamped to their range. */
 static void put_sample(const icc_picture *p, void *pixel, int32_t channel, double value)
 {
     uint8_t *at = (uint8_t *)pixel + (size_t)channel * (size_t)p->bytes;
@@ -77,8 +78,8 @@ static bool is_missing(const icc_picture *p, double value)
                              : !(value < p->nodata || value > p->nodata || isnan(value)));
 }
 
-/* Where along an axis of n pixels, in pixels from its beginning. Places are rounded, so that what
- * rounding of the map has left of a centre is the centre. */
+/* Finds the taps for a place along an axis of n pixels, in pixels from its beginning. Places are
+ * rounded, so that rounding errors of the map do not move a place off a pixel's centre. */
 static taps find_taps(double where, int32_t n, int32_t interpolation)
 {
     taps t = {.n = 1, .weights = {1}};
@@ -99,9 +100,9 @@ static taps find_taps(double where, int32_t n, int32_t interpolation)
     return t;
 }
 
-/* The value of a channel at a place. False: it is missing. What a missing sample weighs in cubic
- * interpolation cannot be left to its neighbours, some of which count less than nothing; linear
- * interpolation then takes its place. */
+/* Finds the value of a channel at a place. Returns false if it is missing. If a sample is missing,
+ * cubic interpolation cannot give its weight to its neighbours, because some weights are negative.
+ * Linear interpolation is used there. */
 static bool get_value(const icc_picture *p, int32_t channel, const double place[2],
                       int32_t interpolation, double *value)
 {
@@ -117,7 +118,7 @@ static bool get_value(const icc_picture *p, int32_t channel, const double place[
             const double sample = get_sample(p, x.at[i], y.at[j], channel);
             const bool missing = is_missing(p, sample);
             complete = complete && !missing;
-            /* What counts nothing is not looked at: it may be infinite. */
+            /* A sample of weight 0 is skipped, because it may be infinite. */
             if (missing || !(w < 0 || w > 0))
                 continue;
             sum += w * sample;

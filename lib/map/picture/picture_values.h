@@ -1,5 +1,5 @@
-/* Pictures whose samples are values rather than colours: numbers of any kind, many side by side, of
- * which some may be missing. One pixel at a time, in doubles. */
+/* Pictures whose samples are values instead of colours: numbers of any type, with any number of
+ * channels, some of which may be missing. Works in doubles, one pixel at a time. */
 #ifndef ICCP_PICTURE_VALUES_H
 #define ICCP_PICTURE_VALUES_H
 
@@ -9,13 +9,13 @@
 
 enum { ICCP_MOST_CHANNELS = 64 };
 
-/* Whether the samplers of colours do not do: floats, more than four channels, missing samples,
- * other than linear interpolation. */
+/* Returns true if the samplers for colours cannot be used. They cannot handle floats, more than
+ * four channels, missing samples, or interpolations other than linear. */
 bool iccp_picture_has_values(const icc_picture *source);
 
-/* Writes one pixel: for each channel the mean of the values at n places, in pixels from the corner
- * of the picture; those that are not a number, and what is missing, do not count. Where nothing
- * counts the pixel is missing. */
+/* Writes one pixel: the mean of each channel over n places, in pixels from the corner of the
+ * picture. Places that are not numbers and missing samples do not count. If nothing counts, the
+ * pixel is missing. */
 void iccp_picture_values_paint(const icc_picture *source, size_t n, const double *places,
                                void *pixel);
 

@@ -1,8 +1,8 @@
-/* Lines become walks in fixed point, which kernels compiled for the picture's format and for this
- * processor take. */
+/* Converts lines to walks in fixed point. The kernels for the picture's format and this processor
+ * then sample along them. */
 #include "map/picture/sampler_kernels.h"
 
-static const double ONE = 4294967296.0; /* of a walk's positions */
+static const double ONE = 4294967296.0; /* one pixel in a walk's positions */
 
 /* ---- choice ---- */
 
@@ -26,7 +26,8 @@ void iccp_sampler_init(iccp_sampler *sampler, const icc_picture *source)
 
 /* ---- lines ---- */
 
-/* The end of a rounded walk is checked, not that of the line. */
+/* Makes a walk and checks that it stays inside. It checks the end of the rounded walk, because the
+ * rounded steps may end elsewhere than the line. */
 static bool walk_inside(iccp_walk *w, const icc_picture *picture, const iccp_line *line)
 {
     const double right = picture->width - 1, bottom = picture->height - 1;
@@ -35,7 +36,7 @@ static bool walk_inside(iccp_walk *w, const icc_picture *picture, const iccp_lin
     if (!(line->u >= 0 && line->u <= right && u >= 0 && u <= right && line->v >= 0 &&
           line->v <= bottom && v >= 0 && v <= bottom))
         return false;
-    /* A step of a single sample may be anything, and is not taken. */
+    /* With a single sample the step is not used, and it may have any value. */
     const bool moves = line->n > 1;
     *w = (iccp_walk){(int64_t)(line->u * ONE), (int64_t)(line->v * ONE),
                      moves ? (int64_t)(line->du * ONE) : 0, moves ? (int64_t)(line->dv * ONE) : 0,
@@ -46,7 +47,7 @@ static bool walk_inside(iccp_walk *w, const icc_picture *picture, const iccp_lin
            last_v <= (int64_t)(bottom * ONE);
 }
 
-/* Not a number counts as 0. */
+/* Clamps a position to n pixels. A NaN counts as 0. */
 static int64_t clamped(double x, int32_t n)
 {
     const double last = n - 1;

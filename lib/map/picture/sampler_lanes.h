@@ -1,9 +1,9 @@
-/* The kernels for one byte a sample and three or four channels, side by side in vectors: what
- * includes this file says for which processor (TARGET).
+/* Vector kernels for samples of one byte and three or four channels. The file that includes this
+ * one names the processor (TARGET).
  *
- * Two neighbouring pixels of a row, 8 bytes, are one vector; so both columns are blended between
- * the rows at once, and then with each other, in integers below 2^32. With opacities that differ
- * the sums have up to 48 bits. Doubles hold those exactly, so the bits are those of integers. */
+ * Two neighbouring pixels of a row, 8 bytes, form one vector. So both columns are blended between
+ * the rows at once, and then with each other, in integers below 2^32. If opacities differ, the sums
+ * have up to 48 bits. Doubles hold them exactly, so the results have the same bits as integers. */
 #ifndef ICCP_SAMPLER_LANES_H
 #define ICCP_SAMPLER_LANES_H
 
@@ -14,7 +14,7 @@
 #include <immintrin.h>
 #include <string.h>
 
-/* Vectors are handed on by pointer: how they would be passed depends on the processor. */
+/* Vectors are passed by pointer, because passing them by value depends on the processor. */
 typedef uint32_t channels4 __attribute__((vector_size(16)));
 typedef uint32_t channels8 __attribute__((vector_size(32))); /* of two pixels */
 typedef double reals __attribute__((vector_size(32)));
@@ -31,7 +31,7 @@ TARGET static ICCP_INLINE void widen(uint64_t pair, channels8 *x)
     *x = (channels8)_mm256_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)pair));
 }
 
-/* The opacity of each pixel for all of its channels. */
+/* Copies the opacity of each pixel to all of its channels. */
 TARGET static ICCP_INLINE void spread_opacity(const channels8 *x, channels8 *opacity)
 {
     *opacity = (channels8)_mm256_shuffle_epi32((__m256i)*x, 0xff);
@@ -43,7 +43,7 @@ TARGET static ICCP_INLINE void halves(const channels8 *x, channels4 *left, chann
     *right = (channels4)_mm256_extracti128_si256((__m256i)*x, 1);
 }
 
-/* Of signed numbers. */
+/* Converts signed integers. */
 TARGET static ICCP_INLINE void to_reals(const channels4 *x, reals *y)
 {
     *y = _mm256_cvtepi32_pd((__m128i)*x);
@@ -136,14 +136,14 @@ TARGET static ICCP_INLINE void spread_last(const reals *x, reals *last)
 
 /* ---- samples ---- */
 
-/* What a kernel is compiled for. */
+/* The format that a kernel is compiled for; a constant. */
 typedef struct format {
     int channels;
     bool alpha, opaque; /* opaque: all opacities are 255 */
 } format;
 
-/* A place on a walk. Of `right` and `down`, the position's fraction times 2^32, the upper BITS bits
- * count. */
+/* A place on a walk. `right` and `down` are the fraction of the position times 2^32, of which the
+ * upper BITS bits count. */
 typedef struct place {
     const uint8_t *pixels;
     size_t stride;
@@ -152,8 +152,8 @@ typedef struct place {
     channels8 down, dv8;
 } place;
 
-/* False where the last column or row, which count as the far side of the cells before them, would
- * be the near side. */
+/* Returns false if the walk reaches the last column or row. A position there belongs to the cell
+ * before it, which only the portable kernels handle. */
 static ICCP_INLINE bool is_plain(const icc_picture *p, const iccp_walk *w)
 {
     const int64_t half = (int64_t)1 << (31 - BITS), n = (int64_t)w->n - 1;
@@ -185,7 +185,7 @@ TARGET static ICCP_INLINE void advance(place *x)
     x->down += x->dv8;
 }
 
-/* Two pixels of a row. With three channels the fourth byte means nothing. */
+/* Loads two pixels of a row. With three channels, the fourth byte has no meaning. */
 static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
 {
     uint64_t both;
@@ -199,13 +199,13 @@ static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
     return first | (uint64_t)(second >> 8) << 32;
 }
 
-/* The four pixels round a place, each with four bytes. */
+/* The four pixels around a place, each with four bytes. */
 typedef struct sample {
     uint64_t above, below;
 } sample;
 
-/* Rows of the target follow each other: what the next ones need is fetched ahead, for maps that
- * turn the picture by less than a quarter. */
+/* The rows of the target follow each other, so the source's pixels for the next rows are
+ * prefetched. This suits maps that turn the picture by less than 90 degrees. */
 enum { AHEAD = 6 };
 
 static ICCP_INLINE sample load(const place *x, format f)
@@ -233,7 +233,7 @@ TARGET static ICCP_INLINE void plain_sums(const place *x, const sample *s, chann
     *sums = (left << BITS) + (x->right >> (32 - BITS)) * (right - left);
 }
 
-/* Two pixels' channels times their weights, and the weights last. */
+/* Multiplies the channels of two pixels by their weights, and puts the weights last. */
 TARGET static ICCP_INLINE void weigh(uint64_t pair, reals *left, reals *right)
 {
     const channels8 colours = {~0U, ~0U, ~0U, 0, ~0U, ~0U, ~0U, 0}, one = {0, 0, 0, 1, 0, 0, 0, 1};
@@ -262,7 +262,7 @@ TARGET static ICCP_INLINE void weighted_sums(const place *x, const sample *s, re
     *sums = left_of * (above * a + down * c) + right * (above * b + down * d);
 }
 
-/* Exact. */
+/* Converts unsigned integers exactly. */
 TARGET static ICCP_INLINE void unsigned_to_reals(const channels4 *x, reals *y)
 {
     const channels4 moved = *x ^ 1U << 31;
@@ -270,7 +270,7 @@ TARGET static ICCP_INLINE void unsigned_to_reals(const channels4 *x, reals *y)
     *y += 0x1p31;
 }
 
-/* Equal opacities weight nothing: weighted sums are plain ones times the weight. */
+/* With equal opacities, the weighted sums are the plain sums times the weight. */
 TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format f, reals *sums)
 {
     const channels4 colours = {~0U, ~0U, ~0U, 0}, whole = {0, 0, 0, 1U << 24};
@@ -296,7 +296,7 @@ TARGET static ICCP_INLINE void find_sums(const place *x, const sample *s, format
 
 /* ---- kernels ---- */
 
-/* The lowest bytes. */
+/* Stores the lowest bytes. */
 TARGET static ICCP_INLINE void put(const channels4 *x, format f, uint8_t *to)
 {
     const __m128i order =
@@ -305,8 +305,8 @@ TARGET static ICCP_INLINE void put(const channels4 *x, format f, uint8_t *to)
     memcpy(to, &bytes, (size_t)f.channels);
 }
 
-/* A quotient that is no whole number is farther from any than it is rounded: weights have 41 bits,
- * means 8. */
+/* Rounds quotients correctly. Weights have 41 bits and means 8, so a quotient that is not an
+ * integer is farther from every integer than its rounding error. */
 TARGET static ICCP_INLINE void put_weighted(const reals *sums, format f, uint8_t *to)
 {
     typedef int64_t mask __attribute__((vector_size(32)));
@@ -427,8 +427,8 @@ KERNELS(rgbx, 4, false, false)
 KERNELS(rgba, 4, true, false)
 KERNELS(opaque, 4, true, true)
 
-/* Whether all opacities are 255: much is simpler then, and most pictures end the search at once if
- * they are not. */
+/* Returns true if all opacities are 255, which makes sampling much simpler. In most pictures that
+ * are not opaque the search ends at once. */
 TARGET static bool is_opaque(const icc_picture *p)
 {
     bool all = true;

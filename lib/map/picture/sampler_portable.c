@@ -1,18 +1,18 @@
 /* The kernels in plain C, for every format.
  *
- * Bilinear interpolation in integers, so that a position on a pixel's centre gives its colour
+ * Bilinear interpolation is done in integers, so a position on a pixel's centre gives its colour
  * exactly.
  *
- * With opacity, colours are averaged with the weight 2^s a + 1 of an opacity a: what is transparent
- * does not bleed into what is not (by 1 in 2^s a), and yet the colour of what is all transparent
- * survives. The largest sums are 2^48 for one byte a sample, and just under 2^64 for two. */
+ * With opacity, the mean of colours gives an opacity a the weight 2^s a + 1. Then transparent
+ * pixels hardly bleed into others, by 1 in 2^s a, and fully transparent ones still keep their
+ * colour. The largest sums are 2^48 for samples of one byte, and just under 2^64 for two. */
 #include "map/picture/sampler_kernels.h"
 
 #include "base/compiler.h"
 
 #include <string.h>
 
-/* What a kernel is compiled for. */
+/* The format that a kernel is compiled for; a constant. */
 typedef struct format {
     int channels;
     bool wide, alpha;
@@ -28,8 +28,8 @@ static ICCP_INLINE int floor_bits(format f)
     return f.wide ? ICCP_WIDE_FLOOR : ICCP_NARROW_FLOOR;
 }
 
-/* The pixel up and left of a position, how far the others of the four round it are in memory, and
- * how far it is from the first. */
+/* The four pixels around a position. `first` is the upper left one; `right` and `down` are
+ * distances in memory. The shares tell how far the position is from the first pixel. */
 typedef struct cell {
     const uint8_t *first;
     size_t right, down;
@@ -41,14 +41,14 @@ typedef struct sums {
     uint64_t of[4];
 } sums;
 
-/* What does not change along a walk. */
+/* Constants of a walk. */
 typedef struct plane {
     const uint8_t *pixels;
     size_t stride, right, down;
     int64_t last_column, last_row;
 } plane;
 
-/* The last row and column count as the far side of the cells before them. */
+/* Positions in the last row or column belong to the cells before them. */
 static ICCP_INLINE plane make_plane(const icc_picture *p, format f)
 {
     const bool wide = p->width > 1, high = p->height > 1;
@@ -74,7 +74,7 @@ static ICCP_INLINE cell find_cell(const plane *p, format f, int64_t u, int64_t v
                   (uint64_t)(v - j * ((int64_t)1 << 32)) >> (32 - bits)};
 }
 
-/* Differences may wrap, the result does not. */
+/* Blends four samples. The differences may wrap around, but the result is right. */
 static ICCP_INLINE uint64_t blend(const cell *c, int bits, uint64_t s00, uint64_t s10, uint64_t s01,
                                   uint64_t s11)
 {
@@ -101,7 +101,7 @@ static ICCP_INLINE void plain_sum(const cell *c, format f, int channel, sums *s)
                                sample(q + c->right, channel, f.wide));
 }
 
-/* Two samples of one byte in one number: their sums stay below 2^32. */
+/* Packs two samples of one byte into one number. Their sums stay below 2^32. */
 static ICCP_INLINE uint64_t pair(const uint8_t *pixel, int channel)
 {
     return pixel[channel] | (uint64_t)pixel[channel + 1] << 32;
@@ -154,7 +154,7 @@ static ICCP_INLINE void weighted_sum(const cell *c, format f, int channel, sums 
                                weight_of(q + c->right, f) * sample(q + c->right, channel, f.wide));
 }
 
-/* Of the weighted colours, and of the weights last. */
+/* The sums of the weighted colours, then the sum of the weights. */
 static ICCP_INLINE sums weighted_sums(const cell *c, format f)
 {
     const uint8_t *p = c->first, *q = p + c->down;
@@ -167,7 +167,7 @@ static ICCP_INLINE sums weighted_sums(const cell *c, format f)
     return s;
 }
 
-/* Equal opacities weight nothing: weighted sums are plain ones times the weight, exactly. */
+/* With equal opacities, the weighted sums are exactly the plain sums times the weight. */
 static ICCP_INLINE sums evenly_weighted_sums(const cell *c, format f)
 {
     sums s = plain_sums(c, f);
@@ -226,7 +226,7 @@ static ICCP_INLINE void paint(const icc_picture *picture, format f, iccp_walk w,
     }
 }
 
-/* Sums below 2^63 are converted faster as such. */
+/* Sums below 2^63 are converted as signed numbers, which is faster. */
 static ICCP_INLINE void add(iccp_gathered *to, format f, int channel, const sums *s, float weight)
 {
     if (channel < f.channels)
@@ -279,7 +279,8 @@ static ICCP_INLINE void store(const iccp_gathered *gathered, size_t n, format f,
         store_one(gathered, f, to);
 }
 
-/* One set for every format: all above is inlined into it, and the format is a constant. */
+/* One set of kernels for each format. Everything above is inlined into it with a constant
+ * format. */
 #define KERNELS(name, channels, wide, alpha)                                                       \
     static void paint_##name(const icc_picture *source, const iccp_walk *w, uint8_t *to)           \
     {                                                                                              \

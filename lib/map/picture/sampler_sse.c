@@ -1,4 +1,4 @@
-/* Samples with SSE 4.2. */
+/* Kernels for pictures with SSE 4.2: see sampler_lanes.h. */
 #include "map/picture/sampler_kernels.h"
 
 #ifdef ICCP_HAS_SIMD

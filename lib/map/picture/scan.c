@@ -1,22 +1,23 @@
 /* Scan conversion with half-open intervals: Foley, van Dam, Feiner and Hughes, Computer Graphics,
- * section 3.6. The two triangles of an edge compute its crossing with a row from the same numbers,
- * always from its lower end, so neither a gap nor an overlap can open between them. Which edge is
- * the left one follows from the order of the corners, not from rounded crossings.
+ * section 3.6. Two triangles that share an edge compute its crossing with a row from the same
+ * numbers, always from its lower end. So there is neither a gap nor an overlap between them. The
+ * order of the corners decides which edge is the left one, and rounded crossings do not.
  *
- * Positions in the source are interpolated along the edges and then along the row, so that even in
- * the thinnest triangle they stay between its corners. */
+ * Positions in the source are interpolated along the edges and then along the row. So they stay
+ * between the corners even in the thinnest triangle. */
 #include "map/picture/scan.h"
 
 #include "math/elementary.h"
 
 #include <math.h>
 
-/* Pixels of the source from sample to sample, at most. A bilinear sample sees two, so even at 1.25
- * none is missed, but of a zone plate's rings too fine for the target shrunk by that, 54 % of the
- * contrast would be left, and 32 % at 1.1, as much as a mean over the whole pixel leaves. */
+/* Largest distance between two samples, in pixels of the source. A bilinear sample reads two
+ * pixels, so even 1.25 would miss none. The value was found with a zone plate whose rings are too
+ * fine for the target. A spacing of 1.25 leaves 54 % of their contrast, and 1.1 leaves 32 %, as
+ * much as a mean over whole pixels. */
 static const double STEP = 1.1;
 
-/* Relative: well above the rounding of a place among samples. */
+/* Relative; well above the rounding of a place among samples. */
 static const double UNSURE = 1e-12;
 
 static iccp_edge make_edge(const iccp_place *a, const iccp_place *b)
@@ -32,7 +33,8 @@ int32_t iccp_samples_for(double distance)
     return !(n > 1) ? 1 : n < ICCP_MOST_SAMPLES ? (int32_t)n : ICCP_MOST_SAMPLES;
 }
 
-/* How far positions move in the source from pixel to pixel and from row to row. */
+/* Chooses the number of samples from the distance in the source between neighbouring columns and
+ * rows. */
 static void choose_samples(iccp_scan *scan, const iccp_place *const p[3])
 {
     const double ax = p[1]->x - p[0]->x, ay = p[1]->y - p[0]->y;
@@ -73,7 +75,7 @@ int64_t iccp_first_sample(double x, int32_t n, int64_t end)
         return 0;
     if (!(place < (double)end))
         return end;
-    /* Nearly always rounding cannot matter; else the definition decides. */
+    /* Rounding almost never matters. If it might, the definition decides. */
     int64_t k = (int64_t)(place + 0.5);
     if (0.5 - fabs(place - (double)k) > UNSURE * place)
         return k;
@@ -91,7 +93,7 @@ static inline iccp_place crossing(const iccp_edge *e, double y)
                         e->start.v + t * e->slope.v};
 }
 
-/* At one height; false when there are none. */
+/* Finds the run of samples at one height. Returns false if there is none. */
 static inline bool scan_row(const iccp_scan *scan, double y, int32_t n, int32_t width,
                             size_t *begin, iccp_line *line)
 {

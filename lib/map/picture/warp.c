@@ -1,9 +1,9 @@
-/* Through the mesh the inverse of a map is one affine map for each triangle of the target, so
- * pictures are drawn triangle by triangle, row by row, without looking for the triangle of a pixel.
+/* A mesh map's inverse is one affine map for each triangle of the target. So pictures are drawn
+ * triangle by triangle and row by row, without a search for the triangle of a pixel.
  *
- * Where a triangle shrinks the picture its rows are sampled more finely and gathered. A pixel
- * belongs to the triangle that holds its centre: either it is painted by that triangle at once, or
- * it is the mean of what all triangles that gather have in it. */
+ * A triangle that shrinks the picture is sampled more finely, and its samples are gathered. A pixel
+ * belongs to the triangle that contains its centre. Either that triangle paints it at once, or it
+ * becomes the mean of the samples that all gathering triangles have in it. */
 #include "map/picture/warp.h"
 
 #include "base/threads.h"
@@ -12,7 +12,7 @@
 #include "map/picture/scan.h"
 #include "map/picture/warp_points.h"
 
-/* Rows in a task; the triangles that come into them are listed once. */
+/* Rows in a task (a band). The triangles that reach into a band are listed once. */
 enum { ROWS = 8 };
 
 typedef struct warp {
@@ -24,7 +24,7 @@ typedef struct warp {
     iccp_place *places; /* of each vertex */
     iccp_scan *scans;   /* of each triangle */
     size_t n_bands;
-    size_t *first;     /* n_bands + 1: where a band's triangles begin in `entries` */
+    size_t *first;     /* n_bands + 1: where each band's triangles begin in `entries` */
     uint32_t *entries; /* triangles, band after band */
 } warp;
 
@@ -52,7 +52,7 @@ static void scan_triangles(warp *w)
     }
 }
 
-/* The bands that a triangle comes into: begin <= band < end. */
+/* Finds the bands that a triangle reaches: begin <= band < end. */
 static void find_bands(const warp *w, size_t triangle, size_t *begin, size_t *end)
 {
     const iccp_scan *scan = &w->scans[triangle];
@@ -64,7 +64,8 @@ static void find_bands(const warp *w, size_t triangle, size_t *begin, size_t *en
     *end = scan->top < height ? (size_t)scan->top / ROWS + 1 : w->n_bands;
 }
 
-/* Counts, sums up, and fills from the back, so that each band has its triangles in order. */
+/* Counts the triangles of each band, adds up the counts and fills the lists from the back. So each
+ * band has its triangles in order. */
 static icc_status list_triangles(warp *w)
 {
     const size_t n = w->map->mesh->pl.corners.n_triangles;
@@ -111,7 +112,7 @@ static void clear(warp *w)
 typedef struct band {
     const warp *w;
     int32_t begin, end;
-    iccp_gathered *gathered; /* one for each pixel; NULL when no triangle gathers */
+    iccp_gathered *gathered; /* one for each pixel; NULL if no triangle gathers */
 } band;
 
 static bool gathers(const iccp_scan *scan)
@@ -130,8 +131,8 @@ static uint8_t *pixel_at(const band *b, int32_t row, size_t column)
     return (uint8_t *)p->pixels + (size_t)row * p->stride + column * b->w->pixel;
 }
 
-/* Samples of a triangle. All rows are found before any is sampled: that takes long for each alone,
- * but not for many side by side. */
+/* The runs of a triangle. All runs are found before any is sampled, because finding them one by one
+ * between samples is slow. */
 typedef struct runs {
     size_t n;
     iccp_run run[ROWS * ICCP_MOST_SAMPLES];
@@ -151,7 +152,7 @@ static void gather(const band *b, const iccp_scan *scan, runs *r)
     }
 }
 
-/* The pixels whose centres one triangle holds: each is in one only. */
+/* Finds the pixels whose centres lie in a triangle. Each pixel has one such triangle. */
 static void find_pixels(const band *b, const iccp_scan *scan, runs *r)
 {
     r->n = iccp_scan_rows(scan, b->begin, b->end, 1, 1, b->w->target->width, r->run);
@@ -165,7 +166,7 @@ static void paint(const band *b, const iccp_scan *scan, runs *r)
                            pixel_at(b, r->run[k].row, r->run[k].begin));
 }
 
-/* A pixel in whose triangle, a thin one, there was no sample. */
+/* Paints a pixel that lies in a thin triangle without samples. */
 static void paint_centre(const band *b, int32_t row, size_t column)
 {
     const icc_map *map = b->w->map;
@@ -178,7 +179,7 @@ static void paint_centre(const band *b, int32_t row, size_t column)
     iccp_sampler_paint(&b->w->source, &line, pixel_at(b, row, column));
 }
 
-/* The means of what all triangles have gathered, in a run of pixels. */
+/* Stores the means of the gathered samples in a run of pixels. */
 static void store_run(const band *b, const iccp_run *run)
 {
     const size_t end = run->begin + run->line.n;
@@ -201,10 +202,10 @@ static void store(const band *b, const iccp_scan *scan, runs *r)
         store_run(b, &r->run[k]);
 }
 
-/* Rows [begin, end) of the target, all in one band. A triangle that does not gather writes its
- * pixels at once; the others add up before they write. They are taken one after the other, since
- * neighbouring rows of one come from the same places. Room for what is gathered is made only if a
- * triangle needs it. */
+/* Paints rows [begin, end) of the target, all in one band. A triangle that does not gather writes
+ * its pixels at once. The others first add up their samples. Each triangle is finished before the
+ * next one, because its neighbouring rows come from nearby places in the source. Memory for
+ * gathering is allocated only if a triangle needs it. */
 static icc_status paint_band(void *argument, size_t begin, size_t end)
 {
     const warp *w = argument;

@@ -1,7 +1,7 @@
-/* Every pixel of the target fetches its colour from where its centre comes from. Where neighbouring
- * centres come from more than a pixel apart the map shrinks the picture; the pixel is then the mean
- * of a grid of samples, each mapped back by itself, so that nothing outside the source domain and
- * nothing from the far side of a fold gets in. */
+/* Every pixel of the target takes its colour from the origin of its centre. The map shrinks the
+ * picture where neighbouring centres have origins more than a pixel apart. There the pixel is the
+ * mean of a grid of samples, each mapped back on its own. So nothing from outside the source domain
+ * or from the far side of a fold gets in. */
 #include "map/picture/warp_points.h"
 
 #include "base/minmax.h"
@@ -13,19 +13,19 @@
 
 #include <math.h>
 
-/* Rows in a task: the rows before and after are mapped as well, to compare with. */
+/* Rows in a task. The rows before and after are mapped as well, for comparison. */
 enum { ROWS = 16 };
 
 typedef struct warp {
     const icc_map *map;
     const icc_picture *target;
-    const icc_picture *values; /* the source, if its samples are no colours; else NULL */
+    const icc_picture *values; /* the source if its samples are values, else NULL */
     iccp_sampler source;
-    iccp_env alone; /* for calls from tasks */
+    iccp_env alone; /* environment for calls from within a task */
     atomic_size_t n_failed;
 } warp;
 
-/* Origins of the centres in the rows of one task and the rows beside them; NaN where there is
+/* Origins of the centres in the rows of one task and in the rows beside them. NaN if a centre has
  * none. */
 typedef struct band {
     double *origins;
@@ -48,8 +48,8 @@ static double distance(const double *a, const double *b)
     return iccp_hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/* Of two neighbours the nearer one counts: at a jump of the map the other one says nothing about
- * this pixel. fmin passes over NaN. */
+/* Only the nearer neighbour counts. At a jump of the map the other one tells nothing about this
+ * pixel. iccp_min() skips NaN. */
 static int32_t samples_between(const double *before, const double *here, const double *after)
 {
     return iccp_samples_for(iccp_min(before != NULL ? distance(before, here) : NAN,
@@ -63,7 +63,8 @@ static void add_sample(const iccp_sampler *source, const double place[2], iccp_g
         iccp_sampler_gather(source, &line, 1, 0, 1, gathered);
 }
 
-/* What the picture has at the places that are known, or else at one. */
+/* Paints the mean of the picture's samples at the known places, or its sample at `else_at` if no
+ * place is known. */
 static void paint_places(const warp *w, size_t n, const double *places, const double *else_at,
                          uint8_t *to)
 {
@@ -84,7 +85,8 @@ static void paint_places(const warp *w, size_t n, const double *places, const do
     iccp_sampler_store(&w->source, &gathered, 1, to);
 }
 
-/* The mean of a grid of samples; of the centre alone when none of them has an origin. */
+/* Paints the mean of a grid of samples, or the sample of the centre if no other sample has an
+ * origin. */
 static icc_status paint_mean(const warp *w, const double *centre_origin, int32_t column,
                              int32_t row, int32_t columns, int32_t rows, uint8_t *to)
 {
