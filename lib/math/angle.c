@@ -1,7 +1,9 @@
-/* Cosine and sine by Taylor polynomials on an eighth of a turn, after an exact reduction; the angle
- * of a vector by tan(a - b) = (tan a - tan b) / (1 + tan a tan b), where tan b is the nearest of 0,
- * 1/8 .. 1, and the Taylor polynomial of the arcus tangent for the rest. What decides the last
- * place is carried as a sum of two doubles, `high + low`. */
+/* Trigonometric functions. Cosine and sine use Taylor polynomials on an eighth of a turn, after an
+ * exact reduction.
+ *
+ * The angle of a vector uses tan(a - b) = (tan a - tan b) / (1 + tan a tan b). Here tan b is the
+ * nearest of 0, 1/8 .. 1, and the Taylor polynomial of the arctangent gives the rest. Values that
+ * decide the last place are sums of two doubles, `high + low`. */
 #include "math/elementary.h"
 
 #include "math/expansion.h"
@@ -13,7 +15,7 @@ static const double TWO_PI_HIGH = 0x1.921fb54442d18p2, TWO_PI_LOW = 0x1.1a626331
 static const double PER_TURN_HIGH = 0x1.45f306dc9c883p-3,
                     PER_TURN_LOW = -0x1.6b01ec5417056p-57; /* 1 / (2 pi) */
 static const double QUARTERS_PER_RADIAN = 0x1.45f306dc9c883p-1;
-/* pi / 2 = the sum; multiples of all but the last by up to 2^20 are exact. */
+/* pi / 2 is the sum. The first three, times up to 2^20, are exact. */
 static const double QUARTER[4] = {0x1.921fb544p0, 0x1.0b4611a6p-34, 0x1.3198a2ep-69,
                                   0x1.b839a252049c1p-104};
 
@@ -32,7 +34,7 @@ static const struct {
     {0x1p-3, 0x0p0},
 };
 
-/* Their remainders are below 2^-58 of the functions. */
+/* The truncation errors are below 2^-58 of the functions. */
 static const double SINE[9] = {-1.0 / 6,
                                1.0 / 120,
                                -1.0 / 5040,
@@ -48,7 +50,7 @@ static const double COSINE[7] = {
 static const double ARCUS_TANGENT[7] = {-1.0 / 3,  1.0 / 5,  -1.0 / 7, 1.0 / 9,
                                         -1.0 / 11, 1.0 / 13, -1.0 / 15};
 
-/* Even and odd powers apart: half as long a chain. */
+/* Sums even and odd powers separately, which halves the chain of dependent operations. */
 static inline double polynomial(int n, const double *coefficient, double x)
 {
     const double x2 = x * x;
@@ -58,7 +60,8 @@ static inline double polynomial(int n, const double *coefficient, double x)
     return sum[0] + sum[1] * x;
 }
 
-/* Of a + b and some quarters of a turn, |a| <= pi / 4 and b below an ulp of a. */
+/* Cosine and sine of a + b and some quarters of a turn. |a| <= pi / 4, and b is below an ulp of
+ * a. */
 static void cis_of_sum(double a, double b, int32_t quarters, double z[2])
 {
     const double q = a * a, half = 0.5 * q, rest = 1 - half;
@@ -100,7 +103,7 @@ void iccp_cis(double radians, double z[2])
     cis_of_sum(high, low, (int32_t)quarters, z);
 }
 
-/* c x = result + *low for a c of few bits. */
+/* c x = result + *low, if c has few bits. */
 static inline double short_product(double c, double x, double *low)
 {
     const double product = c * x, high = iccp_upper_half(x);
@@ -108,8 +111,9 @@ static inline double short_product(double c, double x, double *low)
     return product;
 }
 
-/* The angle of (x, y), 0 <= y <= x, whose products neither leave the range nor lose digits: result
- * + *low turns. `i` eighths of x are what of y has its angle in the table. */
+/* Angle of (x, y) in turns, as result + *low, for 0 <= y <= x. Products must neither leave the
+ * range nor lose digits. The table has the angle whose tangent is i eighths, and a series gives the
+ * rest. */
 static double first_eighth(double y, double x, double *low)
 {
     double c_low, s_low, error, rest;
@@ -127,8 +131,8 @@ static double first_eighth(double y, double x, double *low)
     return sum;
 }
 
-/* The same for any 0 <= y <= x, x > 0. A tiny y is first made larger, though still so small that
- * the arcus tangent is its argument. */
+/* Like first_eighth(), for any 0 <= y <= x, x > 0. A tiny y is scaled up first, but stays so small
+ * that its arctangent equals its argument. */
 static double first_eighth_of_any(double y, double x, double *low)
 {
     enum { LEAST = -100 };
@@ -145,7 +149,7 @@ static double first_eighth_of_any(double y, double x, double *low)
     return ldexp(turns, e - LEAST);
 }
 
-/* From an eighth's angle to that of the quarter, of the half and of the whole. */
+/* Extends the angle from the first eighth to the quarter, the half and the whole turn. */
 double iccp_atan2_turns(double y, double x)
 {
     const bool steep = fabs(y) > fabs(x), backward = copysign(1, x) < 0;

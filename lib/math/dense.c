@@ -1,6 +1,6 @@
-/* Register-blocked products: the sums of a tile stay in registers while two streams go by, as in
- * K. Goto, R. van de Geijn, Anatomy of high-performance matrix multiplication, ACM Trans. Math.
- * Software 34, 2008, sections 5 and 6. */
+/* Register-blocked products. The sums of a tile stay in registers while two streams of numbers
+ * pass. Based on K. Goto, R. van de Geijn, Anatomy of high-performance matrix multiplication, ACM
+ * Trans. Math. Software 34, 2008, sections 5 and 6. */
 #include "math/dense.h"
 
 #include "base/compiler.h"
@@ -72,7 +72,7 @@ static void spread_portable(double *x, size_t width, const double *a, const doub
             x[s] -= (a[0] * y[s] + a[1] * y1[s]) + (a[2] * y2[s] + a[3] * y3[s]);
 }
 
-/* ---- four rows at once: what AVX2 has a register for, and WebAssembly two ---- */
+/* ---- four rows at once, in one register of AVX2 or two of WebAssembly ---- */
 
 #if defined(ICCP_HAS_SIMD)
 #define TARGET ICCP_AVX2
@@ -131,7 +131,7 @@ TARGET static ICCP_INLINE void subtract_two(double *to, const double *from)
     memcpy(to, &x, sizeof x);
 }
 
-/* Only the rows that are meant are written: others may be another thread's. */
+/* Writes only the intended rows, because other rows may belong to another thread. */
 TARGET static void subtract_fours(double *value, size_t low, size_t stride, const uint32_t *column,
                                   size_t width, const double *tile)
 {
@@ -231,7 +231,7 @@ ICCP_AVX2 static void multiply_avx2(double *tile, size_t n_strips, size_t width,
         multiply_width(tile, 1, width, a, stride, b, depth);
 }
 
-/* Four columns at a time; the products of each are added within pairs of lanes. */
+/* Four columns at a time. The products of each column are added within pairs of lanes. */
 ICCP_AVX2 static void spread_one(double *x, const double *a, const double *y, size_t depth)
 {
     const __m256d rows = _mm256_loadu_pd(y);

@@ -1,4 +1,4 @@
-/* The products of dense.h as in dense.c, but two strips of four rows lie in one register. */
+/* The products of dense.h, with two strips of four rows in one register (compare dense.c). */
 #include "math/dense.h"
 
 #include "base/compiler.h"
@@ -11,14 +11,14 @@
 
 enum { STRIP = 4, PAIRS = ICCP_STRIPS / 2 };
 
-/* Column k of a pair of strips, the second of which may be missing. */
+/* Column k of a pair of strips. The second strip may be missing. */
 ICCP_AVX512 static ICCP_INLINE __m512d load_pair(const double *a, size_t stride, bool is_whole)
 {
     const __m512d low = _mm512_zextpd256_pd512(_mm256_loadu_pd(a));
     return is_whole ? _mm512_insertf64x4(low, _mm256_loadu_pd(a + stride), 1) : low;
 }
 
-/* All sums stay in registers: 12 of 32 at most. */
+/* All sums stay in registers, at most 12 of 32. */
 ICCP_AVX512 static ICCP_INLINE void multiply_tile(double *tile, size_t n_strips, size_t width,
                                                   const double *a, size_t stride, const double *b,
                                                   size_t depth)

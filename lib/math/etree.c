@@ -1,14 +1,14 @@
-/* Elimination tree and postorder after J. Liu, The role of elimination trees in sparse
- * factorization, SIAM J. Matrix Anal. Appl. 11, 1990; column counts after J. Gilbert, E. Ng, B.
- * Peyton, An efficient algorithm to compute row and column counts for sparse Cholesky
- * factorization, SIAM J. Matrix Anal. Appl. 15, 1994. */
+/* Elimination tree, postorder and column counts. Sources: J. Liu, The role of elimination trees in
+ * sparse factorization, SIAM J. Matrix Anal. Appl. 11, 1990 (tree and postorder); J. Gilbert, E.
+ * Ng, B. Peyton, An efficient algorithm to compute row and column counts for sparse Cholesky
+ * factorization, SIAM J. Matrix Anal. Appl. 15, 1994 (counts). */
 #include "math/etree.h"
 
 #include <string.h>
 
 #define NONE ICCP_NO_PARENT
 
-/* Columns between two looks at the progress callback. */
+/* Columns between two calls of the progress callback. */
 enum { COLUMNS_PER_REPORT = 1 << 16 };
 
 icc_status iccp_etree_progress(const iccp_etree *tree, int pass, size_t k, const iccp_env *env)
@@ -25,7 +25,7 @@ static void number(const iccp_etree *t)
         t->position[t->order[k]] = k;
 }
 
-/* Paths to the root of what is built so far are shortened on the way. */
+/* Shortens the paths to the roots of the present forest as it goes. */
 static icc_status find_parents(const iccp_etree *t, uint32_t *ancestor, const iccp_env *env)
 {
     const iccp_symmetric *m = t->matrix;
@@ -45,7 +45,7 @@ static icc_status find_parents(const iccp_etree *t, uint32_t *ancestor, const ic
     return status;
 }
 
-/* place[v]: when a postorder visits column v. Children come in their old order. */
+/* place[v] is when a postorder visits column v. Children keep their order. */
 static void postorder(size_t n, const uint32_t *parent, uint32_t *place, uint32_t *child,
                       uint32_t *sibling, uint32_t *stack)
 {
@@ -101,11 +101,11 @@ icc_status iccp_etree_build(const iccp_etree *tree, const iccp_env *env)
     return status;
 }
 
-/* What a column's rows are found with. In a postorder the descendants of column j are the columns
- * from first[j] to j. */
+/* State of the column counts. In a postorder the descendants of column j are the columns from
+ * first[j] to j. */
 typedef struct counting {
     uint32_t *first;    /* by column */
-    uint32_t *latest;   /* by row: first[] of the last leaf of its subtree, so far */
+    uint32_t *latest;   /* by row: first[] of the most recent leaf of its subtree */
     uint32_t *leaf;     /* by row: that leaf */
     uint32_t *ancestor; /* by column: sets with a known common ancestor, as a forest */
 } counting;
@@ -122,8 +122,9 @@ static uint32_t find_root(uint32_t *ancestor, uint32_t v)
     return root;
 }
 
-/* Row i of the factor is a subtree; column j is one of its leaves unless a descendant of j is in
- * the row as well. Every leaf adds a path, which ends where it meets that of the leaf before. */
+/* Row i of the factor is a subtree. Column j is one of its leaves unless the row contains a
+ * descendant of j. Every leaf adds a path, which ends where it meets the path of the previous
+ * leaf. */
 static void count_leaf(const counting *c, uint32_t *delta, uint32_t i, uint32_t j)
 {
     if (c->leaf[i] != NONE && c->first[j] <= c->latest[i])
@@ -135,8 +136,8 @@ static void count_leaf(const counting *c, uint32_t *delta, uint32_t i, uint32_t 
     c->leaf[i] = j;
 }
 
-/* Differences between a column's count and the sum of its children's; as unsigned numbers they may
- * wrap round, the sums do not. */
+/* Computes the differences between each column's count and the sum of its children's. As unsigned
+ * numbers these may wrap around, but the sums do not. */
 static icc_status count_differences(const iccp_etree *t, const counting *c, uint32_t *delta,
                                     const iccp_env *env)
 {

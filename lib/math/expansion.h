@@ -1,13 +1,13 @@
-/* Sums of doubles that carry no rounding error.
+/* Sums of doubles without rounding errors.
  *
  * Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
  * Predicates, Discrete & Computational Geometry 18, 1997, sections 2.2 to 2.6.
  *
- * An expansion is an array of non-zero doubles that do not overlap, the smallest magnitude first;
- * its value is their exact sum, its sign that of the last one. Zero is the empty expansion. Exact
- * as long as nothing overflows and every product of two last places stays above 2^-1074. Relies on
- * plain double arithmetic, rounded to even: no contraction to fused operations, no excess
- * precision. */
+ * An expansion is an array of non-zero doubles that do not overlap, the smallest magnitude first.
+ * Its value is their exact sum, and its sign that of the last one. Zero is the empty expansion.
+ * Results are exact as long as nothing overflows and every product of two last places stays above
+ * 2^-1074. This requires plain double arithmetic, rounded to even, without fused operations and
+ * without excess precision. */
 #ifndef ICCP_EXPANSION_H
 #define ICCP_EXPANSION_H
 
@@ -15,7 +15,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* 1 leaves doubles alone, too; it is what GCC says on s390x with -std=c11. */
+/* Value 1 also leaves doubles alone; GCC reports it on s390x with -std=c11. */
 _Static_assert((FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1) && FLT_RADIX == 2 &&
                    DBL_MANT_DIG == 53,
                "the exact predicates need IEEE 754 doubles without excess precision");
@@ -37,7 +37,7 @@ static inline double iccp_fast_two_sum(double a, double b, double *error)
     return sum;
 }
 
-/* The upper 26 bits of a; the rest, a minus them, fits into 26 bits as well. */
+/* The upper 26 bits of a. The remainder also fits into 26 bits. */
 static inline double iccp_upper_half(double a)
 {
     const double c = 134217729.0 * a; /* 2^27 + 1 */
@@ -54,14 +54,14 @@ static inline double iccp_two_product(double a, double b, double *error)
     return product;
 }
 
-/* Appends a component unless it is zero; returns the new length. */
+/* Appends a component unless it is zero. Returns the new length. */
 static inline size_t iccp_expansion_push(double *h, size_t n, double component)
 {
     h[n] = component;
     return n + (component != 0.0);
 }
 
-/* h = a + b, room for 2. */
+/* h = a + b. h needs room for 2 components. */
 static inline size_t iccp_expansion_two_sum(double *h, double a, double b)
 {
     double low;
@@ -69,7 +69,7 @@ static inline size_t iccp_expansion_two_sum(double *h, double a, double b)
     return iccp_expansion_push(h, iccp_expansion_push(h, 0, low), high);
 }
 
-/* h = e + f, room for m + n; returns the length. h is neither e nor f. */
+/* h = e + f. h needs room for m + n components and is neither e nor f. Returns the length. */
 static inline size_t iccp_expansion_sum(double *h, size_t m, const double *e, size_t n,
                                         const double *f)
 {
@@ -83,7 +83,7 @@ static inline size_t iccp_expansion_sum(double *h, size_t m, const double *e, si
     return sum != 0.0 ? iccp_expansion_push(h, length, sum) : length;
 }
 
-/* h = b e, room for 2 m; returns the length. h is not e. */
+/* h = b e. h needs room for 2 m components and is not e. Returns the length. */
 static inline size_t iccp_expansion_scale(double *h, size_t m, const double *e, double b)
 {
     size_t length = 0;
@@ -99,7 +99,7 @@ static inline size_t iccp_expansion_scale(double *h, size_t m, const double *e, 
     return sum != 0.0 ? iccp_expansion_push(h, length, sum) : length;
 }
 
-/* h = a b - c d, room for 4; returns the length. */
+/* h = a b - c d. h needs room for 4 components. Returns the length. */
 static inline size_t iccp_expansion_cross(double *h, double a, double b, double c, double d)
 {
     double left[2], right[2];
@@ -109,7 +109,7 @@ static inline size_t iccp_expansion_cross(double *h, double a, double b, double 
     return iccp_expansion_sum(h, 2, left, 2, right);
 }
 
-/* h = (a - b)(c - d), room for 8; returns the length. */
+/* h = (a - b)(c - d). h needs room for 8 components. Returns the length. */
 static inline size_t iccp_expansion_product_of_differences(double *h, double a, double b, double c,
                                                            double d)
 {

@@ -1,13 +1,13 @@
-/* exp, log and what follows from them. All numbers below are values of series and of functions,
- * rounded; sums `high + low` are correct to about 100 bits.
+/* exp, log and functions derived from them. The numbers below are rounded values of series and
+ * functions. Sums `high + low` are correct to about 100 bits.
  *
- * exp: x = k ln 2 / 32 + r, so e^x = 2^(k / 32) e^r: a table times a Taylor polynomial of degree 6,
- * whose remainder is below 2^-58 of it.
+ * exp: x = k ln 2 / 32 + r, so e^x = 2^(k / 32) e^r. The first factor is in a table. The second is
+ * a Taylor polynomial of degree 6, whose relative truncation error is below 2^-58.
  *
- * log: x = 2^e m with m in [1, 2); of 64 intervals, that of m gives a quotient q with 7 bits near
- * 1 / m, so that r = q m - 1 is below 2^-6 and a double, without rounding. Then log x = e ln 2 -
- * log q + log(1 + r), the last by a Taylor polynomial of degree 9. From m = 1.42 on e counts one
- * more, and q twice as much: near x = 1 both e ln 2 and log q are 0. */
+ * log: x = 2^e m with m in [1, 2). The interval of m, one of 64, gives a quotient q with 7 bits
+ * near 1 / m. Then r = q m - 1 is below 2^-6 and an exact double. So log x = e ln 2 - log q + log(1
+ * + r), where the last term is a Taylor polynomial of degree 9. From m = 1.42 on, e is one larger
+ * and q twice as large, so that both e ln 2 and log q are 0 near x = 1. */
 #include "math/elementary.h"
 
 #include "math/expansion.h"
@@ -18,12 +18,12 @@
 
 enum { N_EXP = 32, N_LOG = 64, FIRST_DOUBLED = 27 };
 
-/* ln 2 / 32; n times the upper part is exact for |n| < 2^16. */
+/* ln 2 / 32. The upper part times n is exact for |n| < 2^16. */
 static const double STEP_HIGH = 0x1.62e42fefap-6, STEP_LOW = 0x1.cf79abc9e3b3ap-45;
 static const double PER_STEP = 0x1.71547652b82fep5;
-/* ln 2; the upper part and those in LOG are multiples of 2^-42, their sums are exact. */
+/* ln 2. The upper part and those in LOG are multiples of 2^-42, so their sums are exact. */
 static const double LN2_HIGH = 0x1.62e42fefa38p-1, LN2_LOW = 0x1.ef35793c7673p-45;
-/* Adding and subtracting it rounds to an integer. */
+/* Adding and subtracting it rounds a number to an integer. */
 static const double ROUNDER = 0x1.8p52;
 
 /* 2^(j / 32) */
@@ -142,7 +142,7 @@ static double power_of_2(int32_t exponent)
     return power;
 }
 
-/* e^(x + rest), where rest is below an ulp of x. */
+/* e^(x + rest), if rest is below an ulp of x. */
 static double exp_of_sum(double x, double rest)
 {
     if (!(x < 710))
@@ -176,7 +176,7 @@ static double log_series(double r)
 /* log x = result + *low for 0 < x < infinity. */
 static inline double log_in_parts(double x, double *low)
 {
-    /* The fraction of m, and of that what the upper half of m lacks. */
+    /* The fraction of m, and the bits of it that the upper half of m lacks. */
     const uint64_t fraction = ((uint64_t)1 << 52) - 1, lower_half = ((uint64_t)1 << 27) - 1;
     const bool tiny = x < DBL_MIN;
     uint64_t bits, upper;
@@ -198,7 +198,7 @@ static inline double log_in_parts(double x, double *low)
     return high;
 }
 
-/* Where x is not positive and finite. */
+/* log x if x is not positive and finite. */
 static double log_beyond(double x)
 {
     return x < 0 ? NAN : x <= 0 ? -HUGE_VAL : x;
@@ -213,7 +213,7 @@ double iccp_ln(double x)
     return high + low;
 }
 
-/* What 1 + x loses by rounding, d, is put right by log(u + d) = log u + d / u. */
+/* Rounding 1 + x to u loses d. The formula log(u + d) = log u + d / u corrects this. */
 double iccp_ln1p(double x)
 {
     double low, lost;

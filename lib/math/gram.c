@@ -1,12 +1,12 @@
-/* Row by row, after F. Gustavson, Two fast algorithms for sparse matrices: multiplication and
- * permuted transposition, ACM Trans. Math. Software 4, 1978. */
+/* Weighted Gram matrices, computed row by row. Source: F. Gustavson, Two fast algorithms for sparse
+ * matrices: multiplication and permuted transposition, ACM Trans. Math. Software 4, 1978. */
 #include "math/gram.h"
 
 #include <stdbool.h>
 
 #define NONE UINT32_MAX
 
-/* Columns between looks at the progress callback. */
+/* Columns between two calls of the progress callback. */
 enum { COLUMNS_PER_REPORT = 1 << 16 };
 
 icc_status iccp_sparse_create(iccp_sparse *b, size_t n_rows, size_t n_columns, size_t n_entries,
@@ -58,7 +58,7 @@ static void transpose(iccp_gram *g, const iccp_sparse *b)
         ++g->row_first[b->column[p] + 1];
     for (size_t j = 0; j < n; ++j)
         g->row_first[j + 1] += g->row_first[j];
-    /* Filling moves the beginning of each column to its end, which is where the next one begins. */
+    /* Filling moves the beginning of each column to its end, where the next column begins. */
     for (size_t i = 0; i < b->n_rows; ++i)
         for (size_t p = b->first[i]; p < b->first[i + 1]; ++p) {
             const size_t q = g->row_first[b->column[p]]++;
@@ -70,7 +70,7 @@ static void transpose(iccp_gram *g, const iccp_sparse *b)
     g->row_first[0] = 0;
 }
 
-/* The pattern of row j, written to `column` if there is one; returns its length. */
+/* Finds the pattern of row j and returns its length. Writes it to `column` unless that is NULL. */
 static size_t find_row(const iccp_gram *g, const iccp_sparse *b, uint32_t j, uint32_t *mark,
                        uint32_t *column)
 {

@@ -1,4 +1,4 @@
-/* C. G. J. Jacobi's rotations for the eigenvectors of small symmetric matrices. */
+/* Eigenvectors of small symmetric matrices by C. G. J. Jacobi's rotations. */
 #ifndef ICCP_JACOBI_H
 #define ICCP_JACOBI_H
 
@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Eigenvalues, on the diagonal of `a`, and eigenvectors, the rows of `v`, of an n by n matrix.
- * Entries that are smaller than `share` of the diagonal's are left. A constant n makes it straight
- * code. */
+/* Computes the eigenvalues (on the diagonal of `a`) and the eigenvectors (the rows of `v`) of an n
+ * by n matrix. Entries smaller than `share` of the diagonal's are ignored. With a constant n the
+ * compiler unrolls the loops. */
 static ICCP_INLINE void iccp_jacobi_diagonalise(size_t n, int sweeps, double share, double *a,
                                                 double *v)
 {

@@ -1,5 +1,5 @@
-/* What is known of a factor from the pattern of the matrix: T. Davis, Direct Methods for Sparse
- * Linear Systems, 2006, chapter 4 and section 7.1. */
+/* Analysis: everything about a factor that the pattern of the matrix determines. Source: T. Davis,
+ * Direct Methods for Sparse Linear Systems, 2006, chapter 4 and section 7.1. */
 #include "math/ldlt.h"
 
 #include "base/budget.h"
@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* The pattern of the groups of rows: entries in the first row of each. */
+/* Writes the pattern of the groups of rows, taken from the first row of each group. */
 static void fill_groups(size_t *first, uint32_t *column, const iccp_symmetric *m, size_t block)
 {
     const size_t n = m->n / block;
@@ -29,7 +29,8 @@ static icc_status allocate(iccp_ldlt *l, size_t n, const iccp_env *env)
     return l->order != NULL && l->position != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* The columns of a group have as many entries as the group has rows below, and one less each. */
+/* The first column of a group has as many entries as the group has rows below. Each further column
+ * has one entry less. */
 static void predict(iccp_ldlt *l, const uint32_t *count, size_t block)
 {
     for (size_t j = 0; j < l->n; ++j) {
@@ -39,7 +40,7 @@ static void predict(iccp_ldlt *l, const uint32_t *count, size_t block)
     }
 }
 
-/* From numbers of n groups to those of their rows, in place. */
+/* Replaces the numbers of n groups by those of their rows, in place. */
 static void expand(uint32_t *number, size_t n, size_t block)
 {
     for (size_t k = n; k-- > 0;)
@@ -47,10 +48,10 @@ static void expand(uint32_t *number, size_t n, size_t block)
             number[block * k + d] = (uint32_t)(block * number[k] + d);
 }
 
-/* Of the vectors and the matrix that go with a factor; generous. */
+/* Generous estimate for the vectors and the matrix that accompany a factor. */
 static const double BYTES_PER_ROW = 200;
 
-/* From the order on, all by groups. */
+/* The analysis after ordering, all in groups. */
 static icc_status analyse(iccp_ldlt *l, const iccp_symmetric *groups, size_t block,
                           const iccp_env *env)
 {
@@ -82,7 +83,7 @@ static icc_status order_and_analyse(iccp_ldlt *l, const iccp_symmetric *groups, 
     return status == ICC_OK ? analyse(l, groups, block, env) : status;
 }
 
-/* The groups as a matrix of their own, without values. */
+/* Makes a matrix of the groups, without values, and analyses it. */
 static icc_status analyse_groups(iccp_ldlt *l, const iccp_symmetric *m, size_t block,
                                  const iccp_env *env)
 {

@@ -1,5 +1,5 @@
-/* Sparse LDL^T factorisation of a symmetric matrix, positive definite or quasi-definite, by
- * supernodes. */
+/* Sparse LDL^T factorisation of a symmetric matrix by supernodes. The matrix is positive definite
+ * or quasi-definite. */
 #ifndef ICCP_LDLT_H
 #define ICCP_LDLT_H
 
@@ -14,77 +14,80 @@ typedef struct iccp_ldlt {
     iccp_memory memory;
     size_t n;
     uint32_t *order;    /* the row that is eliminated k-th */
-    uint32_t *position; /* when a row is eliminated */
+    uint32_t *position; /* the step in which a row is eliminated */
     iccp_supernodes nodes;
-    size_t n_entries; /* of L, below the diagonal */
-    double work;      /* multiplications of one factorisation, without those by stored zeros */
-    double *value;    /* the panels of L; NULL before the first factorisation */
+    size_t n_entries; /* entries of L below the diagonal */
+    double work;      /* multiplications of one factorisation, except those by stored zeros */
+    double *value;    /* panels of L; NULL before the first factorisation */
     double *pivot;    /* D */
-    iccp_subtrees large, small; /* with threads, from the first factorisation on: what can be done
-                                   at the same time, and before that, inside those */
-    bool borrows;               /* everything but these, L and D belongs to another one */
+    /* Set by the first factorisation with threads: subtrees that run at the same time. The small
+     * ones lie inside large ones and run first. */
+    iccp_subtrees large, small;
+    bool borrows; /* everything except these, L and D belongs to another factor */
 } iccp_ldlt;
 
 /* Orders and analyses a matrix by its pattern alone. Rows come in groups of `block` with the same
- * pattern; the groups are ordered. From then on `work`, `n_entries` and what the panels will take,
- * iccp_ldlt_bytes(), are known. On failure nothing is left allocated. */
+ * pattern, and the groups are ordered. Afterwards `work`, `n_entries` and iccp_ldlt_bytes() are
+ * known. On failure nothing stays allocated. */
 icc_status iccp_ldlt_analyse(iccp_ldlt *factor, const iccp_symmetric *matrix, size_t block,
                              const iccp_env *env);
 
-/* The same with an order that the caller has: order[k] is eliminated k-th, or at another time when
- * that makes no difference to the factor. */
+/* Like iccp_ldlt_analyse(), with the caller's order: order[k] is eliminated k-th, or at another
+ * time that gives the same factor. */
 icc_status iccp_ldlt_analyse_ordered(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                      const uint32_t *order, const iccp_env *env);
 
-/* For a matrix of the same pattern as the one that `analysed` is for, which must live longer; it is
- * only read, and several may share it. */
+/* Reuses an analysis for a matrix of the same pattern. `analysed` must live longer; it is only
+ * read, so several factors may share it. */
 void iccp_ldlt_share(iccp_ldlt *factor, const iccp_ldlt *analysed, const iccp_memory *memory);
 
-/* Bytes of L and D: all that a factorisation takes but for a few words per row and 36 doubles per
- * column of the widest supernode. */
+/* Bytes of L and D. A factorisation needs only a few words per row more, and 36 doubles per column
+ * of the widest supernode. */
 double iccp_ldlt_bytes(const iccp_ldlt *factor);
 
-/* Factorises a matrix with the analysed pattern, into the memory that the first call allocates.
- * ICC_ERR_SOLVER when a pivot is not positive: the matrix is not positive definite to working
- * precision. Cost: proportional to the sum of the squared column counts of L. The same bits on
- * every processor. */
+/* Factorises a matrix with the analysed pattern. The first call allocates the memory. Returns
+ * ICC_ERR_SOLVER if a pivot is not positive: the matrix is not positive definite to working
+ * precision. The cost is proportional to the sum of the squared column counts of L. Every processor
+ * gives the same bits. */
 icc_status iccp_ldlt_factorise(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                const iccp_env *env);
 
-/* The same for a quasi-definite matrix: sign[i], 1 or -1, is that of the pivot of row i.
- * ICC_ERR_SOLVER when a pivot has another sign. */
+/* Like iccp_ldlt_factorise(), for a quasi-definite matrix. sign[i] is 1 or -1, the sign of row i's
+ * pivot. Returns ICC_ERR_SOLVER if a pivot has another sign. */
 icc_status iccp_ldlt_factorise_signed(iccp_ldlt *factor, const iccp_symmetric *matrix,
                                       const int8_t *sign, const iccp_env *env);
 
-/* Accepts what was never analysed (zeroed but for its memory) or freed. */
+/* Accepts a factor that was freed, or never analysed (all zeros except its memory). */
 void iccp_ldlt_free(iccp_ldlt *factor);
 
-/* Solves for n_rhs right-hand sides at once: entry i of column r at b[i * n_rhs + r], replaced
- * by the solution. `work` has room for n * n_rhs doubles. */
+/* Solves for n_rhs right-hand sides at once. Entry i of column r is b[i * n_rhs + r] and is
+ * replaced by the solution. `work` has room for n * n_rhs doubles. */
 void iccp_ldlt_solve(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work);
 
-/* The same on all threads of `env`, and the same bits. */
+/* Like iccp_ldlt_solve(), with the same bits, on all threads of `env`. */
 void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, double *work,
                              const iccp_env *env);
 
-/* Marks what solutions at some rows depend on, and what right-hand sides there reach: in `needed`,
- * which has factor->nodes.n entries, those of marks before included. */
+/* Marks the supernodes that solutions at the given rows depend on, and that right-hand sides there
+ * reach. `needed` has factor->nodes.n entries. Earlier marks stay. */
 void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed);
 
-/* Lists all rows that are marked, rising; room for n of them. Returns how many there are. */
+/* Lists all marked rows in rising order and returns their number. `rows` has room for n. */
 size_t iccp_ldlt_marked(const iccp_ldlt *factor, const uint8_t *needed, uint32_t *rows);
 
-/* As iccp_ldlt_solve() where b is 0 but for marked rows: it is solved for at those only, and in
- * time that depends on them. Others are not looked at. */
+/* Like iccp_ldlt_solve(), if b is 0 except at marked rows. Solves only at marked rows, in time that
+ * depends on their number. Does not look at other rows. */
 void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
                             double *work);
 
-/* The same for one right-hand side of normalised numbers, without under- or overflow. `work` has
- * room for n of them. ICC_OK, or ICC_ERR_CANCELLED. The solution of an M-matrix with a
- * right-hand side that is not negative is right to the last few digits in every component, since
- * nothing cancels, unless entries of L itself underflow: orders that join rows directly whose
- * numbers differ by 10^150 lose them. Orders by degree do that in long loops, not where
- * corridors end; an order by falling distance from the source never does. */
+/* Solves for one right-hand side of normalised numbers, without underflow or overflow. `work` has
+ * room for n of them. Returns ICC_OK or ICC_ERR_CANCELLED.
+ *
+ * If the matrix is an M-matrix and the right-hand side is not negative, nothing cancels. Then every
+ * component of the solution is right to its last few digits, unless entries of L itself underflow.
+ * Underflow happens if the order joins rows directly whose numbers differ by 10^150. Orders by
+ * degree do so in long loops, but not at dead ends of corridors. An order by falling distance from
+ * the source never does. */
 icc_status iccp_ldlt_solve_scaled(const iccp_ldlt *factor, const iccp_scaled *b,
                                   const iccp_scaled *work, const iccp_env *env);
 

@@ -1,9 +1,11 @@
-/* Left-looking supernodal factorisation: E. Ng, B. Peyton, Block sparse Cholesky algorithms on
- * advanced uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L L^T. A
- * panel gets the entries of the matrix, then the product of each panel before it that has rows
- * among its columns, tile by tile, then it is factorised by itself. On several threads, subtrees of
- * the elimination tree come first; what waits for panels above them is put into their lists when it
- * would have been without threads, so that the bits are the same. */
+/* Left-looking supernodal factorisation. Source: E. Ng, B. Peyton, Block sparse Cholesky algorithms
+ * on advanced uniprocessor computers, SIAM J. Sci. Comput. 14, 1993, with L D L^T in place of L
+ * L^T.
+ *
+ * A panel first gets the entries of the matrix. Then it receives, tile by tile, the product of each
+ * earlier panel that has rows among its columns. Finally it is factorised by itself. On several
+ * threads, subtrees of the elimination tree come first. Panels that leave a subtree join the lists
+ * of later panels at the same place as without threads, so the bits are the same. */
 #include "math/ldlt.h"
 #include "math/panel.h"
 
@@ -15,38 +17,38 @@
 #define NONE ICCP_NO_PARENT
 #define STRIP ((size_t)ICCP_STRIP)
 
-/* What a panel costs besides its products, in multiplications: about a microsecond. */
+/* Overhead of a panel in multiplications: about a microsecond. */
 static const double PER_PANEL = 2000;
 
-/* A factorisation with less labour is done sooner than threads come: some 30 us. */
+/* A smaller factorisation is finished before threads start, which takes some 30 us. */
 static const double LEAST_FOR_THREADS = 5e4;
 
-/* Of the whole: what subtrees take that are done first, many at the same time, and those that have
- * such subtrees in them. Two threads have enough to do with fewer. */
+/* Shares of the whole labour. Subtrees of the share SMALL run first, many at the same time, then
+ * larger ones that contain them. Two threads need fewer subtrees. */
 static const double SMALL = 1.0 / 16, LARGE = 1.0 / 3, SMALL_OF_TWO = 1.0 / 12,
                     LARGE_OF_TWO = 1.0 / 2.2;
 
-/* Panels in a row, in the order in which they came. */
+/* A list of panels in order of arrival. */
 typedef struct queue {
     uint32_t first, last; /* or NONE */
 } queue;
 
-/* Work space of one factorisation, or of the part of one that is done by one task. Each finished
- * panel waits in the list of the next one that it has rows for, or, if that is not the task's, in
- * the queue of those that leave. */
+/* Workspace of one factorisation, or of one task's part of it. Each finished panel waits in the
+ * list of the next panel that needs it. If that panel belongs to another task, it waits in the
+ * queue `leaving`. */
 typedef struct factorisation {
     iccp_ldlt *l;
     const iccp_symmetric *matrix;
-    int8_t *sign; /* in eliminated numbering, or NULL */
+    int8_t *sign; /* in elimination order, or NULL */
     iccp_dense dense;
-    uint32_t *waiting; /* by panel: the first panel that waits for it, or NONE */
-    uint32_t *next;    /* by panel: the one that waits behind it */
-    size_t *done;      /* by panel: its first row that has not been used yet */
-    uint32_t end;      /* the task's last panel is the one before this */
+    uint32_t *waiting; /* first panel that waits for each panel, or NONE */
+    uint32_t *next;    /* the panel that waits behind each panel */
+    size_t *done;      /* first row of each panel that has not been used yet */
+    uint32_t end;      /* one past the task's last panel */
     queue leaving;
     iccp_labour labour;
-    uint32_t *local; /* n: by row of the factor, where it is in the current panel */
-    uint32_t *place; /* by row of the updating panel: where it is in the updated one */
+    uint32_t *local; /* n: place of each row of the factor in the current panel */
+    uint32_t *place; /* place of each row of the updating panel in the updated one */
     double *packed;  /* see iccp_panel_pack() */
 } factorisation;
 
@@ -61,7 +63,8 @@ static void find_local(const factorisation *f, uint32_t s)
         f->local[row[i]] = columns + i;
 }
 
-/* Rows of the matrix lie anywhere in memory: asks for the one that is due AHEAD rows later. */
+/* Rows of the matrix are scattered in memory. So this prefetches the row that is needed AHEAD rows
+ * later. */
 static void fetch_ahead(const factorisation *f, size_t k)
 {
     enum { AHEAD = 8, PER_LINE = 8 };
@@ -78,7 +81,7 @@ static void fetch_ahead(const factorisation *f, size_t k)
     }
 }
 
-/* The entries of the matrix. */
+/* Copies the entries of the matrix into the panel. */
 static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p)
 {
     const iccp_ldlt *l = f->l;
@@ -98,18 +101,19 @@ static void load_entries(const factorisation *f, uint32_t s, const iccp_panel *p
     }
 }
 
-/* What panel `from` does to a later one, whose columns its rows [begin, end) are. */
+/* The update of a later panel by panel `from`. Rows [begin, end) of `from` are columns of the later
+ * panel. */
 typedef struct update {
     const factorisation *f;
     iccp_panel from;
     size_t begin, end;
-    double *value; /* of the later panel */
+    double *value; /* values of the later panel */
     size_t columns;
-    size_t block, block_end; /* the rows among those that are packed */
+    size_t block, block_end; /* the part of these rows that is packed */
 } update;
 
-/* Takes one strip of a tile away, columns from row j on. Most strips are four rows in a row in the
- * later panel, too. */
+/* Subtracts one strip of a tile, in the columns from row j on. Most strips are also four
+ * consecutive rows in the later panel. */
 static void scatter(const update *u, const double *tile, size_t strip, size_t j, size_t width)
 {
     const size_t start = STRIP * strip, stride = STRIP * u->columns;
@@ -128,8 +132,8 @@ static void scatter(const update *u, const double *tile, size_t strip, size_t j,
     }
 }
 
-/* Takes several strips at a time, so that `multiply` uses each packed entry as often. Tiles above
- * the diagonal are left out. */
+/* Handles several strips at a time, so that `multiply` uses each packed entry as often. Skips tiles
+ * above the diagonal. */
 static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const update *u = argument;
@@ -173,7 +177,7 @@ static void leave(factorisation *f, uint32_t from)
     f->leaving.last = from;
 }
 
-/* Panel `from` joins the list of the panel whose column its row `done` is. */
+/* Puts panel `from` into the list of the panel that owns its row number `done`. */
 static void enlist(factorisation *f, uint32_t from, size_t done)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
@@ -208,7 +212,8 @@ static icc_status update_from(factorisation *f, uint32_t from, uint32_t to)
     return status;
 }
 
-/* Zeros counted: what a panel does to itself and to others. */
+/* Multiplications, including those by zeros, of a panel's own factorisation and its updates of
+ * others. */
 static double labour_of(const iccp_supernodes *nodes, size_t s)
 {
     const double columns = (double)iccp_supernodes_columns(nodes, s);
@@ -216,8 +221,8 @@ static double labour_of(const iccp_supernodes *nodes, size_t s)
     return PER_PANEL + columns * (columns * columns / 6 + below * (columns + below) / 2);
 }
 
-/* When it is s' turn, waiting[s] lists exactly the finished panels with rows among the columns of
- * s; each moves on to the panel of its next row. */
+/* When panel s begins, waiting[s] lists exactly the finished panels with rows among the columns of
+ * s. Each of them then moves to the panel of its next row. */
 static icc_status factorise_panel(factorisation *f, uint32_t s)
 {
     const iccp_supernodes *nodes = &f->l->nodes;
@@ -241,12 +246,12 @@ static icc_status factorise_panel(factorisation *f, uint32_t s)
 
 /* ---- subtrees ---- */
 
-/* Subtrees that are done at the same time, each by one thread. */
+/* Subtrees that run at the same time, each on one thread. */
 typedef struct forest {
     const factorisation *whole;
-    const struct forest *inner; /* done before, in some of them; or NULL */
+    const struct forest *inner; /* smaller subtrees inside these, which are done already; or NULL */
     const iccp_subtrees *subtrees;
-    queue *leaving; /* of each run */
+    queue *leaving; /* panels that leave each run */
 } forest;
 
 static icc_status make_space(factorisation *f)
@@ -267,7 +272,7 @@ static void free_space(const factorisation *f)
     iccp_free(memory, f->packed);
 }
 
-/* What left a run goes on to the panels above it, in the order in which it came. */
+/* Passes the panels that left a run to the panels above it, in order of arrival. */
 static void send_on(factorisation *f, const queue *leaving)
 {
     for (uint32_t from = leaving->first, next; from != NONE; from = next) {
@@ -276,7 +281,8 @@ static void send_on(factorisation *f, const queue *leaving)
     }
 }
 
-/* Left-looking: panel s is finished before panel s + 1 begins, but for runs that have been done. */
+/* Left-looking: panel s is finished before panel s + 1 begins. Runs that are done already are
+ * skipped. */
 static icc_status factorise_range(factorisation *f, const forest *done, uint32_t begin,
                                   uint32_t end)
 {
@@ -297,7 +303,7 @@ static icc_status factorise_range(factorisation *f, const forest *done, uint32_t
     return status;
 }
 
-/* One run, by one thread. */
+/* Factorises one run on one thread. */
 static icc_status factorise_run(void *argument, size_t begin, size_t end)
 {
     const forest *t = argument;
@@ -316,7 +322,8 @@ static icc_status factorise_run(void *argument, size_t begin, size_t end)
     return status;
 }
 
-/* All runs, on all threads: from one share of the labour to another. */
+/* Factorises all runs on all threads. Progress goes from share `from` of the labour to share
+ * `to`. */
 static icc_status factorise_runs(forest *t, double from, double to)
 {
     const iccp_env *env = t->whole->labour.env;
@@ -326,7 +333,7 @@ static icc_status factorise_runs(forest *t, double from, double to)
                               : ICC_ERR_MEMORY;
 }
 
-/* Finds the subtrees once for all factorisations. */
+/* Finds the subtrees once, for all factorisations. */
 static icc_status find_subtrees(iccp_ldlt *l, const iccp_env *env)
 {
     iccp_env own = *env;
@@ -343,7 +350,7 @@ static icc_status find_subtrees(iccp_ldlt *l, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* Many small subtrees, then a few large ones, then the panels above those. */
+/* Factorises many small subtrees, then a few large ones, then the panels above them. */
 static icc_status factorise_at_once(factorisation *f)
 {
     iccp_ldlt *l = f->l;

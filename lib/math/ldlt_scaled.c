@@ -1,14 +1,15 @@
-/* The two triangular solves on numbers beyond the range of double. While they run, a number is
- * x * 2^(512 e): neighbours nearly always share e, so that most multiply-adds are those of plain
- * numbers, and a number is normalised, 2^-256 <= |x| < 2^256, only once per solve. That leaves room
- * for entries of the factor from 2^-500 to 2^500. Where two numbers are added, what lies 2 or more
- * units e lower is below 2^-512 of the other one: it is dropped. */
+/* The two triangular solves on numbers beyond the range of double.
+ *
+ * During a solve, a number is x * 2^(512 e). Neighbours nearly always share e, so most
+ * multiply-adds are those of plain doubles. A number is normalised, 2^-256 <= |x| < 2^256, only
+ * once per solve. That leaves room for entries of the factor from 2^-500 to 2^500. If one of two
+ * summands has an e lower by 2 or more, it is below 2^-512 of the other one and is dropped. */
 #include "math/ldlt.h"
 #include "math/panel.h"
 
 enum { UNIT = 512, MAX_STEPS = 4 };
 
-/* Entries of the factor between two looks at the progress callback: some 10 ms. */
+/* Entries of the factor between two calls of the progress callback: some 10 ms. */
 enum { ENTRIES_PER_REPORT = 1 << 22 };
 
 #define UNIT_UP 0x1p512
@@ -22,7 +23,7 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Entries so large that they do not fit after MAX_STEPS are not finite. */
+/* Numbers so large that MAX_STEPS do not suffice are not finite. */
 static ICCP_INLINE void normalise(double *x, int32_t *e)
 {
     if (ICCP_LIKELY(fabs(*x) >= LOW && fabs(*x) < HIGH))
@@ -37,7 +38,7 @@ static ICCP_INLINE void normalise(double *x, int32_t *e)
         *x *= UNIT_UP;
 }
 
-/* (x, e) += (term, unit). A 0 may come with any unit: panels store some. */
+/* (x, e) += (term, unit). A 0 may have any unit, because panels store some zeros. */
 static ICCP_INLINE void add(double *x, int32_t *e, double term, int32_t unit)
 {
     if (ICCP_LIKELY(unit == *e)) {
@@ -51,7 +52,7 @@ static ICCP_INLINE void add(double *x, int32_t *e, double term, int32_t unit)
     }
 }
 
-/* The right-hand side in eliminated numbering and in units of 2^512. */
+/* Copies the right-hand side into elimination order, in units of 2^512. */
 static void gather(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled *work)
 {
     for (size_t k = 0; k < l->n; ++k) {
@@ -76,7 +77,7 @@ static void scatter(const iccp_ldlt *l, const iccp_scaled *b, const iccp_scaled 
                                                                        : 0);
 }
 
-/* The unit that two numbers share, whatever the unit of 0; false when they have none. */
+/* Returns true if two numbers share a unit, and sets it. A 0 shares every unit. */
 static bool share_unit(int32_t *unit, int32_t e)
 {
     if (*unit == ICCP_ZERO_EXPONENT)
@@ -84,7 +85,7 @@ static bool share_unit(int32_t *unit, int32_t e)
     return e == *unit || e == ICCP_ZERO_EXPONENT;
 }
 
-/* sum[r] = what row r of a strip gives to its right-hand side; unit[r] is the unit of it. */
+/* Computes what each row of a strip adds to its right-hand side: sum[r] in units of unit[r]. */
 static void multiply_strip(double *sum, int32_t *unit, const double *strip, size_t depth,
                            const double *x, const int32_t *e, size_t n_alike, int32_t common)
 {
@@ -103,15 +104,14 @@ static void multiply_strip(double *sum, int32_t *unit, const double *strip, size
             add(&sum[r], &unit[r], -strip[STRIP * k + r] * x[k], e[k]);
 }
 
-/* x = L^-1 x for one panel. An entry is normalised when all before it have been used, and only
- * then is it used itself. As long as the first columns share one unit, their products are plain
- * doubles. */
+/* x = L^-1 x for one panel. An entry is used only after all earlier ones have been applied and it
+ * has been normalised. While the first columns share one unit, their products are plain doubles. */
 static void forward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
                     const uint32_t *below)
 {
     double *x = work->fraction + first, sum[ICCP_STRIP];
     int32_t *e = work->exponent + first, unit[ICCP_STRIP], common = ICCP_ZERO_EXPONENT;
-    size_t n_alike = 0; /* first columns with entries of one unit, `common` */
+    size_t n_alike = 0; /* number of first columns with the unit `common` */
     const double *strip = p->value;
     for (size_t i = 0; i < p->rows; i += STRIP, strip += STRIP * p->columns) {
         const size_t depth = least(i, p->columns);
@@ -129,7 +129,8 @@ static void forward(const iccp_scaled *work, const iccp_panel *p, uint32_t first
     }
 }
 
-/* Rows of a strip times their entries y of the solution, taken from the columns before them. */
+/* Multiplies the rows of a strip by their entries y of the solution, and subtracts the products
+ * from the columns. */
 static void multiply_transposed(double *x, int32_t *e, const double *strip, size_t depth,
                                 const double y[ICCP_STRIP], const int32_t unit[ICCP_STRIP])
 {
@@ -147,8 +148,8 @@ static void multiply_transposed(double *x, int32_t *e, const double *strip, size
                 add(&x[k], &e[k], -strip[r] * y[r], unit[r]);
 }
 
-/* x = L^-T D^-1 x for one panel, from its last row upwards: the rows below are final, and each
- * entry of the square is final, and normalised, before those above it use it. */
+/* x = L^-T D^-1 x for one panel, from its last row upwards. The rows below are final. Each entry of
+ * the square is final and normalised before the entries above use it. */
 static void backward(const iccp_scaled *work, const iccp_panel *p, uint32_t first,
                      const uint32_t *below)
 {
@@ -177,7 +178,7 @@ static void backward(const iccp_scaled *work, const iccp_panel *p, uint32_t firs
     }
 }
 
-/* Reports progress when the next entries begin with supernode s. */
+/* Reports progress before supernode s. */
 static icc_status report(const iccp_supernodes *nodes, size_t s, bool is_back, const iccp_env *env)
 {
     const size_t begin = nodes->first_value[s], end = nodes->first_value[s + 1];

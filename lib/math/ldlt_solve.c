@@ -1,6 +1,6 @@
-/* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip: what a strip
- * of rows needs of the columns before its own is one product, then come the few entries beside the
- * diagonal. */
+/* Triangular solves with a supernodal factor (see ldlt_factorise.c), strip by strip. For a strip of
+ * rows, one product covers the columns before its own. The few entries beside the diagonal
+ * follow. */
 #include "base/compiler.h"
 #include "base/threads.h"
 #include "math/ldlt.h"
@@ -11,8 +11,8 @@
 
 #define STRIP ((size_t)ICCP_STRIP)
 
-/* Right-hand sides next to each other in the work space: entry i of column s at value[i * width
- * + s]. One pass over a panel serves a whole group of them. */
+/* Right-hand sides that lie next to each other in the workspace: entry i of column s is value[i *
+ * width + s]. One pass over a panel serves a whole group. */
 typedef struct group {
     double *value;
     size_t width;
@@ -20,15 +20,15 @@ typedef struct group {
 
 enum { MOST_COLUMNS = 4 };
 
-/* Doubles of a line of the cache, and bytes from which on memory is asked for. */
+/* Doubles of a cache line, and how many bytes ahead memory is prefetched. */
 enum { LINE = 8, AHEAD = 8192 };
 
-/* Rows of a panel that are to be passed on to; all of them on the way back, where it is NULL. */
+/* The rows of a panel that receive its contributions. NULL on the way back means all. */
 typedef struct range {
     size_t begin, end;
 } range;
 
-/* Factors with fewer entries are done with before other threads come. */
+/* Smaller factors are solved before other threads start. */
 enum { FEW_ENTRIES = 1 << 14 };
 
 static size_t least(size_t a, size_t b)
@@ -36,14 +36,14 @@ static size_t least(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-/* Entries i of a panel's rows. */
+/* Address of the entries for row i of a panel. */
 static double *entries(const group *x, const iccp_panel *p, uint32_t first, const uint32_t *below,
                        size_t i, size_t width)
 {
     return x->value + (i < p->columns ? first + i : below[i - p->columns]) * width;
 }
 
-/* Panels lie in memory one after the other; the next page is asked for in time. */
+/* Panels are contiguous in memory, so the next page is prefetched in time. */
 static ICCP_INLINE void fetch(const double *strip, size_t n, intptr_t ahead)
 {
     const uintptr_t there = (uintptr_t)strip + (uintptr_t)ahead;
@@ -77,9 +77,9 @@ static ICCP_INLINE void forward(const group *x, const iccp_panel *p, uint32_t fi
     }
 }
 
-/* x = L^-T D^-1 x for one panel: the mirror image of forward(). Strips are taken from below,
- * each adding to the columns left of it; within the strip on the diagonal, the last row comes
- * first. */
+/* x = L^-T D^-1 x for one panel, the mirror image of forward(). It goes through the strips from
+ * below, and each adds to the columns on its left. Within the strip on the diagonal, the last row
+ * comes first. */
 static ICCP_INLINE void backward(const group *x, const iccp_panel *p, uint32_t first,
                                  const uint32_t *below, size_t width, const iccp_dense *dense)
 {
@@ -124,23 +124,23 @@ static void pass(const iccp_ldlt *factor, size_t s, const group *x, const range 
         backward(x, &panel, first, below, 1, dense);
 }
 
-/* The group that begins with column `done`: as wide as can be, or one column alone. */
+/* Returns the group that begins with column `done`: as wide as possible, or one column alone. */
 static group group_at(const iccp_ldlt *factor, size_t n_rhs, size_t done, double *work)
 {
     return (group){work + factor->n * done, n_rhs - done < MOST_COLUMNS ? 1 : MOST_COLUMNS};
 }
 
-/* A system to be solved; and the subtrees that are done at the same time, if any. */
+/* A system to solve, and the subtrees that run at the same time, if any. */
 typedef struct solution {
     iccp_dense dense;
     const iccp_ldlt *factor;
     const iccp_subtrees *subtrees;
-    const uint8_t *needed; /* of each panel; NULL: all are */
+    const uint8_t *needed; /* by panel; NULL: all panels are needed */
     size_t n_rhs;
     double *work;
 } solution;
 
-/* A panel goes to all groups while it is in the cache. */
+/* Applies a panel to all groups while it is in the cache. */
 static void pass_all(const solution *x, size_t s, const range *rows)
 {
     for (size_t done = 0; done < x->n_rhs;) {
@@ -156,7 +156,7 @@ static size_t rows_of(const solution *x, size_t s)
     return iccp_supernodes_columns(nodes, s) + iccp_supernodes_below(nodes, s);
 }
 
-/* The first row of a panel that is not among those of its own subtrees. */
+/* Returns the first row of a panel that lies outside its own run of subtrees. */
 static size_t first_outside(const solution *x, size_t s, const iccp_subtrees_run *run)
 {
     const iccp_supernodes *nodes = &x->factor->nodes;
@@ -172,7 +172,7 @@ static size_t first_outside(const solution *x, size_t s, const iccp_subtrees_run
     return iccp_supernodes_columns(nodes, s) + low;
 }
 
-/* What each subtree does to its own rows. */
+/* Applies each subtree to its own rows. */
 static icc_status go_forward(void *argument, size_t begin, size_t end)
 {
     const solution *x = argument;
@@ -193,8 +193,9 @@ static icc_status go_back(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Each row gets what it gets in the order of the panels, whoever is first: forward, what subtrees
- * do to the rows above them comes after all that they do to their own; and back, they come last. */
+/* Solves with subtrees on several threads. Each row receives its contributions in the order of the
+ * panels. Forward, subtrees first update their own rows and then the rows above them. Backward,
+ * subtrees come last. */
 static void solve_by_subtrees(const solution *x, const iccp_env *env)
 {
     const iccp_subtrees *t = x->subtrees;
@@ -228,7 +229,8 @@ static void solve_in_turn(const solution *x)
             pass_all(x, s, NULL);
 }
 
-/* The first column, from k on, of a panel that is needed; how far such columns go from there. */
+/* Returns the first column, from k on, of a needed panel. `end` is where the run of needed columns
+ * ends. */
 static size_t next_needed(const solution *x, size_t k, size_t *end)
 {
     const iccp_supernodes *nodes = &x->factor->nodes;
@@ -247,7 +249,8 @@ static size_t next_needed(const solution *x, size_t k, size_t *end)
     return begin;
 }
 
-/* The right-hand sides, from rows in their own order to groups of columns in the factor's. */
+/* Copies the right-hand sides from the caller's order to groups of columns in the factor's
+ * order. */
 static void take_rows(const solution *x, const double *b)
 {
     for (size_t k = 0, end; (k = next_needed(x, k, &end)) < x->factor->n; k = end)
@@ -296,7 +299,7 @@ void iccp_ldlt_solve_at_once(const iccp_ldlt *factor, size_t n_rhs, double *b, d
     solve(factor, NULL, n_rhs, b, work, env);
 }
 
-/* A row's panel reaches those above it in the tree, and no others. */
+/* A row's panel reaches its ancestors in the tree, and no other panels. */
 void iccp_ldlt_mark(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed)
 {
     const iccp_supernodes *nodes = &factor->nodes;

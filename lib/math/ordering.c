@@ -1,14 +1,13 @@
-/* Minimum degree on a quotient graph: P. Amestoy, T. Davis, I. Duff, An approximate minimum degree
- * ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996; A. George, J. Liu, The evolution of the
- * minimum degree ordering algorithm, SIAM Review 31, 1989. Where degrees have become large, minimum
- * fill: E. Rothberg, S. Eisenstat, Node selection strategies for bottom-up sparse matrix
- * ordering, SIAM J. Matrix Anal. Appl. 19, 1998.
+/* Fill-reducing ordering: minimum degree on a quotient graph. Sources: P. Amestoy, T. Davis, I.
+ * Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal. Appl. 17, 1996; A.
+ * George, J. Liu, The evolution of the minimum degree ordering algorithm, SIAM Review 31, 1989.
+ * Where degrees have become large, minimum fill: E. Rothberg, S. Eisenstat, Node selection
+ * strategies for bottom-up sparse matrix ordering, SIAM J. Matrix Anal. Appl. 19, 1998.
  *
- * Elimination joins all neighbours of a variable. In place of the edges between them, the graph
+ * Elimination joins all neighbours of a variable. The graph does not store these edges. Instead it
  * keeps the eliminated variable as an element: the list of the variables that it has joined. The
- * list of a variable holds the elements that it belongs to, then the variables that it is a
- * neighbour of besides. Variables with equal lists are eliminated together: one of them stands for
- * all. */
+ * list of a variable holds its elements first and then its remaining neighbours. Variables with
+ * equal lists are eliminated together, and one of them represents all. */
 #include "math/ordering.h"
 
 #include "base/minmax.h"
@@ -20,36 +19,39 @@
 
 #define NONE UINT32_MAX
 
-/* Tells where a list begins while lists are moved; and, in place of the variable before it, that
- * one is the first that has its cost. */
+/* Marks the beginning of a list while lists are moved. In node::last it marks the first variable of
+ * its cost, which has no variable before it. */
 #define HEAD ((uint32_t)1 << 31)
 
-/* Neighbours from which on a variable is left for the end, in units of sqrt(n) and at the least. */
+/* Variables with more neighbours are eliminated last. In units of sqrt(n), and also the least
+ * number. */
 static const double DENSE = 10;
 enum { LEAST_DENSE = 16 };
 
 /* Up to this degree, or three times the mean, variables are eliminated by degree. By fill from the
- * beginning, grids and meshes in the plane took a tenth more multiplications, and long lists four
- * times as long, since eliminations far from each other absorb little. Solids and walls take a
- * fifth to a third fewer than by degree throughout (tests/bench/bench_ordering). */
+ * beginning, plane grids and meshes took a tenth more multiplications. Their long lists took four
+ * times as long, because distant eliminations absorb little. Solids and walls take a fifth to a
+ * third less than by degree throughout (tests/bench/bench_ordering). */
 enum { SMALL_DEGREE = 32 };
 
-/* Lists are compared in up to so many buckets. */
+/* Most buckets that lists are hashed into for comparison. */
 enum { MOST_BUCKETS = 1 << 14 };
 
-/* Eliminations between two looks at the progress callback. */
+/* Eliminations between two calls of the progress callback. */
 enum { ELEMENTS_PER_REPORT = 1 << 15 };
 
 /* A variable or an element. */
 typedef struct node {
-    uint32_t begin, length; /* of its list; it is no more when there is nothing in it */
-    uint32_t n_elements;    /* of a variable: they come first in the list */
-    int32_t size;           /* of a variable: how many it stands for; negative in the new element */
-    uint32_t degree;        /* variables next to a variable, at the most; variables of an element */
-    uint32_t next, last;    /* of the same cost; or the next one in a bucket, and the hash; or the
-                               element that took in this one */
-    uint32_t mark;          /* of an element: the stamp and how many of it are outside the new one;
-                               0: it is no more */
+    uint32_t begin, length; /* its list; an empty list means that the node no longer exists */
+    uint32_t n_elements;    /* of a variable: elements in its list, which come first */
+    int32_t size;           /* of a variable: how many it represents; negative in the new element */
+    uint32_t degree;        /* variables of an element; for a variable, a bound of its neighbours */
+    /* Neighbours in the list of the same cost. In a bucket: the next variable, and the hash. Of an
+     * absorbed element: the one that absorbed it. */
+    uint32_t next, last;
+    /* Of an element: the stamp plus the number of its variables outside the new one. 0: it no
+     * longer exists. */
+    uint32_t mark;
 } node;
 
 typedef struct graph {
@@ -57,14 +59,14 @@ typedef struct graph {
     size_t n;
     node *node;
     uint32_t *list, end, room; /* the lists of all nodes, up to `end` */
-    uint32_t *head;            /* by cost, n: the first variable, or NONE */
-    uint32_t *bucket;          /* by hash: the first variable, or NONE */
-    uint32_t *ring;            /* by variable: the next one that is eliminated together with it */
-    uint32_t mask;             /* buckets - 1 */
-    uint32_t stamp, most;      /* marks below the stamp are old; the most variables of an element */
-    uint32_t small;            /* the degree up to which that is the cost */
+    uint32_t *head;            /* by cost, n: the first variable with it, or NONE */
+    uint32_t *bucket;          /* by hash: the first variable with it, or NONE */
+    uint32_t *ring;            /* by variable: the next one that is eliminated with it */
+    uint32_t mask;             /* number of buckets - 1 */
+    uint32_t stamp, most;      /* marks below the stamp are old; the largest element's size */
+    uint32_t small;            /* up to this degree, the degree is the cost */
     uint32_t least;            /* no variable has a smaller cost */
-    uint32_t n_left;           /* variables that are not eliminated */
+    uint32_t n_left;           /* variables that are not eliminated yet */
 } graph;
 
 /* ------------------------------------------------------------------- lists */
@@ -91,7 +93,7 @@ static void unlink_cost(graph *g, uint32_t i)
         g->head[v->last ^ HEAD] = v->next;
 }
 
-/* Variable j goes where i goes. */
+/* Variable j is eliminated together with i from now on. */
 static void join_rings(graph *g, uint32_t i, uint32_t j)
 {
     const uint32_t next = g->ring[i];
@@ -99,7 +101,7 @@ static void join_rings(graph *g, uint32_t i, uint32_t j)
     g->ring[j] = next;
 }
 
-/* Moves the lists together. The first entry of each waits in its node meanwhile. */
+/* Closes the gaps between lists. Meanwhile the first entry of each list is kept in its node. */
 static void compact(graph *g)
 {
     uint32_t to = 0;
@@ -128,7 +130,8 @@ static void compact(graph *g)
 
 /* ------------------------------------------------------------- elimination */
 
-/* The variables of a list that are not in the new element yet go to list[to..]; returns its end. */
+/* Moves the variables of a list that are not yet in the new element to list[to..]. Returns the
+ * end. */
 static uint32_t take(graph *g, uint32_t begin, uint32_t length, uint32_t to, uint32_t *degree)
 {
     for (uint32_t k = begin; k < begin + length; ++k) {
@@ -150,8 +153,8 @@ static void absorb_element(node *e, uint32_t p)
     e->next = p;
 }
 
-/* Makes variable p an element, which takes in those that p belonged to. Without any it takes the
- * place of p's list. */
+/* Turns variable p into an element and absorbs the elements that p belonged to. If there are none,
+ * the new list takes the place of p's list. */
 static void form_element(graph *g, uint32_t p)
 {
     node *v = &g->node[p];
@@ -177,7 +180,8 @@ static void form_element(graph *g, uint32_t p)
     v->mark = g->stamp;
 }
 
-/* Marks each element that has variables in common with the new one by how many it has besides. */
+/* Marks each element that shares variables with the new one. The mark tells how many other
+ * variables it has. */
 static void count_outside(const graph *g, uint32_t p)
 {
     const node *element = &g->node[p];
@@ -194,7 +198,7 @@ static void count_outside(const graph *g, uint32_t p)
     }
 }
 
-/* What is left of a variable's list when all that the new element covers is dropped. */
+/* The rest of a variable's list without everything that the new element covers. */
 typedef struct leftover {
     uint32_t length, n_elements, degree, hash;
 } leftover;
@@ -228,8 +232,8 @@ static leftover shorten(const graph *g, uint32_t p, const node *v)
     return r;
 }
 
-/* Lets variable i go with the pivot if it has no neighbours beyond the new element p. Otherwise p
- * comes first in its list, and it into the bucket of the rest. */
+/* If variable i has no neighbours outside the new element p, it is eliminated with p. Otherwise p
+ * becomes first in its list, and i enters the hash bucket of the rest. */
 static void update(graph *g, uint32_t p, uint32_t i)
 {
     node *v = &g->node[i];
@@ -254,7 +258,7 @@ static void update(graph *g, uint32_t p, uint32_t i)
     *bucket = i;
 }
 
-/* ------------------------------------------------------ variables alike */
+/* ------------------------------------------------------ equal variables */
 
 static void new_stamp(graph *g, uint32_t step)
 {
@@ -267,8 +271,8 @@ static void new_stamp(graph *g, uint32_t step)
     g->stamp = 2;
 }
 
-/* Whether all entries of v's list but the first, which all variables of the new element share, bear
- * the stamp. */
+/* Returns true if all entries of v's list have the stamp, except the first, which all variables of
+ * the new element share. */
 static bool is_stamped(const graph *g, const node *v)
 {
     const uint32_t *list = g->list + v->begin;
@@ -286,7 +290,7 @@ static void put_stamp(graph *g, const node *v)
         g->node[list[q]].mark = g->stamp;
 }
 
-/* Lets variable i stand for those behind it in its bucket that have its list. */
+/* Lets variable i represent the later variables in its bucket that have the same list. */
 static void absorb_equals(graph *g, uint32_t i)
 {
     node *v = &g->node[i], *before = v;
@@ -329,10 +333,13 @@ static void find_equals(graph *g, uint32_t p)
 
 /* --------------------------------------------------------------- the whole */
 
-/* The degree where it is small. Elsewhere by how many pairs of neighbours are not joined yet:
- * `joined` neighbours are, by the new element. In all (as in approximate minimum fill) makes wider
- * supernodes, for each of the variables that v stands for (mean fill) less work; by the root of how
- * many those are, factors take the least time. */
+/* Returns the cost of eliminating variable v. Small degrees are their own cost. For larger ones the
+ * cost follows from how many pairs of neighbours are not joined yet; the new element has joined
+ * `joined` of the neighbours.
+ *
+ * The total fill (approximate minimum fill) gives wider supernodes. The fill for each represented
+ * variable (mean fill) gives less work. Dividing by the root of their number gives the fastest
+ * factors. */
 static uint32_t cost_of(const graph *g, const node *v, uint32_t joined)
 {
     if (v->degree <= g->small)
@@ -342,7 +349,7 @@ static uint32_t cost_of(const graph *g, const node *v, uint32_t joined)
     return cost < (double)g->n - 1 ? (uint32_t)cost : (uint32_t)g->n - 1;
 }
 
-/* Ends the making of element p: its variables are given their degrees and costs. */
+/* Finishes element p and sets the degrees and costs of its variables. */
 static void finish_element(graph *g, uint32_t p)
 {
     node *element = &g->node[p];
@@ -373,7 +380,7 @@ static uint32_t next_pivot(graph *g)
     return p;
 }
 
-/* Returns the variable that is eliminated, with all that it stands for. */
+/* Eliminates the next variable with all that it represents, and returns it. */
 static uint32_t eliminate(graph *g)
 {
     const uint32_t p = next_pivot(g);
@@ -390,11 +397,12 @@ static uint32_t eliminate(graph *g)
     return p;
 }
 
-/* What elements stand for one after the other, each right behind all that it has taken in, in the
- * order of rows: the same elimination, but what belongs together stays together. Elements come
- * before those that take them in: sizes of whole subtrees are summed up forwards, into `length`;
- * places within them are given out, those left over in `degree`; and these are made absolute
- * backwards. */
+/* Writes the order: each element's variables follow directly after those of the elements that it
+ * absorbed, in the order of rows. That is the same elimination, but related rows stay together.
+ *
+ * Elements come before those that absorb them. So the first loops sum the sizes of whole subtrees
+ * forwards into `length`. Then each subtree gets its place within its parent, with `degree` as the
+ * running total. The last loop makes the places absolute, backwards. */
 static void place_elements(const graph *g, uint32_t n, const uint32_t *element, uint32_t *order)
 {
     node root = {0};
@@ -428,7 +436,7 @@ static void place_elements(const graph *g, uint32_t n, const uint32_t *element, 
     }
 }
 
-/* Variables with many neighbours come last, and are left out of the graph. */
+/* Leaves variables with many neighbours out of the graph, and puts them last. */
 static size_t place_dense(const graph *g, const iccp_symmetric *m, uint32_t *order)
 {
     const double limit = iccp_max(LEAST_DENSE, DENSE * sqrt((double)m->n));

@@ -5,7 +5,8 @@
 #include "base/env.h"
 #include "math/symmetric.h"
 
-/* order[k] is the row that is eliminated k-th. ICC_ERR_RESOLUTION for 2^31 entries and more. */
+/* order[k] is the row that is eliminated k-th. Returns ICC_ERR_RESOLUTION for 2^31 entries or
+ * more. */
 icc_status iccp_ordering(const iccp_symmetric *matrix, uint32_t *order, const iccp_env *env);
 
 #endif

@@ -1,18 +1,19 @@
-/* The infinitesimal shift is that of: H. Edelsbrunner, E. P. Muecke, Simulation of Simplicity, ACM
- * Transactions on Graphics 9, 1990, for one point only. */
+/* Orientation of points in up to six dimensions. The infinitesimal shift, of one point only, is
+ * from H. Edelsbrunner, E. P. Muecke, Simulation of Simplicity, ACM Transactions on Graphics 9,
+ * 1990. */
 #include "math/orient.h"
 
 #include "base/compiler.h"
 #include "math/predicates.h"
 
-/* Relative to the product of the lengths of the rows, for n = 4..6. Elimination with pivoting errs
- * by n^2 eps times the growth of its entries, at most 2^5 and in practice below 4: 36 * 4
- * * 1.1e-16. */
+/* Error bound for n = 4..6, relative to the product of the row lengths. The error of elimination
+ * with pivoting is n^2 eps times the growth of the entries. Growth is at most 2^5 and in practice
+ * below 4, so the bound is 36 * 4 * 1.1e-16. */
 static const double UNCERTAIN = 2e-14;
 
 typedef double matrix[ICCP_ORIENT_MAX][ICCP_ORIENT_MAX];
 
-/* Rows of length 1; returns the product of the lengths that they had, or 0. */
+/* Scales the rows to length 1. Returns the product of their former lengths, or 0. */
 static ICCP_INLINE double read_rows(matrix a, size_t n, const double *const *points)
 {
     double product = 1;
@@ -32,9 +33,9 @@ static ICCP_INLINE double read_rows(matrix a, size_t n, const double *const *poi
     return product;
 }
 
-/* The determinant by Gaussian elimination with partial pivoting, which bounds the growth of the
- * entries that UNCERTAIN counts on. The rows have length 1, so that none of them is scaled to
- * win the choice of the pivot. */
+/* Computes the determinant by Gaussian elimination with partial pivoting, which bounds the growth
+ * of the entries as UNCERTAIN assumes. The rows have length 1, so scaling a row cannot change the
+ * choice of the pivot. */
 static ICCP_INLINE double eliminate(matrix a, size_t n)
 {
     double det = 1;
@@ -67,7 +68,7 @@ static ICCP_INLINE double value(size_t n, const double *const *points)
     return lengths > 0 ? lengths * eliminate(a, n) : 0;
 }
 
-/* Where the compiler knows n there are no loops. */
+/* If the compiler knows n, it unrolls all loops. */
 double iccp_orient_value(size_t n, const double *const *points)
 {
     return n == 0 ? 1 : n == 3 ? value(3, points) : value(n, points);
@@ -94,8 +95,8 @@ int iccp_orient(size_t n, const double *const *p)
     }
 }
 
-/* The derivative of the determinant by coordinate k of the last point: a determinant of the other
- * points without that coordinate. */
+/* The derivative of the determinant with respect to coordinate k of the last point. It is a
+ * determinant of the other points without that coordinate. */
 static int orient_without(size_t n, const double *const *points, size_t k)
 {
     double shadow[ICCP_ORIENT_MAX][ICCP_ORIENT_MAX];

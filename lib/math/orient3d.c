@@ -1,6 +1,6 @@
-/* Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
- * Predicates, Discrete & Computational Geometry 18, 1997, section 4.3; in the stages that
- * math/predicates.c has. */
+/* Exact orientation of four points in space. Based on: J. R. Shewchuk, Adaptive Precision
+ * Floating-Point Arithmetic and Fast Robust Geometric Predicates, Discrete & Computational Geometry
+ * 18, 1997, section 4.3. The stages are those of math/predicates.c. */
 #include "math/predicates.h"
 
 #include "base/minmax.h"
@@ -9,7 +9,7 @@
 /* Relative error of the determinant of the rounded differences, (3 + 28 eps) eps. */
 static const double det_error_2 = 3.330669073875473e-16;
 
-/* The value of the determinant whose rows are b, a, c, taken as they are. Room for 24. */
+/* The exact determinant with the rows b, a, c. h has room for 24 components. */
 static size_t det_of_differences(double *h, const double a[3], const double b[3], const double c[3])
 {
     const double *const rows[3] = {b, a, c};
@@ -24,7 +24,7 @@ static size_t det_of_differences(double *h, const double a[3], const double b[3]
     return iccp_expansion_sum(h, n_two, two, n[2], term[2]);
 }
 
-/* The same of the unrounded differences from d. */
+/* Sign of the determinant of the unrounded differences from d. */
 static int orient3d_full(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     const double *const rows[3] = {b, a, c};
@@ -33,7 +33,7 @@ static int orient3d_full(const double a[3], const double b[3], const double c[3]
     for (int i = 0; i < 3; ++i) {
         const double *p = rows[(i + 1) % 3], *q = rows[(i + 2) % 3];
         const size_t n_left = iccp_expansion_product_of_differences(left, p[0], d[0], q[1], d[1]);
-        const size_t n_right = /* negative */
+        const size_t n_right = /* subtracted */
             iccp_expansion_product_of_differences(right, d[1], p[1], q[0], d[0]);
         const size_t n_minor = iccp_expansion_sum(minor, n_left, left, n_right, right);
         z[1] = iccp_two_sum(rows[i][2], -d[2], &z[0]);
@@ -45,8 +45,9 @@ static int orient3d_full(const double a[3], const double b[3], const double c[3]
     return iccp_expansion_sign(iccp_expansion_sum(det, n_two, two, n[2], term[2]), det);
 }
 
-/* Whether nine numbers are multiples of one unit and at most 2^16 of it; see are_few_units() in
- * math/predicates.c. The determinant is then below 2^51 units and plain doubles hold it exactly. */
+/* Returns whether nine numbers are multiples of one unit and at most 2^16 units; see
+ * are_few_units() in math/predicates.c. The determinant is then below 2^51 units, so plain doubles
+ * hold it exactly. */
 static int are_few_units(double x[3][3])
 {
     double largest = 0.0;

@@ -1,7 +1,9 @@
-/* Blocked L D L^T of a tall dense panel, by columns and left-looking: G. Golub, C. Van Loan, Matrix
- * Computations, section 4.2. Blocks of ICCP_BLOCK columns get the product of all columns before
- * them at once; within a block the same is done for ICCP_SQUARE columns at a time, first for the
- * rows of the block itself, then for a few strips after the other, which stay in the cache. */
+/* Blocked L D L^T of a tall dense panel, by columns and left-looking. Source: G. Golub, C. Van
+ * Loan, Matrix Computations, section 4.2.
+ *
+ * Blocks of ICCP_BLOCK columns receive the product of all earlier columns at once. Within a block
+ * the same happens for ICCP_SQUARE columns at a time. The rows of the block itself come first, then
+ * the other rows, a few strips at a time so that they stay in the cache. */
 #include "math/panel.h"
 
 #include "base/minmax.h"
@@ -10,10 +12,10 @@
 
 #define STRIP ((size_t)ICCP_STRIP)
 
-/* Between two looks at the clock of whoever waits: 20 ms at 1.5e9 multiplications a second. */
+/* Multiplications between two calls of the progress callback: 20 ms at 1.5e9 a second. */
 static const double PER_REPORT = 3e7;
 
-/* Less than this is done sooner than threads are started. */
+/* Smaller products are finished before threads start. */
 static const double PER_THREADS = 1e7;
 
 /* Strips that a thread takes at once. */
@@ -60,7 +62,7 @@ icc_status iccp_labour_strips(iccp_labour *labour, size_t begin, size_t end, dou
     return status;
 }
 
-/* With a constant width the loop over rows is unrolled. */
+/* With a constant width the compiler unrolls the loop over rows. */
 static ICCP_INLINE void pack_group(double *packed, const iccp_panel *panel, size_t i, size_t left,
                                    size_t width, size_t first, size_t last)
 {
@@ -85,7 +87,8 @@ void iccp_panel_pack(double *packed, const iccp_panel *panel, size_t begin, size
     }
 }
 
-/* Columns [begin, end), from row `begin` on, minus the product of columns [first, begin). */
+/* Subtracts the product of columns [first, begin) from columns [begin, end), from row `begin`
+ * on. */
 typedef struct product {
     const iccp_panel *panel;
     size_t first, begin, end;
@@ -93,8 +96,8 @@ typedef struct product {
     const iccp_dense *dense;
 } product;
 
-/* Columns [j, j + width) of n strips from `row` on, minus the product of columns [first, last).
- * Returns the end of what is used of `packed`. */
+/* Subtracts the product of columns [first, last) from columns [j, j + width) of n strips, from
+ * `row` on. Returns the end of the used part of `packed`. */
 static const double *subtract(const iccp_panel *p, const iccp_dense *dense, double *row, size_t n,
                               size_t j, size_t left, size_t first, size_t last,
                               const double *packed)
@@ -109,8 +112,8 @@ static const double *subtract(const iccp_panel *p, const iccp_dense *dense, doub
     return packed + width * depth;
 }
 
-/* Like update_strips() in ldlt_factorise.c, but the panel updates itself: rows and columns of
- * the tile are those of the panel, so that nothing is scattered. */
+/* Like update_strips() in ldlt_factorise.c, but the panel updates itself. Rows and columns of the
+ * tile are those of the panel, so nothing is scattered. */
 static icc_status update_strips(void *argument, size_t strip, size_t strips)
 {
     const product *u = argument;
@@ -146,7 +149,8 @@ static bool is_pivot(double pivot, int sign)
     return isfinite(pivot) && (sign > 0 ? pivot > 0 : pivot < 0);
 }
 
-/* The square on the diagonal, and the rows that share its strip. scaled: see iccp_divide. */
+/* Factorises the square on the diagonal and the rows in its strip. `scaled` is as in
+ * iccp_divide. */
 static bool eliminate_square(double *strip, size_t width, double *pivot, const int8_t *sign,
                              double *scaled)
 {
@@ -165,12 +169,12 @@ static bool eliminate_square(double *strip, size_t width, double *pivot, const i
     return true;
 }
 
-/* Columns [begin, end), which have got the updates of all before them. */
+/* Columns [begin, end), which have received the updates of all earlier ones. */
 typedef struct block {
     const iccp_panel *panel;
     size_t begin, end;
     const iccp_dense *dense;
-    double *packed; /* of each square, those of its rows before it in the block */
+    double *packed; /* for each square: its rows, left of it in the block */
     double scaled[ICCP_BLOCK / ICCP_SQUARE][ICCP_SQUARE * ICCP_SQUARE];
 } block;
 
@@ -179,8 +183,8 @@ static size_t width_at(const block *b, size_t j)
     return b->end - j < ICCP_SQUARE ? b->end - j : ICCP_SQUARE;
 }
 
-/* Columns of the square at j, of n strips, ICCP_STRIPS at most. Returns the next square's
- * `packed`. */
+/* Finishes the columns of the square at j in n strips, at most ICCP_STRIPS. Returns `packed` for
+ * the next square. */
 static const double *eliminate_strips(const block *b, size_t j, size_t strip, size_t n,
                                       const double *packed)
 {
@@ -195,7 +199,8 @@ static const double *eliminate_strips(const block *b, size_t j, size_t strip, si
     return packed;
 }
 
-/* The rows of the block itself, which all others need; false for a pivot that is none. */
+/* Finishes the rows of the block itself, which all other rows need. Returns false if a pivot has
+ * the wrong sign. */
 static bool eliminate_rows(block *b, const int8_t *sign)
 {
     const iccp_panel *p = b->panel;

@@ -1,5 +1,5 @@
-/* Y. Saad, Iterative Methods for Sparse Linear Systems, 2nd edition, 2003, sections 9.2 and
- * 10.2. */
+/* Preconditioned conjugate gradients. Source: Y. Saad, Iterative Methods for Sparse Linear Systems,
+ * 2nd edition, 2003, sections 9.2 and 10.2. */
 #include "math/pcg.h"
 
 #include "base/budget.h"
@@ -8,11 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Relative residuals: wanted, and the worst that is accepted when rounding stops progress
+/* Relative residuals: the goal, and the largest that is accepted if rounding stops progress
  * earlier. */
 static const double WANTED = 1e-13, ACCEPTED = 1e-9;
 
-/* Iterations without a new smallest residual after which progress has ended. */
+/* Stops after this many iterations without a new smallest residual. */
 enum { PATIENCE = 200 };
 
 static void multiply(const iccp_symmetric *m, const double *x, double *y)
@@ -57,7 +57,7 @@ static icc_status precondition(const problem *s, const double *r, double *z)
     return s->part != NULL ? s->part(s->argument, r, z) : ICC_OK;
 }
 
-/* One right-hand side: r holds it and becomes the residual; x becomes the solution. */
+/* Solves for one right-hand side. r holds it and becomes the residual; x becomes the solution. */
 static icc_status iterate(const problem *s, double *x, double *r, double *z, double *p, double *q)
 {
     const iccp_symmetric *m = s->matrix;
@@ -80,7 +80,7 @@ static icc_status iterate(const problem *s, double *x, double *r, double *z, dou
             return status;
         multiply(m, p, q);
         const double curvature = iccp_vec_dot(n, p, q);
-        /* Otherwise the matrix is not positive definite, or the residual is rounding. */
+        /* Otherwise the matrix is not positive definite, or the residual is only rounding noise. */
         if (!(curvature > 0 && rz > 0))
             break;
         const double step = rz / curvature;

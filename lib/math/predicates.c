@@ -1,16 +1,18 @@
-/* Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
- * Predicates, Discrete & Computational Geometry 18, 1997, sections 4.2 to 4.4.
+/* Exact signs of determinants. Based on: J. R. Shewchuk, Adaptive Precision Floating-Point
+ * Arithmetic and Fast Robust Geometric Predicates, Discrete & Computational Geometry 18, 1997,
+ * sections 4.2 to 4.4.
  *
- * Three stages: plain doubles; the determinant of the rounded differences, exactly, which is the
- * answer when no difference was rounded, as is usual for points close to each other; and everything
- * exactly. Shewchuk's stage between the last two is left out: inputs that need it are rare. */
+ * There are three stages. The first uses plain doubles. The second computes the determinant of the
+ * rounded differences exactly. That is the answer if no difference was rounded, as is usual for
+ * points close to each other. The third computes everything exactly. Shewchuk's stage between the
+ * last two is left out, because inputs that need it are rare. */
 #include "math/predicates.h"
 
 #include "base/minmax.h"
 #include "math/expansion.h"
 
-/* Relative errors with eps = 2^-53: the second stage of cross_sign, (2 + 12 eps) eps, and the first
- * and second of incircle, (10 + 96 eps) eps and (4 + 48 eps) eps. */
+/* Relative errors with eps = 2^-53. The second stage of cross_sign has (2 + 12 eps) eps. The two
+ * stages of incircle have (10 + 96 eps) eps and (4 + 48 eps) eps. */
 static const double cross_error_2 = 2.2204460492503146e-16;
 static const double circle_error = 1.1102230246251577e-15;
 static const double circle_error_2 = 4.440892098500632e-16;
@@ -20,7 +22,8 @@ static int cross_sign_full(double a, double b, double c, double d, double e, dou
 {
     double left[8], right[8], cross[16];
     const size_t n_left = iccp_expansion_product_of_differences(left, a, b, c, d);
-    const size_t n_right = iccp_expansion_product_of_differences(right, f, e, g, h); /* negative */
+    /* Subtracted */
+    const size_t n_right = iccp_expansion_product_of_differences(right, f, e, g, h);
     return iccp_expansion_sign(iccp_expansion_sum(cross, n_left, left, n_right, right), cross);
 }
 
@@ -40,7 +43,7 @@ int iccp_cross_sign_exact(double a, double b, double c, double d, double e, doub
     return cross_sign_full(a, b, c, d, e, f, g, h);
 }
 
-/* The exact cross product of the rounded differences, and what rounding them has taken away. */
+/* The exact cross product of the rounded differences, plus a correction for their rounding. */
 double iccp_area2d(const double a[2], const double b[2], const double c[2])
 {
     double tail[4], cross[4];
@@ -53,7 +56,7 @@ double iccp_area2d(const double a[2], const double b[2], const double c[2])
            ((ax * tail[1] + by * tail[0]) - (ay * tail[3] + bx * tail[2]));
 }
 
-/* h = e (x^2 + y^2) for e of at most 12 components, room for 8 n. */
+/* h = e (x^2 + y^2) for e of at most 12 components. h has room for 8 n. */
 static size_t lift(double *h, size_t n, const double *e, double x, double y)
 {
     double once[24], x_part[48], y_part[48];
@@ -64,7 +67,7 @@ static size_t lift(double *h, size_t n, const double *e, double x, double y)
     return iccp_expansion_sum(h, n_x, x_part, n_y, y_part);
 }
 
-/* The determinant of the differences a - d, b - d, c - d, taken as they are; room for 96. */
+/* The exact determinant of the differences a - d, b - d, c - d. h has room for 96. */
 static size_t circle_of_differences(double *h, const double a[2], const double b[2],
                                     const double c[2])
 {
@@ -79,7 +82,7 @@ static size_t circle_of_differences(double *h, const double a[2], const double b
     return iccp_expansion_sum(h, n, ab, n_c, c_term);
 }
 
-/* Twice the signed area of a, b, c times |p|^2; room for 96. */
+/* Twice the signed area of a, b, c times |p|^2. h has room for 96. */
 static size_t lifted_area(double *h, const double a[2], const double b[2], const double c[2],
                           const double p[2])
 {
@@ -105,10 +108,10 @@ static int incircle_full(const double a[2], const double b[2], const double c[2]
     return iccp_expansion_sign(iccp_expansion_sum(sum, n_ab, ab, n_cd, cd), sum);
 }
 
-/* Whether six numbers are multiples of one unit and at most 2^12 of it: the sum with 2^42 times the
- * largest is rounded to such a unit, or a larger one. Then no term of the determinant exceeds 2^53
- * units, and plain doubles hold it exactly. Makes points on a lattice, where ties are the rule,
- * cheap. */
+/* Returns whether six numbers are multiples of one unit and at most 2^12 units. To test this, it
+ * adds 2^42 times the largest, so the sum is rounded to such a unit or a larger one. Then no term
+ * of the determinant exceeds 2^53 units, and plain doubles hold it exactly. Points on a lattice,
+ * which often tie, become cheap. */
 static int are_few_units(double x[3][2])
 {
     double largest = 0.0;
@@ -122,8 +125,8 @@ static int are_few_units(double x[3][2])
     return exact;
 }
 
-/* `circle` is the determinant and `permanent` the sum of its terms all taken positive, as the
- * filter computed them. */
+/* `circle` is the determinant that the filter computed, and `permanent` the sum of the absolute
+ * values of its terms. */
 static int incircle_exact(const double a[2], const double b[2], const double c[2],
                           const double d[2], double circle, double permanent)
 {

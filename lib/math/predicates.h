@@ -1,9 +1,21 @@
-/* Exact signs of small determinants, after J. R. Shewchuk, Adaptive Precision Floating-Point
- * Arithmetic and Fast Robust Geometric Predicates, 1997: a filter in plain doubles, exact
- * expansions when it cannot tell.
+/* Exact signs of small determinants.
  *
- * Exact for finite arguments whose non-zero magnitudes lie in [2^-200, 2^200]; the domain module
- * brings every shape into that range. Each returns -1, 0 or +1. */
+ * Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
+ * Predicates, 1997. A filter in plain doubles decides most signs. Exact expansions decide the rest.
+ *
+ * Legend of lib/math. Begin with this file for geometry, and with math/spd.h for linear systems.
+ * - predicate: a function that returns the exact sign of a determinant: -1, 0 or +1.
+ * - expansion: an exact sum of doubles (expansion.h).
+ * - filter: a test in doubles with an error bound, which decides a sign if the bound allows.
+ * - factor, supernode, panel, strip: L D L^T of a sparse matrix (ldlt.h); columns of L with the
+ *   same rows (supernodes.h); their dense block (panel.h); four of its rows.
+ * - order: the sequence in which rows are eliminated (ordering.h, etree.h).
+ * - scaled: numbers beyond the range of double (scaled.h).
+ * - to within 0.6 ulp: error bound of the functions in elementary.h, in units in the last place.
+ *
+ * Invariants: all results have the same bits on every machine and for every number of threads.
+ * Predicates are exact for finite arguments that are 0 or have magnitudes in [2^-200, 2^200];
+ * lib/domain brings every shape into that range. */
 #ifndef ICCP_PREDICATES_H
 #define ICCP_PREDICATES_H
 
@@ -11,10 +23,10 @@
 
 #include <math.h>
 
-/* The filter's relative error, (3 + 16 eps) eps with eps = 2^-53 (Shewchuk, section 4.2). */
+/* Relative error of the filter: (3 + 16 eps) eps with eps = 2^-53 (Shewchuk, section 4.2). */
 #define ICCP_CROSS_ERROR 3.3306690738754716e-16
 
-/* iccp_cross_sign() for when its filter cannot tell. */
+/* Exact part of iccp_cross_sign(), for signs that its filter cannot decide. */
 int iccp_cross_sign_exact(double a, double b, double c, double d, double e, double f, double g,
                           double h);
 
@@ -25,7 +37,7 @@ static inline int iccp_cross_sign(double a, double b, double c, double d, double
     const double left = (a - b) * (c - d);
     const double right = (e - f) * (g - h);
     const double cross = left - right;
-    /* Equality holds when both products are zero, and then they are so exactly. */
+    /* Equality holds only if both products are exactly zero. */
     if (ICCP_LIKELY(fabs(cross) >= ICCP_CROSS_ERROR * (fabs(left) + fabs(right))))
         return (cross > 0.0) - (cross < 0.0);
     return iccp_cross_sign_exact(a, b, c, d, e, f, g, h);
@@ -37,21 +49,20 @@ static inline int iccp_orient2d(const double a[2], const double b[2], const doub
     return iccp_cross_sign(a[0], c[0], b[1], c[1], a[1], c[1], b[0], c[0]);
 }
 
-/* Twice the area of a, b, c, positive when they make a left turn, to a few rounding errors of
- * itself however flat the triangle is, unless the coordinates themselves hardly tell it from a
+/* Twice the signed area of a, b, c, positive for a left turn. Accurate to a few rounding errors
+ * however flat the triangle is, unless the coordinates themselves hardly distinguish it from a
  * line. */
 double iccp_area2d(const double a[2], const double b[2], const double c[2]);
 
-/* iccp_orient3d() for when its filter cannot tell. `det` is the determinant and `permanent` the sum
- * of its terms all taken positive, as the filter computed them. */
+/* Exact part of iccp_orient3d(), for signs that its filter cannot decide. `det` is the determinant
+ * that the filter computed, and `permanent` the sum of the absolute values of its terms. */
 int iccp_orient3d_exact(const double a[3], const double b[3], const double c[3], const double d[3],
                         double det, double permanent);
 
-/* The filter's relative error, (7 + 56 eps) eps (Shewchuk, section 4.3). */
+/* Relative error of the filter: (7 + 56 eps) eps (Shewchuk, section 4.3). */
 #define ICCP_ORIENT3D_ERROR 7.7715611723761027e-16
 
-/* +1 when d lies on the side of the plane through a, b, c from which they look
- * counter-clockwise. */
+/* +1 when d lies on the side of the plane from which a, b, c appear counter-clockwise. */
 static inline int iccp_orient3d(const double a[3], const double b[3], const double c[3],
                                 const double d[3])
 {
@@ -70,7 +81,7 @@ static inline int iccp_orient3d(const double a[3], const double b[3], const doub
     return iccp_orient3d_exact(a, b, c, d, det, permanent);
 }
 
-/* +1 when d lies inside the circle through a, b, c, which are counter-clockwise. */
+/* +1 when d lies inside the circle through a, b, c, which must be counter-clockwise. */
 int iccp_incircle(const double a[2], const double b[2], const double c[2], const double d[2]);
 
 #endif

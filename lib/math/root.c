@@ -1,10 +1,10 @@
-/* Cube roots: a = m 2^e with m in [1, 2), a polynomial of m^(-1/3), made exact to 50 bits by one
- * step of the series z = z0 (1 - d)^(-1/3) with d = 1 - a z0^3; then y = a z^2, cut to 26 bits so
- * that its cube needs no rounding, and a step of Newton's with its second-order term. No
- * division.
+/* Cube roots: a = m 2^e with m in [1, 2). A polynomial approximates m^(-1/3). One step of the
+ * series z = z0 (1 - d)^(-1/3) with d = 1 - a z0^3 makes it exact to 50 bits. Then y = a z^2 is cut
+ * to 26 bits, so that its cube needs no rounding. A Newton step with its second-order term
+ * finishes. There is no division.
  *
- * Lengths: the squares and their sum with their rounding errors, so that only the radicand's last
- * rounding and that of the root are left. */
+ * Lengths: the squares and their sum are kept with their rounding errors. So only the last rounding
+ * of the radicand and that of the root remain. */
 #include "math/elementary.h"
 
 #include "math/expansion.h"
@@ -13,13 +13,13 @@
 #include <stdint.h>
 #include <string.h>
 
-/* m^(-1/3) on [1, 2] to within 2^-14: interpolates it at the nodes of Chebyshev's polynomial. */
+/* m^(-1/3) on [1, 2] to within 2^-14, interpolated at the nodes of Chebyshev's polynomial. */
 static const double INVERSE[5] = {1.6662787377309156, -1.1623973573078166, 0.6846527077322325,
                                   -0.21636185469244387, 0.02778280101858424};
 /* 2^(-e / 3) */
 static const double INVERSE_OF_2[3] = {1, 0x1.965fea53d6e3dp-1, 0x1.428a2f98d728bp-1};
 
-/* Of a = m 2^e in [1, 8). */
+/* The cube root of a = m 2^e in [1, 8). */
 static double small_root(double m, double a, int32_t e)
 {
     const double *c = INVERSE, m2 = m * m;
@@ -41,7 +41,7 @@ static double with_exponent(uint64_t fraction, uint64_t biased)
     return x;
 }
 
-/* The bias of exponents, 1023, and 54 are multiples of 3. */
+/* Both 1023, the bias of exponents, and 54 are multiples of 3. */
 double iccp_cbrt(double x)
 {
     const bool tiny = fabs(x) < DBL_MIN;
@@ -65,7 +65,8 @@ static double square(double x, double *low)
     return product;
 }
 
-/* x >= y, where x^2 is so far within the range that what y^2 loses below it does not matter. */
+/* The length of (x, y) for x >= y. x^2 is so far inside the range that the digits of y^2 below the
+ * range do not matter. */
 static double length(double x, double y)
 {
     double x_low, y_low, low;

@@ -7,17 +7,18 @@
 #include <stdint.h>
 #include <string.h>
 
-/* The exponent of 0: lower than any other, and still far from overflow when exponents are added. */
+/* The exponent of 0. It is lower than any other, but adding exponents does not overflow. */
 #define ICCP_ZERO_EXPONENT (INT32_MIN / 4)
 
-/* A vector of such numbers. Normalised: |fraction| in [0.5, 1), or 0 with ICCP_ZERO_EXPONENT. */
+/* A vector of such numbers. A number is normalised if |fraction| is in [0.5, 1), or if it is 0 with
+ * ICCP_ZERO_EXPONENT. */
 typedef struct iccp_scaled {
-    double *fraction; /* per entry, as is the next */
+    double *fraction; /* one per entry, like `exponent` */
     int32_t *exponent;
 } iccp_scaled;
 
-/* frexp() and ldexp() without a call where x and the result are normal: the exponent is a field of
- * the double, biased by 1023. A fraction in [0.5, 1) has 1022 in it. */
+/* frexp() and ldexp() without a function call if x and the result are normal numbers. The exponent
+ * is a field of the double with bias 1023. For a fraction in [0.5, 1) the field holds 1022. */
 static inline double iccp_frexp(double x, int *exponent)
 {
     uint64_t bits;
@@ -42,7 +43,7 @@ static inline double iccp_ldexp(double x, int32_t exponent)
     return x * power;
 }
 
-/* Stores x * 2^exponent, x finite, in normalised form. */
+/* Stores x * 2^exponent in normalised form. x is finite. */
 static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x, int32_t exponent)
 {
     int shift;
@@ -51,15 +52,15 @@ static inline void iccp_scaled_set(const iccp_scaled *vector, size_t i, double x
         vector->fraction[i] < 0 || vector->fraction[i] > 0 ? exponent + shift : ICCP_ZERO_EXPONENT;
 }
 
-/* Entry i times 2^-exponent as a double: 0 when that is below its range. */
+/* Entry i times 2^-exponent as a double, or 0 if that is too small for a double. */
 static inline double iccp_scaled_get(const iccp_scaled *vector, size_t i, int32_t exponent)
 {
     const int32_t shift = vector->exponent[i] - exponent;
     return shift < -2000 ? 0.0 : iccp_ldexp(vector->fraction[i], shift);
 }
 
-/* -1, 0 or 1 as entry i is smaller than, equal to or larger than entry j; both normalised, not
- * negative. */
+/* Returns -1, 0 or 1 if entry i is smaller than, equal to or larger than entry j. Both are
+ * normalised and not negative. */
 static inline int iccp_scaled_compare(const iccp_scaled *vector, size_t i, size_t j)
 {
     const int32_t a = vector->exponent[i], b = vector->exponent[j];

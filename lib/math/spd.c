@@ -1,3 +1,4 @@
+/* Solves sparse symmetric positive definite systems with math/ldlt.h. */
 #include "math/spd.h"
 
 icc_status iccp_spd_create(iccp_ldlt *factor, const iccp_symmetric *matrix, const iccp_env *env)

@@ -1,16 +1,17 @@
-/* A. Pothen, C. Sun, A mapping algorithm for parallel sparse Cholesky factorization, SIAM J. Sci.
- * Comput. 14, 1993, in its simplest form: the largest subtrees that take no more than a share of
- * the whole. In a postorder they are runs of supernodes. */
+/* Finds independent subtrees of a factor. Source: A. Pothen, C. Sun, A mapping algorithm for
+ * parallel sparse Cholesky factorization, SIAM J. Sci. Comput. 14, 1993, in its simplest form: the
+ * largest subtrees that take no more than a share of the whole. In a postorder they are runs of
+ * supernodes. */
 #include "math/subtrees.h"
 
 #include <stdbool.h>
 
 #define NONE ICCP_NO_PARENT
 
-/* Of the whole: what a run must take. */
+/* Least cost of a run, as a share of the whole. */
 static const double LEAST = 1.0 / 512;
 
-/* Appends a run if it is worth it. */
+/* Appends a run if it is large enough. */
 static void add_run(iccp_subtrees *t, uint32_t begin, uint32_t end, double cost, double least)
 {
     if (cost < least)
@@ -19,9 +20,9 @@ static void add_run(iccp_subtrees *t, uint32_t begin, uint32_t end, double cost,
     t->labour += cost;
 }
 
-/* below[s]: what supernode s and its descendants take; a run may take `most`. It ends before a
- * supernode whose subtree takes too much, at the root of a subtree that makes the run large enough,
- * and where a run of `outer` begins or ends. */
+/* Finds the runs. below[s] is the cost of supernode s and its descendants, and a run may cost
+ * `most`. A run ends before a supernode whose subtree costs too much, and at the root of a subtree
+ * that makes the run large enough. It also ends where a run of `outer` begins or ends. */
 static void find_runs(iccp_subtrees *t, const iccp_supernodes *nodes, const iccp_subtrees *outer,
                       const double *below, double most, double least)
 {

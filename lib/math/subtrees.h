@@ -1,26 +1,27 @@
-/* Parts of a factor that do not depend on one another. */
+/* Parts of a factor that are independent of each other, so that threads can work on them at the
+ * same time. */
 #ifndef ICCP_SUBTREES_H
 #define ICCP_SUBTREES_H
 
 #include "math/supernodes.h"
 
-/* Supernodes [begin, end) with all their descendants, one or more subtrees of the elimination
+/* Supernodes [begin, end) with all their descendants: one or more subtrees of the elimination
  * tree. */
 typedef struct iccp_subtrees_run {
     uint32_t begin, end;
 } iccp_subtrees_run;
 
-/* Rising, and without what is in none: the supernodes above them all, and what is not worth a task
- * of its own. */
+/* Runs in rising order. Two kinds of supernodes are in no run: ancestors of all runs, and those too
+ * small for a task. */
 typedef struct iccp_subtrees {
     size_t n;
     iccp_subtrees_run *run;
-    double labour; /* of all of them, as the supernodes' */
+    double labour; /* cost of all runs, in the unit of cost() */
 } iccp_subtrees;
 
-/* cost(nodes, s): what supernode s takes; `share`: of the whole, what a run may take, about. Runs
- * do not reach across the ends of those of `outer`, unless that is NULL. Depends on nothing else.
- * On failure nothing is left allocated. */
+/* Divides the elimination tree into runs. cost(nodes, s) is the cost of supernode s. A run takes
+ * about `share` of the whole cost. Runs do not extend across the ends of the runs of `outer`,
+ * unless that is NULL. The result depends on nothing else. On failure nothing stays allocated. */
 icc_status iccp_subtrees_create(iccp_subtrees *subtrees, const iccp_supernodes *nodes, double share,
                                 const iccp_subtrees *outer,
                                 double (*cost)(const iccp_supernodes *nodes, size_t s),

@@ -1,7 +1,7 @@
-/* Relaxed supernodes: C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions on the
- * multifrontal method, ACM Trans. Math. Software 15, 1989. Their rows are found as the row subtrees
- * of T. Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.3, with supernodes in
- * place of columns. */
+/* Relaxed supernodes. Source: C. Ashcraft, R. Grimes, The influence of relaxed supernode partitions
+ * on the multifrontal method, ACM Trans. Math. Software 15, 1989. Their rows are found like the row
+ * subtrees of T. Davis, Direct Methods for Sparse Linear Systems, 2006, section 4.3, with
+ * supernodes in place of columns. */
 #include "math/supernodes.h"
 
 #include <stdbool.h>
@@ -9,28 +9,29 @@
 
 #define NONE ICCP_NO_PARENT
 
-/* Entries on and below the diagonal of a panel. */
+/* Number of entries on and below the diagonal of a panel. */
 static double room_of(double columns, double below)
 {
     return columns * (columns + 1) / 2 + columns * below;
 }
 
-/* Narrow panels gain most from being merged. Other shares of zeros were hardly
- * better or worse on the shapes of tests/bench/bench_spd.c. */
+/* Merging helps narrow panels most. Other shares of zeros were hardly better or worse on the shapes
+ * of tests/bench/bench_spd.c. */
 static bool is_worth_merging(double columns, double zeros, double room)
 {
     const double share = columns <= 4 ? 0.7 : columns <= 16 ? 0.5 : columns <= 48 ? 0.1 : 0.05;
     return zeros <= share * room;
 }
 
-/* Entries of the columns of a group whose first column has `count` rows of groups. */
+/* Number of entries in the columns of a group whose first column has `count` rows of groups. */
 static double entries_of(uint32_t count, size_t block)
 {
     return (double)block * ((double)block * count - ((double)block - 1) / 2);
 }
 
-/* Goes through the groups of columns; the supernodes so far are a stack, and a new one swallows
- * those before it whose parent it is while that pays. entries[s]: of the factor, in supernode s. */
+/* Goes through the groups of columns and keeps the supernodes found so far on a stack. A new
+ * supernode merges with the children before it while that pays. entries[s] is the number of entries
+ * of the factor in supernode s. */
 static void partition(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
                       const uint32_t *count, double *entries)
 {
@@ -57,10 +58,10 @@ static void partition(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
     nodes->column[nodes->n] = (uint32_t)n;
 }
 
-/* Numbers rows and values one supernode after the other. The last group of a supernode has the
- * fewest rows, and all its columns share these: what is below a panel is the count of that group
- * without itself. False for more values than can be addressed, which 32 bits are soon too few
- * for. */
+/* Numbers the rows and values of all supernodes. The last group of a supernode has the fewest rows,
+ * and all columns share them. So the number of rows below a panel is the count of that group
+ * without itself. Returns false if there are more values than can be addressed, which happens soon
+ * with 32 bits. */
 static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
                            const uint32_t *count)
 {
@@ -89,8 +90,8 @@ static bool lay_out_panels(iccp_supernodes *nodes, const iccp_etree *t, size_t b
     return size < (double)SIZE_MAX;
 }
 
-/* Group i reaches the supernodes of its entries and those above them in the tree, up to its
- * own. */
+/* Finds the rows of each supernode. Group i reaches the supernodes of its entries and their
+ * ancestors, up to its own supernode. */
 static icc_status list_rows(iccp_supernodes *nodes, const iccp_etree *t, size_t block,
                             uint32_t *mark, size_t *end, const iccp_env *env)
 {

@@ -1,5 +1,5 @@
-/* Products and lengths of short vectors. Sums run from the first coordinate on, so that results
- * have the same bits wherever they are computed. */
+/* Products and lengths of short vectors. Sums begin with the first coordinate, so results have the
+ * same bits everywhere. */
 #ifndef ICCP_VEC_H
 #define ICCP_VEC_H
 
@@ -21,7 +21,7 @@ static ICCP_INLINE double iccp_vec_norm(size_t n, const double *a)
     return sqrt(iccp_vec_dot(n, a, a));
 }
 
-/* The square of the distance. */
+/* Squared distance. */
 static ICCP_INLINE double iccp_vec_distance2(size_t n, const double *a, const double *b)
 {
     double sum = 0;
