@@ -1,6 +1,6 @@
 /* Height-balanced tree of Adelson-Velsky and Landis, after D. E. Knuth, The Art of Computer
- * Programming 3, section 6.2.3. Nodes keep their height rather than a balance factor: insertion and
- * removal then repair the tree by the same walk to the root. */
+ * Programming 3, section 6.2.3. Nodes keep their height instead of a balance factor. So insertion
+ * and removal repair the tree by the same walk to the root. */
 #include "geometry/avl.h"
 
 void iccp_avl_create(iccp_avl *tree, uint32_t n, const iccp_memory *memory)
@@ -21,7 +21,7 @@ void iccp_avl_free(iccp_avl *tree, const iccp_memory *memory)
     *tree = (iccp_avl){0};
 }
 
-/* Puts node `heir` (or none) where `old` hangs. */
+/* Replaces node `old` by `heir`, or by nothing. */
 static void replace(iccp_avl *tree, uint32_t old, uint32_t heir)
 {
     iccp_avl_node *const n = tree->nodes;
@@ -42,7 +42,7 @@ static void update_height(iccp_avl_node *n, uint32_t node)
     n[node].height = 1 + (left > right ? left : right);
 }
 
-/* Lifts a child above its parent; the subtree between them changes sides. */
+/* Lifts a child above its parent (a rotation). The subtree between them changes sides. */
 static void lift(iccp_avl *tree, uint32_t child)
 {
     iccp_avl_node *const n = tree->nodes;
@@ -65,7 +65,7 @@ static void lift(iccp_avl *tree, uint32_t child)
     update_height(n, child);
 }
 
-/* Lifts the higher grandchild of a node out of balance; returns the subtree's new root. */
+/* Rebalances a node by lifting its higher grandchild. Returns the subtree's new root. */
 static uint32_t rebalance(iccp_avl *tree, uint32_t node)
 {
     iccp_avl_node *const n = tree->nodes;
@@ -81,7 +81,7 @@ static uint32_t rebalance(iccp_avl *tree, uint32_t node)
     return child;
 }
 
-/* Restores heights and balance from a node upwards, as far as heights change. */
+/* Restores heights and balance from a node upwards, until heights no longer change. */
 static void repair(iccp_avl *tree, uint32_t node)
 {
     iccp_avl_node *const n = tree->nodes;
@@ -106,7 +106,8 @@ uint32_t iccp_avl_insert(iccp_avl *tree, uint32_t before, uint32_t item)
     n[node] = (iccp_avl_node){.before = before, .after = after, .item = item, .height = 1};
     n[before].after = node;
     n[after].before = node;
-    /* Of two neighbours in the order one is above the other, and the lower one has room. */
+    /* Of two neighbours in order, one is an ancestor of the other, and the lower one has a free
+     * child. */
     if (tree->root == 0) {
         tree->root = node;
     } else if (before != 0 && n[before].right == 0) {
@@ -120,8 +121,8 @@ uint32_t iccp_avl_insert(iccp_avl *tree, uint32_t before, uint32_t item)
     return node;
 }
 
-/* Moves the successor of a node with two children, which has no left child, into its place.
- * Returns the lowest node whose subtree has changed. */
+/* Puts the successor of a node with two children into the node's place. The successor has no left
+ * child. Returns the lowest node whose subtree has changed. */
 static uint32_t replace_by_successor(iccp_avl *tree, uint32_t node)
 {
     iccp_avl_node *const n = tree->nodes;

@@ -1,3 +1,4 @@
+/* Orders points by their distance from a point that is far away. */
 #include "geometry/away.h"
 
 static const double FARTHEST = 1e60, TINY = 0x1p-200;

@@ -1,4 +1,4 @@
-/* How far from a boundary a point may be and still count as on it. */
+/* The boundary band: how far from a boundary a point may be and still count as on it. */
 #ifndef ICCP_BAND_H
 #define ICCP_BAND_H
 
@@ -8,26 +8,26 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* A point of a facet that the caller computes, as a mean of its vertices, is rounded to the doubles
- * near the caller's coordinates. Far from the origin these lie wider apart than `tolerance`; and
- * along each axis differently: a shape may be far away along one axis and thin along another. So
- * the band around a facet is what a box of half-widths `rounding` covers when its centre moves over
- * the facet. In local coordinates. */
+/* When a caller computes a point of a facet, as a mean of its vertices, the result is rounded to
+ * doubles near the caller's coordinates. Far from the origin the gaps between doubles exceed
+ * `tolerance`. They also differ by axis, because a shape may be far away along one axis and thin
+ * along another. So the band around a facet is the region that a box of half-widths `rounding`
+ * covers when its centre moves over the facet. In local coordinates. */
 typedef struct iccp_band {
-    double tolerance;             /* points this close are on the boundary in any case */
-    double rounding[ICC_MAX_DIM]; /* all 0 where `tolerance` covers them */
-    double reach;                 /* no point farther away is on the boundary */
+    double tolerance;             /* points this close are always on the boundary */
+    double rounding[ICC_MAX_DIM]; /* all 0 if `tolerance` is larger */
+    double reach;                 /* points farther away are never on the boundary */
 } iccp_band;
 
-/* The band of a shape that has the longest side `longest`, and the given largest coordinates along
- * the axes before it was moved to the local origin. */
+/* Returns the band of a shape. `longest` is its longest side, and `largest` has the largest
+ * coordinates along the axes before the shape was moved to the local origin. */
 static inline iccp_band iccp_band_of(size_t dim, double longest, const double *largest)
 {
-    /* What icc.h promises: rounding of input files is of this order. In longest sides of the
-     * box. */
+    /* Promised by icc.h: rounding of input files has this order of magnitude. In units of the box's
+     * longest side. */
     const double share = 1e-14;
-    /* A mean of dim numbers by dim weights whose sum is 1, both rounded, is off by less than 2 dim
-     * halves of a unit in the last place. */
+    /* A mean of dim numbers by dim weights of sum 1, both rounded, has an error below 2 dim halves
+     * of a unit in the last place. */
     const double unit = (double)dim * 0x1p-52;
     iccp_band band = {.tolerance = share * longest, .reach = share * longest};
     double squares = 0;
@@ -48,9 +48,9 @@ static inline bool iccp_band_is_wide(const iccp_band *band)
     return band->reach > band->tolerance;
 }
 
-/* Whether a point belongs to the band of a facet within reach: `gap` leads from the point to the
- * nearest one of the facet. The box around a point meets the plane across the gap when its
- * half-widths, seen along the gap, are together as long. */
+/* Returns true if a point within `reach` belongs to the band of a facet. `gap` leads from the point
+ * to the nearest point of the facet. The box around the point meets the plane across the gap if the
+ * sum of its half-widths, seen along the gap, is at least the gap's length. */
 static inline bool iccp_band_holds(const iccp_band *band, size_t dim, const double *gap)
 {
     double distance2 = 0, width = 0;

@@ -1,5 +1,5 @@
 /* Strip tree in the manner of D. H. Ballard, Strip trees: a hierarchical representation for curves,
- * 1981, with boxes for strips: the tree halves the polygon, not the plane. Consecutive edges lie
+ * 1981, with boxes for strips. The tree halves the polygon, not the plane. Consecutive edges lie
  * close together, so no sorting is needed. */
 #include "geometry/boxtree.h"
 
@@ -10,7 +10,7 @@
 
 enum {
     LEAF = ICCP_BOXTREE_LEAF,
-    DEEP = 64 /* more than any path is long */
+    DEEP = 64 /* longer than any path */
 };
 
 static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
@@ -67,7 +67,7 @@ void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uin
     query->end = leaf_end(tree, query->node);
 }
 
-/* The node after a node and all below it, from left to right; 0 at the end. */
+/* Returns the next node in left-to-right order that is not below `node`, or 0 at the end. */
 static size_t skip(size_t node)
 {
     while (node & 1)
@@ -135,7 +135,7 @@ typedef struct nearest {
     double t, distance2;
 } nearest;
 
-/* The order value of the point at a share t of the way from a to b. */
+/* Returns the order value of the point at share t between a and b. */
 static double value_at(const iccp_away *away, const double *a, const double *b, double t)
 {
     const double q[2] = {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};

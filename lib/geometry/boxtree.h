@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-enum { ICCP_BOXTREE_LEAF = 4 }; /* edges in a leaf */
+enum { ICCP_BOXTREE_LEAF = 4 }; /* edges per leaf */
 
 typedef struct iccp_box {
     double lower[2], upper[2];
@@ -19,7 +19,7 @@ static inline bool iccp_boxes_meet(const iccp_box *a, const iccp_box *b)
            b->lower[1] <= a->upper[1];
 }
 
-/* Of two points. */
+/* Returns the bounding box of two points. */
 static inline iccp_box iccp_box_of(const double *a, const double *b)
 {
     return (iccp_box){{a[0] < b[0] ? a[0] : b[0], a[1] < b[1] ? a[1] : b[1]},
@@ -35,17 +35,18 @@ static inline iccp_box iccp_box_hull(iccp_box a, iccp_box b)
     return a;
 }
 
-/* A complete binary tree stored as a heap: node i has children 2 i and 2 i + 1, node 1 is the root.
- * Leaf n_leaves + j holds edges 4 j to 4 j + 3; boxes of leaves beyond the last edge are empty. */
+/* A complete binary tree stored as a heap: node 1 is the root, and node i has children 2 i and 2 i
+ * + 1. Leaf n_leaves + j holds edges 4 j to 4 j + 3. Leaves beyond the last edge have empty
+ * boxes. */
 typedef struct iccp_boxtree {
     const double *points; /* n + 1 points, borrowed; edge k joins points k and k + 1 */
     size_t n;
     size_t n_leaves;
-    iccp_box *boxes; /* or NULL: every node is looked into */
+    iccp_box *boxes; /* NULL: queries visit every node */
 } iccp_boxtree;
 
-/* An edge with a coordinate that is NaN may be in no box. If there is no memory, tree->boxes is
- * NULL: the answers are the same, but slow. */
+/* Makes the tree. An edge with a NaN coordinate may be in no box. If there is no memory,
+ * tree->boxes is NULL; queries then give the same answers, but slowly. */
 void iccp_boxtree_create(iccp_boxtree *tree, const double *points, size_t n,
                          const iccp_memory *memory);
 iccp_boxtree iccp_boxtree_without_boxes(const double *points, size_t n);
@@ -61,18 +62,20 @@ typedef struct iccp_boxtree_query {
     const iccp_boxtree *tree;
     iccp_box box;
     size_t node;
-    size_t next, end; /* edges of the current leaf yet to be looked at */
+    size_t next, end; /* edges of the current leaf that are still to be visited */
 } iccp_boxtree_query;
 
 void iccp_boxtree_start(iccp_boxtree_query *query, const iccp_boxtree *tree, uint32_t after);
 bool iccp_boxtree_next(iccp_boxtree_query *query, uint32_t *edge);
 
-/* The edge nearest to p (the first of several), the share of the way along it of the nearest point,
- * and the squared distance, or for p far away its order value (geometry/away.h). */
+/* Returns the edge nearest to p, the first if there are several. Also returns its nearest point, as
+ * a share *t of the edge, and the squared distance. For p far away the order value
+ * (geometry/away.h) replaces the distance. */
 uint32_t iccp_boxtree_nearest(const iccp_boxtree *tree, const double *p, double *t,
                               double *distance2);
 
-/* Whether the squared distance of that edge is at most `distance2`: asks less. */
+/* Returns true if the squared distance of that edge is at most `distance2`. This is faster than
+ * finding it. */
 bool iccp_boxtree_reaches(const iccp_boxtree *tree, const double *p, double distance2);
 
 #endif

@@ -1,6 +1,6 @@
-/* Point in polygon with a uniform grid: after E. Haines, Point in polygon strategies (Graphics Gems
- * IV, 1994), "grid method", made exact. From a point one walks straight to a point of the same cell
- * for which the answer is known, and counts the edges between. */
+/* Point in polygon with a uniform grid. Based on the "grid method" of E. Haines, Point in polygon
+ * strategies (Graphics Gems IV, 1994), made exact. The search goes straight from the query to a
+ * point of the same cell with a known answer, and counts the edges that it crosses. */
 #include "geometry/buckets.h"
 
 #include "base/minmax.h"
@@ -13,19 +13,19 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Chosen with tests/bench/bench_domain.c: more cells make points no faster to locate, fewer slow
- * them down. Entries, edges counted in each of their cells, are bounded for the sake of memory when
- * long edges crowd the box. */
+/* Chosen with tests/bench/bench_domain.c: more cells do not make queries faster, fewer make them
+ * slower. The total number of entries is bounded to limit memory when long edges crowd the box. An
+ * edge counts once in each of its cells. */
 enum {
     MIN_CELLS = 1024,
     CELLS_PER_EDGE = 4,
     MAX_CELLS = 1 << 26,
-    ENTRIES_PER_EDGE = 16 /* at most, about */
+    ENTRIES_PER_EDGE = 16 /* approximate maximum */
 };
 
-/* An edge belongs to all cells that it comes this near to, in reaches of the band. The reach itself
+/* An edge belongs to all cells within this distance, in units of the band's reach. The reach itself
  * is at least about 20 units in the last place of the coordinates (frame.h: the box is at least 1/4
- * long); the rest absorbs what is lost in computing cells. */
+ * long). The rest covers rounding in the computation of cells. */
 static const double SLACK = 4;
 
 static const double *edge_start(const iccp_buckets *b, size_t edge)
@@ -33,8 +33,8 @@ static const double *edge_start(const iccp_buckets *b, size_t edge)
     return b->points + 2 * edge;
 }
 
-/* The column (axis 0) or row (axis 1) of a coordinate; what lies beyond the grid goes to its
- * border. */
+/* Returns the column (axis 0) or row (axis 1) of a coordinate. Coordinates beyond the grid go to
+ * its border. */
 static uint32_t slot(const iccp_buckets *b, int axis, double x)
 {
     const double s = (x - b->origin[axis]) * b->rate[axis];
@@ -42,10 +42,10 @@ static uint32_t slot(const iccp_buckets *b, int axis, double x)
     return s >= (double)last ? last : s > 0 ? (uint32_t)s : 0;
 }
 
-/* Shapes the cells so that as few edges as possible share one: with Lx and Ly the lengths of the
- * polygon along the axes, edges cross about Lx / hx + Ly / hy sides of cells, which for a given
- * area of cells is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row starts
- * outside. */
+/* Chooses the shape of cells so that as few edges as possible share one. If Lx and Ly are the
+ * lengths of the polygon along the axes, edges cross about Lx / hx + Ly / hy sides of cells. For a
+ * given cell area this is least when hx / hy = Lx / Ly. Column 0 lies outside the box, so each row
+ * starts outside. */
 static void choose_cells(iccp_buckets *b)
 {
     const double slack = SLACK * b->band.reach, n = (double)b->n;
@@ -75,7 +75,7 @@ static void choose_cells(iccp_buckets *b)
     ++b->size[0];
 }
 
-/* Where an edge that runs upwards from a to b passes height y, between its ends. */
+/* Returns x where an edge that rises from a to b passes height y, limited to its ends. */
 static double x_at(const double *a, const double *b, double y)
 {
     if (y <= a[1])
@@ -85,7 +85,8 @@ static double x_at(const double *a, const double *b, double y)
     return a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
 }
 
-/* Counts an edge in its cells, or, when `edges` is there, enters it into them from their ends. */
+/* Counts an edge in its cells. If `edges` is not NULL, enters the edge into them, backwards from
+ * their ends. */
 static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
 {
     const double slack = SLACK * b->band.reach;
@@ -110,8 +111,8 @@ static void enter(iccp_buckets *b, uint32_t edge, uint32_t *edges)
     }
 }
 
-/* Points of a cell on a parabola, which no line meets more than twice: so one of the first 2 m + 1
- * is on none of m edges. */
+/* Candidates for the known point of a cell lie on a parabola. A line meets it at most twice, so one
+ * of the first 2 m + 1 candidates lies on none of m edges. */
 static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint32_t number,
                       double *p)
 {
@@ -121,9 +122,9 @@ static void candidate(const iccp_buckets *b, uint32_t row, uint32_t column, uint
     p[1] = b->origin[1] + (row + 0.25 + 0.5 * u * u) * b->step[1];
 }
 
-/* Whether an odd number of times the way from p to q crosses the edge, neither lying on it. A point
- * of the edge on the line through p and q counts as left of the line: so of two edges that meet
- * there both or one or none cross, as it should be. */
+/* Returns true if the segment from p to q crosses the edge; neither end lies on it. An end of the
+ * edge on the line through p and q counts as left of the line. So of two edges that meet there,
+ * both or one or none cross, as is right. */
 static bool crosses(const iccp_buckets *b, uint32_t edge, const double *p, const double *q)
 {
     const double *start = edge_start(b, edge), *end = start + 2;
@@ -140,8 +141,8 @@ static bool on_an_edge(const iccp_buckets *b, const iccp_bucket *cell, const dou
     return false;
 }
 
-/* Whether the way from known point p in the cell to known point q in the next one leads from inside
- * to outside or back. The edges of each cell are in ascending order. */
+/* Returns true if the way from known point p of the cell to known point q of the next one changes
+ * between inside and outside. The edges of each cell are in ascending order. */
 static bool changes(const iccp_buckets *b, const iccp_bucket *cell, const double *p,
                     const double *q)
 {
@@ -218,7 +219,7 @@ void iccp_buckets_free(iccp_buckets *buckets, const iccp_memory *memory)
     *buckets = (iccp_buckets){0};
 }
 
-/* Whether p is farther than `distance` from the box of an edge. */
+/* Returns true if p is farther than `distance` from the box of an edge. */
 static bool far_from(const double *a, const double *p, double distance)
 {
     return (p[0] < a[0] - distance && p[0] < a[2] - distance) ||
@@ -227,13 +228,15 @@ static bool far_from(const double *a, const double *p, double distance)
            (p[1] > a[1] + distance && p[1] > a[3] + distance);
 }
 
-/* What the predicates cannot digest is 0: a shift by far less than the tolerance. */
+/* Coordinates too small for the predicates become 0. That moves a point by far less than the
+ * tolerance. */
 static double digestible(double x)
 {
     return fabs(x) < ICCP_FRAME_SMALLEST ? 0 : x;
 }
 
-/* Whether an edge lies beside the box of p and q: then it does not cross the way between them. */
+/* Returns true if an edge lies beside the box of p and q, so that it cannot cross the segment
+ * between them. */
 static bool beside(const double *a, const double *p, const double *q)
 {
     for (int k = 0; k < 2; ++k) {
@@ -244,15 +247,15 @@ static bool beside(const double *a, const double *p, const double *q)
     return false;
 }
 
-/* Whether p belongs to the band of the edge from a, at share t of the way. */
+/* Returns true if p belongs to the band of the edge from a, at share t of the edge. */
 static bool in_band(const iccp_buckets *b, const double *a, double t, const double *p)
 {
     const double gap[2] = {a[0] + t * (a[2] - a[0]) - p[0], a[1] + t * (a[3] - a[1]) - p[1]};
     return !iccp_band_is_wide(&b->band) || iccp_band_holds(&b->band, 2, gap);
 }
 
-/* Looks at edges[0] .. edges[n - 1], or edges 0 .. n - 1, from a point q on none of them that is
- * known to be inside or not. */
+/* Looks at edges[0] .. edges[n - 1], or at edges 0 .. n - 1. Starts from a point q on none of them
+ * that is known to be inside or not. */
 static iccp_location look(const iccp_buckets *b, size_t n, const uint32_t *edges, const double *q,
                           bool inside, const double *point)
 {

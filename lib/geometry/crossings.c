@@ -1,3 +1,4 @@
+/* Where lines, rays and segments cross a boundary, by exact signs of determinants. */
 #include "geometry/crossings.h"
 
 #include "math/orient.h"
@@ -6,7 +7,7 @@
 
 enum { MAX = ICC_MAX_DIM };
 
-/* A facet and a point without their coordinates along an axis. */
+/* A facet and a point, projected along an axis. */
 typedef struct shadow {
     double at[MAX + 1][MAX];
 } shadow;
@@ -17,8 +18,8 @@ static void cast(double *out, size_t dim, size_t axis, const double *x)
         out[k] = x[k < axis ? k : k + 1];
 }
 
-/* p lies within the shadow, a simplex, if it is on the same side of each of its facets as the
- * opposite corner. */
+/* p lies within the shadow, which is a simplex, if for each of its facets p and the opposite corner
+ * lie on the same side. */
 int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p)
 {
     const size_t dim = tree->dim;
@@ -41,8 +42,8 @@ int iccp_facet_crossed(const iccp_facet_tree *tree, uint32_t facet, size_t axis,
     return common;
 }
 
-/* The side of a facet's plane that p is on, as a factor: the determinant of corners and p grows
- * along the axis at a rate which is +-1 times the orientation of the shadow. */
+/* Returns on which side of a facet's plane p lies. The determinant of the corners and p grows along
+ * the axis, at a rate of +-1 times the orientation of the shadow. */
 static bool is_before(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p,
                       int crossed)
 {
@@ -53,8 +54,8 @@ static bool is_before(const iccp_facet_tree *tree, uint32_t facet, size_t axis, 
     return side * crossed * ((tree->dim - 1 + axis) % 2 == 0 ? 1 : -1) < 0;
 }
 
-/* The coordinate along the axis where the line meets the plane of a facet, within the facet's
- * box. */
+/* Returns the coordinate along the axis where the line meets the plane of a facet, limited to the
+ * facet's box. */
 static double crossing_at(const iccp_facet_tree *tree, uint32_t facet, size_t axis, const double *p)
 {
     const size_t dim = tree->dim;
@@ -93,7 +94,7 @@ static void sift(iccp_line_crossing *heap, size_t root, size_t n)
     heap[root] = item;
 }
 
-/* Heapsort: needs no memory. */
+/* Heapsort, which needs no memory. */
 static void sort(iccp_line_crossing *crossings, size_t n)
 {
     for (size_t i = n / 2; i-- > 0;)
@@ -150,8 +151,9 @@ bool iccp_ray_parity(const iccp_facet_tree *tree, size_t axis, bool upwards, con
     return odd;
 }
 
-/* Whether a segment whose ends are on different sides of a facet's plane, or one on it, meets the
- * facet: it passes every side of it in the same direction. */
+/* Tests whether a segment meets a facet. Its ends lie on different sides of the facet's plane, or
+ * one lies on it. It meets the facet if it passes all of the facet's sides in the same
+ * direction. */
 static bool within_sides(const iccp_facet_tree *tree, const double *const *corners,
                          const double *from, const double *to)
 {

@@ -1,4 +1,4 @@
-/* One thing that is wrong with a polygon. */
+/* One defect of a polygon. */
 #ifndef ICCP_DEFECT_H
 #define ICCP_DEFECT_H
 
@@ -6,8 +6,7 @@
 
 typedef struct iccp_defect {
     int32_t kind;  /* ICC_DEFECT_*; 0: none */
-    uint32_t a, b; /* positions in the polygon: of points, or of edges, as icc.h says for the
-                      kind */
+    uint32_t a, b; /* positions of points or edges in the polygon, as icc.h says for the kind */
 } iccp_defect;
 
 #endif

@@ -1,18 +1,18 @@
-/* Walks through the points and edges in their order, so that the list comes out sorted and nothing
- * of it need be kept. */
+/* Lists the defects of a polygon. It visits points and edges in their order, so the list is sorted
+ * and need not be stored. */
 #include "geometry/defects.h"
 
 #include "geometry/point_order.h"
 #include "geometry/segment.h"
 #include "math/predicates.h"
 
-/* Pairs of edges per edge that iccp_defects_first() looks at before it gives up. Outlines need less
- * than 2; the diagonal comb of tests/unit/domain/test_domain.c, all of whose boxes overlap, n
- * / 2. */
+/* Pairs of edges, per edge, that iccp_defects_first() looks at before it gives up. Outlines need
+ * less than 2. The diagonal comb of tests/unit/domain/test_domain.c, whose boxes all overlap, needs
+ * n / 2. */
 enum { PATIENCE = 64 };
 
-/* A list ends after LISTED defects and LISTED_EACH more for each vertex, because edges can cross in
- * as many places as there are pairs of them. Every vertex may be both repeated and a spike. */
+/* A list ends after LISTED defects plus LISTED_EACH for each vertex, because as many pairs of edges
+ * can cross as there are. Every vertex may be both repeated and a spike. */
 enum { LISTED = 10000, LISTED_EACH = 4 };
 
 static const uint32_t NONE = UINT32_MAX;
@@ -20,11 +20,11 @@ static const uint32_t NONE = UINT32_MAX;
 typedef struct walk {
     const iccp_polygon *polygon;
     const iccp_boxtree *tree;
-    uint32_t *order; /* finite points by x, y, index */
-    uint32_t *twin;  /* the next point equal to this one, by index */
+    uint32_t *order; /* finite points, sorted by x, y, index */
+    uint32_t *twin;  /* for each point: the next equal one */
     size_t n_finite;
     iccp_defect_list *list;
-    size_t enough; /* stop after so many defects */
+    size_t enough; /* stop after this many defects */
     size_t n_pairs, patience;
 } walk;
 
@@ -39,7 +39,7 @@ static bool finite(const walk *w, uint32_t k)
     return p[0] == p[0] && p[1] == p[1];
 }
 
-/* False also when an end is not finite. */
+/* Returns false also if an end is not finite. */
 static bool has_length(const walk *w, uint32_t edge)
 {
     return finite(w, edge) && finite(w, edge + 1) &&
@@ -57,8 +57,8 @@ static void emit(walk *w, int32_t kind, uint32_t a, uint32_t b)
     ++list->n;
 }
 
-/* Whether all finite points lie on one line: that through the first of them and the first other
- * one. */
+/* Returns true if all finite points lie on one line, which the first point and the first different
+ * one determine. */
 static bool flat(const walk *w)
 {
     const uint32_t n = (uint32_t)w->polygon->n;
@@ -81,13 +81,13 @@ static bool spike(const walk *w, uint32_t v)
            iccp_point_folds(point(w, v), point(w, before), point(w, v + 1));
 }
 
-/* Whether two segments with a common end overlap beyond it. */
+/* Returns true if two segments with a common end overlap beyond it. */
 static bool overlap_from(const double *common, const double *p, const double *q)
 {
     return iccp_point_equal(p, q) || iccp_point_folds(common, p, q);
 }
 
-/* How two edges meet, beyond what repeated points and spikes already tell. */
+/* Tells how two edges meet, beyond what repeated points and spikes already show. */
 static int32_t meet(const walk *w, uint32_t e, uint32_t f)
 {
     if (e == iccp_polygon_before(w->polygon, f) || f == iccp_polygon_before(w->polygon, e) ||
@@ -107,7 +107,7 @@ static bool done(const walk *w)
     return w->list->n >= w->enough || w->n_pairs > w->patience;
 }
 
-/* Emits what is listed under a. */
+/* Emits the defects that are listed under number a. */
 static void visit(walk *w, uint32_t a)
 {
     if (!finite(w, a)) {
@@ -164,8 +164,8 @@ static icc_status run(walk *w, const iccp_env *env)
     return ICC_OK;
 }
 
-/* Both uses in one: the list of everything, and the first defect for at most `patience` pairs of
- * edges. Stops after `enough` defects. */
+/* Lists all defects, or finds the first one with at most `patience` pairs of edges. Stops after
+ * `enough` defects. */
 static icc_status list_up_to(iccp_defect_list *list, size_t enough, size_t patience,
                              const iccp_polygon *polygon, const iccp_boxtree *tree,
                              const iccp_env *env)

@@ -1,5 +1,5 @@
-/* Branch and bound over a tree of boxes, the nearer child first: N. Roussopoulos, S. Kelley,
- * F. Vincent, Nearest Neighbor Queries, 1995. */
+/* Nearest facet by branch and bound over a tree of boxes, the nearer child first: N. Roussopoulos,
+ * S. Kelley, F. Vincent, Nearest Neighbor Queries, 1995. */
 #include "geometry/facet_tree.h"
 
 #include "geometry/simplex.h"
@@ -8,7 +8,7 @@
 
 enum {
     LEAF = ICCP_FACET_LEAF,
-    DEEP = 64 /* more than any path is long */
+    DEEP = 64 /* longer than any path */
 };
 
 static ICCP_INLINE double box_distance2(size_t dim, const double *box, const double *p)
@@ -40,9 +40,9 @@ typedef struct nearest {
     double *bary;
 } nearest;
 
-/* Takes the facets of a leaf that are nearer than the best so far. Of two at the same distance
- * the smaller number wins, so that the result does not depend on the order of the tree. With a
- * constant dim the loops over coordinates are unrolled. */
+/* Compares the facets of a leaf with the best so far. At equal distance the smaller number wins, so
+ * the result does not depend on the order of the tree. With a constant dim the compiler unrolls the
+ * loops over coordinates. */
 static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, size_t node,
                                     const iccp_viewpoint *from, nearest *best)
 {
@@ -67,9 +67,9 @@ static ICCP_INLINE void search_leaf(const iccp_facet_tree *tree, size_t dim, siz
     }
 }
 
-/* Goes down to the leaf on the nearer side of every node and leaves the farther child on the
- * stack with its distance. A child is dropped when it comes up and is farther than the best
- * facet by then; the stack never holds more than one node per level. */
+/* Goes down to the leaf on the nearer side of every node, and puts the farther child with its
+ * distance on the stack. A child that comes back from the stack is dropped if it is now farther
+ * than the best facet. The stack never holds more than one node per level. */
 static ICCP_INLINE void search(const iccp_facet_tree *tree, size_t dim, const iccp_viewpoint *from,
                                nearest *best)
 {

@@ -1,5 +1,5 @@
-/* A tree of boxes halved at the median of the facets' centres along the longest side: C. Ericson,
- * Real-Time Collision Detection, sections 6.2 and 6.6. */
+/* A tree of boxes. Each node is halved at the median of the facets' centres along the longest side:
+ * C. Ericson, Real-Time Collision Detection, sections 6.2 and 6.6. */
 #include "geometry/facet_tree.h"
 
 #include "base/minmax.h"
@@ -8,7 +8,7 @@
 
 enum {
     LEAF = ICCP_FACET_LEAF,
-    BLOCK = 16 /* rows that are compared at once */
+    BLOCK = 16 /* rows that are compared at a time */
 };
 
 /* ------------------------------------------------------------------ making */
@@ -21,11 +21,11 @@ static ICCP_INLINE void include(size_t dim, double *box, const double *other)
     }
 }
 
-/* While the tree is made a facet is a row: its centre, dim numbers, and its own number. Rows move
- * as a whole, so that they are read one after the other. */
+/* While the tree is made, a facet is a row: the dim coordinates of its centre, and its number. Rows
+ * move as a whole, so memory is read in sequence. */
 
-/* The axis along which the centres spread most. Two strands do not wait for one another; numbers
- * are bounded like coordinates and not looked at. */
+/* Returns the axis along which the centres spread most. Two strands run side by side, and neither
+ * waits for the other. Facet numbers get bounds like coordinates, but these are not used. */
 static ICCP_INLINE size_t widest_axis(size_t dim, const double *rows, size_t n)
 {
     double low[2 * (ICC_MAX_DIM + 1)], high[2 * (ICC_MAX_DIM + 1)], most = -1;
@@ -51,7 +51,7 @@ static ICCP_INLINE size_t widest_axis(size_t dim, const double *rows, size_t n)
     return widest;
 }
 
-/* What rows are sorted by: a coordinate of the centre; of equal ones the smaller number comes
+/* Rows are sorted by a coordinate of the centre. Of equal ones the smaller facet number comes
  * first. */
 typedef struct sort_key {
     double at, number;
@@ -83,9 +83,9 @@ static ICCP_INLINE void swap_rows(size_t dim, double *a, double *b)
     }
 }
 
-/* Rows *i and *j, the former not before the pivot and the latter not after it, are swapped, and so
- * on inwards: what is to be swapped is listed a block at a time, so that no branch depends on a
- * comparison. Stops short of the middle. S. Edelkamp, A. Weiss, BlockQuicksort: Avoiding Branch
+/* Swaps rows inwards from *i and *j: rows that do not precede the pivot with rows that do not
+ * follow it. Lists the rows to be swapped a block at a time, so that no branch depends on a
+ * comparison. Stops before the middle. S. Edelkamp, A. Weiss, BlockQuicksort: Avoiding Branch
  * Mispredictions in Quicksort, 2016. */
 static ICCP_INLINE void swap_blocks(size_t dim, double *rows, size_t axis, sort_key pivot,
                                     ptrdiff_t *i, ptrdiff_t *j)
@@ -120,7 +120,8 @@ static ICCP_INLINE void swap_blocks(size_t dim, double *rows, size_t axis, sort_
         *j -= right[at_right];
 }
 
-/* C. A. R. Hoare, Algorithm 65: Find, 1961: puts the n_first smallest of n at the beginning. */
+/* Puts the n_first smallest of n rows at the beginning. C. A. R. Hoare, Algorithm 65: Find,
+ * 1961. */
 static ICCP_INLINE void split(size_t dim, double *rows, size_t axis, ptrdiff_t n_first, ptrdiff_t n)
 {
     const ptrdiff_t width = (ptrdiff_t)dim + 1;
@@ -150,8 +151,8 @@ static ICCP_INLINE void split(size_t dim, double *rows, size_t axis, ptrdiff_t n
     }
 }
 
-/* Arranges n rows at the places of `size`, one half after the other: what is small enough stays in
- * the cache. Paths through the tree are short enough for recursion. */
+/* Arranges n rows at `size` places, one half after the other, so that small parts stay in the
+ * cache. Paths through the tree are short enough for recursion. */
 static void arrange(size_t dim, double *rows, size_t n, size_t size)
 {
     const size_t half = size / 2;
@@ -195,7 +196,7 @@ static ICCP_INLINE void fill_rows(const iccp_facet_tree *tree, size_t dim, size_
     }
 }
 
-/* From dim, n_corners, n, vertices and facets. */
+/* Builds the tree from dim, n_corners, n, vertices and facets. */
 static void make(iccp_facet_tree *tree, const iccp_memory *memory)
 {
     const size_t dim = tree->dim, n = tree->n;
@@ -264,16 +265,16 @@ static ICCP_INLINE bool overlap(size_t dim, const double *a, const double *b)
     return true;
 }
 
-/* Whether the segment passes through a box, or within rounding of it: the shares of the way at
- * which it enters and leaves each pair of planes (Ericson, section 5.3.3), a little too
- * generous. */
+/* Returns true if the segment passes through a box, or within rounding of it. Compares where along
+ * the segment it enters and leaves each pair of planes (Ericson, section 5.3.3), with a small
+ * margin. */
 static bool passes(size_t dim, const double *box, const double *from, const double *to)
 {
     double enter = 0, leave = 1;
     for (size_t k = 0; k < dim; ++k) {
         const double step = to[k] - from[k];
         if (!(fabs(step) > 0))
-            continue; /* overlap() has looked */
+            continue; /* overlap() has looked already */
         const double low = (box[k] - from[k]) / step, high = (box[dim + k] - from[k]) / step;
         const double slack = 1e-14 * (1 + fabs(from[k] / step));
         enter = iccp_max(enter, iccp_min(low, high) - slack);
@@ -288,7 +289,7 @@ static ICCP_INLINE bool wanted(const iccp_facet_query *query, size_t dim, const 
            (query->from == NULL || passes(dim, box, query->from, query->to));
 }
 
-/* The node after a node and all below it, from left to right; 0 at the end. */
+/* Returns the next node in left-to-right order that is not below `node`, or 0 at the end. */
 static size_t skip(size_t node)
 {
     while (node & 1)
@@ -304,7 +305,7 @@ static void enter_leaf(iccp_facet_query *query, size_t node)
     query->end = first + LEAF < query->tree->n ? first + LEAF : query->tree->n;
 }
 
-/* Goes to the first wanted leaf from a node on. */
+/* Goes to the first matching leaf from a node on. */
 static ICCP_INLINE bool descend(iccp_facet_query *query, size_t dim, size_t node)
 {
     const iccp_facet_tree *tree = query->tree;

@@ -1,4 +1,4 @@
-/* A tree of bounding boxes over the facets of a boundary, or the simplices of a mesh, in any
+/* A tree of bounding boxes over the facets of a boundary or the simplices of a mesh, in any
  * dimension. */
 #ifndef ICCP_FACET_TREE_H
 #define ICCP_FACET_TREE_H
@@ -11,16 +11,16 @@
 
 enum { ICCP_FACET_LEAF = 4 };
 
-/* A complete binary tree stored as a heap, as geometry/boxtree.h has it for polygons: node 1 is the
- * root, leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] says which facets stand
- * there. */
+/* A complete binary tree stored as a heap, like geometry/boxtree.h for polygons. Node 1 is the
+ * root. Leaf n_leaves + j holds places 4 j to 4 j + 3, and order[] tells which facet is at each
+ * place. */
 typedef struct iccp_facet_tree {
     size_t dim, n_corners, n;
     const double *vertices; /* borrowed: dim coordinates each */
     const uint32_t *facets; /* borrowed: n_corners each, which is dim */
     size_t n_leaves;
-    double *boxes;   /* 2 dim numbers a node: lower, upper; or NULL: every node is looked into */
-    uint32_t *order; /* n: the facet at each place; or NULL: the one with its number */
+    double *boxes;   /* per node 2 dim numbers: lower, upper; NULL: queries visit every node */
+    uint32_t *order; /* n: facet at each place; NULL: place and facet have the same number */
 } iccp_facet_tree;
 
 static inline uint32_t iccp_facet_at(const iccp_facet_tree *tree, size_t place)
@@ -28,14 +28,16 @@ static inline uint32_t iccp_facet_at(const iccp_facet_tree *tree, size_t place)
     return tree->order != NULL ? tree->order[place] : (uint32_t)place;
 }
 
-/* tree->boxes is NULL if there is no memory. */
+/* Makes the tree. tree->boxes is NULL if there is no memory. */
 void iccp_facet_tree_create(iccp_facet_tree *tree, size_t dim, const double *vertices,
                             size_t n_facets, const uint32_t *facets, const iccp_memory *memory);
-/* The same over simplices with dim + 1 corners each, which are then called facets as well. */
+/* Like iccp_facet_tree_create(), over simplices with dim + 1 corners each. They are also called
+ * facets below. */
 void iccp_facet_tree_create_solid(iccp_facet_tree *tree, size_t dim, const double *vertices,
                                   size_t n_simplices, const uint32_t *simplices,
                                   const iccp_memory *memory);
-/* The facet at a place will be within such a box, or where it has been: boxes only grow. */
+/* Announces that the facet at a place will move within `box`. Boxes only grow, so its former region
+ * stays covered. */
 void iccp_facet_tree_include(iccp_facet_tree *tree, size_t place, const double *box);
 void iccp_facet_tree_free(iccp_facet_tree *tree, const iccp_memory *memory);
 
@@ -47,8 +49,8 @@ static inline void iccp_facet_corners(const iccp_facet_tree *tree, uint32_t face
         corners[i] = tree->vertices + tree->dim * tree->facets[tree->dim * facet + i];
 }
 
-/* Its bounding box, lower and upper, for dim = tree->dim and so on: where the compiler knows that
- * it is 3 it need not loop. */
+/* Computes the bounding box of a facet: lower, then upper. Pass dim = tree->dim and n_corners
+ * likewise; where the compiler knows that dim is 3, it unrolls the loop. */
 static ICCP_INLINE void iccp_facet_box_of(const iccp_facet_tree *tree, size_t dim, size_t n_corners,
                                           uint32_t facet, double *box)
 {
@@ -68,31 +70,32 @@ static inline void iccp_facet_box(const iccp_facet_tree *tree, uint32_t facet, d
     iccp_facet_box_of(tree, tree->dim, tree->n_corners, facet, box);
 }
 
-/* Lists the facets whose boxes meet a given one, touching included. */
+/* Lists the facets whose boxes meet or touch a given box. */
 typedef struct iccp_facet_query {
     const iccp_facet_tree *tree;
-    double box[2 * ICC_MAX_DIM]; /* may be made smaller at any time */
-    const double *from, *to;     /* with a segment: only boxes that come near it; or NULL */
-    size_t node;                 /* to continue with after the leaf; 0: none */
-    size_t next, end;            /* places of the current leaf yet to be looked at */
+    double box[2 * ICC_MAX_DIM]; /* may shrink at any time */
+    const double *from, *to;     /* if not NULL: only boxes near this segment */
+    size_t node;                 /* node to visit after the leaf; 0: none */
+    size_t next, end;            /* places of the current leaf that are still to be visited */
 } iccp_facet_query;
 
-/* In the order of the tree. `box`: 2 dim numbers, lower and upper. */
+/* Starts a query. Facets come in the order of the tree. `box` has 2 dim numbers: lower, upper. */
 void iccp_facet_query_start(iccp_facet_query *query, const iccp_facet_tree *tree,
                             const double *box);
 
-/* For the box of the facet at a place, and only facets at later places. */
+/* Starts a query with the box of the facet at a place, for later places only. */
 void iccp_facet_query_start_after(iccp_facet_query *query, const iccp_facet_tree *tree,
                                   size_t place);
 
 bool iccp_facet_query_next(iccp_facet_query *query, uint32_t *facet);
 
-/* The facet nearest to a finite p (of several, the first), the barycentric coordinates of the
- * nearest point on it, and the squared distance. */
+/* Returns the facet nearest to a finite p, the first if there are several. Also returns the
+ * barycentric coordinates of the nearest point and the squared distance. */
 uint32_t iccp_facet_tree_nearest(const iccp_facet_tree *tree, const double *p, double *bary,
                                  double *distance2);
 
-/* The same for a tree in local coordinates and a point from iccp_away_reach(), near or far. */
+/* Like iccp_facet_tree_nearest(), for a tree in local coordinates and a point from
+ * iccp_away_reach(), near or far. */
 uint32_t iccp_facet_tree_nearest_local(const iccp_facet_tree *tree, const double *p, double *bary);
 
 #endif

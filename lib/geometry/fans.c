@@ -1,21 +1,24 @@
-/* A ring of triangles round a vertex whose shadows along an axis all have the same orientation and
- * go round the vertex once casts a shadow that nowhere covers itself: so the triangles share the
- * sides between them and nothing else. The shadows go round once if one of them, and only one,
- * leads from below the vertex to above: two sides of a shadow are less than half a turn apart. This
- * is the test of P. Volino, N. Magnenat Thalmann, Efficient self-collision detection on smoothly
- * discretized surface animations using geometrical shape regularity, 1994, for the smallest
- * patches, in which it is exact. */
+/* Finds vertices at which the triangles of a ring cannot intersect.
+ *
+ * Project the ring along an axis. Suppose that all shadows have the same orientation and go around
+ * the vertex once. Then the shadow of the ring nowhere covers itself, so the triangles share only
+ * the sides between them. The shadows go around once if exactly one of them leads from below the
+ * vertex to above, because two sides of a shadow are less than half a turn apart.
+ *
+ * This is the test of P. Volino, N. Magnenat Thalmann, Efficient self-collision detection on
+ * smoothly discretized surface animations using geometrical shape regularity, 1994, for the
+ * smallest patches. For these it is exact. */
 #include "geometry/fans.h"
 
 #include "math/predicates.h"
 
-/* What is known of a vertex: of axis k bit k of each. */
+/* Facts about a vertex. Bit k of each member is for axis k. */
 typedef struct fan {
-    uint8_t left, right; /* all its triangles are so oriented */
-    uint8_t once, twice; /* one leads upwards; more than one */
+    uint8_t left, right; /* all its triangles have this orientation */
+    uint8_t once, twice; /* one triangle leads upwards; more than one does */
 } fan;
 
-/* The axes along which the triangle's shadow is oriented to the left or to the right. */
+/* Finds the axes along which the triangle's shadow is oriented to the left, and to the right. */
 static void orient(const double *const *p, uint8_t *left, uint8_t *right)
 {
     *left = *right = 0;

@@ -1,4 +1,4 @@
-/* Vertices of a closed surface round which its triangles cannot meet. */
+/* Finds vertices of a closed surface at which adjacent triangles cannot intersect. */
 #ifndef ICCP_FANS_H
 #define ICCP_FANS_H
 
@@ -7,9 +7,9 @@
 
 #include <stdint.h>
 
-/* For triangles of which those at each vertex form one ring: 1 by vertex where two triangles of the
- * ring certainly have no more in common than the corners or the side that they share, 0 elsewhere;
- * or NULL if there is no memory. Exact. O(n). */
+/* Returns an array by vertex, or NULL if there is no memory. 1 means that any two triangles at the
+ * vertex certainly share only their common corners or side. 0 means unknown. The triangles at each
+ * vertex must form one ring. Exact. O(n). */
 uint8_t *iccp_fans_find(const iccp_facet_tree *tree, size_t n_vertices, const iccp_memory *memory);
 
 #endif

@@ -1,3 +1,4 @@
+/* The similarity between the caller's coordinates and the library's. See geometry/frame.h. */
 #include "geometry/frame.h"
 
 #include "base/compiler.h"
@@ -7,14 +8,15 @@
 #include <stdint.h>
 #include <string.h>
 
-enum { STRANDS = 8 }; /* numbers of points of the plane that are dealt with at once */
+enum { STRANDS = 8 }; /* numbers of plane points that are handled at a time */
 
-/* Shapes whose sizes differ more, or that are more sizes apart, are not alike. */
+/* Shapes are not alike if their sizes differ by more than this factor, or if they lie more sizes
+ * apart. */
 static const double ALIKE = 16;
 
 const iccp_frame iccp_frame_identity = {{0}, {1, 1}, {1, 1}};
 
-/* The plane, in strands that do not wait for one another. */
+/* Finds bounds in the plane, in strands that run side by side. */
 static void find_bounds_2d(size_t n, const double *points, double *lowest, double *highest)
 {
     double low[STRANDS], high[STRANDS];
@@ -67,8 +69,8 @@ void iccp_frame_bounds(int32_t dim, size_t n, const double *points, double *lowe
         find_bounds((size_t)dim, n, points, lowest, highest);
 }
 
-/* The coordinate that an axis is shifted by; see the lemma in the header. The doubling overflows to
- * infinity at worst, which compares as it should. */
+/* Returns the coordinate that an axis is shifted by; see the lemma in the header. Doubling may
+ * overflow to infinity, which compares correctly. */
 static double shift_of(double lowest, double highest)
 {
     if (lowest > 0 && highest <= 2 * lowest)
@@ -78,7 +80,7 @@ static double shift_of(double lowest, double highest)
     return 0;
 }
 
-/* Rounding keeps the order, so the largest magnitude is that of a bound. */
+/* Rounding keeps the order, so the largest local magnitude belongs to a bound. */
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points)
 {
     double lowest[ICC_MAX_DIM], highest[ICC_MAX_DIM], largest = 0;
@@ -98,7 +100,8 @@ void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *poin
     frame->out[1] = ldexp(1, exponent - half);
 }
 
-/* One coordinate to local; returns the larger of `lost` and what becomes too small. */
+/* Converts one coordinate to local. Returns the larger of `lost` and the magnitude that became too
+ * small. */
 static ICCP_INLINE double take_in(double x, double shift, const double *in, double lost,
                                   double *local)
 {
@@ -108,7 +111,7 @@ static ICCP_INLINE double take_in(double x, double shift, const double *in, doub
     return small > lost ? small : lost;
 }
 
-/* Without branches and in strands, for the compiler to do several at once. */
+/* Without branches and in strands, so that the compiler can use vector instructions. */
 bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, double *local)
 {
     const double in[2] = {frame->in[0], frame->in[1]};
@@ -126,7 +129,7 @@ bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, 
     return true;
 }
 
-/* By the box that shapes of `from` lie in. */
+/* Compares the boxes that shapes of the two frames lie in. */
 static bool are_alike(const iccp_frame *from, const iccp_frame *to, int32_t dim)
 {
     const double scale = from->out[0] * to->in[0] * (from->out[1] * to->in[1]);
@@ -155,7 +158,8 @@ void iccp_frame_change(const iccp_frame *from, const iccp_frame *to, int32_t dim
     }
 }
 
-/* A number is not finite if its exponent has all bits set: one more carries into the sign. */
+/* A number is not finite if all bits of its exponent are set. Adding one then carries into the
+ * sign. */
 bool iccp_all_finite(size_t n, const double *numbers)
 {
     const uint64_t exponent = UINT64_C(0x7ff) << 52, one = UINT64_C(1) << 52;

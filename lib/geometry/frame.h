@@ -1,10 +1,11 @@
-/* The similarity between the caller's coordinates and the library's, which are of size about 1.
+/* The similarity between the caller's coordinates and the library's local ones, which have a size
+ * of about 1.
  *
- * Every operation on the vertices is exact. An axis is shifted only when all its coordinates have
- * one sign and lie within a factor of two of each other: the differences to the one nearest to zero
- * are then exact (Sterbenz' lemma). The scale is a power of two, as two factors so that neither
- * overflows when the shape is denormal. So the local shape is the caller's, exactly, and what is
- * exactly simple here is exactly simple there. */
+ * Every operation on the vertices is exact. An axis is shifted only if all its coordinates have one
+ * sign and lie within a factor of two of each other. Then their differences to the one nearest to
+ * zero are exact (Sterbenz' lemma). The scale is a power of two, split into two factors so that
+ * neither overflows for denormal shapes. So the local shape equals the caller's exactly, and each
+ * is simple if and only if the other is. */
 #ifndef ICCP_FRAME_H
 #define ICCP_FRAME_H
 
@@ -13,23 +14,23 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* 2^-200, the smallest local magnitude but zero that the exact predicates promise to work with. */
+/* 2^-200, the smallest non-zero local magnitude for which the predicates are exact. */
 #define ICCP_FRAME_SMALLEST 6.22301527786114170714e-61
 
 typedef struct iccp_frame {
-    double shift[ICC_MAX_DIM]; /* caller's coordinate that becomes 0 */
+    double shift[ICC_MAX_DIM]; /* coordinate of the caller that becomes 0 */
     double in[2];              /* local = (x - shift) * in[0] * in[1] */
     double out[2];             /* x = local * out[0] * out[1] + shift; powers of two, 1 / in */
 } iccp_frame;
 
-/* Shift 0, scale 1. */
+/* Shift 0 and scale 1. */
 extern const iccp_frame iccp_frame_identity;
 
-/* The frame of finite points: n of them, dim coordinates each; n >= 1. The largest local magnitude
- * lies in [1/2, 1], or all are 0. */
+/* Computes the frame of n >= 1 finite points with dim coordinates each. The largest local magnitude
+ * lies in [1/2, 1], unless all are 0. */
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points);
 
-/* The bounding box of n points; n >= 1. */
+/* Computes the bounding box of n >= 1 points. */
 void iccp_frame_bounds(int32_t dim, size_t n, const double *points, double *lowest,
                        double *highest);
 
@@ -40,8 +41,8 @@ static inline void iccp_frame_in(const iccp_frame *frame, int32_t dim, const dou
         local[k] = (x[k] - frame->shift[k]) * frame->in[0] * frame->in[1];
 }
 
-/* Whether the local coordinates of a vertex are 0 or at least ICCP_FRAME_SMALLEST. If so for all
- * vertices, the scaling loses no bit of them. */
+/* Returns true if the local coordinates of a vertex are 0 or at least ICCP_FRAME_SMALLEST. If this
+ * holds for all vertices, scaling loses no bit of them. */
 static inline bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const double *x)
 {
     for (int32_t k = 0; k < dim; ++k) {
@@ -52,10 +53,11 @@ static inline bool iccp_frame_holds(const iccp_frame *frame, int32_t dim, const 
     return true;
 }
 
-/* Both for n points of the plane; whether all are so. */
+/* Converts n points of the plane to local coordinates. Returns true if iccp_frame_holds() is true
+ * for all. */
 bool iccp_frame_in_all(const iccp_frame *frame, size_t n, const double *points, double *local);
 
-/* Whether n numbers are finite. */
+/* Returns true if n numbers are finite. */
 bool iccp_all_finite(size_t n, const double *numbers);
 
 static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const double *local,
@@ -65,13 +67,13 @@ static inline void iccp_frame_out(const iccp_frame *frame, int32_t dim, const do
         x[k] = local[k] * frame->out[0] * frame->out[1] + frame->shift[k];
 }
 
-/* n points in the local coordinates of `from` become those in `to`. Where shapes of the two are not
- * alike in size and place (16 times as large or small, or 16 sizes away), what they have in common
- * is taken for a motion of its own: the points keep their local coordinates. */
+/* Converts n points from the local coordinates of `from` to those of `to`. If shapes of the two
+ * differ by a factor of 16 in size or lie 16 sizes apart, the difference counts as a motion of its
+ * own: the points keep their local coordinates. */
 void iccp_frame_change(const iccp_frame *from, const iccp_frame *to, int32_t dim, size_t n,
                        double *points);
 
-/* The same bit for bit, for a vertex: what the way out loses is the sign of a zero. */
+/* Converts a vertex back, bit for bit. The conversion alone would lose only the sign of a zero. */
 static inline void iccp_frame_restore(const iccp_frame *frame, int32_t dim, const double *local,
                                       double *x)
 {

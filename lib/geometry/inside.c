@@ -1,5 +1,6 @@
-/* The boundary by distance, the rest by the parity of crossings on the shortest way out along an
- * axis (C. Ericson, Real-Time Collision Detection, section 5.4.1, with exact signs). */
+/* Where points lie with respect to a boundary. The distance decides whether a point is on the
+ * boundary. Otherwise the parity of crossings decides, on the shortest way out along an axis (C.
+ * Ericson, Real-Time Collision Detection, section 5.4.1, with exact signs). */
 #include "geometry/inside.h"
 
 #include "geometry/crossings.h"
@@ -10,7 +11,8 @@
 
 enum { MAX = ICC_MAX_DIM };
 
-/* Whether p belongs to the band of a facet at the given place on it. */
+/* Returns true if p belongs to the band of a facet, at the point of the facet with these
+ * coordinates. */
 static bool in_band(const iccp_band *band, size_t dim, const double *const *corners,
                     const double *share, const double *p)
 {
@@ -25,7 +27,7 @@ static bool in_band(const iccp_band *band, size_t dim, const double *const *corn
     return iccp_band_holds(band, dim, gap);
 }
 
-/* The nearest facet among those whose band holds p; the smallest number of several. */
+/* Finds the nearest facet whose band contains p, the smallest number if there are several. */
 static bool on_boundary(const iccp_facet_tree *tree, const iccp_band *band, const double *p,
                         uint32_t *facet, double *bary)
 {
@@ -55,8 +57,8 @@ static bool on_boundary(const iccp_facet_tree *tree, const iccp_band *band, cons
     return found;
 }
 
-/* The axis and direction in which p is nearest to a side of the box; false if it lies beyond
- * one. */
+/* Finds the axis and direction in which p is nearest to a side of the box. Returns false if p lies
+ * outside the box. */
 static bool way_out(const iccp_facet_tree *tree, const double *p, size_t *axis, bool *upwards)
 {
     const double *box = tree->boxes + 2 * tree->dim;

@@ -5,8 +5,8 @@
 #include "geometry/band.h"
 #include "geometry/facet_tree.h"
 
-/* ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a point in reach. For ICC_BOUNDARY, `facet` and
- * `bary` are the nearest facet and the barycentric coordinates of the nearest point on it. */
+/* Returns ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a point in reach. For ICC_BOUNDARY, it also
+ * returns the nearest facet and the barycentric coordinates of its nearest point. */
 int32_t iccp_inside_find(const iccp_facet_tree *tree, const iccp_band *band, const double *p,
                          uint32_t *facet, double *bary);
 

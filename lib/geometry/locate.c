@@ -1,3 +1,4 @@
+/* Where points lie with respect to a polygon, and their nearest edges. */
 #include "geometry/locate.h"
 
 #include "base/compiler.h"

@@ -1,9 +1,10 @@
-/* Finds the pairs of pieces of two kinds that may meet. Each kind matters only where the other one
- * is, so both are cut to the part of space that they share. Then a plane divides this part in two,
- * and a piece that lies on both sides is cut there. So long pieces become short, and their boxes no
- * longer reach into parts that they do not touch. Planes are perpendicular to the axes and to the
- * directions along which pieces differ most in relation to their own extent: R. A. Fisher, The Use
- * of Multiple Measurements in Taxonomic Problems, 1936. */
+/* Finds the pairs of pieces of two kinds that may meet.
+ *
+ * Each kind matters only where the other kind is, so both are cut to the region of space that they
+ * share. Then a plane divides this region, and pieces on both sides are cut there. So long pieces
+ * become short, and their boxes no longer reach into regions that they do not touch. Planes are
+ * perpendicular to the axes, or to the directions along which pieces differ most in relation to
+ * their own extent: R. A. Fisher, The Use of Multiple Measurements in Taxonomic Problems, 1936. */
 #include "geometry/near_pairs.h"
 
 #include "base/budget.h"
@@ -13,20 +14,20 @@
 #include <string.h>
 
 enum {
-    FEW = 4,        /* pairs for each piece that are compared at once */
-    SAMPLES = 3,    /* pieces of each kind whose ends are tried as places of a plane */
-    MAX_CUTS = 500, /* a cut adds less than 2^-50 of the size as error */
+    FEW = 4,        /* pairs per piece that are compared directly */
+    SAMPLES = 3,    /* pieces of each kind whose ends are tried for the plane */
+    MAX_CUTS = 500, /* each cut adds an error below 2^-50 of the size */
     N_DIRECTIONS = 6
 };
 
-/* Pieces reach beyond planes by this share of the size, which exceeds the errors of all cuts. */
+/* Pieces extend beyond planes by this share of the size, which exceeds the errors of all cuts. */
 static const double SLACK = 1e-12;
 
-/* A plane is used if it leaves at most the share WORTH of the pairs. At most ENOUGH ends the search
- * for a better one. */
+/* A plane is used if it leaves at most the share WORTH of the pairs. If it leaves at most ENOUGH,
+ * no better one is sought. */
 static const double WORTH = 0.8, ENOUGH = 0.6;
 
-/* Multiplications for each piece of a list, charged to the budget. */
+/* Multiplications that the budget is charged for each piece of a list. */
 static const double LOOK = 500;
 
 static const double THIN = 1e-15;
@@ -35,12 +36,12 @@ static const double THIN = 1e-15;
 typedef struct list {
     iccp_near_pairs *all;
     size_t first, n;
-    size_t n_first; /* pieces of the first kind; those of the second follow */
+    size_t n_first; /* pieces of the first kind; those of the second kind follow */
 } list;
 
 typedef struct plane {
     double u[3], at;
-    double n_pairs; /* left on both sides */
+    double n_pairs; /* number of pairs left on both sides */
 } plane;
 
 iccp_piece *iccp_near_pairs_add(iccp_near_pairs *pairs)
@@ -65,7 +66,7 @@ void iccp_near_pairs_free(iccp_near_pairs *pairs)
     iccp_free(&pairs->env->memory, pairs->spans);
 }
 
-/* I. E. Sutherland, G. W. Hodgman, Reentrant Polygon Clipping, 1974. */
+/* Cuts a convex polygon: I. E. Sutherland, G. W. Hodgman, Reentrant Polygon Clipping, 1974. */
 bool iccp_piece_cut(iccp_piece *piece, const double *u, double beyond)
 {
     double corner[2 * ICCP_PIECE_CORNERS][3], off[ICCP_PIECE_CORNERS];
@@ -100,7 +101,7 @@ static iccp_piece *piece_at(const list *l, size_t i)
     return &l->all->pieces[l->first + i];
 }
 
-/* Where each piece begins and ends along a direction. */
+/* Finds where each piece begins and ends along a direction. */
 static void measure(const list *l, const double *u)
 {
     for (size_t i = 0; i < l->n; ++i) {
@@ -134,8 +135,8 @@ static double count_divided(const list *l, double at, double slack)
 
 /* ------------------------------------------------------------- directions */
 
-/* Scatter of the corners within each piece, each piece counting the same, and scatter of the
- * pieces' middles. */
+/* Adds the scatter of the corners within each piece, where each piece has the same weight, and the
+ * scatter of the middles of pieces. */
 static void add_moments(const list *l, double *within, double *between)
 {
     double mean[3] = {0};
@@ -171,13 +172,13 @@ static void transform(const double f[9], const double m[9], double out[9])
     }
 }
 
-/* A function of its own, because the library's is long when it is inlined twice. */
+/* A separate function, because the library's function is long when it is inlined twice. */
 static void diagonalise(double a[9], double v[9])
 {
     iccp_jacobi_diagonalise(3, 30, 0, a, v);
 }
 
-/* The axes, and the directions of Fisher's discriminants. */
+/* Lists the axes and the directions of Fisher's discriminants. */
 static void list_directions(const list *l, double u[N_DIRECTIONS][3])
 {
     double within[9] = {0}, between[9] = {0}, axes[9], whitened[9], turn[9];
@@ -244,7 +245,7 @@ static void narrow(list *l, const double *u)
     keep_between(l, 0, l->n_first, u, second[0], second[1]);
 }
 
-/* Tries planes just before and behind some pieces of each kind. */
+/* Tries planes just before and just behind some pieces of each kind. */
 static void try_direction(const list *l, const double *u, plane *best)
 {
     const double slack = SLACK * l->all->size;
@@ -308,8 +309,9 @@ static void halve(const list *l, size_t *begin, size_t *middle)
     *middle = *begin + (second ? l->n - l->n_first : l->n_first) / 2;
 }
 
-/* Compares the first kind with the second: on each side of a plane if one saves pairs, otherwise
- * for each half of the larger kind, since halves do not reach as far. */
+/* Compares the first kind with the second. If a plane saves pairs, it compares them on each side of
+ * the plane. Otherwise it compares each half of the larger kind, because halves do not reach as
+ * far. */
 static void compare(list *l)
 {
     double u[N_DIRECTIONS][3];

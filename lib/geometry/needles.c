@@ -1,7 +1,9 @@
-/* The triangles round a vertex of many triangles are a group. Seen from that vertex, each triangle
- * is an arc. Two triangles of a group meet beyond the vertex if and only if their arcs meet. Arcs
- * are projected to the faces of a cube round the vertex and compared there. Triangles of different
- * groups are compared in space. */
+/* Tests whether triangles meet, for surfaces with many long and thin triangles.
+ *
+ * The triangles around a vertex of many triangles form a group. Seen from that vertex, each
+ * triangle is an arc. Two triangles of a group meet beyond the vertex if and only if their arcs
+ * meet. Arcs are projected to the faces of a cube around the vertex and compared there. Triangles
+ * of different groups are compared in space. */
 #include "geometry/needles.h"
 
 #include "base/sort.h"
@@ -14,17 +16,17 @@
 /* A vertex has a group if more than MANY triangles meet there. */
 enum { MANY = 16 };
 
-/* Arcs are cut this far beyond a face of the cube, whose size is 1. */
+/* Arcs are cut this far beyond a face of the cube, which has size 1. */
 static const double BEYOND = 1e-12;
 
-/* Where the chord of an arc passes the centre nearer than this, its projection errs too much. */
+/* If the chord of an arc passes the centre nearer than this, its projection is too inaccurate. */
 static const double TOO_NEAR = 0x1p-7;
 
-/* Pieces that each triangle may cost without a budget. Long triangles in rows take about 60. */
+/* Pieces per triangle that need no budget. Long triangles in rows take about 60. */
 static const double FREE_PIECES = 128;
 
-/* A place of the tree and its group: a vertex or, for a triangle at none with a group, a number of
- * its own. */
+/* A place of the tree and its group. The group is a vertex, or a number of its own for a triangle
+ * whose corners have no group. */
 typedef struct member {
     uint32_t group, place;
 } member;
@@ -62,7 +64,7 @@ static member *list_members(const iccp_facet_tree *tree, size_t n_vertices,
     return has_memory ? sorted : NULL;
 }
 
-/* The direction from the centre to a point, as long as the cube is wide. */
+/* Computes the direction from the centre to a point, scaled to the width of the cube. */
 static void look(const double *centre, const double *point, double *direction)
 {
     double size = 0;
@@ -74,7 +76,7 @@ static void look(const double *centre, const double *point, double *direction)
         direction[k] /= size;
 }
 
-/* Projects an arc to the face. One too near to the cube's centre becomes the whole face. */
+/* Projects an arc to the face. An arc too near the cube's centre becomes the whole face. */
 static void project(iccp_piece *piece, size_t axis, double side)
 {
     const size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
@@ -91,7 +93,7 @@ static void project(iccp_piece *piece, size_t axis, double side)
     }
 }
 
-/* Adds the arc of a triangle at the centre as far as it lies on a face of the cube. */
+/* Adds the part of a triangle's arc that lies on one face of the cube. */
 static void add_arc(iccp_near_pairs *pairs, const double ends[2][3], uint32_t place, int face)
 {
     iccp_piece *piece = iccp_near_pairs_add(pairs);

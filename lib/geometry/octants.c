@@ -1,11 +1,12 @@
-/* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
- * Computational Geometry 47, 2012, for cubes in the place of simplices.
+/* Tests whether cells around a corner form a ball. Based on: J. A. Barmak and E. G. Minian, Strong
+ * Homotopy Types, Nerves and Collapses, Discrete & Computational Geometry 47, 2012, with cubes
+ * instead of simplices.
  *
- * The orthants are the corners of a cube. Where they meet the sphere they overlap as the faces of
- * the cube do that have all their corners in the set, so the union is contractible if those faces
- * are. A corner may be dropped along an axis when each of its faces lies in a larger one in the
- * direction of that axis: all its faces then fold onto the other side. The corners on one side of
- * an axis that may be dropped do not depend on each other and go together. */
+ * The orthants are the corners of a cube. On the sphere they overlap like those faces of the cube
+ * whose corners are all in the set. So the union is contractible if these faces are. A corner may
+ * be dropped along an axis if each of its faces lies in a larger face in the direction of that
+ * axis. All its faces then fold onto the other side. Droppable corners on one side of an axis do
+ * not depend on each other and are dropped together. */
 #include "geometry/octants.h"
 
 #include "icc/base.h"
@@ -17,13 +18,13 @@ static const uint64_t lower[ICC_MAX_DIM] = {0x5555555555555555, 0x33333333333333
                                             0x0f0f0f0f0f0f0f0f, 0x00ff00ff00ff00ff,
                                             0x0000ffff0000ffff, 0x00000000ffffffff};
 
-/* Every corner in the place of the one across an axis. */
+/* Replaces every corner by the one across an axis. */
 static uint64_t across(uint64_t set, int axis)
 {
     return (set & lower[axis]) << (1 << axis) | (set >> (1 << axis) & lower[axis]);
 }
 
-/* faces[s]: the corners whose face along the axes of the bits of s lies in the set. */
+/* faces[s] is the set of corners whose face along the axes of the bits of s lies in the set. */
 static void find_faces(uint64_t set, int n_axes, uint64_t *faces)
 {
     faces[0] = set;
@@ -42,7 +43,7 @@ static uint64_t foldable(const uint64_t *faces, int n_axes, int axis)
     return found;
 }
 
-/* The set without some corners, or the same if there are none to be dropped. */
+/* Drops some corners from the set. Returns the same set if none can be dropped. */
 static uint64_t fold(uint64_t set, int n_axes)
 {
     uint64_t faces[1 << ICC_MAX_DIM];

@@ -1,3 +1,4 @@
+/* Sorts points by x, then y. */
 #include "geometry/point_order.h"
 
 #include "base/sort.h"

@@ -1,3 +1,4 @@
+/* Puts the points and edges of a polygon into walking order. */
 #include "geometry/polygon.h"
 
 #include "base/error.h"
@@ -29,8 +30,8 @@ static icc_status index_starts(uint32_t *start, size_t n, const uint32_t *facets
     return ICC_OK;
 }
 
-/* Walks from vertex 0 along the facets. No two start at the same vertex, so the walk has come all
- * the way round when it is back at vertex 0 for the first time after n facets. */
+/* Walks from vertex 0 along the facets. No two start at the same vertex, so the polygon is one loop
+ * if the walk first returns to vertex 0 after n facets. */
 static icc_status walk(iccp_polygon *polygon, const uint32_t *start, const uint32_t *facets,
                        icc_error *err)
 {
@@ -49,7 +50,7 @@ static icc_status walk(iccp_polygon *polygon, const uint32_t *start, const uint3
     return ICC_OK;
 }
 
-/* Most polygons are: facet k leads from vertex k to the next one. */
+/* Most polygons are in order: facet k leads from vertex k to the next one. */
 static bool is_in_order(size_t n, const uint32_t *facets)
 {
     uint32_t wrong = 0;

@@ -1,6 +1,6 @@
-/* A polygon as points and edges in the order in which one meets them walking round it, by position
- * k = 0 .. n - 1. The 2-D files of this folder work on positions; the caller's numbers of vertices
- * and facets come back where results leave the folder. */
+/* A polygon as points and edges in walking order, by position k = 0 .. n - 1. The 2-D files of this
+ * folder work with positions. Results that leave the folder use the caller's numbers of vertices
+ * and facets. */
 #ifndef ICCP_POLYGON_H
 #define ICCP_POLYGON_H
 
@@ -10,20 +10,21 @@
 
 typedef struct iccp_polygon {
     size_t n;
-    const double *points; /* n + 1 local points; the last is the first again: edge k joins k and
-                             k + 1 */
-    double *own;          /* the same, or NULL: they are borrowed */
-    uint32_t *vertex;     /* n: the caller's number of point k; or NULL: k */
-    uint32_t *facet;      /* n: the caller's number of edge k; or NULL: k */
+    /* There are n + 1 local points; the last repeats the first; edge k joins k and k + 1 */
+    const double *points;
+    double *own;      /* the same array if the polygon owns it; NULL: borrowed */
+    uint32_t *vertex; /* n: the caller's number of point k; NULL: k */
+    uint32_t *facet;  /* n: the caller's number of edge k; NULL: k */
 } iccp_polygon;
 
-/* Orders n facets over n vertices (NULL: from each to the next), starting with vertex 0. `vertices`
- * holds n points and the first once more; where the facets take them in their order the polygon
- * borrows them. ICC_ERR_BOUNDARY when the facets are not one closed polygon in one direction. */
+/* Puts n facets over n vertices into walking order, starting with vertex 0. NULL facets lead from
+ * each vertex to the next. `vertices` holds n points and repeats the first. If the facets use them
+ * in their order, the polygon borrows them. Returns ICC_ERR_BOUNDARY if the facets are not one
+ * closed polygon in one direction. */
 icc_status iccp_polygon_create(iccp_polygon *polygon, size_t n, const double *vertices,
                                const uint32_t *facets, const iccp_memory *memory, icc_error *err);
 
-/* Accepts a polygon that is all zero. */
+/* Accepts a polygon of all zeros. */
 void iccp_polygon_free(iccp_polygon *polygon, const iccp_memory *memory);
 
 static inline uint32_t iccp_polygon_vertex(const iccp_polygon *polygon, uint32_t k)

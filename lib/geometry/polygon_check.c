@@ -1,3 +1,4 @@
+/* Checks polygons that the caller gives, and describes their defects. */
 #include "geometry/polygon_check.h"
 
 #include "base/compiler.h"
@@ -77,7 +78,7 @@ icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, con
     return iccp_polygon_bring_in(frame, local, n, vertices, err);
 }
 
-/* "cross near (x, y)", with the vertices or edges in the caller's numbers. */
+/* Writes "cross near (x, y)" with the caller's numbers of vertices or edges. */
 static icc_status fail_pair(icc_error *err, const iccp_defect *defect, const iccp_polygon *polygon,
                             const iccp_frame *frame)
 {
@@ -115,7 +116,7 @@ static icc_status fail_defect(icc_error *err, const iccp_defect *defect,
     }
 }
 
-/* The first defect of the list, or none if that takes too long to find. */
+/* Finds the first defect of the list, or none if that takes too long. */
 static icc_status find_first(iccp_defect *first, const iccp_polygon *polygon, size_t number,
                              const iccp_env *env)
 {
@@ -132,8 +133,8 @@ static icc_status find_first(iccp_defect *first, const iccp_polygon *polygon, si
     return status;
 }
 
-/* The quick test decides for most polygons, the sweep for the others. What is named is the first
- * defect of the list, or, if that takes too long, what the sweep finds. */
+/* The quick test decides for most polygons, and the sweep for the others. The message names the
+ * first defect of the list. If finding that takes too long, it names what the sweep finds. */
 icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
                               const iccp_env *env, icc_error *err)
 {
@@ -182,14 +183,16 @@ int iccp_polygon_orientation(const iccp_polygon *polygon)
     return iccp_orient2d(polygon->points + 2 * (size_t)iccp_polygon_before(polygon, v), p, p + 2);
 }
 
-/* Points of a polygon seen from the first one, and the upper and lower halves of their coordinates,
- * the products of which are exact; and what the two products of each side add to their sums. */
+/* Points of a polygon relative to the first one, and the upper and lower halves of their
+ * coordinates, whose products are exact. Also what the two products of each side add to their
+ * sums. */
 typedef struct area_block {
     double at[2][AREA_BLOCK + 1], high[2][AREA_BLOCK + 1], low[2][AREA_BLOCK + 1];
     double product[AREA_BLOCK][2], error[AREA_BLOCK][2];
 } area_block;
 
-/* What iccp_two_product() says of coordinate k of point i and coordinate l of the next one. */
+/* Does what iccp_two_product() does, for coordinate k of point i and coordinate l of the next
+ * point. */
 static ICCP_INLINE void multiply(area_block *block, size_t i, size_t k, size_t l)
 {
     const double a_high = block->high[k][i], a_low = block->low[k][i];
@@ -200,8 +203,8 @@ static ICCP_INLINE void multiply(area_block *block, size_t i, size_t k, size_t l
         a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
 }
 
-/* The sides from `points` on: no step waits for another. Beyond n sides there is no point but the
- * first. */
+/* Multiplies the sides from `points` on; no step waits for another. Beyond n sides, the first point
+ * is repeated. */
 static ICCP_INLINE void multiply_sides(area_block *block, size_t n, const double *points,
                                        const double *origin)
 {
@@ -222,10 +225,10 @@ static ICCP_INLINE void multiply_sides(area_block *block, size_t n, const double
     }
 }
 
-/* Half the sum of the cross products of the sides with vertex 0. Each product and each sum is
- * carried with its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product,
- * 2005, algorithm 5.3. The two products of a cross product have a sum each, which do not wait for
- * one another. */
+/* Half the sum of the cross products of the sides, relative to vertex 0. Each product and each sum
+ * carries its rounding error: T. Ogita, S. M. Rump, S. Oishi, Accurate sum and dot product, 2005,
+ * algorithm 5.3. The two products of a cross product have separate sums, so neither waits for the
+ * other. */
 static ICCP_INLINE double area_of(const iccp_polygon *polygon)
 {
     area_block block;
@@ -260,8 +263,8 @@ double iccp_polygon_area(const iccp_polygon *polygon)
     return area_of(polygon);
 }
 
-/* Local coordinates for the list: a vertex that is not finite becomes NaN. The frame is that of the
- * finite ones, which `scratch` gathers. */
+/* Local coordinates for the list of defects. A vertex that is not finite becomes NaN. The frame
+ * fits the finite vertices, which `scratch` gathers. */
 static icc_status localise_finite(double *local, double *scratch, size_t n, const double *vertices,
                                   icc_error *err)
 {

@@ -1,39 +1,40 @@
-/* Checking polygons as the caller gives them, and saying what is wrong. */
+/* Checks polygons that the caller gives, and describes their defects. */
 #ifndef ICCP_POLYGON_CHECK_H
 #define ICCP_POLYGON_CHECK_H
 
 #include "geometry/frame.h"
 #include "geometry/polygon.h"
 
-/* ICC_ERR_BOUNDARY unless there are as many as a ring has; the facets may be NULL. */
+/* Returns ICC_ERR_BOUNDARY unless the numbers fit a ring. `facets` may be NULL. */
 icc_status iccp_polygon_check_counts(size_t n_vertices, size_t n_facets, const uint32_t *facets,
                                      icc_error *err);
 
-/* ICC_ERR_BOUNDARY for a vertex that is not finite. */
+/* Returns ICC_ERR_BOUNDARY if a vertex is not finite. */
 icc_status iccp_polygon_check_finite(size_t n, const double *vertices, icc_error *err);
 
-/* Writes the local coordinates of finite vertices. ICC_ERR_BOUNDARY for one too near an axis of the
- * frame to work with exactly. */
+/* Writes the local coordinates of finite vertices. Returns ICC_ERR_BOUNDARY if a vertex is too near
+ * an axis of the frame for exact computation. */
 icc_status iccp_polygon_bring_in(const iccp_frame *frame, double *local, size_t n,
                                  const double *vertices, icc_error *err);
 
-/* Both, with a frame that is fitted to the vertices. */
+/* Fits a frame to the vertices, and writes their local coordinates. */
 icc_status iccp_polygon_localise(iccp_frame *frame, double *local, size_t n, const double *vertices,
                                  icc_error *err);
 
-/* ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is simple. */
+/* Returns ICC_ERR_BOUNDARY unless the polygon, of at least 3 points, is simple. */
 icc_status iccp_polygon_check(const iccp_polygon *polygon, const iccp_frame *frame,
                               const iccp_env *env, icc_error *err);
 
-/* The same for n local points by themselves: polygon[0], polygon[1], .. of `points`, or all in
- * their order (NULL). ICC_ERR_BOUNDARY also when there are fewer than 3. */
+/* Like iccp_polygon_check(), for n local points: polygon[0], polygon[1], .. of `points`, or all in
+ * their order if `polygon` is NULL. Also returns ICC_ERR_BOUNDARY for fewer than 3 points. */
 icc_status iccp_polygon_check_points(size_t n, const double *points, const uint32_t *polygon,
                                      const iccp_frame *frame, const iccp_env *env, icc_error *err);
 
-/* +1 counter-clockwise, -1 clockwise: exact for a simple polygon. */
+/* Returns +1 for counter-clockwise, -1 for clockwise. Exact for a simple polygon. */
 int iccp_polygon_orientation(const iccp_polygon *polygon);
 
-/* The area, in local units; accurate to a few units in the last place but for very thin shapes. */
+/* Returns the area in local units. Accurate to a few units in the last place, except for very thin
+ * shapes. */
 double iccp_polygon_area(const iccp_polygon *polygon);
 
 /* See icc_boundary_defects(). */

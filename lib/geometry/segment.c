@@ -1,3 +1,4 @@
+/* Points and segments of the plane. */
 #include "geometry/segment.h"
 
 #include "math/predicates.h"
@@ -26,8 +27,8 @@ static bool apart(double a, double b, double c, double d)
     return high1 < low2 || high2 < low1;
 }
 
-/* Segments on one line meet if and only if their boxes do, so the four signs need no special case
- * for them. */
+/* Segments on one line meet if and only if their boxes do. So the four signs need no special
+ * case. */
 int32_t iccp_segments_meet(const double *a, const double *b, const double *c, const double *d)
 {
     if (apart(a[0], b[0], c[0], d[0]) || apart(a[1], b[1], c[1], d[1]))
@@ -60,8 +61,8 @@ void iccp_segments_point(const double *a, const double *b, const double *c, cons
     point[1] = a[1] + t * u[1];
 }
 
-/* Rounding may put a vertex on an edge nearby, so only at an end is the distance 0: a vertex is
- * then always found as itself. */
+/* Rounding may put a vertex on a nearby edge. So the distance is 0 only at an end, and a vertex is
+ * always found as itself. */
 double iccp_segment_nearest(const double *a, const double *b, const double *p, double *t)
 {
     const double d[2] = {b[0] - a[0], b[1] - a[1]};

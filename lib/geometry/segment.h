@@ -1,4 +1,20 @@
-/* Points and segments of the plane, exact unless said otherwise. */
+/* Points and segments of the plane, exact unless said otherwise.
+ *
+ * Legend of lib/geometry, which works on raw coordinates. Begin with this file, then polygon.h and
+ * simplices.h.
+ * - local coordinates: the caller's coordinates, shifted and scaled exactly to a size of about 1
+ *   (frame.h).
+ * - facet: an edge of a polygon, a triangle of a surface, and so on: a simplex of the boundary.
+ * - position, place: an index in walking order of a polygon, or in the order of a tree of boxes.
+ * - side: a facet of a mesh as seen from one of its simplices (simplices.h).
+ * - defect: a reason why a polygon is not simple (defect.h).
+ * - band: points so close to a boundary that they count as on it (band.h).
+ * - far away, order value: how distances from distant points are compared (away.h).
+ * - share: a position along a segment, from 0 to 1.
+ * - piece, group: parts of items that near_pairs.h compares, and items that it does not compare.
+ *
+ * Invariants: decisions about meeting, inside and orientation are exact. If several answers are
+ * equally good, the one with the smallest number wins, so results do not depend on trees. */
 #ifndef ICCP_SEGMENT_H
 #define ICCP_SEGMENT_H
 
@@ -6,7 +22,7 @@
 
 #include <stdbool.h>
 
-/* The order in which a sweep meets points: by x, then by y. */
+/* The order in which a sweep visits points: by x, then by y. */
 static inline bool iccp_point_less(const double *p, const double *q)
 {
     return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
@@ -17,22 +33,22 @@ static inline bool iccp_point_equal(const double *p, const double *q)
     return p[0] == q[0] && p[1] == q[1];
 }
 
-/* Whether p and q, both different from v, lie in the same direction from v. */
+/* Returns true if p and q, both different from v, lie in the same direction from v. */
 bool iccp_point_folds(const double *v, const double *p, const double *q);
 
-/* Whether p lies on the closed segment from a to b. */
+/* Returns true if p lies on the closed segment from a to b. */
 bool iccp_segment_has(const double *a, const double *b, const double *p);
 
-/* How the closed segments ab and cd, neither of length zero, meet: 0 not at all,
- * ICC_DEFECT_CROSSING in one point inside both, ICC_DEFECT_TOUCH otherwise. */
+/* Tells how the closed segments ab and cd meet; neither has length zero. Returns 0 if they do not,
+ * ICC_DEFECT_CROSSING for one point inside both, else ICC_DEFECT_TOUCH. */
 int32_t iccp_segments_meet(const double *a, const double *b, const double *c, const double *d);
 
-/* A point where segments that meet do so, up to rounding. */
+/* Computes a common point of segments that meet, up to rounding. */
 void iccp_segments_point(const double *a, const double *b, const double *c, const double *d,
                          double *point);
 
-/* The squared distance of p from segment ab and the share *t of the way from a to b of the nearest
- * point, up to rounding; t is exactly 0 at a and 1 at b. */
+/* Returns the squared distance of p from segment ab, up to rounding. *t is the position of the
+ * nearest point as a share, exactly 0 at a and 1 at b. */
 double iccp_segment_nearest(const double *a, const double *b, const double *p, double *t);
 
 #endif

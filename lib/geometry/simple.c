@@ -1,13 +1,16 @@
-/* A tree of boxes is compared with itself, and pieces that cannot meet themselves are left out: the
- * idea of P. Volino, N. Magnenat Thalmann, Efficient self-collision detection on smoothly
- * discretized surface animations using geometrical shape regularity, 1994. In the plane it is
- * exact: a piece of the polygon is simple when its points ascend, by x and then y or by y and then
- * x, or descend. So only the boxes of pieces are compared that do not, or that do not follow one
- * another in such a way; edges, by exact signs, where the boxes of a few of them overlap.
+/* Tests whether a polygon is simple by comparing a tree of boxes with itself. Pieces that cannot
+ * meet themselves are skipped. That is the idea of P. Volino, N. Magnenat Thalmann, Efficient
+ * self-collision detection on smoothly discretized surface animations using geometrical shape
+ * regularity, 1994.
  *
- * Leaves of the tree are chains, which lead nowhere back in x nor in y and are as long as that
- * lasts; or a few edges where the polygon is rough. The box of a part of a chain is that of its two
- * ends, so that nothing need be kept for it: a smooth outline has a few hundred leaves. */
+ * In the plane it is exact: a piece of the polygon is simple if its points ascend, by x and then y
+ * or by y and then x, or descend. So the search compares only the boxes of pieces that are not
+ * monotone, or that do not continue each other monotonically. Where the boxes of a few edges
+ * overlap, exact signs compare the edges.
+ *
+ * Leaves of the tree are chains or, where the polygon is rough, a few edges. A chain is as long as
+ * possible without going back in x or in y. The box of a part of a chain is that of its two ends,
+ * so nothing need be stored for it. A smooth outline has a few hundred leaves. */
 #include "geometry/simple.h"
 
 #include "base/compiler.h"
@@ -18,16 +21,17 @@
 #include <string.h>
 
 enum {
-    FEW = 4,            /* edges of a rough leaf; the fewest of a chain but at the end */
-    GRAIN = 1024 * FEW, /* edges between reports */
+    FEW = 4,            /* edges of a rough leaf; the least of a chain, except the last */
+    GRAIN = 1024 * FEW, /* edges between progress reports */
 };
 
-/* The ways in which all the edges of a piece lead, by x and then y or by y and then x; and of a
- * chain, which may have none of them: two of its edges may lead down and to the right. */
+/* Directions that all edges of a piece have: RIGHT or LEFT by x and then y, UP or DOWN by y and
+ * then x. CHAIN marks a chain. It may have no direction: two of its edges may lead down and to the
+ * right. */
 enum { RIGHT = 1, LEFT = 2, UP = 4, DOWN = 8, ANY = 15, CHAIN = 16 };
 
-/* Edges first to end - 1: those of leaves leaf to leaf + size - 1 (some of which may not exist)
- * under a node; or, where the node is 0, of a part of a chain. */
+/* Edges first to end - 1. They belong to the leaves leaf to leaf + size - 1 under a node; some of
+ * these leaves may not exist. If the node is 0, they are a part of a chain. */
 typedef struct piece {
     size_t node, leaf, size;
     size_t first, end;
@@ -40,13 +44,13 @@ typedef struct search {
     const iccp_env *env;
     size_t n;        /* edges */
     size_t n_leaves; /* in use */
-    size_t width;    /* of the tree: a power of two */
-    uint32_t *start; /* n_leaves + 1: the first edge of a leaf; n after the last */
-    uint8_t *ways;   /* by node; before there is a tree, by leaf */
-    iccp_box *boxes; /* by node, as far as there are leaves and one beyond */
+    size_t width;    /* width of the tree: a power of two */
+    uint32_t *start; /* n_leaves + 1: the first edge of each leaf; the last is n */
+    uint8_t *ways;   /* by node; before the tree exists, by leaf */
+    iccp_box *boxes; /* by node, for leaves that exist and one more */
     size_t n_tests, patience;
-    size_t first;    /* the least number with a defect so far; n: none */
-    size_t reported; /* edges */
+    size_t first;    /* least number with a defect found; n: none */
+    size_t reported; /* edges reported */
     icc_status status;
 } search;
 
@@ -57,14 +61,15 @@ static const double *point(const search *s, size_t k)
 
 /* ------------------------------------------------------------------ leaves */
 
-/* Bits for an edge's steps along x, to the right or left, and along y; 0 without a length. */
+/* Returns bits for the direction of an edge along x and along y. Returns 0 for an edge without
+ * length. */
 static ICCP_INLINE unsigned steps_of(const double *a, const double *b)
 {
     return (unsigned)(b[0] > a[0]) | (unsigned)(b[0] < a[0]) << 1 | (unsigned)(b[1] > a[1]) << 2 |
            (unsigned)(b[1] < a[1]) << 3;
 }
 
-/* A step along one axis alone counts as one along the other, too: in the order by x and then y. */
+/* A step along only one axis also counts as one along the other, in the order by x and then y. */
 static ICCP_INLINE unsigned ways_of(unsigned steps)
 {
     return steps == RIGHT || steps == UP    ? RIGHT | UP
@@ -77,7 +82,8 @@ static bool leads_back(unsigned steps)
     return (steps & (RIGHT | LEFT)) == (RIGHT | LEFT) || (steps & (UP | DOWN)) == (UP | DOWN);
 }
 
-/* The end of the chain that begins with an edge, and its ways. An edge without length ends it. */
+/* Returns the end of the chain that begins with an edge, and the chain's directions. An edge
+ * without length ends it. */
 static size_t chain_from(const search *s, size_t first, unsigned *ways)
 {
     unsigned seen = 0;
@@ -94,7 +100,7 @@ static size_t chain_from(const search *s, size_t first, unsigned *ways)
     return e;
 }
 
-/* The ways of a few edges together; false if one has no length. */
+/* Finds the common directions of a few edges. Returns false if one has no length. */
 static bool find_ways(const search *s, size_t first, size_t end, unsigned *ways)
 {
     *ways = ANY;
@@ -107,7 +113,8 @@ static bool find_ways(const search *s, size_t first, size_t end, unsigned *ways)
     return true;
 }
 
-/* Cuts the polygon into leaves, each as long as it can be. False if an edge has no length. */
+/* Cuts the polygon into leaves, each as long as possible. Returns false if an edge has no
+ * length. */
 static bool find_leaves(search *s)
 {
     for (size_t e = 0; e < s->n;) {
@@ -128,7 +135,7 @@ static bool find_leaves(search *s)
 
 /* ------------------------------------------------------------------- boxes */
 
-/* Of edges first to end - 1, a chain or a few. */
+/* Returns the box of edges first to end - 1, which are a chain or a few edges. */
 static iccp_box part_box(const search *s, size_t first, size_t end, unsigned ways)
 {
     if ((ways & CHAIN) != 0)
@@ -139,8 +146,8 @@ static iccp_box part_box(const search *s, size_t first, size_t end, unsigned way
     return all;
 }
 
-/* Node i has children 2 i and 2 i + 1, node 1 is the root, leaf j is node `width` + j. On every
- * level the nodes without leaves are left out but for the first, which is empty. */
+/* Node 1 is the root, node i has children 2 i and 2 i + 1, and leaf j is node `width` + j. On every
+ * level only the first node without leaves is stored; it is empty. */
 static void fill_tree(search *s)
 {
     static const iccp_box empty = {{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}};
@@ -161,8 +168,9 @@ static void fill_tree(search *s)
 
 /* ------------------------------------------------------------------ edges */
 
-/* The least number under which the list of defects has something for edges e and f that meet, f
- * being the later one: that of the vertex between them; or of a repeated one; or e. */
+/* Returns the least number under which the list of defects has an entry for edges e and f that
+ * meet. f is the later edge. The number is that of the vertex between them, or of a repeated
+ * vertex, or e. */
 static size_t number_of(const search *s, size_t e, size_t f)
 {
     if (f == e + 1)
@@ -183,7 +191,7 @@ static size_t number_of(const search *s, size_t e, size_t f)
     return number < s->n ? number : e;
 }
 
-/* Looks for a point that edge e and a later one have in common and should not. */
+/* Looks for a forbidden common point of edge e and a later one. */
 static void compare_edges(search *s, size_t e, size_t f)
 {
     const double *a = point(s, e), *b = point(s, f);
@@ -250,21 +258,21 @@ static double extent(const piece *a)
     return (a->box.upper[0] - a->box.lower[0]) + (a->box.upper[1] - a->box.lower[1]);
 }
 
-/* Whether b begins where a ends. */
+/* Returns true if b begins where a ends. */
 static bool follows(const search *s, const piece *a, const piece *b)
 {
     return b->first == (a->end < s->n ? a->end : 0);
 }
 
-/* Whether nothing that is still to be found between a and b, the later one, matters: an edge of a
- * is named, or vertex 0. */
+/* Returns true if nothing between a and the later piece b can matter any more. A defect there would
+ * be listed under an edge of a or under vertex 0. */
 static bool done(const search *s, const piece *a, const piece *b)
 {
     return s->status != ICC_OK || s->n_tests > s->patience ||
            (a->first > s->first && b->end < s->n) || s->first == 0;
 }
 
-/* Compares the edges of a with those of b, which come later. Of two boxes that overlap the longer
+/* Compares the edges of a with those of b, which come later. If two boxes overlap, the longer one
  * is halved. */
 static void compare(search *s, const piece *a, const piece *b)
 {
@@ -312,7 +320,7 @@ static void compare_within(search *s, const piece *a)
     compare(s, &left, &right);
 }
 
-/* With leaves. */
+/* Compares all edges with the help of leaves. */
 static icc_status compare_all(search *s)
 {
     const iccp_memory *memory = &s->env->memory;
@@ -332,7 +340,7 @@ static icc_status compare_all(search *s)
 icc_status iccp_simple_find(iccp_simple *result, const double *points, size_t n,
                             const iccp_env *env)
 {
-    const size_t most = n / FEW + 1; /* leaves: all but the last have at least a few edges */
+    const size_t most = n / FEW + 1; /* all leaves except the last have at least a few edges */
     search s = {
         .points = points, .env = env, .n = n, .patience = ICCP_SIMPLE_PATIENCE * n, .first = n};
     *result = (iccp_simple){.answer = ICCP_NOT_SIMPLE, .first = n};

@@ -1,8 +1,8 @@
-/* The nearest point of the plane of the simplex is found by orthogonalisation (modified
- * Gram-Schmidt, G. H. Golub, C. F. Van Loan, Matrix Computations, section 5.2.8), which keeps thin
- * simplices as sharp as they are. If it lies outside, the nearest point of the simplex lies on a
- * face opposite a corner whose barycentric coordinate is negative: one looks there, at most n - 1
- * levels down. */
+/* Nearest points on simplices. The nearest point of the simplex's plane is found by
+ * orthogonalisation (modified Gram-Schmidt, G. H. Golub, C. F. Van Loan, Matrix Computations,
+ * section 5.2.8), which stays accurate for thin simplices. If that point lies outside, the nearest
+ * point of the simplex lies on a face opposite a corner with a negative barycentric coordinate. The
+ * search continues there, at most n - 1 levels down. */
 #include "geometry/simplex.h"
 
 #include "icc/base.h"
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A side whose part across the others is less than this share of it is rounding. */
+/* If the part of a side across the others is less than this share of it, it is rounding. */
 static const double FLAT = 1e-15;
 
 enum { MAX = ICC_MAX_DIM };
@@ -21,10 +21,10 @@ typedef struct search {
     size_t dim, n;
     const double *const *corners; /* n */
     const double *p;
-    const iccp_away *away; /* if p is far away, its order values replace distances; or NULL */
-    double distance2[MAX]; /* of the corners from p, squared */
-    double best2;          /* of the nearest point so far */
-    double bary[MAX];      /* by corner, of that point */
+    const iccp_away *away; /* if not NULL: p is far away, and order values replace distances */
+    double distance2[MAX]; /* squared distance of each corner from p */
+    double best2;          /* squared distance of the nearest point so far */
+    double bary[MAX];      /* by corner, for that point */
 } search;
 
 static void subtract_multiple(size_t dim, double *a, double factor, const double *b)
@@ -33,8 +33,8 @@ static void subtract_multiple(size_t dim, double *a, double factor, const double
         a[k] -= factor * b[k];
 }
 
-/* Projects p to the plane of the corners listed, of which the first is the origin. Writes the
- * coordinates of the others and what is left of p - origin; returns 0 if the corners are flat. */
+/* Projects p to the plane of the listed corners, with the first as origin. Writes the coordinates
+ * of the others and the rest of p - origin. Returns 0 if the corners are flat. */
 static int project(const search *s, size_t n, const size_t *list, double *share, double *rest)
 {
     double q[MAX - 1][MAX], r[MAX - 1][MAX - 1], along[MAX - 1];
@@ -67,7 +67,7 @@ static int project(const search *s, size_t n, const size_t *list, double *share,
     return 1;
 }
 
-/* The corners of a subset, the one nearest to p first. */
+/* Lists the corners of a subset, the one nearest to p first. */
 static size_t list_corners(const search *s, unsigned subset, size_t *list)
 {
     size_t n = 0;
@@ -93,8 +93,8 @@ static void keep_nearest(search *s, double distance2, size_t n, const size_t *li
         s->bary[list[i]] = bary[i];
 }
 
-/* The squared distance, or order value, of a point on the face with these corners. `rest` leads
- * from the point to p. */
+/* Returns the squared distance, or order value, of a point on the face with these corners. `rest`
+ * leads from the point to p. */
 static double distance2_of(const search *s, size_t n, const size_t *list, const double *bary,
                            const double *rest)
 {
@@ -106,10 +106,10 @@ static double distance2_of(const search *s, size_t n, const size_t *list, const 
     return iccp_away_value(s->away, s->dim, q);
 }
 
-/* The point of a face, given as a subset of the corners, that is nearest to p: its projection if
- * that lies within, else on a smaller face. A flat face has no projection, and all its faces are
- * searched. Of the smaller faces only those opposite a corner with a negative coordinate can
- * hold the point. */
+/* Finds the nearest point of a face, which is given as a subset of the corners. That is the
+ * projection of p if it lies within, else a point on a smaller face. Only smaller faces opposite a
+ * corner with a negative coordinate can contain it. A flat face has no projection, so all its faces
+ * are searched. */
 static void search_face(search *s, unsigned subset)
 {
     size_t list[MAX];
@@ -128,7 +128,8 @@ static void search_face(search *s, unsigned subset)
             within = 0;
             search_face(s, subset & ~(1u << list[i]));
         }
-    /* Rounding may put a corner of one simplex into another nearby; only its own have it at 0. */
+    /* Rounding may put a corner of one simplex into another one nearby. Only its own simplices have
+     * it at distance 0. */
     if (within)
         keep_nearest(s, distance2_of(s, n, list, bary, rest), n, list, bary);
 }

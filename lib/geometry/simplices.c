@@ -1,3 +1,4 @@
+/* Conforming meshes of simplices: checks, orientation and neighbours. */
 #include "geometry/simplices.h"
 
 #include "base/error.h"
@@ -56,7 +57,7 @@ icc_status iccp_simplices_copy(iccp_simplices **out, const iccp_simplices *mesh,
     return ICC_OK;
 }
 
-/* ---- simplices by themselves ---- */
+/* ---- single simplices ---- */
 
 icc_status iccp_simplices_check_corners(const iccp_simplices *mesh, icc_error *err)
 {
@@ -99,14 +100,14 @@ icc_status iccp_simplices_orient(iccp_simplices *mesh, icc_error *err)
     return ICC_OK;
 }
 
-/* ---- sides that are the same facet ---- */
+/* ---- sides with the same facet ---- */
 
-/* Tuples up to n_sides are the sides of the mesh; those beyond are the caller's facets. */
+/* Tuples up to n_sides are the sides of the mesh. The rest are the caller's facets. */
 typedef struct side_list {
     iccp_simplices *mesh;
     iccp_tuples tuples;
     size_t n_sides;
-    uint32_t n_boundary; /* facets of the boundary so far */
+    uint32_t n_boundary; /* boundary facets found */
 } side_list;
 
 void iccp_simplices_side(const iccp_simplices *mesh, size_t side, uint32_t *points)
@@ -129,7 +130,7 @@ static bool is_odd(const iccp_simplices *mesh, size_t side)
     return iccp_sort_vertices(mesh->dim, points);
 }
 
-/* "face (3, 7, 9)". */
+/* Writes a text such as "face (3, 7, 9)". */
 static void describe(const side_list *list, size_t tuple, char *text, size_t size)
 {
     const size_t width = list->tuples.width;
@@ -140,7 +141,7 @@ static void describe(const side_list *list, size_t tuple, char *text, size_t siz
     (void)snprintf(text + n, size - (size_t)n, ")");
 }
 
-/* A facet at at[0], at[1], .. whose sides cannot be those of a mesh. */
+/* Reports that the facets at at[0], at[1], .. have sides that no mesh can have. */
 static icc_status fail_sides(const side_list *list, const uint32_t *at, size_t n_sides,
                              icc_error *err)
 {
@@ -157,7 +158,7 @@ static icc_status fail_sides(const side_list *list, const uint32_t *at, size_t n
                         facet);
 }
 
-/* The caller's facets at at[0], .., and how many sides they have. */
+/* Reports an error of the caller's facets at at[0], .. and tells how many sides they have. */
 static icc_status fail_facets(const side_list *list, const uint32_t *at, size_t n_sides,
                               size_t n_facets, icc_error *err)
 {
@@ -181,7 +182,7 @@ static icc_status fail_facets(const side_list *list, const uint32_t *at, size_t 
                         name, f);
 }
 
-/* Sides come before facets, and the smaller ones first. */
+/* Sides come before facets, smaller ones first. */
 static icc_status join_facet(side_list *list, size_t begin, size_t end, bool given, icc_error *err)
 {
     iccp_simplices *mesh = list->mesh;

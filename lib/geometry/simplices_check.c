@@ -1,4 +1,4 @@
-/* What the combinatorics of a mesh say about the space that it fills. */
+/* Checks of a mesh's topology: connected, and Euler characteristic 1. */
 #include "geometry/simplices.h"
 
 #include "base/error.h"
@@ -6,8 +6,8 @@
 
 #include <string.h>
 
-/* How many simplices are connected to simplex 0 across facets, itself included; reached[] says
- * which. */
+/* Returns how many simplices are connected to simplex 0 across facets, including itself. reached[]
+ * marks them. */
 static size_t flood(const iccp_simplices *mesh, bool *reached, uint32_t *queue)
 {
     const size_t n_sides = mesh->dim + 1;
@@ -29,8 +29,8 @@ static size_t flood(const iccp_simplices *mesh, bool *reached, uint32_t *queue)
     return n;
 }
 
-/* One flood decides: any simplex that it does not reach is a witness, and the message names the
- * one with the smallest number. */
+/* One flood decides: any simplex that it does not reach is a witness. The message names the one
+ * with the smallest number. */
 static icc_status check_pieces(const iccp_simplices *mesh, icc_error *err)
 {
     const iccp_memory *memory = &mesh->memory;
@@ -55,14 +55,14 @@ static icc_status check_pieces(const iccp_simplices *mesh, icc_error *err)
     return status;
 }
 
-/* The next subset with as many members: R. W. Gosper's hack, HAKMEM item 175. */
+/* The next subset of the same size: R. W. Gosper's hack, HAKMEM item 175. */
 static unsigned next_subset(unsigned set)
 {
     const unsigned low = set & (0u - set), sum = set + low;
     return sum | (set ^ sum) / low >> 2;
 }
 
-/* Writes the faces of a simplex that have `width` corners and returns the place behind them. */
+/* Writes the faces of a simplex that have `width` corners. Returns the end of the output. */
 static uint32_t *list_faces(size_t n_corners, const uint32_t *corners, size_t width, uint32_t *to)
 {
     for (unsigned set = (1u << width) - 1; set < 1u << n_corners; set = next_subset(set)) {
@@ -84,7 +84,7 @@ static size_t binomial(size_t n, size_t k)
     return b;
 }
 
-/* How many different faces with `width` corners the mesh has. */
+/* Counts the different faces with `width` corners. */
 static icc_status count_faces(const iccp_simplices *mesh, size_t width, size_t *n_faces)
 {
     const size_t n_corners = mesh->dim + 1;

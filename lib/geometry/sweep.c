@@ -1,12 +1,12 @@
-/* Plane sweep after M. I. Shamos and D. Hoey, Geometric intersection problems, 1976, section 4:
- * edges that the sweep line meets are kept in their order along it, and only neighbours are
- * compared. The first place where two edges meet is met by edges that were neighbours just before.
+/* Plane sweep after M. I. Shamos and D. Hoey, Geometric intersection problems, 1976, section 4.
+ * Edges that the sweep line meets are kept in order along the line, and only neighbours are
+ * compared. The edges that meet first were neighbours just before.
  *
- * Points are swept by x, then y, as if the plane were sheared a little; so no edge is vertical and
- * no two points are met at once. All comparisons are exact, and repeated points and spikes are
- * looked for first: so edges on the line have one order until they meet.
+ * Points are visited by x, then y, as if the plane were sheared slightly. So no edge is vertical,
+ * and no two points come at the same time. All comparisons are exact. Repeated points and spikes
+ * are looked for first, so edges on the line have a unique order until they meet.
  *
- * What lies just below the first point of a chain tells in which others the chain lies. */
+ * The edge just below the first point of a chain tells which other chains contain it. */
 #include "geometry/sweep.h"
 
 #include "geometry/avl.h"
@@ -19,11 +19,11 @@ static const uint32_t NONE = UINT32_MAX;
 typedef struct sweep {
     const iccp_chains *chains;
     const double *points;
-    uint32_t *before;  /* of each point: the edge that leads to it, or NONE */
+    uint32_t *before;  /* for each point: the edge that leads to it, or NONE */
     iccp_avl line;     /* edges that the sweep line meets, from below to above */
     uint32_t *node_of; /* by edge */
     iccp_chain_place *places;
-    bool *met; /* by chain: a point of it; NULL without places */
+    bool *met; /* by chain: a point of it was visited; NULL without places */
     iccp_defect found;
 } sweep;
 
@@ -32,7 +32,7 @@ static const double *point(const sweep *s, uint32_t k)
     return s->points + 2 * (size_t)k;
 }
 
-/* The edge that leads away from a point, which is not one that closes a chain. */
+/* Returns the edge that leaves a point. The point must not close a chain. */
 static uint32_t edge_after(const sweep *s, uint32_t v)
 {
     return s->before[v + 1] == v ? v : NONE;
@@ -43,7 +43,7 @@ static void found(sweep *s, int32_t kind, uint32_t a, uint32_t b)
     s->found = a < b ? (iccp_defect){kind, a, b} : (iccp_defect){kind, b, a};
 }
 
-/* Edges that share a vertex meet nowhere else: there is no spike. */
+/* Edges that share a vertex meet nowhere else, because there are no spikes. */
 static void compare(sweep *s, uint32_t below, uint32_t above)
 {
     if (below == 0 || above == 0)
@@ -57,8 +57,8 @@ static void compare(sweep *s, uint32_t below, uint32_t above)
         found(s, kind, e, f);
 }
 
-/* The highest edge below point v. An edge through v counts as above; it becomes a neighbour of v's
- * edges, and comparing them decides. */
+/* Returns the highest edge below point v. An edge through v counts as above. It becomes a neighbour
+ * of v's edges, and comparing them decides. */
 static uint32_t find_below(const sweep *s, uint32_t v)
 {
     const iccp_avl_node *const nodes = s->line.nodes;
@@ -74,9 +74,9 @@ static uint32_t find_below(const sweep *s, uint32_t v)
     return below;
 }
 
-/* Where a chain lies, at the first point of it, of which edge `below` is the next one below; `turn`
- * is the orientation of a closed one. That edge has the chain of its own on one side of it, or what
- * is around that. */
+/* Records where a chain lies, at its first point v. `below` is the next edge below, and `turn` the
+ * orientation of a closed chain. The chain of `below` lies around v or beside it. If it lies
+ * beside, v is inside whatever is around that chain. */
 static void enter_chain(sweep *s, uint32_t v, uint32_t below, int32_t turn)
 {
     if (s->places == NULL)
@@ -142,7 +142,8 @@ static void end_one(sweep *s, uint32_t edge)
     compare(s, below, s->line.nodes[below].after);
 }
 
-/* A point by itself: of the edges through it, if any, one is the next above find_below(). */
+/* Handles a chain of one point. If edges pass through it, one of them is the next above
+ * find_below(). */
 static void meet_lone_point(sweep *s, uint32_t v)
 {
     const uint32_t below = find_below(s, v), above = s->line.nodes[below].after;
@@ -189,7 +190,7 @@ static void meet_point(sweep *s, uint32_t v)
         meet_lone_point(s, v);
 }
 
-/* Repeated points and spikes. */
+/* Looks for repeated points and spikes. */
 static void check_points(sweep *s, const uint32_t *order, size_t n)
 {
     for (size_t i = 1; i < n; ++i)
@@ -208,7 +209,7 @@ static void check_points(sweep *s, const uint32_t *order, size_t n)
     }
 }
 
-/* Fills in s->before and lists the points but for those that close a chain. Returns their
+/* Fills in s->before, and lists all points except those that close a chain. Returns their
  * number. */
 static size_t list_points(sweep *s, uint32_t *order)
 {
@@ -256,7 +257,7 @@ icc_status iccp_sweep_chains(iccp_defect *result, iccp_chain_place *places,
     s.met = places != NULL ? iccp_alloc_zero(memory, chains->n, sizeof *s.met) : NULL;
     uint32_t *order = iccp_alloc(memory, n, sizeof *order);
     icc_status status = ICC_ERR_MEMORY;
-    /* The sort is done with its work space before the sweep needs node_of. */
+    /* The sort is finished with its workspace before the sweep needs node_of. */
     if (s.line.nodes != NULL && s.before != NULL && s.node_of != NULL && order != NULL &&
         (places == NULL || s.met != NULL))
         status = run(&s, order, s.node_of, env);

@@ -1,7 +1,9 @@
-/* Two triangles meet if and only if a side of one meets the other: C. Ericson, Real-Time Collision
- * Detection, section 5.2.10, with exact signs in place of its coordinates, and coplanar triangles
- * in a projection. Triangles with a common corner meet elsewhere if and only if the opposite side
- * of one meets the other: what they share beyond the corner reaches one of these sides. */
+/* Tests whether triangles intersect. Two triangles meet if and only if a side of one meets the
+ * other. Source: C. Ericson, Real-Time Collision Detection, section 5.2.10, with exact signs
+ * instead of coordinates, and coplanar triangles in a projection.
+ *
+ * Triangles with a common corner meet elsewhere if and only if the opposite side of one meets the
+ * other. The reason is that their common part beyond the corner reaches one of these sides. */
 #include "geometry/triangles.h"
 
 #include "geometry/fans.h"
@@ -21,7 +23,7 @@ static void drop(double *out, const double *p, int axis)
     out[1] = p[(axis + 2) % 3];
 }
 
-/* An axis along which the triangle's shadow has an area, and the shadow. */
+/* Finds an axis along which the triangle's shadow has an area, and the shadow. */
 static void cast_shadow(triangle t, double shadow[3][2], int *axis)
 {
     for (*axis = 0; *axis < 3; ++*axis) {
@@ -70,7 +72,7 @@ static bool segment_meets(const double *p, const double *q, triangle t)
     return first * third >= 0 && second * third >= 0;
 }
 
-/* Whether points lie strictly on one side of a triangle's plane. */
+/* Returns true if the points lie strictly on one side of a triangle's plane. */
 static bool beside(triangle t, size_t n, triangle points)
 {
     const int side = iccp_orient3d(t[0], t[1], t[2], points[0]);
@@ -80,8 +82,8 @@ static bool beside(triangle t, size_t n, triangle points)
     return side != 0;
 }
 
-/* Whether a side of s, which is oriented to the left or (-1) to the right, has all of t on its
- * other side. */
+/* Returns true if all of t lies beyond one side of s, which is oriented to the left (1) or right
+ * (-1). */
 static bool has_dividing_side(double s[3][2], int orientation, double t[3][2])
 {
     for (int i = 0; i < 3; ++i) {
@@ -94,8 +96,8 @@ static bool has_dividing_side(double s[3][2], int orientation, double t[3][2])
     return false;
 }
 
-/* Convex polygons that do not meet are divided by a side of one of them: so it is for the
- * difference of the two, whose sides are theirs, and zero. */
+/* Two convex polygons that do not meet are separated by a side of one of them. The reason: the same
+ * holds for zero and the polygons' difference, whose sides are theirs. */
 static bool meet_coplanar(triangle s, triangle t)
 {
     double shadow[3][2], other[3][2];
@@ -123,7 +125,7 @@ static bool meet_apart(triangle s, triangle t)
     return false;
 }
 
-/* Whether a segment's box has a point in common with another. */
+/* Returns true if a segment's box meets another box. */
 static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const float *box)
 {
     bool reaches = true;
@@ -134,7 +136,7 @@ static ICCP_INLINE bool segment_reaches(const double *p, const double *q, const 
     return reaches;
 }
 
-/* s[0] and t[0] are the common corner, and neither opposite side is out of reach. */
+/* s[0] and t[0] are the common corner. Both opposite sides are within reach. */
 static bool meet_at_corner(triangle s, triangle t)
 {
     if (beside(s, 2, t + 1) || beside(t, 2, s + 1))
@@ -142,7 +144,7 @@ static bool meet_at_corner(triangle s, triangle t)
     return segment_meets(s[1], s[2], t) || segment_meets(t[1], t[2], s);
 }
 
-/* The first two corners are common: the triangles overlap if they are coplanar and their third
+/* The first two corners are common. The triangles overlap if they are coplanar and their third
  * corners lie on the same side. */
 static bool meet_at_side(triangle s, triangle t)
 {
@@ -156,7 +158,7 @@ static bool meet_at_side(triangle s, triangle t)
            iccp_orient2d(shadow[0], shadow[1], other);
 }
 
-/* Bit 3 i + j is set where s[i] = t[j]. */
+/* Sets bit 3 i + j if s[i] = t[j]. */
 static ICCP_INLINE unsigned match(const uint32_t *s, const uint32_t *t)
 {
     unsigned same = 0;
@@ -166,7 +168,7 @@ static ICCP_INLINE unsigned match(const uint32_t *s, const uint32_t *t)
     return same;
 }
 
-/* The corners of a triangle, beginning with corner i. */
+/* Lists the corners of a triangle, beginning with corner i. */
 static ICCP_INLINE void list_from(const double *vertices, const uint32_t *t, unsigned i,
                                   const double **corners)
 {
@@ -175,8 +177,8 @@ static ICCP_INLINE void list_from(const double *vertices, const uint32_t *t, uns
         corners[k] = vertices + 3 * (size_t)t[next[i + k]];
 }
 
-/* One bit of `same` is set. Most pairs are of this kind, and for most of them it is enough to look
- * at boxes. */
+/* Tests triangles with one common corner: one bit of `same` is set. Most pairs are of this kind,
+ * and for most of them boxes decide. */
 static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, const uint32_t *t,
                                     unsigned same, const float *box_s, const float *box_t)
 {
@@ -185,11 +187,13 @@ static ICCP_INLINE bool meet_at_one(const double *vertices, const uint32_t *s, c
     list_from(vertices, s, i, a);
     list_from(vertices, t, row >> 1, b); /* 1, 2, 4: corner 0, 1, 2 */
     bool reach = segment_reaches(a[1], a[2], box_t);
-    reach |= segment_reaches(b[1], b[2], box_s); /* both at once: branches here are guesses */
+    /* Both at once: a branch here would be mispredicted */
+    reach |= segment_reaches(b[1], b[2], box_s);
     return reach && meet_at_corner(a, b);
 }
 
-/* Two bits of `same` are set: lists the two corners first, in the same order in both. */
+/* Tests triangles with two common corners: two bits of `same` are set. Lists these two first, in
+ * the same order in both. */
 static bool meet_at_two(const double *vertices, const uint32_t *s, const uint32_t *t, unsigned same)
 {
     const double *a[3], *b[3];
@@ -209,14 +213,16 @@ static bool meet_at_two(const double *vertices, const uint32_t *s, const uint32_
     return meet_at_side(a, b);
 }
 
-/* As the search has triangles, in the order of the tree. */
+/* The search's copy of a triangle, in the order of the tree. */
 typedef struct place {
-    float box[6];       /* lower and upper, a little too large */
-    uint32_t triangle;  /* its number */
-    uint32_t corner[3]; /* its vertices round which no triangles meet; not a vertex: another */
+    float box[6];      /* lower and upper, slightly enlarged */
+    uint32_t triangle; /* number of the triangle */
+    /* Its vertices at which no triangles intersect. Other entries hold a number that is no
+     * vertex. */
+    uint32_t corner[3];
 } place;
 
-/* Whether two triangles meet, if not round a vertex at which that is known to be impossible. */
+/* Tests whether two triangles meet, unless they share a vertex at which that is impossible. */
 static bool places_meet(const double *vertices, const uint32_t *triangles, const place *p,
                         const place *q)
 {
@@ -235,7 +241,7 @@ static bool places_meet(const double *vertices, const uint32_t *triangles, const
     return meet_apart(a, b);
 }
 
-/* Rounded to float, and so that the box only grows. */
+/* Rounds a box to float so that it only grows. */
 static void round_box(const double *exact, float *box)
 {
     for (int k = 0; k < 6; ++k) {
@@ -264,14 +270,14 @@ bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32
 
 /* ------------------------------------------------------------ all pairs */
 
-/* Pairs of boxes for each triangle that are compared singly. Ordinary surfaces have about 10. */
+/* Pairs of boxes per triangle that are compared one by one. Ordinary surfaces have about 10. */
 enum { PATIENCE = 64 };
 
 typedef struct search {
     const iccp_facet_tree *tree;
     const iccp_env *env;
     place *places;
-    size_t first[2]; /* places of the first pair that meets, so far; tree->n: none */
+    size_t first[2]; /* places of the first known pair that meets; tree->n: none */
     size_t n_left;   /* pairs of boxes that may still be compared */
     icc_status status;
 } search;
@@ -288,7 +294,7 @@ static ICCP_INLINE bool nodes_meet(const double *a, const double *b)
            (b[2] <= a[5]);
 }
 
-/* Looks at a pair unless one before it is known. */
+/* Compares a pair unless an earlier one is known to meet. */
 static void compare_places(search *s, size_t p, size_t q)
 {
     const place *a = &s->places[p], *b = &s->places[q];
@@ -322,7 +328,8 @@ static void compare_in_leaf(search *s, size_t node)
             compare_places(s, p, q);
 }
 
-/* The places of a leaf whose boxes meet that of another; returns how many. Without branches. */
+/* Lists the places of a leaf whose boxes meet that of another place. Returns their number. Has no
+ * branches. */
 static ICCP_INLINE size_t list_places(const search *s, size_t node, size_t other, size_t *list)
 {
     const size_t start = leaf_start(s, node), end = leaf_end(s, node);
@@ -351,8 +358,8 @@ static double extent(const double *box)
     return (box[3] - box[0]) + (box[4] - box[1]) + (box[5] - box[2]);
 }
 
-/* Compares the triangles below two nodes, the places below the second being the later ones. Of two
- * boxes that overlap the larger is halved. */
+/* Compares the triangles below two nodes. The places below the second come later. If two boxes
+ * overlap, the larger one is halved. */
 static void compare(search *s, size_t a, size_t b)
 {
     const double *box_a = s->tree->boxes + 6 * a, *box_b = s->tree->boxes + 6 * b;
@@ -382,7 +389,7 @@ static void compare_within(search *s, size_t node)
     compare(s, 2 * node, 2 * node + 1);
 }
 
-/* Places of the triangles; of their corners those that `good` names. */
+/* Fills in the places of the triangles. Of their corners it keeps those in `good`. */
 static void fill_places(search *s, const uint8_t *good)
 {
     const iccp_facet_tree *tree = s->tree;

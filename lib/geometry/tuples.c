@@ -1,5 +1,5 @@
-/* A counting sort on each of the vertices in turn (D. E. Knuth, The Art of Computer Programming 3,
- * section 5.2.5), which takes linear time whatever the input. */
+/* Sorts tuples by counting sort on each vertex in turn (D. E. Knuth, The Art of Computer
+ * Programming 3, section 5.2.5). Time is linear for every input. */
 #include "geometry/tuples.h"
 
 #include <string.h>

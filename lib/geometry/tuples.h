@@ -1,5 +1,5 @@
-/* Lists of vertices, all of the same length, such as the facets of a mesh: which of them are the
- * same. */
+/* Finds equal tuples among lists of vertices that all have the same length, such as the facets of a
+ * mesh. */
 #ifndef ICCP_TUPLES_H
 #define ICCP_TUPLES_H
 
@@ -9,14 +9,14 @@
 
 typedef struct iccp_tuples {
     iccp_memory memory;
-    size_t n, width;    /* how many, and vertices of each */
-    size_t n_vertices;  /* all are smaller */
-    uint32_t *vertices; /* n * width: filled in by the caller, ascending in each tuple */
-    uint32_t *order;    /* n: the tuples in the order of their vertices, the same ones by number */
-    uint32_t *work, *count; /* n and n_vertices + 1: for the sort */
+    size_t n, width;        /* number of tuples, and vertices of each */
+    size_t n_vertices;      /* all vertices are smaller */
+    uint32_t *vertices;     /* n * width: the caller fills it in, ascending in each tuple */
+    uint32_t *order;        /* n: tuples sorted by their vertices, equal ones by number */
+    uint32_t *work, *count; /* n and n_vertices + 1: workspace of the sort */
 } iccp_tuples;
 
-/* Makes room. n must be less than 2^32. */
+/* Allocates the arrays. n must be less than 2^32. */
 icc_status iccp_tuples_create(iccp_tuples *tuples, size_t n, size_t width, size_t n_vertices,
                               const iccp_memory *memory);
 void iccp_tuples_free(iccp_tuples *tuples);
@@ -24,10 +24,10 @@ void iccp_tuples_free(iccp_tuples *tuples);
 /* Fills in `order`. */
 void iccp_tuples_sort(iccp_tuples *tuples);
 
-/* The place in `order`, behind `begin`, where other vertices than those at `begin` come. */
+/* Returns the place in `order` after `begin` where the next different tuple begins. */
 size_t iccp_tuples_end(const iccp_tuples *tuples, size_t begin);
 
-/* Sorts a few vertices; returns whether that permutation is odd. */
+/* Sorts a few vertices. Returns true if the permutation is odd. */
 static inline bool iccp_sort_vertices(size_t n, uint32_t *vertices)
 {
     bool odd = false;
