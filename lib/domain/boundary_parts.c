@@ -1,6 +1,7 @@
-/* The boundary winds round a point as often as positive simplices lie over it (docs/theory.md, the
- * mesh map). Surfaces that do not meet wind round each point once or not at all exactly when the
- * outermost ones face outwards and every other one faces against the surface around it. */
+/* The parts of a mesh's boundary. The boundary winds around a point as often as positive simplices
+ * cover it (docs/theory.md, the mesh map). Suppose that surfaces do not meet. Then they wind around
+ * each point once or not at all under one condition: the outermost ones face outwards and every
+ * other one faces against the surface around it. */
 #include "domain/boundary_parts.h"
 
 #include "base/error.h"
@@ -35,7 +36,7 @@ static icc_status create_rings(iccp_boundary_parts *b, icc_error *err)
 
 /* ---- space ---- */
 
-/* Puts the facets in the order of their surfaces. */
+/* Sorts the facets by surface. */
 static icc_status sort_surfaces(iccp_boundary_parts *b, const iccp_complex *c)
 {
     const iccp_memory *memory = &b->memory;
@@ -83,7 +84,7 @@ static icc_status fail_pair(icc_error *err, const uint32_t *a, const uint32_t *b
                      (unsigned long)b[0], (unsigned long)b[1], (unsigned long)b[2]);
 }
 
-/* The vertex with the largest x. */
+/* Returns the vertex with the largest x. */
 static const double *last_vertex(const iccp_facet_tree *tree)
 {
     const double *last = tree->vertices + 3 * (size_t)tree->facets[0];
@@ -94,7 +95,7 @@ static const double *last_vertex(const iccp_facet_tree *tree)
     return last;
 }
 
-/* A ray along x from the last vertex of a surface leaves each surface around it. If it crosses an
+/* A ray along x from the last vertex of a surface leaves every surface around it. If it crosses an
  * odd number of facets, the surface lies inside another one and must face inwards. */
 static icc_status check_surface(const iccp_facet_tree *all, const uint32_t *facets, size_t n,
                                 icc_error *err)
@@ -112,7 +113,7 @@ static icc_status check_surface(const iccp_facet_tree *all, const uint32_t *face
                      (unsigned long)facets[0]);
 }
 
-/* Checks surfaces each of which is closed and connected round each vertex. */
+/* Checks surfaces, each of which is closed and connected around each vertex. */
 static icc_status check_surfaces(const iccp_boundary_parts *b, const iccp_facet_tree *tree,
                                  const iccp_env *env, icc_error *err)
 {
@@ -133,7 +134,7 @@ static icc_status check_surfaces(const iccp_boundary_parts *b, const iccp_facet_
 
 /* ---- both ---- */
 
-/* Lists the boundary's facets, facing outwards, by the caller's numbers of vertices. */
+/* Lists the boundary's facets, facing outwards, in the caller's numbers of vertices. */
 static void list_facets(const iccp_simplices *mesh, uint32_t *to)
 {
     for (size_t side = 0; side < (mesh->dim + 1) * mesh->n_simplices; ++side) {

@@ -1,3 +1,4 @@
+/* The combinatorics of a boundary: pairs of facets at each ridge. */
 #include "domain/complex.h"
 
 #include "base/compiler.h"
@@ -44,9 +45,9 @@ icc_status iccp_complex_check_indices(const iccp_complex *c, icc_error *err)
 
 /* ----------------------------------------------------------------- ridges */
 
-/* Writes the vertices of the ridge opposite corner i in ascending order; returns whether the facet
- * runs along it in the odd direction: (-1)^i times the sign of the sorting permutation. `dim` is
- * that of c, here and below: where the compiler knows it, nothing is divided by it. */
+/* Writes the vertices of the ridge opposite corner i in ascending order. Returns true if the facet
+ * runs along it in the odd direction, (-1)^i times the sign of the sorting permutation. `dim` is
+ * that of c, here and below. It is a separate argument so that the compiler can avoid divisions. */
 static ICCP_INLINE bool read_ridge(const iccp_complex *c, size_t dim, size_t facet, size_t i,
                                    uint32_t *ridge)
 {
@@ -56,7 +57,7 @@ static ICCP_INLINE bool read_ridge(const iccp_complex *c, size_t dim, size_t fac
     return iccp_sort_vertices(dim - 1, ridge) != (i % 2 != 0);
 }
 
-/* Ridge dim f + i of all is the one of facet f opposite its corner i. */
+/* A list of all ridges. Ridge dim f + i is the ridge of facet f opposite its corner i. */
 typedef struct ridge_list {
     const iccp_complex *c;
     iccp_tuples tuples;
@@ -70,7 +71,7 @@ static ICCP_INLINE void list_ridges(ridge_list *list, size_t dim)
             (void)read_ridge(list->c, dim, f, i, ridge);
 }
 
-/* "edge (3, 7)". */
+/* Writes a text such as "edge (3, 7)". */
 static void describe_ridge(const ridge_list *list, uint32_t r, char *text, size_t size)
 {
     const size_t width = list->tuples.width;
@@ -87,7 +88,7 @@ static ICCP_INLINE bool runs_along(const iccp_complex *c, uint32_t dim, uint32_t
     return read_ridge(c, dim, r / dim, r % dim, ridge);
 }
 
-/* In how many directions a facet disagrees with its neighbours, as far as these are known. */
+/* Counts the known neighbours with which a facet disagrees about direction. */
 static size_t count_conflicts(const iccp_complex *c, size_t facet)
 {
     const uint32_t dim = (uint32_t)c->dim;
@@ -102,19 +103,19 @@ static size_t count_conflicts(const iccp_complex *c, size_t facet)
     return n;
 }
 
-/* What can be wrong with a ridge, the worst first: more than two facets, only one, or two that run
- * along it in the same direction. */
+/* Faults of a ridge, the worst first: more than two facets, only one, or two that run along it in
+ * the same direction. */
 enum { CROWDED, OPEN, TWISTED, N_FAULTS };
 
 typedef struct fault {
-    size_t n;       /* how many ridges have it */
-    size_t place;   /* where the first one begins in the sorted list, */
-    size_t n_sides; /* and how many facets it has */
+    size_t n;       /* number of ridges with this fault */
+    size_t place;   /* where the first such ridge begins in the sorted list */
+    size_t n_sides; /* its number of facets */
 } fault;
 
-/* Names the first ridge at fault. The item is a facet: of a crowded ridge the third one, since two
- * belong there; of a twisted one the facet that disagrees with more of its neighbours, most likely
- * the one that was given the wrong way round. */
+/* Names the first ridge at fault. The item of the message is a facet. For a crowded ridge it is the
+ * third one, since two belong there. For a twisted ridge it is the facet that disagrees with more
+ * of its neighbours, most likely the one that was given the wrong way around. */
 static icc_status fail_ridge(const ridge_list *list, int kind, const fault *found, icc_error *err)
 {
     const iccp_complex *c = list->c;
@@ -139,7 +140,7 @@ static icc_status fail_ridge(const ridge_list *list, int kind, const fault *foun
         g, ridge);
 }
 
-/* Equal ridges stand next to each other, that of the smallest facet first. */
+/* Pairs equal ridges, which are adjacent in the list, that of the smallest facet first. */
 static ICCP_INLINE icc_status pair_ridges(iccp_complex *c, uint32_t dim, const ridge_list *list,
                                           icc_error *err)
 {

@@ -1,3 +1,4 @@
+/* Checks that a boundary is a manifold and, in 3-D, a sphere. */
 #include "domain/complex.h"
 
 #include "base/compiler.h"
@@ -8,12 +9,13 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-/* A corner of a facet is number dim f + i. Floods reach what is connected to a first one. */
+/* State of a flood, which reaches everything connected to its start. Corner i of facet f has the
+ * number dim f + i. */
 typedef struct flood {
     const iccp_complex *c;
-    bool *reached;   /* per corner */
+    bool *reached;   /* by corner */
     uint32_t *queue; /* room for all corners */
-    uint32_t *at;    /* per vertex: a facet there, or NONE */
+    uint32_t *at;    /* by vertex: a facet there, or NONE */
 } flood;
 
 static ICCP_INLINE uint32_t corner_of(const iccp_complex *c, uint32_t dim, uint32_t facet,
@@ -25,8 +27,8 @@ static ICCP_INLINE uint32_t corner_of(const iccp_complex *c, uint32_t dim, uint3
     return dim * facet + i;
 }
 
-/* The corners at one vertex that can be reached across ridges at it. `dim` is that of the complex:
- * where the compiler knows it, nothing is divided by it. */
+/* Reaches the corners at one vertex that are connected across ridges at it. `dim` is that of the
+ * complex, as an argument so that the compiler can avoid divisions. */
 static ICCP_INLINE void flood_vertex(flood *f, uint32_t dim, uint32_t first)
 {
     const iccp_complex *c = f->c;
@@ -49,9 +51,8 @@ static ICCP_INLINE void flood_vertex(flood *f, uint32_t dim, uint32_t first)
     }
 }
 
-/* A vertex is a corner of several facets. Flooding from one of these corners must reach them
- * all: if a corner is left whose vertex has been seen before, two fans of facets meet at that
- * vertex only. */
+/* A vertex is a corner of several facets. A flood from one of these corners must reach them all. If
+ * it leaves out a corner at a known vertex, two fans of facets meet at that vertex only. */
 static ICCP_INLINE icc_status check_vertices(flood *f, uint32_t dim, icc_error *err)
 {
     const iccp_complex *c = f->c;
@@ -125,7 +126,7 @@ static icc_status check_genus(const flood *f, icc_error *err)
                      "the surface has genus %zu: it must be a sphere, without handles", genus);
 }
 
-/* Checks the whole shape, or only the facets round each vertex. */
+/* Checks the whole shape, or only the facets around each vertex. */
 static icc_status check(const iccp_complex *c, bool whole, const iccp_env *env, icc_error *err)
 {
     const iccp_memory *memory = &env->memory;

@@ -1,3 +1,4 @@
+/* Makes domains from boundaries. */
 #include "domain/domain.h"
 
 #include "base/error.h"
@@ -31,7 +32,7 @@ static icc_status copy_facets(icc_domain *d, const uint32_t *facets, icc_error *
     return ICC_OK;
 }
 
-/* Keeps the vertices as the caller has them unless they follow from the local ones. */
+/* Keeps the caller's vertices unless they can be computed from the local ones. */
 static icc_status keep_given(icc_domain *d, const double *given, icc_error *err)
 {
     const size_t dim = (size_t)d->dim, size = dim * sizeof *given;
@@ -59,10 +60,9 @@ void iccp_domain_given(const icc_domain *domain, size_t vertex, double *point)
         iccp_frame_restore(&domain->frame, domain->dim, domain->vertices + dim * vertex, point);
 }
 
-/* The bounding box, and the band around the boundary within which points count as on it.
- * Rounding depends on how large the coordinates are where the caller has them, hence the way out
- * of the frame and back: `largest` is in units of the local frame, but measured from the
- * caller's origin. */
+/* Computes the bounding box, and the band around the boundary within which points count as on it.
+ * Rounding depends on the size of the caller's coordinates. So `largest` is measured from the
+ * caller's origin, in units of the local frame. */
 void iccp_domain_measure_box(icc_domain *d)
 {
     const size_t dim = (size_t)d->dim;
@@ -82,7 +82,7 @@ void iccp_domain_measure_box(icc_domain *d)
 
 /* ---------------------------------------------------------------- polygons */
 
-/* A tree over the polygon's edges (geometry/boxtree.h) has the form of a facet tree. */
+/* A tree over the polygon's edges (geometry/boxtree.h) in the form of a facet tree. */
 static iccp_facet_tree tree_without_boxes(const icc_domain *d, const iccp_polygon *polygon)
 {
     return (iccp_facet_tree){.dim = 2,
@@ -95,7 +95,7 @@ static iccp_facet_tree tree_without_boxes(const icc_domain *d, const iccp_polygo
                              .order = polygon->facet};
 }
 
-/* Everything that follows from the copied boundary. */
+/* Computes everything that follows from the copied boundary. */
 static icc_status complete_polygon(icc_domain *d, const double *given, const uint32_t *facets,
                                    const iccp_env *env, icc_error *err)
 {

@@ -1,3 +1,4 @@
+/* Reads and writes domains as part of other objects' bytes. */
 #include "domain/domain_file.h"
 
 #include "domain/features_file.h"
@@ -11,7 +12,7 @@
 
 enum { BOUNDARY = 1, MASK = 2, MESH = 3, FEATURES = 4 };
 
-/* Arrays that a domain is made from; those of one that is written are its own. */
+/* Arrays that a domain is made from. When a domain is written, they are its own arrays. */
 typedef struct parts {
     size_t n_points, n_simplices, n_facets;
     double *points;
@@ -33,7 +34,7 @@ static void visit_count(iccp_blob *b, size_t size, size_t *n)
 
 bool iccp_are_local(size_t dim, size_t n, const double *numbers)
 {
-    /* Differences are whole multiples of 2^-53 of that, so products of two or three are above the
+    /* Differences are whole multiples of 2^-53 times this, so products of two or three exceed the
      * least double. */
     const double least = ldexp(1, dim == 2 ? -420 : -280);
     for (size_t i = 0; i < n; ++i) {
@@ -46,7 +47,7 @@ bool iccp_are_local(size_t dim, size_t n, const double *numbers)
 
 /* ---- boundaries ---- */
 
-/* As they were given, some at a time. */
+/* Writes the vertices as they were given, a few at a time. */
 static void write_vertices(iccp_blob *b, const icc_domain *d)
 {
     enum { SOME = 64 };
@@ -88,7 +89,7 @@ icc_status iccp_boundary_visit(iccp_blob *b, icc_domain **domain, int32_t dim, c
 
 /* ---- masks ---- */
 
-/* Continues with the next cell, the first axis fastest; false at the end. */
+/* Advances to the next cell, first axis fastest. Returns false at the end. */
 static bool next_cell(int32_t dim, const size_t *shape, size_t *at)
 {
     for (int32_t k = 0; k < dim; ++k) {
@@ -99,8 +100,8 @@ static bool next_cell(int32_t dim, const size_t *shape, size_t *at)
     return false;
 }
 
-/* 32 cells to a word, whose bits beyond the last cell are 0. `stride[k]`: from a cell to the next
- * one along axis k. */
+/* Visits the cells, 32 to a word; bits beyond the last cell are 0. stride[k] leads from a cell to
+ * the next one along axis k. */
 static void visit_cells(iccp_blob *b, int32_t dim, const size_t *shape, const size_t *stride,
                         uint8_t *cells)
 {
@@ -124,7 +125,7 @@ static void visit_cells(iccp_blob *b, int32_t dim, const size_t *shape, const si
     }
 }
 
-/* Returns the number of cells, whose bytes are there unless reading has failed. */
+/* Returns the number of cells. Their bytes are available unless reading has failed. */
 static size_t visit_shape(iccp_blob *b, int32_t dim, size_t *shape)
 {
     size_t n = 1;
@@ -163,8 +164,8 @@ static icc_status read_mask(iccp_blob *b, icc_domain **domain, int32_t dim, cons
 
 /* ---- meshes ---- */
 
-/* Points of a mesh that is written come from its domain, which knows those of the boundary as they
- * were given. */
+/* When a mesh is written, its points come from the domain, which knows the boundary's points as
+ * given. */
 static void visit_mesh(iccp_blob *b, size_t dim, parts *p, const icc_domain *from)
 {
     visit_count(b, dim * ICCP_F64, &p->n_points);
@@ -193,8 +194,8 @@ static void write_mesh(iccp_blob *b, const icc_domain *d)
     visit_mesh(b, mesh->dim, &p, d);
 }
 
-/* As they were numbered when the domain was first made: none is left out, and those of the boundary
- * come first. */
+/* Returns true if the points have the order that a new domain gives them: every point is used, and
+ * those of the boundary come first. */
 static bool keeps_order(const iccp_simplices *mesh, size_t n_points, const uint32_t *corners)
 {
     bool same = mesh->n_points == n_points;
@@ -218,7 +219,7 @@ static icc_status read_mesh(iccp_blob *b, icc_domain **domain, int32_t dim, cons
     return status;
 }
 
-/* ---- any ---- */
+/* ---- any domain ---- */
 
 static int32_t kind_of(const icc_domain *domain)
 {
@@ -243,7 +244,7 @@ static icc_status visit_kind(iccp_blob *b, int32_t kind, icc_domain **domain, in
     return ICC_OK;
 }
 
-/* Of kinds up to `last`. */
+/* Visits a domain of the kinds up to `last`. */
 static icc_status visit_any(iccp_blob *b, icc_domain **domain, int32_t last, const iccp_env *env)
 {
     int32_t dim = b->reads ? 0 : (*domain)->dim, kind = b->reads ? 0 : kind_of(*domain);
@@ -272,7 +273,7 @@ icc_status iccp_domain_visit_any(iccp_blob *b, icc_domain **domain, const iccp_e
 
 /* ---- other meshes of a domain ---- */
 
-/* Without the points of the boundary, which are the domain's. */
+/* Visits a mesh without its boundary points, which are the domain's. */
 static void visit_filling(iccp_blob *b, iccp_simplices *mesh, const icc_domain *domain)
 {
     const size_t dim = mesh->dim, n_boundary = mesh->n_boundary;

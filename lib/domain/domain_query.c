@@ -51,8 +51,8 @@ int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool b
     return where;
 }
 
-/* From the nearest vertex, so that vertices come out exactly, and a coordinate that they share
- * too. */
+/* Starts from the nearest vertex. So vertices are exact, and so is a coordinate that all vertices
+ * share. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point)
 {

@@ -1,3 +1,4 @@
+/* Domains with holes, lines and points inside a polygon. */
 #include "domain/features.h"
 
 #include "base/error.h"
@@ -28,8 +29,8 @@ static size_t count_facets(const icc_feature *feature)
     return feature->kind == ICC_FEATURE_LINE ? feature->n_vertices - 1 : feature->n_vertices;
 }
 
-/* Gives the features their facets: first the holes, which belong to the boundary. Returns the
- * number of the next facet. */
+/* Numbers the facets of features: first the holes, which belong to the boundary, then the others.
+ * Returns the next free number. */
 static uint32_t number_facets(iccp_features *features, const icc_feature *given, bool of_holes,
                               uint32_t next)
 {
@@ -44,7 +45,7 @@ static uint32_t number_facets(iccp_features *features, const icc_feature *given,
     return next;
 }
 
-/* The numbers of vertices and facets. */
+/* Assigns the numbers of vertices and facets. */
 static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_feature *given,
                           icc_error *err)
 {
@@ -72,8 +73,8 @@ static icc_status lay_out(icc_domain *d, size_t n_outer, size_t n, const icc_fea
     return ICC_OK;
 }
 
-/* Edges from each of n_facets vertices to the next, from the last one of n back to the first; a
- * point has one to itself. */
+/* Writes edges from each of n_facets vertices to the next, and from the last of n back to the
+ * first. A point has one edge, to itself. */
 static void fill_facets(uint32_t *facets, uint32_t first, uint32_t n, uint32_t n_facets)
 {
     for (uint32_t k = 0; k < n_facets; ++k) {
@@ -106,7 +107,7 @@ static icc_status copy_boundary(icc_domain *d, const double *outer, const icc_fe
 
 /* ---- local coordinates ---- */
 
-/* All in the frame of all vertices: what lies outside the outer ring is exact as well, until it is
+/* Uses the frame of all vertices. So a feature outside the outer ring is also exact, until it is
  * refused. */
 static icc_status localise(icc_domain *d, icc_error *err)
 {
@@ -154,7 +155,7 @@ static icc_status complete(icc_domain *d, const iccp_env *env, icc_error *err)
     for (size_t f = 0; f < features->n; ++f)
         if (features->item[f].kind == ICC_FEATURE_HOLE)
             d->measure -= ring_area(d, features->item[f].first, features->item[f].n);
-    d->measure = d->measure > 0 ? d->measure : 0; /* rounding */
+    d->measure = d->measure > 0 ? d->measure : 0; /* negative only by rounding */
     iccp_domain_measure_box(d);
     iccp_facet_tree_create(&d->tree, 2, d->vertices, d->n_facets, d->facets, &d->memory);
     return d->tree.boxes != NULL ? ICC_OK : iccp_fail_memory(err);
@@ -184,7 +185,7 @@ static icc_status create(icc_domain **out, size_t n_outer, const double *outer, 
 
 /* ---- points with a radius ---- */
 
-/* A regular polygon without one of its edges: lines do not close. */
+/* A regular polygon without one of its edges, because lines do not close. */
 static void place_rim(double rim[2 * ICCP_RIM], const icc_feature *point)
 {
     static const double cosine[ICCP_RIM] = {

@@ -1,6 +1,6 @@
-/* One plane sweep over all rings, lines and points tells whether there is a defect, and how they
- * lie in one another (geometry/sweep.h). Only if there is one are rings looked at one by one, so
- * that what is said is what is said of a polygon by itself. */
+/* Checks features. One plane sweep over all rings, lines and points finds a defect if there is one,
+ * and tells how they contain one another (geometry/sweep.h). Only if there is a defect, rings are
+ * checked one by one. So the messages are those for a single polygon. */
 #include "domain/features_check.h"
 
 #include "base/error.h"
@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Chain 0 is the outer ring, chain f + 1 is feature f. */
+/* Chain 0 is the outer ring. Chain f + 1 is feature f. */
 typedef struct check {
     const icc_domain *domain;
     iccp_chains chains;
@@ -46,7 +46,7 @@ static const double *point(const check *c, uint32_t k)
     return c->points + 2 * (size_t)k;
 }
 
-/* The number of a point or edge in its own chain. */
+/* Returns the number of a point or edge in its own chain. */
 static unsigned long number(const check *c, uint32_t chain, uint32_t k)
 {
     return (unsigned long)(k - c->item[chain].first);
@@ -54,7 +54,7 @@ static unsigned long number(const check *c, uint32_t chain, uint32_t k)
 
 enum { NAME_SIZE = 64 };
 
-/* "feature 3 (a line)" */
+/* Writes a text such as "feature 3 (a line)". */
 static const char *name_chain(const check *c, uint32_t chain, char *text)
 {
     if (chain == 0)
@@ -64,7 +64,7 @@ static const char *name_chain(const check *c, uint32_t chain, char *text)
     return text;
 }
 
-/* "feature 3 (a line), vertex 2," and what is wrong with it. */
+/* Writes "feature 3 (a line), vertex 2," and what is wrong with it. */
 static icc_status fail_vertex(const check *c, icc_status status, uint32_t chain, uint32_t v,
                               const char *what, const char *where)
 {
@@ -80,9 +80,9 @@ static void meeting_point(const check *c, uint32_t e, uint32_t f, double *at)
     iccp_frame_out(&c->domain->frame, 2, at, at);
 }
 
-/* ------------------------------------------------------------ what is wrong */
+/* ---------------------------------------------------------------- defects */
 
-/* Names the first ring that is not simple by itself. ICC_OK if all are. */
+/* Names the first ring that is not simple by itself. Returns ICC_OK if all are simple. */
 static icc_status check_rings(const check *c)
 {
     for (uint32_t chain = 0; chain < c->chains.n; ++chain) {
@@ -102,7 +102,7 @@ static icc_status check_rings(const check *c)
     return ICC_OK;
 }
 
-/* A line that meets itself. */
+/* Reports a line that meets itself. */
 static icc_status fail_line(const check *c, uint32_t chain, const iccp_defect *defect)
 {
     const unsigned long a = number(c, chain, defect->a), b = number(c, chain, defect->b);
@@ -122,7 +122,7 @@ static icc_status fail_line(const check *c, uint32_t chain, const iccp_defect *d
                         defect->kind == ICC_DEFECT_CROSSING ? "cross" : "touch", at[0], at[1]);
 }
 
-/* Where a point lies in the outer ring: exactly. */
+/* Finds exactly where a point lies relative to the outer ring. */
 static int32_t place_in_ring(const check *c, const double *p)
 {
     bool odd = false;
@@ -136,8 +136,8 @@ static int32_t place_in_ring(const check *c, const double *p)
     return odd ? ICC_INSIDE : ICC_OUTSIDE;
 }
 
-/* A feature that meets the outer ring: names an end of its edge that does not lie inside or, if
- * both do, the edges. */
+/* Reports a feature that meets the outer ring. Names an end of its edge that does not lie inside
+ * or, if both do, the edges. */
 static icc_status fail_outer(const check *c, uint32_t chain, uint32_t ring_edge, uint32_t edge,
                              int32_t kind)
 {
@@ -161,7 +161,8 @@ static icc_status fail_outer(const check *c, uint32_t chain, uint32_t ring_edge,
                         number(c, 0, ring_edge), at[0], at[1]);
 }
 
-/* Two features that meet: a point or edge of the one and one of the other, which comes later. */
+/* Reports two features that meet: a point or edge of one, and one of the other, which comes
+ * later. */
 static icc_status fail_two(const check *c, const iccp_defect *defect, uint32_t first,
                            uint32_t second)
 {
@@ -201,7 +202,7 @@ static icc_status fail_defect(const check *c, const iccp_defect *defect)
     return fail_outer(c, second, defect->a, defect->b, defect->kind);
 }
 
-/* Of features that do not meet, whether all lie in the outer ring and in no hole. */
+/* Checks that all features lie in the outer ring and in no hole, if they do not meet. */
 static icc_status check_places(const check *c)
 {
     char name[NAME_SIZE];

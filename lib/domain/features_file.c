@@ -1,12 +1,13 @@
+/* Reads and writes domains with features. */
 #include "domain/features_file.h"
 
 #include "domain/features.h"
 
-/* What a domain with features is made from. */
+/* Data that a domain with features is made from. */
 typedef struct parts {
-    size_t n_outer, n; /* vertices of the outer ring; features */
-    uint32_t *head;    /* kind and vertices of each feature */
-    size_t n_vertices; /* of all */
+    size_t n_outer, n; /* vertices of the outer ring; number of features */
+    uint32_t *head;    /* kind and number of vertices of each feature */
+    size_t n_vertices; /* number of all vertices */
     double *vertices;
     icc_feature *features;
 } parts;
@@ -23,7 +24,7 @@ static void write_features(iccp_blob *b, const icc_domain *domain)
     iccp_blob_f64(b, 2 * domain->n_vertices, domain->given);
 }
 
-/* Numbers, each of which must be such as a domain can have. */
+/* Reads the counts, each of which must be possible for a domain. */
 static void read_head(iccp_blob *b, parts *p)
 {
     iccp_blob_count(b, 2 * ICCP_F64, &p->n_outer);

@@ -1,3 +1,4 @@
+/* Masks: copies, and the vertices of their cut lattice. */
 #include "domain/mask.h"
 
 #include "base/budget.h"
@@ -5,8 +6,8 @@
 
 #include <assert.h>
 
-/* Vertices of a grid on the cut lattice, with two layers to spare on every side; SIZE_MAX: too
- * many. */
+/* Returns the number of vertices of a grid on the cut lattice, with two spare layers on every side.
+ * SIZE_MAX means too many. */
 static size_t count_lattice(int32_t dim, const size_t *shape)
 {
     size_t n = 1;
@@ -35,7 +36,7 @@ static void copy_cells(iccp_mask *mask, const uint8_t *cells)
     }
 }
 
-/* Of the cut lattice, while a mask is checked and its boundary is made. */
+/* Bytes per vertex of the cut lattice while a mask is checked and its boundary is made. */
 static const double BYTES_PER_POINT = 6;
 
 icc_status iccp_mask_create(iccp_mask **out, int32_t dim, const size_t *shape, const uint8_t *cells,

@@ -1,10 +1,10 @@
-/* Based on: H. W. Kuhn, Some Combinatorial Lemmas in Topology, IBM Journal of Research and
- * Development 4, 1960: a cube falls into the simplices from its lowest to its highest corner along
- * the axes, one for each order of the axes.
+/* Makes the domain of a mask. Based on: H. W. Kuhn, Some Combinatorial Lemmas in Topology, IBM
+ * Journal of Research and Development 4, 1960. A cube is divided into simplices from its lowest to
+ * its highest corner along the axes, one for each order of the axes.
  *
- * The faces of the cells that are cut in two along each axis are so triangulated just as the grid
- * on the same lattice is. A face's simplices come out with the signs of the orders; where that is
- * not outwards two vertices change places. */
+ * So the faces of cells that are cut in two along each axis are triangulated just like the grid on
+ * the same lattice. The orientation of a face's simplex is the sign of its order. If it does not
+ * point outwards, two vertices are exchanged. */
 #include "domain/mask_boundary.h"
 
 #include "base/budget.h"
@@ -13,10 +13,10 @@
 
 #include <string.h>
 
-enum { MOST_ORDERS = 120 }; /* of 5 axes */
+enum { MOST_ORDERS = 120 }; /* number of orders of 5 axes */
 
 static const size_t CELLS_PER_REPORT = 1 << 12;
-static const size_t MAX_COUNT = UINT32_MAX / 64; /* what a domain may have of anything */
+static const size_t MAX_COUNT = UINT32_MAX / 64; /* limit of a domain's counts */
 
 /* An order of the axes of a face, numbered from 0. */
 typedef struct axis_order {
@@ -27,11 +27,11 @@ typedef struct axis_order {
 typedef struct boundary {
     const iccp_mask *mask;
     const iccp_env *env;
-    uint32_t *number; /* by vertex of the cut lattice: its number, where it is on the boundary */
+    uint32_t *number; /* by vertex of the cut lattice: its number if it is on the boundary */
     double *vertices; /* n_vertices * dim */
     uint32_t *facets; /* n_facets * dim */
     size_t n_vertices, n_facets;
-    int n_orders; /* of the dim - 1 axes of a face */
+    int n_orders; /* number of orders of a face's dim - 1 axes */
     axis_order orders[MOST_ORDERS];
 } boundary;
 
@@ -56,8 +56,8 @@ static void list_orders(boundary *b)
     }
 }
 
-/* Numbers the vertices that have cells inside and outside around them; writes them down as well
- * when there is an array. */
+/* Numbers the vertices that have cells inside and outside around them. Also writes their
+ * coordinates if there is an array. */
 static icc_status number_vertices(boundary *b)
 {
     const iccp_mask *mask = b->mask;
@@ -78,8 +78,8 @@ static icc_status number_vertices(boundary *b)
     return ICC_OK;
 }
 
-/* The simplices of the part of a face between `at` and one step further along the other axes.
- * Outwards is up along `axis`, or down. */
+/* Writes the simplices of the part of a face from `at` to one step further along the other axes.
+ * Outwards is up or down along `axis`. */
 static void cut_part(boundary *b, size_t at, const size_t *stride, int32_t axis, bool up)
 {
     const size_t dim = (size_t)b->mask->dim;
@@ -102,7 +102,7 @@ static void cut_part(boundary *b, size_t at, const size_t *stride, int32_t axis,
     }
 }
 
-/* A face of a cell given by its coordinates. */
+/* Cuts a face of the cell with these coordinates. */
 static void cut_face(boundary *b, const size_t *cell, int32_t axis, bool up)
 {
     const iccp_mask *mask = b->mask;
@@ -121,7 +121,7 @@ static void cut_face(boundary *b, const size_t *cell, int32_t axis, bool up)
     }
 }
 
-/* Counts the faces between inside and outside; cuts them as well when there is an array. */
+/* Counts the faces between inside and outside. Also cuts them if there is an array. */
 static icc_status find_faces(boundary *b, size_t *n_faces)
 {
     const iccp_mask *mask = b->mask;
@@ -162,14 +162,14 @@ static icc_status fail_size(icc_error *err)
                      MAX_COUNT);
 }
 
-/* Of a boundary and the domain that it becomes, with its tree: vertices are fewer than facets,
- * about. */
+/* Returns the bytes per facet of a boundary and of the domain made from it, with its tree. There
+ * are roughly fewer vertices than facets. */
 static double bytes_per_facet(size_t dim)
 {
     return 100 + 60 * (double)dim;
 }
 
-/* Counts first, then makes the arrays and fills them. */
+/* Counts first, then allocates the arrays and fills them. */
 static icc_status cut_boundary(boundary *b, icc_error *err)
 {
     const iccp_memory *memory = &b->env->memory;
@@ -199,7 +199,7 @@ static icc_status cut_boundary(boundary *b, icc_error *err)
     return status == ICC_OK ? find_faces(b, &n_faces) : status;
 }
 
-/* In the plane: makes facet i join vertices i and i + 1. */
+/* In the plane: renumbers so that facet i joins vertices i and i + 1. */
 static icc_status follow_polygon(boundary *b)
 {
     const iccp_memory *memory = &b->env->memory;

@@ -1,6 +1,6 @@
-/* Greedy, as the repair of well-composedness in L. Latecki, 3D Well-Composed Pictures, 1997,
- * section 6: of the gaps around a contact, the one is filled whose filling leaves the fewest
- * contacts around it, unless there would be more than before. */
+/* Greedy repair, like the repair of well-composedness in L. Latecki, 3D Well-Composed Pictures,
+ * 1997, section 6. Of the gaps around a contact, it fills the one that leaves the fewest contacts
+ * around it. It fills none if every filling would create more contacts than before. */
 #include "domain/mask_repair.h"
 
 #include "geometry/octants.h"
@@ -15,7 +15,7 @@ static bool is_contact(const iccp_mask *mask, const size_t *at)
            !iccp_octants_contractible(block, n_axes);
 }
 
-/* On the corners, edges, .. of a cell. */
+/* Counts contacts on the corners, edges, .. of a cell. */
 static int count_contacts(const iccp_mask *mask, const int64_t *cell)
 {
     int n = 0, step[ICC_MAX_DIM] = {0};
@@ -40,7 +40,7 @@ static bool within(const iccp_mask *mask, const int64_t *cell)
     return true;
 }
 
-/* By how many the contacts grow when a cell is filled. */
+/* Returns how many contacts are added when a cell is filled. */
 static int count_change(iccp_mask *mask, size_t position, const int64_t *cell)
 {
     const int before = count_contacts(mask, cell);
@@ -50,9 +50,9 @@ static int count_change(iccp_mask *mask, size_t position, const int64_t *cell)
     return after - before;
 }
 
-/* Fills one of the empty cells around the vertex, edge, .. `at`: the first of those after which
- * there are fewest contacts. False, and nothing filled, when every one of them would make more
- * contacts than there were. */
+/* Fills the best of the empty cells around the vertex, edge, .. `at`: the first of those that leave
+ * the fewest contacts. Returns false and fills none if each of them would create more contacts than
+ * there were. */
 static bool fill_gap(iccp_mask *mask, const size_t *at)
 {
     int n_axes, least = 1;

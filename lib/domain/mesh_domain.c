@@ -1,6 +1,6 @@
-/* Why the checks suffice, up to 3-D: all simplices are positive and facets induce opposite
- * orientations, so as many simplices lie over a point as the boundary winds round it. The boundary
- * is a simple one, so that is one inside and none outside. */
+/* Makes domains from meshes. Up to 3-D, these checks suffice. All simplices are positive and induce
+ * opposite orientations on common facets. So as many simplices cover a point as the boundary winds
+ * around it. The boundary is simple, so the number is one inside and zero outside. */
 #include "domain/mesh_domain.h"
 
 #include "base/error.h"
@@ -14,9 +14,9 @@ static const uint32_t NONE = UINT32_MAX;
 typedef struct builder {
     const double *given; /* the caller's points */
     size_t n_given;
-    iccp_simplices *mesh; /* in the caller's numbers, until renumber() */
+    iccp_simplices *mesh; /* has the caller's numbers until renumber() */
     iccp_frame frame;
-    uint32_t *number; /* n_given: the new number of each of the caller's points, or NONE */
+    uint32_t *number; /* n_given: new number of each of the caller's points, or NONE */
 } builder;
 
 static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const uint32_t *simplices,
@@ -36,7 +36,7 @@ static icc_status copy_mesh(builder *b, size_t dim, size_t n_simplices, const ui
     return ICC_OK;
 }
 
-/* Checks simplices one by one, then in pairs across the facets that they share. */
+/* Checks simplices one by one, then pairs of them across their common facets. */
 static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets,
                              const iccp_env *env, icc_error *err)
 {
@@ -53,7 +53,7 @@ static icc_status check_mesh(builder *b, size_t n_facets, const uint32_t *facets
     return status == ICC_OK ? iccp_simplices_join(mesh, n_facets, facets, err) : status;
 }
 
-/* The boundary's points first, then the others that simplices have. */
+/* Numbers the boundary's points first, then the other points of simplices. */
 static void number_points(builder *b)
 {
     enum { UNUSED, INNER, OUTER };
@@ -76,9 +76,9 @@ static void number_points(builder *b)
     mesh->n_points = inner;
 }
 
-/* Moves points and corners to the new numbers. Points that no simplex has are dropped; the
- * others keep their order within the boundary and within the interior, so that a mesh that is
- * already in this order stays as it is. */
+/* Moves points and corners to the new numbers. Points without simplices are dropped. The others
+ * keep their order within the boundary and within the interior. So a mesh that is already in this
+ * order does not change. */
 static icc_status renumber(builder *b)
 {
     iccp_simplices *mesh = b->mesh;
@@ -129,7 +129,7 @@ icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, s
 
 /* ---- domains ---- */
 
-/* The boundary's points as the caller has them. */
+/* Lists the boundary's points as the caller gave them. */
 static double *list_points(const iccp_simplices *mesh, const double *given)
 {
     const size_t size = mesh->dim * sizeof *given;
@@ -139,7 +139,7 @@ static double *list_points(const iccp_simplices *mesh, const double *given)
     return points;
 }
 
-/* The new number of a point on the boundary. */
+/* Returns the new number of a boundary point. */
 static uint32_t number_of(const iccp_simplices *mesh, uint32_t given)
 {
     size_t low = 0, high = mesh->n_boundary;
@@ -153,8 +153,8 @@ static uint32_t number_of(const iccp_simplices *mesh, uint32_t given)
     return (uint32_t)low;
 }
 
-/* The boundary's facets in the new numbers. Those that the caller did not give have their points in
- * ascending order as far as their orientation allows. */
+/* Lists the boundary's facets in the new numbers. If the caller gave no facets, the points of each
+ * are ascending as far as the orientation allows. */
 static uint32_t *list_facets(const iccp_simplices *mesh, const uint32_t *given)
 {
     const size_t dim = mesh->dim;
@@ -177,8 +177,8 @@ static uint32_t *list_facets(const iccp_simplices *mesh, const uint32_t *given)
     return facets;
 }
 
-/* An inner vertex that sticks out of the box of the boundary would need another frame; where
- * orientations are exact they have excluded it. */
+/* Returns an error if an inner vertex lies outside the boundary's box and would need another frame.
+ * Where orientations are exact, they have excluded that already. */
 static icc_status check_frame(const iccp_frame *frame, const icc_domain *domain, icc_error *err)
 {
     if (memcmp(frame, &domain->frame, sizeof *frame) == 0)

@@ -1,4 +1,4 @@
-/* Domains made from conforming meshes. */
+/* Makes domains from conforming meshes. */
 #ifndef ICCP_MESH_DOMAIN_H
 #define ICCP_MESH_DOMAIN_H
 
@@ -7,14 +7,14 @@
 
 /* Reads a caller's mesh of any shape into local coordinates of its own. Returns ICC_ERR_BOUNDARY
  * unless all simplices have volume, and each facet belongs to one simplex or to two on opposite
- * sides. `facets`, those of the boundary, may be NULL. */
+ * sides. `facets` are those of the boundary, or NULL. */
 icc_status iccp_mesh_read(iccp_simplices **out, iccp_frame *frame, size_t dim, size_t n_vertices,
                           const double *vertices, size_t n_simplices, const uint32_t *simplices,
                           size_t n_facets, const uint32_t *facets, const iccp_env *env,
                           icc_error *err);
 
-/* See icc_domain_create_mesh(); arguments have been checked for NULL, the range of dim and of the
- * counts. */
+/* See icc_domain_create_mesh(). The caller has checked arguments for NULL, the range of dim and of
+ * the counts. */
 icc_status iccp_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
                                    const double *vertices, size_t n_simplices,
                                    const uint32_t *simplices, size_t n_facets,

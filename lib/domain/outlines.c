@@ -1,6 +1,7 @@
-/* Rings that do not meet wind round a point as often as rings around it turn to the left, less the
- * rings that turn to the right. So they bound a region on their left exactly when the outermost
- * ones turn to the left and every other one turns against the ring around it. */
+/* Checks that rings bound a plane region. Rings that do not meet wind around a point as often as
+ * rings around it turn left, minus the rings that turn right. So they bound a region on their left
+ * under one condition: the outermost ones turn left, and every other one turns against the ring
+ * around it. */
 #include "domain/outlines.h"
 
 #include "base/error.h"
@@ -11,7 +12,7 @@
 
 static const uint32_t NONE = UINT32_MAX;
 
-/* Takes the ring through a vertex out of `next` and lists it. Returns its length, or 0 if it does
+/* Removes the ring through a vertex from `next` and lists it. Returns its length, or 0 if it does
  * not close. */
 static size_t take_ring(uint32_t *next, uint32_t first, uint32_t *ring)
 {
@@ -89,8 +90,7 @@ static icc_status check_places(const iccp_outlines *o, const iccp_chain_place *p
     return ICC_OK;
 }
 
-/* Checks rings whose points have been listed. For a single ring the quick test is nearly always
- * enough. */
+/* Checks rings whose points are listed. For a single ring the quick test nearly always suffices. */
 static icc_status check_points(const iccp_outlines *o, const double *points,
                                iccp_chain_place *place, const iccp_env *env, icc_error *err)
 {

@@ -1,3 +1,4 @@
+/* Checks boundaries in dimension 1 and 3 to 6. */
 #include "domain/simplicial.h"
 
 #include "base/error.h"
@@ -12,8 +13,8 @@
 
 enum { MAX = ICC_MAX_DIM };
 
-/* A volume below this share of the sum of its terms, taken positive, is rounding. Each term errs by
- * less than 1e-14 of the product of its edges (math/orient.c). */
+/* A volume below this share of the sum of its terms' absolute values is rounding noise. The error
+ * of each term is less than 1e-14 of the product of its edges (math/orient.c). */
 static const double NO_VOLUME = 1e-12;
 
 /* ------------------------------------------------------------ coordinates */
@@ -41,7 +42,7 @@ static icc_status fail_too_small(icc_error *err, size_t vertex, size_t dim, cons
         text);
 }
 
-/* The frame of the vertices that are used, which `local` gathers. */
+/* Fits a frame to the vertices that are in use. `local` gathers them. */
 static void fit(iccp_frame *frame, double *local, size_t dim, size_t n_vertices,
                 const double *vertices, const bool *used)
 {
@@ -80,7 +81,7 @@ icc_status iccp_simplicial_localise(iccp_frame *frame, double *local, size_t dim
 
 /* --------------------------------------------------------------- flatness */
 
-/* A facet has an area if one of its shadows along the axes has. */
+/* A facet has an area if one of its shadows along the axes has one. */
 bool iccp_simplicial_has_area(const iccp_facet_tree *tree, uint32_t facet)
 {
     const size_t dim = tree->dim;
@@ -143,8 +144,8 @@ icc_status iccp_simplicial_check_simple(const iccp_facet_tree *tree, size_t n_ve
 
 /* ----------------------------------------------------------------- volume */
 
-/* The lowest vertex by x, then y, then z. Just beyond it a plane cuts the surface in a polygon, one
- * corner of which lies on each edge from it. */
+/* Returns the lowest vertex by x, then y, then z. Just beyond it, a plane cuts the surface in a
+ * polygon with one corner on each edge from it. */
 static uint32_t lowest_vertex(const iccp_facet_tree *tree)
 {
     uint32_t lowest = tree->facets[0];
@@ -157,9 +158,9 @@ static uint32_t lowest_vertex(const iccp_facet_tree *tree)
     return lowest;
 }
 
-/* Whether the polygon's corner on the edge from v to a comes before that on the edge to b: by y
- * / x, then by z / x, with x moved by infinitesimal shares of y and z, as the choice of v
- * implies. */
+/* Returns true if the polygon's corner on the edge from v to a precedes that on the edge to b.
+ * Compares y / x, then z / x, where x is moved by infinitesimal shares of y and z, as the choice of
+ * v implies. */
 static bool corner_before(const double *v, const double *a, const double *b)
 {
     int sign = iccp_cross_sign(a[1], v[1], b[0], v[0], b[1], v[1], a[0], v[0]);
@@ -170,8 +171,8 @@ static bool corner_before(const double *v, const double *a, const double *b)
     return sign < 0;
 }
 
-/* The orientation of the polygon at its first corner, which is that all round, as for any
- * simple polygon. */
+/* Returns the polygon's orientation at its first corner. For a simple polygon that is the
+ * orientation of the whole. */
 static int surface_orientation(const iccp_facet_tree *tree)
 {
     const uint32_t lowest = lowest_vertex(tree);

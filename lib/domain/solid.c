@@ -1,12 +1,12 @@
-/* Based on: L. Latecki, 3D Well-Composed Pictures, Graphical Models and Image Processing 59, 1997;
- * beyond 3-D its condition is not enough (N. Boutry et al., A 4D Counter-Example Showing that
- * DWCness Does not Imply CWCness in nD, 2020), so that here the cells around every corner, edge, ..
- * must form a ball.
+/* Checks that a mask is a solid without holes. Based on: L. Latecki, 3D Well-Composed Pictures,
+ * Graphical Models and Image Processing 59, 1997. Beyond 3-D its condition is not enough (N. Boutry
+ * et al., A 4D Counter-Example Showing that DWCness Does not Imply CWCness in nD, 2020). So here
+ * the cells around every corner, edge, .. must form a ball.
  *
- * What is left to count are holes of dimensions 1 to n - 2, since a connected solid with a
- * connected outside has none of dimension n - 1 (Alexander duality). In the plane there are no
- * others; in space the Euler characteristic is 1 minus their number, and when there are none the
- * boundary is a sphere and the solid a ball (Alexander's theorem). */
+ * Holes of dimensions 1 to n - 2 remain to be counted, because a connected solid with a connected
+ * outside has none of dimension n - 1 (Alexander duality). In the plane there are no others. In
+ * space the Euler characteristic is 1 minus their number. Without holes the boundary is a sphere
+ * and the solid a ball (Alexander's theorem). */
 #include "domain/solid.h"
 
 #include "base/error.h"
@@ -19,8 +19,8 @@ static const size_t CELLS_PER_REPORT = 1 << 16;
 
 enum { TEXT_SIZE = 128 };
 
-/* "cell 17 (2, 3, 1)"; coordinates of cells outside lie in the mask, too, unless they were
- * added. */
+/* Writes a text such as "cell 17 (2, 3, 1)". Cells outside the solid also have coordinates in the
+ * mask, except the extra cells around it. */
 static int64_t describe(const iccp_mask *mask, size_t cell, char *text)
 {
     int64_t at[ICC_MAX_DIM];
@@ -37,8 +37,8 @@ static int64_t describe(const iccp_mask *mask, size_t cell, char *text)
 
 typedef struct flood {
     const iccp_mask *mask;
-    uint8_t *reached; /* by padded cell */
-    uint32_t *queue;  /* n_reached of these cells */
+    uint8_t *reached; /* by position in `cells` */
+    uint32_t *queue;  /* the n_reached cells reached */
     size_t n_reached;
 } flood;
 
@@ -62,7 +62,7 @@ static void reach(flood *f, size_t cell)
     f->queue[f->n_reached++] = (uint32_t)cell;
 }
 
-/* Reaches all cells of a kind that are joined to one through faces. */
+/* Reaches all cells of a kind that are joined to `start` through faces. */
 static icc_status flood_from(flood *f, size_t start, const iccp_env *env)
 {
     const iccp_mask *mask = f->mask;
@@ -86,7 +86,7 @@ static icc_status flood_from(flood *f, size_t start, const iccp_env *env)
     return ICC_OK;
 }
 
-/* The first cell of a kind that has not been reached, or n_padded. */
+/* Returns the first cell of a kind that has not been reached, or n_padded. */
 static size_t first_left(const flood *f, uint8_t kind)
 {
     size_t cell = 0;
@@ -116,7 +116,7 @@ static icc_status check_inside(flood *f, const iccp_env *env, icc_error *err)
         from, to);
 }
 
-/* In 1-D the outside is in two pieces, always. */
+/* In 1-D the outside always has two pieces. */
 static icc_status check_outside(flood *f, const iccp_env *env, icc_error *err)
 {
     const iccp_mask *mask = f->mask;
@@ -151,7 +151,7 @@ static icc_status fail_contact(const iccp_mask *mask, const size_t *at, uint64_t
         text);
 }
 
-/* Goes through the corners, edges, .. and cells, and counts them. */
+/* Visits and counts the corners, edges, .. and cells. */
 static icc_status check_corners(const iccp_mask *mask, int64_t *euler, const iccp_env *env,
                                 icc_error *err)
 {

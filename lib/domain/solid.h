@@ -1,13 +1,15 @@
-/* Is a mask a solid without holes? */
+/* Checks that a mask is a solid without holes. */
 #ifndef ICCP_SOLID_H
 #define ICCP_SOLID_H
 
 #include "domain/mask.h"
 
-/* ICC_ERR_TOPOLOGY unless the mask is one piece (through the cells' faces), its boundary is a
- * manifold (cells do not touch only along an edge or a corner, nor do gaps), the outside is one
- * piece, and the Euler characteristic is 1. Up to 3-D that makes it a ball. Beyond, holes of
- * several dimensions may cancel out in the Euler characteristic and remain unnoticed here. */
+/* Returns ICC_ERR_TOPOLOGY unless four conditions hold. The mask is connected through the cells'
+ * faces. Its boundary is a manifold, so neither cells nor gaps touch only along an edge or a
+ * corner. The outside is connected. The Euler characteristic is 1.
+ *
+ * Up to 3-D these make the mask a ball. In higher dimensions, holes of several dimensions may
+ * cancel in the Euler characteristic and remain unnoticed here. */
 icc_status iccp_mask_check(const iccp_mask *mask, const iccp_env *env, icc_error *err);
 
 #endif
