@@ -1,14 +1,16 @@
-/* Based on: M. V. Anglada, An improved incremental algorithm for constructing restricted Delaunay
- * triangulations, Computers & Graphics 21, 1997: take out the triangles that an edge crosses and
- * triangulate the two polygons that they leave on either side of it; and on J. R. Shewchuk,
- * B. C. Brown, Fast segment insertion and incremental construction of constrained Delaunay
- * triangulations, Computational Geometry 48, 2015, for the order: vertices are cut off at random,
- * and put back in reverse, each followed by flips round it. That takes time proportional to the
- * number of triangles where one fixed order can take its square.
+/* Forces segments into a Delaunay triangulation. Based on: M. V. Anglada, An improved incremental
+ * algorithm for constructing restricted Delaunay triangulations, Computers & Graphics 21, 1997. It
+ * removes the triangles that an edge crosses and triangulates the two polygons on either side of
+ * the edge.
  *
- * Every vertex of these polygons sees the edge. Therefore each at which the polygon is convex can
- * be cut off, the ends of the edge excepted, whatever was cut off before: a vertex inside the
- * triangle would have to see the edge across its sides. */
+ * The order is that of J. R. Shewchuk, B. C. Brown, Fast segment insertion and incremental
+ * construction of constrained Delaunay triangulations, Computational Geometry 48, 2015. Vertices
+ * are cut off at random and put back in reverse order, each followed by flips around it. The time
+ * is proportional to the number of triangles. With one fixed order it can be the square.
+ *
+ * Every vertex of these polygons sees the edge. Therefore each convex vertex except the ends of the
+ * edge can be cut off, whatever was cut off before. A vertex inside its triangle would have to see
+ * the edge across the triangle's sides. */
 #include "mesh/constrain.h"
 
 #include "base/error.h"
@@ -21,31 +23,32 @@ enum side { LEFT, RIGHT };
 /* An edge that crosses n triangles has n + 3 links. */
 enum { EXTRA = 3 };
 
-/* Marks the index of a link in place of a corner. */
+/* Marks an index of a link where corners are stored. */
 static const uint32_t LINK = (uint32_t)1 << 31;
 
-/* A vertex of the chains on either side of the edge that is being inserted, and the edge that leads
- * to it from the one before. */
+/* A vertex of the chains on either side of the inserted edge, with the edge that leads to it from
+ * the previous vertex. */
 typedef struct chain_link {
     uint32_t side; /* LEFT or RIGHT */
     uint32_t vertex;
     uint32_t previous, next; /* the links before and after it on its side */
-    uint32_t outer; /* the corner beyond the edge; or, when the chain runs along both sides of an
-                       edge between crossed triangles, LINK and the other link */
+    /* The corner beyond the edge. If the chain runs along both sides of an edge between crossed
+     * triangles: LINK plus the other link. */
+    uint32_t outer;
     bool queued;
 } chain_link;
 
 typedef struct cutter {
     iccp_trimesh *mesh;
     uint32_t from, to;   /* the edge that is being inserted */
-    uint32_t *corner_of; /* one corner of every vertex */
-    uint32_t *triangles; /* those that the edge crosses */
-    uint8_t *waiting;    /* whether a triangle's vertex has yet to be put back */
-    chain_link *links;   /* the first is `from`, on both sides; the last two are `to` */
+    uint32_t *corner_of; /* one corner of each vertex */
+    uint32_t *triangles; /* triangles that the edge crosses */
+    uint8_t *waiting;    /* by triangle: true until its vertex is put back */
+    chain_link *links;   /* the first is `from`, for both sides; the last two are `to` */
     uint32_t *queue;     /* links that may be ready to be cut off, each at most once */
     uint32_t n_triangles, n_links;
-    uint32_t room;    /* for as many triangles, and EXTRA more of the others */
-    uint32_t last[2]; /* the last link on either side so far */
+    uint32_t room;    /* room for this many triangles, and EXTRA more of the others */
+    uint32_t last[2]; /* last link on each side so far */
     uint64_t random;
     icc_error *err;
 } cutter;
@@ -55,7 +58,7 @@ static uint32_t vertex_at(const cutter *k, uint32_t corner)
     return k->mesh->corners[corner].vertex;
 }
 
-/* On which side of the edge a vertex lies: +1 left, -1 right. */
+/* Returns on which side of the edge a vertex lies: +1 left, -1 right. */
 static int side_of(const cutter *k, uint32_t vertex)
 {
     return iccp_orient2d(iccp_point(k->mesh, k->from), iccp_point(k->mesh, k->to),
@@ -95,7 +98,8 @@ static bool is_present(const cutter *k)
     return false;
 }
 
-/* Whether a vertex on the line of the edge lies on the same side of its beginning as its end. */
+/* For a vertex on the edge's line: returns true if it lies on the same side of the edge's beginning
+ * as its end. */
 static bool is_ahead(const cutter *k, uint32_t vertex)
 {
     const double *from = iccp_point(k->mesh, k->from), *to = iccp_point(k->mesh, k->to);
@@ -104,7 +108,7 @@ static bool is_ahead(const cutter *k, uint32_t vertex)
     return (from[axis] < to[axis]) == (from[axis] < p[axis]);
 }
 
-/* The corner at the beginning of the edge whose triangle the edge enters. */
+/* Finds the corner at the beginning of the edge whose triangle the edge enters. */
 static icc_status find_start(const cutter *k, uint32_t *start)
 {
     const uint32_t ghost = k->mesh->n_points;
@@ -122,7 +126,7 @@ static icc_status find_start(const cutter *k, uint32_t *start)
     return ICC_OK;
 }
 
-/* Makes room for one more triangle, and its link. */
+/* Makes room for one more triangle and its link. */
 static bool reserve(cutter *k, const iccp_memory *memory)
 {
     if (k->n_triangles < k->room)
@@ -152,8 +156,8 @@ static void add_link(cutter *k, uint32_t side, uint32_t vertex, uint32_t outer)
     k->last[side] = index;
 }
 
-/* Follows the edge from the first triangle that it enters to its end, and notes the triangles and
- * the chains. */
+/* Follows the edge from the first triangle that it enters to its end, and collects the triangles
+ * and the chains. */
 static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
 {
     const iccp_corner *const c = k->mesh->corners;
@@ -186,8 +190,8 @@ static icc_status collect(cutter *k, uint32_t corner, const iccp_memory *memory)
     }
 }
 
-/* Finds the edges that a chain runs along twice. The corners on the inside of the chains, which are
- * about to be taken out, point to their links meanwhile. */
+/* Finds the edges that a chain runs along twice. Meanwhile the corners inside the chains, which are
+ * about to be removed, point to their links. */
 static void pair_links(cutter *k)
 {
     iccp_corner *const c = k->mesh->corners;
@@ -212,7 +216,7 @@ static void attach(cutter *k, uint32_t corner, uint32_t index)
         iccp_link_twins(k->mesh, corner, outer);
 }
 
-/* Whether the chain turns towards the edge at a link. */
+/* Returns true if the chain turns towards the edge at a link. */
 static bool is_convex(const cutter *k, const chain_link *l)
 {
     const double *a = iccp_point(k->mesh, k->links[l->previous].vertex);
@@ -221,7 +225,8 @@ static bool is_convex(const cutter *k, const chain_link *l)
     return iccp_orient2d(a, b, c) == (l->side == LEFT ? -1 : 1);
 }
 
-/* Makes a triangle of a link and those next to it, its own vertex first, and joins these. */
+/* Makes a triangle from a link and its two neighbours, its own vertex first, and joins the
+ * neighbours. */
 static void cut_off(cutter *k, uint32_t triangle, uint32_t index)
 {
     iccp_corner *const c = k->mesh->corners;
@@ -239,12 +244,13 @@ static void cut_off(cutter *k, uint32_t triangle, uint32_t index)
     previous->next = l->next;
 }
 
-/* Queues all vertices between the ends in random order; returns how many they are. */
+/* Queues all vertices between the ends in random order. Returns their number. */
 static uint32_t shuffle(cutter *k)
 {
     uint32_t n = 0;
     for (uint32_t i = 1; i + 2 < k->n_links; ++i, ++n) {
-        k->random = k->random * 6364136223846793005u + 1442695040888963407u; /* Knuth's MMIX */
+        /* Knuth's MMIX generator */
+        k->random = k->random * 6364136223846793005u + 1442695040888963407u;
         const uint32_t place = (uint32_t)((k->random >> 32) * (n + 1) >> 32);
         k->queue[n] = k->queue[place];
         k->queue[place] = i;
@@ -253,7 +259,7 @@ static uint32_t shuffle(cutter *k)
     return n;
 }
 
-/* Triangulates both sides of the edge in the places of the triangles that were taken out. */
+/* Triangulates both sides of the edge, in the places of the removed triangles. */
 static void cut_all(cutter *k)
 {
     chain_link *const l = k->links;
@@ -289,8 +295,8 @@ static bool must_flip(const cutter *k, uint32_t corner)
                          iccp_point(mesh, to), iccp_point(mesh, beyond)) > 0;
 }
 
-/* Goes round the vertex at a corner, from one neighbour on its chain to the other, and flips the
- * edges that it faces while they are not Delaunay. */
+/* Goes around the vertex at a corner, from one neighbour on its chain to the other. Flips the edges
+ * that it faces while they are not Delaunay. */
 static void legalise(cutter *k, uint32_t corner)
 {
     const uint32_t last = vertex_at(k, iccp_before(corner));
@@ -304,7 +310,8 @@ static void legalise(cutter *k, uint32_t corner)
     }
 }
 
-/* Puts the vertices back. What lies beyond the chains stays: it was Delaunay and still is. */
+/* Puts the vertices back. Triangles beyond the chains stay, because they were Delaunay and still
+ * are. */
 static void put_back(cutter *k)
 {
     for (uint32_t i = 0; i < k->n_triangles; ++i)
@@ -335,7 +342,8 @@ static icc_status insert_edge(cutter *k, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* The walls that begin at vertex i: of a polygon one, of walls those that go to larger numbers. */
+/* Inserts the walls that begin at vertex i: one edge of a polygon, or the walls to larger
+ * vertices. */
 static icc_status insert_at(cutter *k, uint32_t i, const iccp_memory *memory)
 {
     const iccp_walls *const walls = k->mesh->walls;
@@ -369,8 +377,8 @@ static icc_status insert_all(cutter *k, const iccp_env *env)
     return ICC_OK;
 }
 
-/* Inserts the walls one at a time. The arrays for the region that an edge crosses are
- * reused, and grow as needed. */
+/* Inserts the walls one at a time. The arrays for the crossed region are reused, and grow as
+ * needed. */
 icc_status iccp_constrain(iccp_trimesh *mesh, const iccp_env *env, icc_error *err)
 {
     enum { ROOM = 64 };

@@ -1,3 +1,4 @@
+/* Local changes of a triangle mesh, and its twins. */
 #include "mesh/corners.h"
 
 #include "base/compiler.h"
@@ -18,8 +19,8 @@ static void set_triangle(iccp_corners *c, uint32_t t, uint32_t v0, uint32_t v1, 
     c->vertex[3 * (size_t)t + 2] = v2;
 }
 
-/* The triangle x a b of a corner at x becomes x a m, and a new one x m b, which is returned. What
- * faces the halves of a b is left open. */
+/* Turns the triangle x a b of a corner at x into x a m, and adds a triangle x m b, which is
+ * returned. The neighbours across the halves of a b are left open. */
 static uint32_t halve(iccp_corners *c, uint32_t corner, uint32_t m)
 {
     const uint32_t after = iccp_after(corner), before = iccp_before(corner);
@@ -71,19 +72,20 @@ void iccp_collapse_edge(iccp_corners *corners, uint32_t corner)
 }
 
 typedef struct half_edge {
-    uint32_t to;     /* the larger one of its ends */
-    uint32_t corner; /* that faces it */
+    uint32_t to;     /* its larger end */
+    uint32_t corner; /* the corner that faces it */
 } half_edge;
 
-/* Half-edges by the smaller one of their ends, those that leave it before those that come to it. */
+/* Half-edges sorted by their smaller end. Those that leave it come before those that arrive. */
 typedef struct half_edges {
     half_edge *list;
-    uint32_t *begin; /* of those that leave vertex v: begin[2 v], of those that come: 2 v + 1 */
-    uint32_t *from;  /* of each vertex: the other end of the last edge that was met there, */
-    uint32_t *twin;  /* and the corner that faces it and has no twin yet, or ICCP_NO_NEIGHBOUR */
+    /* Half-edges that leave vertex v begin at begin[2 v], those that arrive at begin[2 v + 1] */
+    uint32_t *begin;
+    uint32_t *from; /* by vertex: the other end of the last edge found there */
+    uint32_t *twin; /* the corner that faces that edge and has no twin yet, or ICCP_NO_NEIGHBOUR */
 } half_edges;
 
-/* Counts the half-edges, or enters them into their lists from the ends of those. */
+/* Counts the half-edges, or enters them into their lists, backwards. */
 static ICCP_INLINE void visit_half_edges(const iccp_corners *c, half_edges *h, bool enters)
 {
     for (size_t t = c->n_triangles; t-- > 0;)
@@ -97,8 +99,8 @@ static ICCP_INLINE void visit_half_edges(const iccp_corners *c, half_edges *h, b
         }
 }
 
-/* The half-edges at a vertex: those that leave it wait at their other ends, where those that come
- * find them. */
+/* Links the half-edges at a vertex. Those that leave it wait at their other ends, where those that
+ * arrive find them. */
 static bool link_vertex(iccp_corners *c, half_edges *h, uint32_t v, size_t begin, size_t middle,
                         size_t end)
 {
@@ -135,7 +137,7 @@ static bool link_all(iccp_corners *c, half_edges *h, size_t n_vertices)
     return is_manifold;
 }
 
-/* A counting sort puts the half-edges of one edge into the lists of the same vertex. */
+/* A counting sort puts the half-edges of one edge into the list of the same vertex. */
 icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
                            const iccp_env *env)
 {

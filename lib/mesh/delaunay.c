@@ -1,11 +1,11 @@
-/* Based on: C. L. Lawson, Software for C1 surface interpolation, 1977: points one by one, located
- * by walking, each followed by the flips that make the triangulation Delaunay again. The order of
- * insertion is that of mesh/insertion_order.c.
+/* Delaunay triangulation. Based on: C. L. Lawson, Software for C1 surface interpolation, 1977.
+ * Points are inserted one by one. Each is located by walking and followed by the flips that restore
+ * the Delaunay property. mesh/insertion_order.c gives the order of insertion.
  *
- * A point on an edge needs no case of its own: the triangle without area that it leaves behind lies
- * inside the circle on the other side, and is flipped at once. Neither does a point outside the
- * hull: the circle of a ghost triangle is the open half-plane beyond its edge of the hull, with
- * that edge. */
+ * A point on an edge needs no special case. It leaves a triangle without area, which lies inside
+ * the circle on the other side and is flipped at once. Nor does a point outside the hull: the
+ * circle of a ghost triangle is the open half-plane beyond its edge of the hull, together with that
+ * edge. */
 #include "mesh/delaunay.h"
 
 #include "base/error.h"
@@ -14,14 +14,14 @@
 
 #include <assert.h>
 
-/* Whether p, on the line through a and b and equal to neither, lies between them. */
+/* Returns true if p lies between a and b. It is on their line and equal to neither. */
 static bool between(const double a[2], const double b[2], const double p[2])
 {
     const int axis = a[0] < b[0] || a[0] > b[0] ? 0 : 1;
     return (a[axis] < p[axis]) == (p[axis] < b[axis]);
 }
 
-/* Whether the circle of a triangle, one of whose corners may be the ghost, contains p. */
+/* Returns true if the circle of a triangle contains p. One of its corners may be the ghost. */
 static bool circle_contains(const iccp_trimesh *mesh, uint32_t corner, const double p[2])
 {
     const uint32_t ghost = mesh->n_points;
@@ -41,7 +41,7 @@ static bool circle_contains(const iccp_trimesh *mesh, uint32_t corner, const dou
     return side > 0 || (side == 0 && between(from, to, p));
 }
 
-/* Whether p lies strictly beyond the half-edge that the corner faces. */
+/* Returns true if p lies strictly beyond the half-edge that the corner faces. */
 static bool beyond(const iccp_trimesh *mesh, uint32_t corner, const double p[2])
 {
     const double *from = iccp_point(mesh, mesh->corners[iccp_after(corner)].vertex);
@@ -49,7 +49,7 @@ static bool beyond(const iccp_trimesh *mesh, uint32_t corner, const double p[2])
     return iccp_orient2d(from, to, p) < 0;
 }
 
-/* Walks from a triangle that is no ghost to a corner of one that contains p. In a Delaunay
+/* Walks from a triangle without the ghost to a corner of a triangle that contains p. In a Delaunay
  * triangulation such a walk never returns to a triangle, whichever of two edges it takes. */
 static uint32_t locate(const iccp_trimesh *mesh, uint32_t corner, const double p[2])
 {
@@ -66,7 +66,8 @@ static uint32_t locate(const iccp_trimesh *mesh, uint32_t corner, const double p
     return corner;
 }
 
-/* Joins a new vertex to the corners of a triangle; returns its corner in one of the three. */
+/* Joins a new vertex to the corners of a triangle. Returns its corner in one of the three new
+ * triangles. */
 static uint32_t split(iccp_trimesh *mesh, uint32_t corner, uint32_t vertex)
 {
     iccp_corner *const c = mesh->corners;
@@ -87,7 +88,7 @@ static uint32_t split(iccp_trimesh *mesh, uint32_t corner, uint32_t vertex)
     return first;
 }
 
-/* A corner of the same vertex whose triangle is no ghost. */
+/* Returns a corner of the same vertex in a triangle without the ghost. */
 static uint32_t leave_ghosts(const iccp_trimesh *mesh, uint32_t corner)
 {
     while (mesh->corners[iccp_after(corner)].vertex == mesh->n_points ||
@@ -96,7 +97,7 @@ static uint32_t leave_ghosts(const iccp_trimesh *mesh, uint32_t corner)
     return corner;
 }
 
-/* Goes once round a new vertex and flips the edges that it faces while they are not Delaunay. */
+/* Goes once around a new vertex and flips the edges that it faces while they are not Delaunay. */
 static void legalise(iccp_trimesh *mesh, uint32_t corner)
 {
     const double *p = iccp_point(mesh, mesh->corners[corner].vertex);
@@ -116,7 +117,8 @@ static bool equal(const double a[2], const double b[2])
     return !(a[0] < b[0] || a[0] > b[0] || a[1] < b[1] || a[1] > b[1]);
 }
 
-/* The corner of the triangle where the point lies, or none: the number of corners. */
+/* Returns the corner of the triangle at which the point lies, or the number of corners if there is
+ * none. */
 static uint32_t equal_corner(const iccp_trimesh *mesh, uint32_t corner, const double p[2])
 {
     for (int k = 0; k < 3; ++k, corner = iccp_after(corner)) {
@@ -127,7 +129,7 @@ static uint32_t equal_corner(const iccp_trimesh *mesh, uint32_t corner, const do
     return 3 * mesh->n_triangles;
 }
 
-/* The triangle of the first three points and the ghosts round it. */
+/* Makes the triangle of the first three points, and the ghost triangles around it. */
 static void start(iccp_trimesh *mesh)
 {
     iccp_corner *const c = mesh->corners;
@@ -143,7 +145,7 @@ static void start(iccp_trimesh *mesh)
     }
 }
 
-/* Says which points are equal. */
+/* Reports equal points. */
 static icc_status fail_repeated(uint32_t n_boundary, uint32_t a, uint32_t b, icc_error *err)
 {
     const uint32_t point = a > b ? a : b, other = a > b ? b : a;
@@ -159,7 +161,7 @@ static icc_status fail_repeated(uint32_t n_boundary, uint32_t a, uint32_t b, icc
                         (unsigned long)point, (unsigned long)other);
 }
 
-/* Inserts the points in the order of their indices; `order` has the caller's. */
+/* Inserts the points in the order of their indices. `order` has the caller's indices. */
 static icc_status insert_all(iccp_trimesh *mesh, const uint32_t *order, const iccp_env *env,
                              icc_error *err)
 {
@@ -189,7 +191,7 @@ static void swap(uint32_t *a, uint32_t *b)
     *b = first;
 }
 
-/* Moves a third point to the front that makes a counter-clockwise triangle of the first three. */
+/* Moves a third point to the front, so that the first three form a counter-clockwise triangle. */
 static icc_status pick_start(uint32_t *order, const iccp_trimesh *mesh, icc_error *err)
 {
     const double *a = iccp_point(mesh, order[0]), *b = iccp_point(mesh, order[1]);
@@ -207,8 +209,8 @@ static icc_status pick_start(uint32_t *order, const iccp_trimesh *mesh, icc_erro
     return iccp_fail(err, ICC_ERR_BOUNDARY, "all vertices of the polygon lie on one line");
 }
 
-/* Builds on a copy of the points in the order of insertion, where neighbours are close in memory,
- * and then gives the vertices their own numbers back. */
+/* Builds the triangulation on a copy of the points in the order of insertion, because neighbours
+ * are then close in memory. Afterwards restores the vertices' own numbers. */
 static icc_status build(iccp_trimesh *mesh, const uint32_t *order, const iccp_env *env,
                         icc_error *err)
 {

@@ -1,6 +1,6 @@
-/* A uniform grid of cells, each with the triangles that come near it: J. L. Bentley, B. W. Weide,
- * A. C. Yao, Optimal expected-time algorithms for closest point problems, 1980. Points that are
- * looked for together wait for memory together. */
+/* A uniform grid of cells, each with a list of the triangles near it: J. L. Bentley, B. W. Weide,
+ * A. C. Yao, Optimal expected-time algorithms for closest point problems, 1980. Points of a batch
+ * are processed stage by stage, so that their memory accesses overlap. */
 #include "mesh/finder.h"
 
 #include "base/budget.h"
@@ -10,35 +10,37 @@
 
 #include <math.h>
 
-/* The last cell, beyond the others, stands for what lies outside of the box: it has no triangles
- * and is near the boundary. */
+/* The grid. A last, extra cell stands for everything outside the box. It has no triangles and
+ * counts as near the boundary. */
 typedef struct grid {
     double lower[2], upper[2]; /* the mesh's box */
     double rate;               /* cell = (point - lower) * rate */
-    double slack;              /* cells that a triangle misses by less, in cells, list it too */
+    /* In cells: a triangle is also listed in cells that it misses by less */
+    double slack;
     size_t size[2], n_cells;
-    bool is_large;     /* the mesh and its grid do not fit the processor's own cache */
-    uint32_t *first;   /* n_cells + 2: twice the place in `entries` where the triangles of a cell
-                          begin, and 1 more where the mesh's boundary comes near the cell */
-    uint32_t *entries; /* triangles, cell by cell, rising */
+    bool is_large; /* the mesh and its grid exceed the processor's own cache */
+    /* n_cells + 2: twice the place in `entries` where a cell's triangles begin, plus 1 if the
+     * mesh's boundary is near the cell */
+    uint32_t *first;
+    uint32_t *entries; /* triangles, cell by cell, in rising order */
 } grid;
 
-/* Cells per triangle. With FEW, a map of 400 vertices takes 2 % less to make than with SOME; points
- * through its charts cost up to 3 % more. With MANY, most points lie in the first triangle of their
- * cell; the grid is worth it until there are as many cells as LARGE says. */
+/* Cells per triangle. With FEW, a map of 400 vertices takes 2 % less time to make than with SOME.
+ * Points through its charts then cost up to 3 % more. With MANY, most points lie in the first
+ * triangle of their cell. That pays for up to LARGE cells. */
 static const double FEW = 1, SOME = 4, MANY = 16, LARGE = 1 << 19;
 
-/* Entries per triangle that need no budget: about twice what there are in fair meshes. */
+/* Entries per triangle that need no budget: about twice as many as well-shaped meshes have. */
 static const double PLENTY = 64;
 
-/* Bytes that stay in a cache of the second level. */
+/* Bytes that stay in a second-level cache. */
 static const size_t CACHE = (size_t)1 << 20;
 
-/* Of twice a triangle's area in the products that it is the sum of: below it barycentric
- * coordinates in plain doubles would be off by more than 1e-14. */
+/* Least ratio of twice a triangle's area to the products that it is the sum of. Below it,
+ * barycentric coordinates in plain doubles would be wrong by more than 1e-14. */
 static const double FLATTEST = 0.05;
 
-/* Of numbers: iccp_min() asks for NaN as well, which takes 2 % of a map. */
+/* For numbers only: iccp_min() also handles NaN, which takes 2 % of the time of a map. */
 static inline double least(double a, double b)
 {
     return a < b ? a : b;
@@ -56,7 +58,7 @@ static inline size_t cell_of(double x, size_t n)
 
 /* ---- the cells that an edge or a triangle meets ---- */
 
-/* From its lower end up, in cells. */
+/* An edge from its lower end upwards, in cells. */
 typedef struct edge {
     double x, bottom, x_top, top, slope;
 } edge;
@@ -75,7 +77,7 @@ static inline edge edge_of(const double a[2], const double b[2])
     return (edge){low[0], low[1], high[0], high[1], height > 0 ? (high[0] - low[0]) / height : 0};
 }
 
-/* Widens [low, high] to the part of the edge with y in [bottom, top]. */
+/* Extends [low, high] by the part of the edge with y in [bottom, top]. */
 static inline void clip(const edge *e, double bottom, double top, double *low, double *high)
 {
     if (e->top < bottom || e->bottom > top)
@@ -87,7 +89,7 @@ static inline void clip(const edge *e, double bottom, double top, double *low, d
     *high = most(*high, least(most(x0, x1), outer));
 }
 
-/* Cells of a row that n edges come near to, from the first one to the end. */
+/* Finds the cells of a row that n edges come near to: [begin, end). */
 static inline void span_of(const grid *g, const edge *e, size_t n, size_t row, double slack,
                            size_t *begin, size_t *end)
 {
@@ -98,7 +100,7 @@ static inline void span_of(const grid *g, const edge *e, size_t n, size_t row, d
     *end = g->size[0] * row + cell_of(high + slack, g->size[0]) + (low <= high);
 }
 
-/* Counts the triangle in its cells, or enters it into them from their ends. */
+/* Counts the triangle in its cells, or enters it into them, backwards. */
 static ICCP_INLINE void visit_triangle(const iccp_finder *f, grid *g, uint32_t triangle,
                                        bool enters)
 {
@@ -139,8 +141,8 @@ static void mark_edge(const iccp_finder *f, grid *g, uint32_t from, uint32_t to,
 
 /* ---- making the grid ---- */
 
-/* The slack is for the rounding of coordinates in cells. Rows get it too, since flat edges multiply
- * an error of y. */
+/* The slack covers the rounding of coordinates in cells. Rows need it too, because flat edges
+ * magnify an error of y. */
 static void choose_cells(const iccp_finder *f, grid *g)
 {
     for (int k = 0; k < 2; ++k) {
@@ -161,8 +163,9 @@ static void choose_cells(const iccp_finder *f, grid *g)
     g->slack = 1e-9 + 0x1p-50 * longest * g->rate;
 }
 
-/* Within four times the reach the cells are near: a mesh's boundary follows its domain's to within
- * one and a half (map/apply.c). Where that is more than a cell, all are. */
+/* Marks the cells within four times the reach as near the boundary. A mesh's boundary follows its
+ * domain's within one and a half times the reach (map/apply.c). If that exceeds a cell, all cells
+ * are marked. */
 static void mark_boundary(const iccp_finder *f, grid *g)
 {
     const double slack = g->slack + 4 * f->reach * g->rate;
@@ -173,7 +176,7 @@ static void mark_boundary(const iccp_finder *f, grid *g)
             mark_edge(f, g, f->triangles[iccp_after(c)], f->triangles[iccp_before(c)], slack);
 }
 
-/* From counts to the ends of the cells. False if there are too many entries to count. */
+/* Turns counts into the ends of the cells. Returns false if there are too many entries. */
 static bool find_ends(grid *g)
 {
     uint64_t end = 0;
@@ -197,8 +200,8 @@ static void free_grid(grid *g, const iccp_memory *memory)
     iccp_free(memory, g);
 }
 
-/* Two passes over the triangles: the first counts the entries of each cell, the second, backwards,
- * fills them in, which moves `first` from the ends of the cells to where they begin. */
+/* Makes two passes over the triangles. The first counts the entries of each cell. The second fills
+ * them in backwards, which moves `first` from the ends of the cells to their beginnings. */
 static grid *make_grid(const iccp_finder *f)
 {
     grid *g = iccp_alloc_zero(&f->memory, 1, sizeof *g);
@@ -265,8 +268,8 @@ icc_status iccp_finder_ready(const iccp_finder *finder)
     return grid_of(finder) != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* A triangle meets no more cells than its area, in cells, and 2 for each line of the grid that it
- * crosses: as many as its edges are long along the axes, and 4. */
+/* Bounds the number of cells that a triangle meets: its area in cells, plus 2 for each grid line
+ * that it crosses. These are as many as the lengths of its edges along the axes, plus 4. */
 icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
 {
     const iccp_finder *f = finder;
@@ -285,13 +288,13 @@ icc_status iccp_finder_budget(const iccp_finder *finder, const iccp_env *env)
     return n_entries > PLENTY * n ? iccp_budget_borrow(env, n_entries * sizeof *g.entries) : ICC_OK;
 }
 
-/* ---- looking for points ---- */
+/* ---- finding points ---- */
 
-/* Of the sum of magnitudes: the rounding of an area's differences, products and their difference
- * stays below it, so that beyond it the sign is right. */
+/* Share of the sum of magnitudes that rounding cannot exceed when an area is computed. If the area
+ * exceeds it, the sign is right. */
 static const double CERTAIN = 1e-15;
 
-/* The doubtful case: p is next to an edge, or the triangle is flat. */
+/* Decides doubtful cases: p is next to an edge, or the triangle is flat. */
 static bool holds_exactly(const iccp_finder *f, const uint32_t *v, const double p[2],
                           double bary[3])
 {
@@ -305,9 +308,9 @@ static bool holds_exactly(const iccp_finder *f, const uint32_t *v, const double 
     return bary[0] + bary[1] + bary[2] > 0;
 }
 
-/* Whether the triangle holds p, exactly; then `bary` are the areas that p makes with its edges. All
- * three are computed and compared before anything is decided: one branch that is hard to predict,
- * not three. */
+/* Returns true if the triangle contains p, exactly; `bary` are then the areas between p and the
+ * edges. Computes and compares all three before it decides, so only one branch is hard to predict
+ * instead of three. */
 static ICCP_INLINE bool holds(const iccp_finder *f, uint32_t triangle, const double p[2],
                               double bary[3])
 {
@@ -379,11 +382,11 @@ icc_status iccp_finder_find_alone(const iccp_finder *finder, const double p[2], 
 
 /* ---- many points ---- */
 
-/* Triangles of a cell whose corners are fetched before it is known which one is wanted. */
+/* Number of a cell's triangles whose corners are fetched before it is known which one is needed. */
 enum { AHEAD = 1 };
 
-/* Whether most points are in the cells of the points before them, or beside those: what they need
- * has just been read. */
+/* Returns true if most points are in the same cell as the previous point, or beside it. Their
+ * memory has then just been read. */
 static bool are_in_order(size_t n, const size_t *cell)
 {
     size_t n_close = 0;
@@ -392,7 +395,7 @@ static bool are_in_order(size_t n, const size_t *cell)
     return 2 * n_close >= n;
 }
 
-/* Each stage reads, for all points, what the stage before has asked the memory for. */
+/* Each stage reads, for all points, the memory that the previous stage has prefetched. */
 static void fetch(const iccp_finder *f, const grid *g, size_t n, const size_t *cell)
 {
     const uint32_t *entry[ICCP_FINDER_MANY];

@@ -1,6 +1,6 @@
-/* A quadtree built level by level; every cell carries the samples that can still make it split.
- * After M. Bern, D. Eppstein, J. Gilbert, Provably good mesh generation, 1994, without their
- * warping: the triangulation takes care of the boundary. */
+/* Graded inner points from a quadtree that is built level by level. Every cell carries the samples
+ * that can still split it. Based on M. Bern, D. Eppstein, J. Gilbert, Provably good mesh
+ * generation, 1994, but without warping, because the triangulation handles the boundary. */
 #include "mesh/grading.h"
 
 #include "base/minmax.h"
@@ -9,13 +9,15 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a leaf's width: points closer to the boundary would make flat triangles. */
+/* Least distance of a point from the boundary, in widths of its leaf. Closer points would make flat
+ * triangles. */
 static const double CLEARANCE = 0.45;
 
-/* Of a cell, in widths; and from cells farther away than that no sample is kept. */
+/* Half a cell's diagonal, in widths; and the distance in widths beyond which a cell keeps no
+ * sample. */
 static const double HALF_DIAGONAL = 0.71, FARTHEST = 1.72;
 
-/* Levels below the top: edges shorter than the step by more than this factor of two count as
+/* Levels below the top. Edges shorter than the step by more than this power of two count as
  * longer. */
 enum { MAX_LEVELS = 12 };
 
@@ -24,7 +26,7 @@ typedef struct cell {
     size_t first, n; /* its samples */
 } cell;
 
-/* Cells of one level and their samples. */
+/* The cells of one level and their samples. */
 typedef struct level {
     size_t n_cells, cell_room, n_entries, entry_room;
     cell *cells;
@@ -68,9 +70,9 @@ static icc_status push_entry(level *l, uint32_t sample, const iccp_memory *memor
     return ICC_OK;
 }
 
-/* Whether a sample is so near a point that it forbids cells of the given width there: its length
- * and the distance, less `slack`, do not reach the width. Where cells grow .6 times as fast, twice
- * as many triangles make hardly a fairer map. */
+/* Returns true if a sample forbids cells of the given width at a point. That is so if its length
+ * plus the distance, less `slack`, is below the width. If cells grew 0.6 times as fast, there would
+ * be twice as many triangles, but distortion would hardly improve. */
 static bool forbids(const iccp_samples *samples, uint32_t i, double x, double y, double width,
                     double slack)
 {
@@ -88,13 +90,13 @@ static bool must_split(const builder *b, const level *l, const cell *c)
     return false;
 }
 
-/* Whether a cell keeps a sample: where it can split the cell or one of its children. */
+/* Returns true if a cell keeps a sample because it can split the cell or one of its children. */
 static bool is_kept(const iccp_samples *samples, uint32_t i, double x, double y, double width)
 {
     return forbids(samples, i, x, y, width, HALF_DIAGONAL * width);
 }
 
-/* A child keeps some of the samples of its parent. */
+/* Adds a child that keeps some of its parent's samples. */
 static icc_status add_child(const builder *b, const level *from, const cell *parent, level *to,
                             double x, double y)
 {
@@ -108,8 +110,8 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
     return push_cell(to, &child, b->memory);
 }
 
-/* A cell that is not split any further becomes a vertex at its centre, unless that is outside,
- * or nearer to the boundary than suits the cell's width. */
+/* Turns a cell that is not split any further into a vertex at its centre. Skips it if the centre is
+ * outside, or too near the boundary for the cell's width. */
 static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
@@ -129,12 +131,12 @@ static icc_status emit_leaf(builder *b, const level *l, const cell *c)
     return ICC_OK;
 }
 
-/* The top level: cells of the step's width, centred over the bounding box, row by row. */
+/* The top level: cells as wide as the step, centred over the bounding box, row by row. */
 typedef struct top_cells {
     const builder *b;
     level *level;
     size_t size[2];
-    double first[2]; /* the centre of the first cell */
+    double first[2]; /* centre of the first cell */
 } top_cells;
 
 static icc_status place_top(top_cells *t)
@@ -157,7 +159,8 @@ static icc_status place_top(top_cells *t)
     return ICC_OK;
 }
 
-/* The cells along an axis whose centres are within FARTHEST widths of a place, to the end. */
+/* Finds the cells along an axis whose centres are within FARTHEST widths of a place: [begin,
+ * end). */
 static void near_cells(const top_cells *t, int axis, double place, size_t *begin, size_t *end)
 {
     const double at = (place - t->first[axis]) / t->level->width - 0.5;
@@ -184,7 +187,8 @@ static void visit_top(const top_cells *t, uint32_t sample, bool enters)
         }
 }
 
-/* Two passes over the samples: the first counts those of each cell, the second fills them in. */
+/* Makes two passes over the samples: the first counts those of each cell, the second fills them
+ * in. */
 static icc_status build_top(const builder *b, level *top)
 {
     top_cells t = {.b = b, .level = top};
@@ -225,8 +229,8 @@ static icc_status descend(builder *b, const level *from, level *to, bool last)
     return status;
 }
 
-/* Level by level, so that only two levels of the tree are in memory: a cell either becomes a
- * point or is split into four of the next level. */
+/* Goes level by level, so that only two levels of the tree are in memory. A cell either becomes a
+ * point or is split into four cells of the next level. */
 icc_status iccp_graded_points(const icc_domain *domain, const iccp_samples *samples, double step,
                               double **points, size_t *n_points, const iccp_env *env)
 {

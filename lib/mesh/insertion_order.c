@@ -1,19 +1,21 @@
-/* Based on: N. Amenta, S. Choi, G. Rote, Incremental Constructions con BRIO, Symposium on
- * Computational Geometry 2003. The random rounds bound the expected work whatever the points are;
- * the curve puts consecutive points of a round, and what they touch in memory, next to each other.
- * Cells of the curve in which many points cluster get a curve of their own. */
+/* Insertion order for incremental triangulation. Based on: N. Amenta, S. Choi, G. Rote, Incremental
+ * Constructions con BRIO, Symposium on Computational Geometry 2003. The random rounds bound the
+ * expected work for all inputs. The curve keeps consecutive points of a round, and the memory that
+ * they touch, close to each other. Cells of the curve with a cluster of points get a curve of their
+ * own. */
 #include "mesh/insertion_order.h"
 
 #include "base/sort.h"
 
 #include <stdbool.h>
 
-/* A key is, from the top: the round, 4 bits; the place on the curve, 32 bits; the index, 28
- * bits. */
+/* A key consists, from the top, of 4 bits for the round, 32 bits for the place on the curve, and 28
+ * bits for the index. */
 enum { ROUND_SHIFT = 60, CURVE_SHIFT = 28, CURVE_BITS = 16, LAST_ROUND = 15 };
 
-/* The place on the Hilbert curve of a cell of the 2^16 x 2^16 square. The curve's four orientations
- * are states: a cell's quadrant gives a digit and the orientation within the quadrant. */
+/* Returns the place on the Hilbert curve of a cell of the 2^16 x 2^16 square. The four orientations
+ * of the curve are states. A cell's quadrant gives a digit and the orientation within the
+ * quadrant. */
 static uint64_t hilbert(uint32_t x, uint32_t y)
 {
     static const uint8_t digit[16] = {0, 1, 3, 2, 0, 3, 1, 2, 2, 3, 1, 0, 2, 1, 3, 0};
@@ -27,8 +29,8 @@ static uint64_t hilbert(uint32_t x, uint32_t y)
     return place;
 }
 
-/* The place of a cell of the 2^10 x 2^10 x 2^10 cube on the curve through its octants and theirs,
- * after G. M. Morton, which jumps now and then, but is simple. */
+/* Returns the place of a cell of the 2^10 x 2^10 x 2^10 cube on the curve of G. M. Morton, through
+ * its octants and theirs. The curve jumps now and then, but is simple. */
 static uint64_t morton(uint32_t x, uint32_t y, uint32_t z)
 {
     uint64_t place = 0;
@@ -37,8 +39,8 @@ static uint64_t morton(uint32_t x, uint32_t y, uint32_t z)
     return place;
 }
 
-/* Three points of four fall into the last round, three of four of the others into the one before,
- * and so on: the finaliser of MurmurHash3 scatters the index's bits. */
+/* Puts three of four points into the last round, three of four of the others into the previous one,
+ * and so on. The finaliser of MurmurHash3 scatters the bits of the index. */
 static uint64_t pick_round(uint32_t index)
 {
     uint32_t bits = index;
@@ -51,7 +53,7 @@ static uint64_t pick_round(uint32_t index)
     return round;
 }
 
-/* The cells of one axis: where they begin, and how many there are per unit. */
+/* The cells of one axis: where they begin, and their number per unit. */
 typedef struct axis {
     double origin, scale;
     uint32_t last;
@@ -62,7 +64,7 @@ static size_t index_of(uint64_t key)
     return (size_t)(key & (((uint64_t)1 << CURVE_SHIFT) - 1));
 }
 
-/* `dim` is the distance of one point's coordinate from the next one's. */
+/* `dim` is the distance between the coordinates of consecutive points. */
 static axis measure(const uint64_t *keys, size_t n, size_t dim, const double *coordinates)
 {
     const double last = dim == 2 ? 65535.0 : 1023.0;
@@ -81,7 +83,7 @@ static uint32_t cell(const axis *a, double x)
     return place < a->last ? (uint32_t)place : a->last;
 }
 
-/* Places the points of some keys on a curve through their own bounding box, and sorts. */
+/* Places the points of some keys on a curve through their bounding box, and sorts them. */
 static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, size_t dim,
                              const double *points)
 {
@@ -97,7 +99,8 @@ static void sort_along_curve(uint64_t *keys, uint64_t *scratch, size_t n, size_t
     iccp_sort_keys(keys, scratch, n, CURVE_SHIFT);
 }
 
-/* Sorts again what shares a cell, when it is much; false when nothing was. */
+/* Sorts again the points that share a cell, if there are many. Returns false if no cell had
+ * many. */
 static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, size_t dim, const double *points)
 {
     enum { MUCH = 64 }; /* walking across a few tens of triangles costs less than sorting again */
@@ -117,7 +120,8 @@ static bool refine(uint64_t *keys, uint64_t *scratch, size_t n, size_t dim, cons
 icc_status iccp_insertion_order(uint32_t *order, size_t n, size_t dim, const double *points,
                                 const iccp_memory *memory)
 {
-    /* Each level is finer by 2^16, or 2^10; the local coordinates span less than 2^450. */
+    /* Each level is finer by 2^16 in the plane and by 2^10 in space. The local coordinates span
+     * less than 2^450. */
     const int most_levels = dim == 2 ? 28 : 45;
     uint64_t *keys = iccp_alloc(memory, n, 2 * sizeof *keys);
     if (keys == NULL)

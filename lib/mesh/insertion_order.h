@@ -6,10 +6,10 @@
 
 #include <stddef.h>
 
-/* Fills in a permutation of 0..n-1, n <= 2^28: rounds of points picked at random, each some times
- * as large as those before it together, and along a space-filling curve within a round. Points are
- * of dim coordinates, 2 or 3. The same for the
- * same points on every machine. ICC_OK or ICC_ERR_MEMORY. */
+/* Writes a permutation of 0..n-1, n <= 2^28. It consists of rounds of randomly picked points. Each
+ * round is a few times as large as all earlier rounds together, and follows a space-filling curve.
+ * Points have dim coordinates, 2 or 3. The result is the same on every machine. Returns ICC_OK or
+ * ICC_ERR_MEMORY. */
 icc_status iccp_insertion_order(uint32_t *order, size_t n, size_t dim, const double *points,
                                 const iccp_memory *memory);
 

@@ -1,17 +1,17 @@
-/* Cotangent weights: U. Pinkall and K. Polthier, Computing discrete minimal surfaces and their
- * conjugates, 1993. On a Delaunay mesh they are not negative; the bounds take care of constrained
- * edges, cut triangles and needles. Any positive weights keep the maps that are made from them
- * one-to-one; these make them fair. */
+/* The graph Laplacian with cotangent weights: U. Pinkall and K. Polthier, Computing discrete
+ * minimal surfaces and their conjugates, 1993. On a Delaunay mesh they are not negative. The bounds
+ * handle constrained edges, cut triangles and needles. With any positive weights, maps made from
+ * them are one-to-one. These weights give them low distortion. */
 #include "mesh/laplacian.h"
 
 #include "base/minmax.h"
 
 #include <math.h>
 
-/* An equilateral mesh has weights of 0.58. */
+/* For comparison: an equilateral mesh has weights of 0.58. */
 static const double LEAST_WEIGHT = 0.02, MOST_WEIGHT = 50;
 
-/* Half the cotangent of the angle at a corner. */
+/* Returns half the cotangent of the angle at a corner. */
 static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
 {
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
@@ -28,12 +28,12 @@ static double edge_weight(const iccp_planar *mesh, uint32_t corner)
     return iccp_min(iccp_max(w, LEAST_WEIGHT), MOST_WEIGHT);
 }
 
-/* An edge between two vertices of which the first, at least, is not on the boundary. */
+/* Visits an edge of which at least the first vertex is inside. */
 typedef void (*edge_visitor)(iccp_laplacian *l, uint32_t n_boundary, uint32_t a, uint32_t b,
                              double weight);
 
-/* Calls `visit` once for every edge with a vertex inside that does not end at vertex `left_out`:
- * counting and filling the rows thus meet the same edges in the same order. */
+/* Calls `visit` once for every edge with an inner vertex that does not end at `left_out`. So
+ * counting and filling visit the same edges in the same order. */
 static void visit_edges(iccp_laplacian *l, const iccp_planar *mesh, uint32_t left_out,
                         bool with_weights, edge_visitor visit)
 {
@@ -106,7 +106,8 @@ static icc_status allocate_entries(iccp_laplacian *l, size_t n)
                : ICC_ERR_MEMORY;
 }
 
-/* Two passes over the edges: the first counts the entries of each row, the second fills them in. */
+/* Makes two passes over the edges: the first counts the entries of each row, the second fills them
+ * in. */
 icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *mesh,
                                  uint32_t left_out, const iccp_env *env)
 {

@@ -1,24 +1,26 @@
-/* The graph Laplacian of a mesh with positive edge weights, for functions given on the boundary. */
+/* The graph Laplacian of a mesh with positive edge weights, for functions with given boundary
+ * values. */
 #ifndef ICCP_LAPLACIAN_H
 #define ICCP_LAPLACIAN_H
 
 #include "math/symmetric.h"
 #include "mesh/planar.h"
 
-/* Row i of the matrix stands for mesh vertex n_boundary + i. */
+/* Row i of the matrix belongs to mesh vertex n_boundary + i. */
 typedef struct iccp_laplacian {
     iccp_memory memory;
     iccp_symmetric matrix;
-    size_t *first; /* what the matrix borrows */
+    size_t *first; /* arrays that the matrix borrows */
     uint32_t *column;
     double *value, *diagonal;
-    size_t *boundary_first;    /* n + 1: where a row's edges to the boundary begin */
-    uint32_t *boundary_vertex; /* of each such edge: its boundary vertex */
-    double *boundary_weight;   /* and its weight */
+    size_t *boundary_first;    /* n + 1: where each row's edges to the boundary begin */
+    uint32_t *boundary_vertex; /* boundary vertex of each such edge */
+    double *boundary_weight;   /* weight of each such edge */
 } iccp_laplacian;
 
-/* Cotangent weights, kept within positive bounds. Edges at the vertex `left_out`
- * (ICCP_NO_NEIGHBOUR: none) are left out; its own row is that of the identity. */
+/* Makes the Laplacian with cotangent weights, limited to positive bounds. Edges at the vertex
+ * `left_out` are omitted, and its row is that of the identity. ICCP_NO_NEIGHBOUR leaves out no
+ * vertex. */
 icc_status iccp_laplacian_create(iccp_laplacian *laplacian, const iccp_planar *mesh,
                                  uint32_t left_out, const iccp_env *env);
 void iccp_laplacian_free(iccp_laplacian *laplacian);

@@ -1,4 +1,5 @@
-/* Based on: the domain meshes of docs/theory.md; the triangulation is mesh/triangulate.c. */
+/* Meshes a polygonal domain. Based on the domain meshes of docs/theory.md; the triangulation is
+ * mesh/triangulate.c. */
 #include "mesh/planar.h"
 
 #include "base/error.h"
@@ -25,7 +26,7 @@ static double facet_length(const icc_domain *domain, size_t facet)
     return iccp_hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* Without a root, which tells it of most facets that are. */
+/* Avoids the square root for most facets that are shorter. */
 static bool is_shorter(const icc_domain *domain, size_t facet, double step)
 {
     const double *a = domain->vertices + 2 * (size_t)domain->facets[2 * facet];
@@ -56,7 +57,8 @@ void iccp_planar_pieces(uint32_t *pieces, const icc_domain *a, const icc_domain 
 
 /* ---- boundary ---- */
 
-/* Edge k of the polygon counter-clockwise, and whether its facet runs that way too. */
+/* Returns the facet of edge k of the polygon, counter-clockwise, and whether the facet has the same
+ * direction. */
 static uint32_t ring_facet(const icc_domain *domain, size_t k)
 {
     const iccp_polygon *polygon = &domain->locator->polygon;
@@ -108,7 +110,7 @@ double iccp_planar_along_slope(const iccp_planar *mesh, const icc_domain *domain
 
 /* ---- inside ---- */
 
-/* The longer of the two edges at each boundary vertex. */
+/* Writes the length of the longer of the two edges at each boundary vertex. */
 static void edge_lengths(const iccp_planar *mesh, double *length)
 {
     const size_t n = mesh->n_boundary;
@@ -145,8 +147,8 @@ static bool turns_left(const iccp_planar *mesh, uint32_t a, uint32_t b, const do
     return iccp_orient2d(mesh->points + 2 * (size_t)a, mesh->points + 2 * (size_t)b, c) > 0;
 }
 
-/* Cuts the edge that a corner faces at its middle, unless rounding of the middle would make one of
- * the four new triangles not positive. */
+/* Cuts the edge that a corner faces at its middle, unless rounding would make one of the four new
+ * triangles not positive. */
 static void split_edge(iccp_planar *mesh, iccp_corners *corners, uint32_t corner)
 {
     const uint32_t twin = mesh->twins[corner];
@@ -162,7 +164,8 @@ static void split_edge(iccp_planar *mesh, iccp_corners *corners, uint32_t corner
     iccp_cut_edge(corners, corner, (uint32_t)mesh->n_vertices++);
 }
 
-/* New triangles come last, so that an edge which a cut hands over to one is still met. */
+/* New triangles are added at the end, so the loop also visits an edge that a cut moves to a new
+ * triangle. */
 static void split_chords(iccp_planar *mesh)
 {
     const uint32_t n = (uint32_t)mesh->n_boundary;
@@ -181,7 +184,7 @@ void iccp_planar_list_boundary(iccp_planar *mesh)
             mesh->boundary_corner[mesh->triangles[iccp_after(c)]] = c;
 }
 
-/* ---- all of it ---- */
+/* ---- the whole mesh ---- */
 
 static icc_status allocate_boundary(iccp_planar *mesh, const icc_domain *domain)
 {
@@ -210,7 +213,7 @@ static icc_status begin_boundary(iccp_planar *mesh, const icc_domain *domain,
     return ICC_OK;
 }
 
-/* Room for points after those of the boundary, and for triangles. */
+/* Allocates points after those of the boundary, and triangles. */
 static icc_status allocate_rest(iccp_planar *mesh, size_t n_inner, size_t n_triangles)
 {
     const size_t n = mesh->n_boundary;
@@ -224,8 +227,8 @@ static icc_status allocate_rest(iccp_planar *mesh, size_t n_inner, size_t n_tria
     return mesh->triangles != NULL && mesh->twins != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Appends the inner points and makes room for a cut in every chord, of which there are at most as
- * many as boundary vertices. */
+/* Appends the inner points and makes room for a cut in every chord. There are at most as many
+ * chords as boundary vertices. */
 static icc_status allocate_inside(iccp_planar *mesh, const double *inner, size_t n_inner)
 {
     const size_t most = 2 * mesh->n_boundary + n_inner;
@@ -252,7 +255,7 @@ static icc_status fill_mesh(iccp_planar *mesh, const icc_domain *domain, const u
     if (status == ICC_OK)
         status = iccp_triangulate_mesh(mesh->n_boundary, mesh->n_vertices, mesh->points,
                                        mesh->triangles, mesh->twins, &part[1], err);
-    /* The domain is simple, but points along its facets are rounded. */
+    /* The domain is simple, but points along its facets are rounded, so they can touch. */
     if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,
                            "the domain cannot be meshed: two of its sides are closer than rounding "

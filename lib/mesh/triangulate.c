@@ -1,5 +1,6 @@
-/* The Delaunay triangulation of all points, made to contain the edges of the polygon, less what
- * lies outside: mesh/delaunay.c, mesh/constrain.c, and the rest here. */
+/* Triangulates a polygon. mesh/delaunay.c makes the Delaunay triangulation of all points, and
+ * mesh/constrain.c forces the edges of the polygon into it. This file then removes the triangles
+ * outside. */
 #include "mesh/triangulate.h"
 
 #include "base/error.h"
@@ -9,7 +10,7 @@
 #include <assert.h>
 #include <string.h>
 
-/* Of a triangle outside. */
+/* Marks a triangle outside. */
 static const uint32_t OUTSIDE = UINT32_MAX;
 
 /* Sets number[t] of the triangles that can be reached from a seed without crossing a wall. `stack`
@@ -34,8 +35,8 @@ static void flood(const iccp_trimesh *mesh, uint32_t seed, uint32_t mark, uint32
     }
 }
 
-/* Marks what lies outside of the polygon, beginning with the ghosts: number[t] becomes OUTSIDE, and
- * stays 0 inside. */
+/* Marks the triangles outside the polygon, beginning with the ghosts: their number[t] becomes
+ * OUTSIDE. Inside it stays 0. */
 static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
 {
     uint32_t seed = 0;
@@ -44,8 +45,8 @@ static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *s
     flood(mesh, seed / 3, OUTSIDE, number, stack);
 }
 
-/* Leaves 0 in number[t] of what lies left of a wall, and OUTSIDE elsewhere. ICC_ERR_TOPOLOGY when
- * that is not bounded by walls. */
+/* Sets number[t] to 0 for triangles on the left of a wall, and to OUTSIDE elsewhere. Returns
+ * ICC_ERR_TOPOLOGY if walls do not bound that region. */
 static icc_status mark_left(const iccp_trimesh *mesh, uint32_t from, uint32_t to, uint32_t *number,
                             uint32_t *stack)
 {
@@ -61,7 +62,7 @@ static icc_status mark_left(const iccp_trimesh *mesh, uint32_t from, uint32_t to
     return ICC_OK;
 }
 
-/* The first point that is neither a vertex of the polygon nor inside, or n_points. */
+/* Returns the first point that is neither a vertex of the polygon nor inside, or n_points. */
 static uint32_t find_outsider(const iccp_trimesh *mesh, const uint32_t *number)
 {
     uint32_t first = mesh->n_points;
@@ -73,7 +74,7 @@ static uint32_t find_outsider(const iccp_trimesh *mesh, const uint32_t *number)
     return first;
 }
 
-/* Numbers the triangles inside and returns how many there are. */
+/* Numbers the triangles inside and returns their number. */
 static uint32_t number_inside(const iccp_trimesh *mesh, uint32_t *number)
 {
     uint32_t n = 0;
@@ -98,7 +99,7 @@ static void copy_out(const iccp_trimesh *mesh, const uint32_t *number, uint32_t 
     }
 }
 
-/* Keeps what lies inside. */
+/* Copies the triangles inside. */
 static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_t *neighbours,
                           const iccp_env *env, icc_error *err)
 {
@@ -127,8 +128,8 @@ done:
     return status;
 }
 
-/* A Delaunay triangulation of all points; then the polygon's edges are forced into it; then the
- * triangles outside are dropped. */
+/* Makes a Delaunay triangulation of all points, forces the polygon's edges into it, and drops the
+ * triangles outside. */
 icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const double *points,
                                  uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
                                  icc_error *err)

@@ -1,4 +1,18 @@
-/* Constrained Delaunay triangulation of a simple polygon with points inside, or of walls. */
+/* Constrained Delaunay triangulation of a simple polygon with points inside, or of walls.
+ *
+ * Legend of lib/mesh. Begin with this file, then trimesh.h and planar.h.
+ * - corner: a vertex of one triangle, number 3 t + k. It faces the opposite edge, which is
+ *   half-edge 3 t + k.
+ * - twin, neighbour: the corner that faces the same edge from the other triangle.
+ * - ghost: a vertex at infinity, which gives every edge of the hull a second triangle (trimesh.h).
+ * - wall: a segment that the triangulation must contain (walls.h).
+ * - chord: an edge between two boundary vertices that is not on the boundary.
+ * - mesh of a domain: a triangulation of a polygon with graded inner points (planar.h, grading.h).
+ * - finder: a grid that finds the triangle of a point (finder.h).
+ * - legalise: to flip edges until they are Delaunay.
+ *
+ * Invariants: all triangles are counter-clockwise, by exact signs. The same points give the same
+ * triangulation on every machine. */
 #ifndef ICCP_TRIANGULATE_H
 #define ICCP_TRIANGULATE_H
 
@@ -9,28 +23,28 @@
 /* Stands for the neighbour beyond an edge of the polygon. */
 #define ICCP_NO_NEIGHBOUR UINT32_MAX
 
-/* See icc_triangulate(); the points are local (geometry/frame.h), their non-zero magnitudes in
- * [2^-200, 2^200]; at most ICCP_TRIMESH_MAX_POINTS (2^28) of them.
+/* See icc_triangulate(). The points are local (geometry/frame.h), with non-zero magnitudes in
+ * [2^-200, 2^200]. There are at most ICCP_TRIMESH_MAX_POINTS (2^28).
  *
- * ICC_ERR_BOUNDARY: the polygon is not simple. ICC_ERR_OUTSIDE: the point `index` lies outside the
- * polygon or on it. ICC_ERR_ARGUMENT: it repeats another point inside. */
+ * Returns ICC_ERR_BOUNDARY if the polygon is not simple, ICC_ERR_OUTSIDE if the point `index` lies
+ * outside or on the polygon, and ICC_ERR_ARGUMENT if it repeats another inner point. */
 icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,
                             uint32_t *triangles, const iccp_env *env, icc_error *err);
 
-/* The same, and for each corner (number k of triangle t is 3 t + k) the corner that faces the same
- * edge from the other side, or ICCP_NO_NEIGHBOUR. `neighbours` has the room of `triangles`, or is
- * NULL. */
+/* Like iccp_triangulate(), and also writes neighbours. The neighbour of corner 3 t + k, number k of
+ * triangle t, is the corner that faces the same edge from the other side, or ICCP_NO_NEIGHBOUR.
+ * `neighbours` has the size of `triangles`, or is NULL. */
 icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const double *points,
                                  uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
                                  icc_error *err);
 
-/* The part of the triangulation constrained by walls that can be reached from the left of the wall
- * from vertex `from` to vertex `to` without crossing a wall. Neighbours as above, across walls
- * where both sides belong to that part; both arrays have room for 6 n_points, of which 3
- * *n_triangles are used in the end.
+/* Writes a part of the triangulation that is constrained by walls. The part is the region on the
+ * left of the wall from vertex `from` to vertex `to` that can be reached without crossing a wall.
+ * Neighbours are as above, across walls if both sides belong to the part. Both arrays have room for
+ * 6 n_points, of which 3 *n_triangles are used in the end.
  *
- * ICC_ERR_BOUNDARY, ICC_ERR_OUTSIDE or ICC_ERR_ARGUMENT when walls cross, points lie on them or are
- * equal; ICC_ERR_TOPOLOGY when rings do not close. */
+ * Returns ICC_ERR_BOUNDARY, ICC_ERR_OUTSIDE or ICC_ERR_ARGUMENT if walls cross, or if points lie on
+ * walls or are equal. Returns ICC_ERR_TOPOLOGY if rings do not close. */
 icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
                                   uint32_t from, uint32_t to, uint32_t *triangles,
                                   uint32_t *neighbours, size_t *n_triangles, const iccp_env *env);

@@ -1,10 +1,9 @@
 /* Triangles and their neighbours, as corners.
  *
- * Corner c belongs to triangle c / 3 and faces one of its edges, the half-edge c, which runs from
- * the vertex after it to the vertex before it, counter-clockwise; its twin is the corner that faces
- * the same edge from the other triangle. The vertex n_points is the ghost: the triangles between it
- * and the edges of the hull cover the plane outside the hull, so that every half-edge has a
- * twin. */
+ * Corner c belongs to triangle c / 3 and faces one of its edges, the half-edge c. That runs from
+ * the vertex after c to the vertex before c, counter-clockwise. The twin of c is the corner that
+ * faces the same edge from the other triangle. Vertex n_points is the ghost. The triangles between
+ * it and the edges of the hull cover the plane outside the hull, so every half-edge has a twin. */
 #ifndef ICCP_TRIMESH_H
 #define ICCP_TRIMESH_H
 
@@ -15,7 +14,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* So that a corner has a bit to spare and an index fits into the sort key of
+/* The limit leaves a bit of a corner unused, and an index fits into the sort key of
  * mesh/insertion_order.c. */
 #define ICCP_TRIMESH_MAX_POINTS ((size_t)1 << 28)
 
@@ -26,13 +25,13 @@ typedef struct iccp_corner {
 typedef struct iccp_trimesh {
     const double *points; /* borrowed */
     uint32_t n_points;
-    uint32_t n_boundary;     /* the first ones are the vertices of a polygon, in their order */
-    const iccp_walls *walls; /* borrowed: the segments to be kept; NULL: the polygon's edges */
+    uint32_t n_boundary;     /* the first points are the vertices of a polygon, in order */
+    const iccp_walls *walls; /* borrowed: the segments to keep; NULL: the polygon's edges */
     uint32_t n_triangles;
-    iccp_corner *corners; /* room for 3 (2 n_points - 2), as many as there are in the end */
+    iccp_corner *corners; /* 3 (2 n_points - 2), all of which are used in the end */
 } iccp_trimesh;
 
-/* The corner at the same vertex in the next triangle round it, counter-clockwise. */
+/* Returns the corner at the same vertex in the next triangle around it, counter-clockwise. */
 static inline uint32_t iccp_around(const iccp_trimesh *mesh, uint32_t corner)
 {
     return iccp_after(mesh->corners[iccp_after(corner)].twin);
@@ -49,7 +48,7 @@ static inline const double *iccp_point(const iccp_trimesh *mesh, uint32_t vertex
     return mesh->points + 2 * (size_t)vertex;
 }
 
-/* Whether the segment between two vertices is to be kept. */
+/* Returns true if the segment between two vertices must be kept. */
 static inline bool iccp_is_wall(const iccp_trimesh *mesh, uint32_t a, uint32_t b)
 {
     if (mesh->walls != NULL)
@@ -58,8 +57,8 @@ static inline bool iccp_is_wall(const iccp_trimesh *mesh, uint32_t a, uint32_t b
     return high < mesh->n_boundary && (high - low == 1 || high - low == mesh->n_boundary - 1);
 }
 
-/* Replaces the edge that the corner faces by the other diagonal of its two triangles. The corner
- * and the one after it keep their vertices; the triangles keep their places. */
+/* Flips the edge that the corner faces: replaces it by the other diagonal of its two triangles. The
+ * corner and the one after it keep their vertices, and the triangles keep their places. */
 static inline void iccp_flip(iccp_trimesh *mesh, uint32_t corner)
 {
     iccp_corner *const c = mesh->corners;

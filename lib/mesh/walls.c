@@ -1,3 +1,4 @@
+/* Segments that a triangulation of points must contain. */
 #include "mesh/walls.h"
 
 #include "base/sort.h"

@@ -1,4 +1,4 @@
-/* Segments between points, which a triangulation of the points must contain. */
+/* Segments between points that a triangulation of the points must contain. */
 #ifndef ICCP_WALLS_H
 #define ICCP_WALLS_H
 
@@ -8,18 +8,18 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* By point: the other ends of its walls. */
+/* Stores the other ends of each point's walls. */
 typedef struct iccp_walls {
     uint32_t *first; /* n_points + 1 */
-    uint32_t *other; /* those of point v: from first[v] to first[v + 1], in the order given */
+    uint32_t *other; /* the walls of point v: from first[v] to first[v + 1], in the order given */
 } iccp_walls;
 
-/* Of n_walls pairs of points, smaller than n_points. */
+/* Makes walls from n_walls pairs of points, which are smaller than n_points. */
 icc_status iccp_walls_create(iccp_walls *walls, size_t n_points, size_t n_walls,
                              const uint32_t *pairs, const iccp_memory *memory);
 void iccp_walls_free(iccp_walls *walls, const iccp_memory *memory);
 
-/* Whether there is a wall between a and b. O(walls at one of them). */
+/* Returns true if there is a wall between a and b. O(walls at one of them). */
 static inline bool iccp_walls_have(const iccp_walls *walls, uint32_t a, uint32_t b)
 {
     for (uint32_t k = walls->first[a]; k < walls->first[a + 1]; ++k)
