@@ -13,7 +13,7 @@
  * transforms (linear blend skinning).
  *
  * Nothing here is certified to be one-to-one, and weights between samples can be slightly negative:
- * icc_weights_get_report() measures how much. For maps that are one-to-one see icc/icc.h.
+ * icc_weights_get_report() measures how much. For maps that are one-to-one see icc/map.h.
  *
  * Objects are immutable: painting, rigid parts and other methods make new objects, which share what
  * has not changed. The rules of icc/icc.h apply: `*out` is NULL on failure, `env` and `err` may be
@@ -26,7 +26,7 @@
 #ifndef ICC_KERNEL_H
 #define ICC_KERNEL_H
 
-#include <icc/icc.h>
+#include <icc/map.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -12,7 +12,7 @@
 #ifndef ICC_STAGES_H
 #define ICC_STAGES_H
 
-#include <icc/icc.h>
+#include <icc/chart.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 
 const [include, output, compiler, ...flags] = process.argv.slice(2);
-const headers = ['base', 'icc', 'stages', 'kernel'].map((name) => `icc/${name}.h`);
+const headers = ['base', 'map', 'chart', 'stages', 'kernel'].map((name) => `icc/${name}.h`);
 const text = headers.map((name) => fs.readFileSync(`${include}/${name}`, 'utf8')).join('\n')
   .replace(/\/\*[^]*?\*\//g, ' ');
 

@@ -1,6 +1,6 @@
 //! Raw bindings of libicc: the C interface as it is, nothing safe about it. The crate `libicc` wraps it.
 //!
-//! Sections follow the headers `icc/base.h`, `icc/icc.h`, `icc/stages.h` and `icc/kernel.h`, whose rules hold:
+//! Sections follow the headers `icc/base.h`, `icc/map.h`, `icc/chart.h`, `icc/stages.h` and `icc/kernel.h`, whose rules hold:
 //! objects are immutable, creators write to `*out`, `env` and `err` may be null. `Default` of a struct is all
 //! zeros, with `size` set. `bindings/rust/check_layout.sh` compares every struct, constant and signature with
 //! the headers.
@@ -226,7 +226,7 @@ extern "C" {
     pub fn icc_status_name(status: icc_status) -> *const c_char;
 }
 
-// icc/icc.h
+// icc/map.h: domains
 
 opaque!(
     /// A shape: its boundary, and what lies inside.
@@ -349,6 +349,8 @@ pub const ICC_DEFECT_CROSSING: i32 = 4;
 pub const ICC_DEFECT_TOUCH: i32 = 5;
 /// the shape has no area; a = b = 0
 pub const ICC_DEFECT_FLAT: i32 = 6;
+
+// icc/chart.h, and the functions of icc/map.h that take domains and charts
 
 opaque!(
     /// Coordinates of the inside of a domain: a boundary point and a share in \[0,1\].
