@@ -34,6 +34,30 @@
 #define ICC_API __attribute__((visibility("default")))
 #endif
 
+/**
+ * A zeroed struct whose `size` is set, for every public struct that begins with its size:
+ *
+ *     icc_error err = ICC_INIT(icc_error);
+ *     icc_map_options options = ICC_INIT(icc_map_options);
+ *
+ * In C99 it is a compound literal. Variables at file scope take a brace initialiser instead,
+ * `{sizeof(icc_error)}`. In C++ it calls a template, which C++98 has as well. The macro is a
+ * convenience: a struct that is zeroed and sized by hand is the same.
+ */
+#ifdef __cplusplus
+extern "C++" {
+template <typename type> inline type icc_init()
+{
+    type value = type();
+    value.size = sizeof(type);
+    return value;
+}
+}
+#define ICC_INIT(type) icc_init<type>()
+#else
+#define ICC_INIT(type) ((type){.size = sizeof(type)})
+#endif
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -91,7 +115,9 @@ enum {
  *
  * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call; members beyond
  * `size` are not touched. A size of 0, as in `icc_error err = {0}`, stands for the members of
- * version 0.1. Every function that takes one accepts NULL. A call that succeeds does not touch it.
+ * version 0.1, so a message is written there as well. Any other struct without its size is refused:
+ * ::ICC_ERR_ARGUMENT, with a message that names the struct. Every function that takes an error
+ * accepts NULL. A call that succeeds does not touch it.
  */
 typedef struct icc_error {
     size_t size;       /**< set by the caller: `sizeof(icc_error)` */

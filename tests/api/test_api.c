@@ -22,6 +22,24 @@
         ck_assert_ptr_null(object);                                                                \
     } while (0)
 
+/* Whoever forgets the size is told so: of any struct by name, and even of the error's own. */
+START_TEST(a_struct_without_its_size_is_refused_by_name)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_error err = ICC_INIT(icc_error), unsized = {0};
+    ck_assert_uint_eq(err.size, sizeof err);
+    const icc_map_options options = {.kind = ICC_MAP_MESH};
+    icc_map *m;
+    REFUSED(icc_map_create(&m, o.source, o.target, &options, NULL, &err));
+    ck_assert_str_eq(err.message, "icc_map_options.size is not set (it is 0)");
+    REFUSED(icc_map_create(&m, o.source, o.target, &options, NULL, &unsized));
+    ck_assert_str_eq(unsized.message, err.message);
+    ck_assert_uint_eq(unsized.size, 0);
+    objects_clear(&o);
+}
+END_TEST
+
 START_TEST(domains_refuse_bad_arguments)
 {
     objects o;
@@ -1180,6 +1198,7 @@ int main(void)
     Suite *suite = suite_create("api");
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 120);
+    tcase_add_test(tests, a_struct_without_its_size_is_refused_by_name);
     tcase_add_test(tests, domains_refuse_bad_arguments);
     tcase_add_test(tests, charts_refuse_bad_arguments);
     tcase_add_test(tests, maps_refuse_bad_arguments);

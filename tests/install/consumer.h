@@ -15,17 +15,16 @@ static int use_library(const char *expected_version)
     double image[2] = {0, 0};
     icc_domain *source = NULL, *target = NULL;
     icc_map *map = NULL;
-    icc_error err;
+    icc_error err = ICC_INIT(icc_error);
+    icc_map_options options = ICC_INIT(icc_map_options);
 
     if (strcmp(icc_version(), expected_version) != 0) {
         printf("version %s, expected %s\n", icc_version(), expected_version);
         return 1;
     }
-    memset(&err, 0, sizeof err);
-    err.size = sizeof err;
     if (icc_domain_create(&source, 2, 4, small, 0, NULL, NULL, &err) != ICC_OK ||
         icc_domain_create(&target, 2, 4, large, 0, NULL, NULL, &err) != ICC_OK ||
-        icc_map_create(&map, source, target, NULL, NULL, &err) != ICC_OK ||
+        icc_map_create(&map, source, target, &options, NULL, &err) != ICC_OK ||
         icc_map_apply(map, 1, corner, image, NULL, NULL, NULL) != ICC_OK) {
         printf("failed: %s\n", err.message);
         return 1;
