@@ -143,11 +143,13 @@ icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, d
                            double *target)
 {
     ICCP_ENTER;
-    if (map == NULL || info == NULL || map->isotopy == NULL || tie >= map->isotopy->n)
+    if (map == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    const icc_tie_info full =
-        iccp_isotopy_tie(map->isotopy, tie, map->source_domain, map->target_domain, target);
+    icc_tie_info full;
+    const icc_status status = iccp_map_get_tie(map, tie, &full, target);
     (void)source; /* there are no bends */
+    if (status != ICC_OK)
+        return status;
     return iccp_write_struct(info, &full, sizeof full, "icc_tie_info", NULL);
 }
 
@@ -272,38 +274,11 @@ icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain 
                : status;
 }
 
-static void hand_out_solid(const icc_map *map, double *vertices, double *images, uint32_t *corners)
-{
-    const iccp_simplices *mesh = map->solid->mesh;
-    for (size_t v = 0; vertices != NULL && v < mesh->n_points; ++v)
-        iccp_frame_out(&map->source_domain->frame, 3, mesh->points + 3 * v, vertices + 3 * v);
-    for (size_t v = 0; images != NULL && v < mesh->n_points; ++v)
-        iccp_frame_out(&map->target_domain->frame, 3, map->solid->images + 3 * v, images + 3 * v);
-    if (corners != NULL)
-        memcpy(corners, mesh->corners, 4 * mesh->n_simplices * sizeof *corners);
-}
-
 icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
                             uint32_t *triangles)
 {
     ICCP_ENTER;
-    if (map == NULL)
-        return ICC_ERR_ARGUMENT;
-    if (map->solid != NULL) {
-        hand_out_solid(map, vertices, images, triangles);
-        return ICC_OK;
-    }
-    if (map->mesh == NULL)
-        return ICC_ERR_UNSUPPORTED;
-    const iccp_plmap *pl = &map->mesh->pl;
-    const size_t n = pl->n_vertices;
-    for (size_t v = 0; vertices != NULL && v < n; ++v)
-        iccp_frame_out(&map->source_domain->frame, 2, pl->points + 2 * v, vertices + 2 * v);
-    for (size_t v = 0; images != NULL && v < n; ++v)
-        iccp_frame_out(&map->target_domain->frame, 2, pl->images + 2 * v, images + 2 * v);
-    if (triangles != NULL)
-        memcpy(triangles, pl->corners.vertex, 3 * pl->corners.n_triangles * sizeof *triangles);
-    return ICC_OK;
+    return map != NULL ? iccp_map_get_mesh(map, vertices, images, triangles) : ICC_ERR_ARGUMENT;
 }
 
 static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_simplices,

@@ -5,12 +5,12 @@
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_create.h"
-#include "chart/digits.h"
 #include "domain/features_check.h"
+#include "map/curves/curves_kind.h"
 #include "map/energy/affine.h"
-#include "map/plane/follow.h"
+#include "map/plane/plane_kind.h"
 #include "map/solid/filled_pair.h"
-#include "map/solid/solid_follow.h"
+#include "map/solid/solid_kind.h"
 
 #include <string.h>
 
@@ -84,26 +84,33 @@ static icc_status check_correspondence(const icc_domain *source, const icc_domai
     return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
 }
 
-/* Foliations on meshes in space. */
-static bool is_solid(const icc_chart *chart)
+/* From the best to the one that takes every chart. */
+static const iccp_map_kind *const KINDS[] = {&iccp_plane_kind, &iccp_solid_kind, &iccp_curves_kind};
+enum { N_KINDS = sizeof KINDS / sizeof *KINDS };
+
+const iccp_map_kind *iccp_map_kind_of(int32_t number, const icc_domain *source)
 {
-    return chart->info.method == ICC_METHOD_FOLIATION && chart->domain->dim == 3;
+    for (size_t k = 0; k < N_KINDS; ++k)
+        if (KINDS[k]->number == number && KINDS[k]->suits(source))
+            return KINDS[k];
+    return NULL;
 }
 
-icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
-                                icc_error *err)
+icc_status iccp_map_choose_kind(const iccp_map_kind **kind, int32_t number, const icc_chart *source,
+                                const icc_chart *target, icc_error *err)
 {
+    *kind = NULL;
     if (source->info.method != target->info.method)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "the charts use different methods (%ld and %ld)",
                          (long)source->info.method, (long)target->info.method);
-    const bool has_mesh = source->mesh != NULL || is_solid(source);
-    if (*kind == 0)
-        *kind = has_mesh ? ICC_MAP_MESH : ICC_MAP_CURVES;
-    if (*kind == ICC_MAP_CURVES || (*kind == ICC_MAP_MESH && has_mesh))
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                     "icc_map_options.kind %ld is not available for charts of method %ld",
-                     (long)*kind, (long)source->info.method);
+    for (size_t k = 0; k < N_KINDS && *kind == NULL; ++k)
+        if ((number == 0 || KINDS[k]->number == number) && KINDS[k]->takes(source))
+            *kind = KINDS[k];
+    return *kind != NULL
+               ? ICC_OK
+               : iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                           "icc_map_options.kind %ld is not available for charts of method %ld",
+                           (long)number, (long)source->info.method);
 }
 
 static icc_status new_map(icc_map **out, const icc_domain *source, const icc_domain *target,
@@ -114,10 +121,11 @@ static icc_status new_map(icc_map **out, const icc_domain *source, const icc_dom
     if (map == NULL)
         return ICC_ERR_MEMORY;
     map->memory = env->memory;
+    map->kind = &iccp_curves_kind;
     map->source_domain = iccp_domain_retain(source);
     map->target_domain = iccp_domain_retain(target);
     map->info.dim = source->dim;
-    map->info.kind = ICC_MAP_CURVES;
+    map->info.kind = map->kind->number;
     return ICC_OK;
 }
 
@@ -138,32 +146,9 @@ void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart 
     map->info.reason = map->info.reason_side == 2 ? target->info.reason : source->info.reason;
 }
 
-icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env)
+icc_status iccp_map_judge(icc_map *map, const iccp_env *env)
 {
-    const double start = iccp_seconds();
-    icc_map_info *info = &map->info;
-    if (info->kind != ICC_MAP_CURVES || !info->certified ||
-        map->source->info.method != ICC_METHOD_FIELD)
-        return ICC_OK;
-    const icc_status status = iccp_digits_check(map->source, map->target, info, env);
-    info->seconds_certify = iccp_seconds() - start;
-    return status;
-}
-
-icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env)
-{
-    const iccp_features *features = map->source_domain->features;
-    icc_map_info *info = &map->info;
-    if (features == NULL)
-        return ICC_OK;
-    const icc_status status = iccp_isotopy_create(&map->isotopy, &map->mesh->pl, map->source_domain,
-                                                  map->target_domain, env);
-    info->n_holes = features->n_holes;
-    info->n_lines = features->n_lines;
-    info->n_points = features->n_points;
-    info->n_ties = map->isotopy != NULL ? map->isotopy->n : 0;
-    info->detour = map->isotopy != NULL ? map->isotopy->detour : 0;
-    return status;
+    return map->kind->certify != NULL ? map->kind->certify(map, env) : ICC_OK;
 }
 
 /* Makes a map affine inside if its boundary is affine, unless that would change the isotopy class
@@ -172,32 +157,50 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
 {
     iccp_env quiet = *env;
     quiet.progress = NULL;
-    if (iterations < 0 || (map->mesh == NULL && map->solid == NULL))
+    if (iterations < 0 || map->kind->mesh == NULL)
         return ICC_OK;
-    const iccp_simplicial_map simplicial = iccp_map_simplicial(map);
+    const iccp_simplicial_map simplicial = map->kind->mesh(map);
     double *before;
     icc_status status =
         iccp_affine_settle(&simplicial, map->source_domain, map->target_domain, &before, &quiet);
     if (status != ICC_OK || before == NULL)
         return status;
-    iccp_isotopy *const own = map->isotopy;
-    const icc_map_info info = map->info;
-    map->isotopy = NULL;
-    status = iccp_map_tell_features(map, &quiet);
-    if (status == ICC_OK && map->source_domain->features != NULL &&
-        !iccp_isotopy_same(own, map->isotopy)) {
+    bool kept;
+    status = map->kind->renew(map, &kept, &quiet);
+    if (!kept) {
         memcpy(simplicial.images, before, simplicial.dim * simplicial.n_points * sizeof *before);
-        iccp_isotopy_free(map->isotopy);
-        map->isotopy = own;
-        map->info = info;
     } else {
-        iccp_isotopy_free(own);
         /* An affine map has the least energy. If this sum is larger, the difference is rounding. */
         *energy = iccp_min(*energy, iccp_simplicial_energy_at_once(&simplicial, &quiet));
     }
     iccp_free(&env->memory, before);
-    return status == ICC_OK && map->solid != NULL ? iccp_solid_map_replant(map->solid, &quiet)
-                                                  : status;
+    return status;
+}
+
+/* Whether the isotopy class of the features of `map` is kept by `next`, which came of it. */
+static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, const iccp_env *env)
+{
+    bool kept = false;
+    const icc_status status = map->info.class_kept && next->kind->follows != NULL
+                                  ? next->kind->follows(&kept, next, map, moved, env)
+                                  : ICC_OK;
+    next->info.class_kept = kept;
+    return status;
+}
+
+/* Makes what is of the kind's own. A map that cannot be made becomes one of kind curves. */
+static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
+                          bool overlay, const iccp_env *env, icc_error *err)
+{
+    map->kind = kind;
+    const icc_status status = kind->create(map, options, overlay, env, err);
+    if (status == ICC_OK && kind->mesh != NULL && map->state == NULL) {
+        iccp_log(env, "%zu %s could not be repaired: the map is of kind curves",
+                 map->info.n_unrepaired, map->info.dim == 2 ? "triangles" : "tetrahedra");
+        map->kind = &iccp_curves_kind;
+    }
+    map->info.kind = map->kind->number;
+    return status;
 }
 
 /* Maps of domains with features have no charts. */
@@ -209,37 +212,17 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
     icc_map *map = NULL;
     icc_status status = iccp_map_begin(&map, source, target, env, err);
     if (status == ICC_OK)
-        status = iccp_mesh_map_create_features(&map->mesh, source, target, options, &map->info, env,
-                                               err);
-    if (status == ICC_OK)
-        status = iccp_map_tell_features(map, env);
+        status = fill_in(map, &iccp_plane_kind, options, true, env, err);
     if (status == ICC_OK)
         status = settle(map, options->iterations, &map->info.energy, env);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
     }
-    map->info.kind = ICC_MAP_MESH;
     map->info.certified = 1;
     map->info.seconds = iccp_seconds() - start;
     *out = map;
     return ICC_OK;
-}
-
-static icc_status add_mesh(icc_map *map, int32_t iterations, bool overlay, const iccp_env *env,
-                           icc_error *err)
-{
-    const icc_status status = is_solid(map->source)
-                                  ? iccp_solid_map_create(&map->solid, map->source, map->target,
-                                                          iterations, &map->info, env)
-                                  : iccp_mesh_map_create(&map->mesh, map->source, map->target,
-                                                         iterations, overlay, &map->info, env, err);
-    if (map->mesh != NULL || map->solid != NULL)
-        map->info.kind = ICC_MAP_MESH;
-    else if (status == ICC_OK)
-        iccp_log(env, "%zu %s could not be repaired: the map is of kind curves",
-                 map->info.n_unrepaired, map->info.dim == 2 ? "triangles" : "tetrahedra");
-    return status;
 }
 
 /* `overlay`: see iccp_mesh_map_create(). */
@@ -248,17 +231,17 @@ static icc_status create_from(icc_map **out, const icc_chart *source, const icc_
                               icc_error *err)
 {
     const double start = iccp_seconds();
-    int32_t kind = options->kind;
+    const iccp_map_kind *kind;
     icc_map *map = NULL;
-    icc_status status = iccp_map_choose_kind(&kind, source, target, err);
+    icc_status status = iccp_map_choose_kind(&kind, options->kind, source, target, err);
     if (status == ICC_OK)
         status = iccp_map_begin(&map, source->domain, target->domain, env, err);
     if (status == ICC_OK)
         iccp_map_add_charts(map, source, target);
-    if (status == ICC_OK && kind == ICC_MAP_MESH)
-        status = add_mesh(map, options->iterations, overlay, env, err);
-    else if (status == ICC_OK)
-        status = iccp_map_check_digits(map, env);
+    if (status == ICC_OK)
+        status = fill_in(map, kind, options, overlay, env, err);
+    if (status == ICC_OK)
+        status = iccp_map_judge(map, env);
     if (status == ICC_OK)
         status = settle(map, options->iterations, &map->info.energy, env);
     if (status != ICC_OK) {
@@ -437,11 +420,11 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 {
     const double start = iccp_seconds();
     icc_map *better = NULL;
-    if (map->mesh == NULL && map->solid == NULL)
+    if (map->kind->improve == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be improved");
     /* An affine map has the least energy, so a finer mesh would gain nothing. */
     static const icc_improve_options NO_MORE = {.iterations = 1, .levels = -1};
-    const iccp_simplicial_map simplicial = iccp_map_simplicial(map);
+    const iccp_simplicial_map simplicial = map->kind->mesh(map);
     if (iccp_affine_is_settled(&simplicial, map->source_domain, map->target_domain))
         options = &NO_MORE;
     iccp_team team;
@@ -450,28 +433,21 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     icc_status status = new_map(&better, map->source_domain, map->target_domain, env);
     if (status == ICC_OK && map->source != NULL)
         iccp_map_add_charts(better, map->source, map->target);
-    if (status == ICC_OK && map->solid != NULL)
-        status = iccp_solid_map_improve(&better->solid, map->solid, map->source_domain,
-                                        map->target_domain, options, report, &with);
-    else if (status == ICC_OK)
-        status = iccp_mesh_map_improve(&better->mesh, map->mesh, map->source_domain->n_facets,
-                                       options, report, &with, err);
-    iccp_without_team(&with, env);
     if (status == ICC_OK) {
+        better->kind = map->kind;
         better->info = map->info;
-        if (map->mesh != NULL)
-            status = iccp_map_tell_features(better, env);
+        status = map->kind->improve(better, map, options, report, &with, err);
     }
+    iccp_without_team(&with, env);
     if (status == ICC_OK)
         status = settle(better, 0, &report->energy, env);
+    if (status == ICC_OK)
+        status = judge_class(better, map, false, env);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
     }
-    better->info.class_kept =
-        map->info.class_kept && iccp_isotopy_same(map->isotopy, better->isotopy);
-    better->info.n_vertices =
-        better->solid != NULL ? better->solid->mesh->n_points : better->mesh->pl.n_vertices;
+    better->info.n_vertices = better->kind->mesh(better).n_points;
     better->info.n_simplices = report->n_simplices;
     better->info.energy = report->energy;
     better->info.n_iterations += report->n_iterations;
@@ -481,17 +457,19 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     return ICC_OK;
 }
 
+/* Stands for no vertex. */
+static const size_t NO_VERTEX = SIZE_MAX;
+
 /* Boundaries that correspond have one map but for how fair it is: a new one will do. Its mesh alone
  * is of use, and in space the target that was filled for it. `vertex`: where the way was blocked,
- * in space. */
+ * or NO_VERTEX. */
 static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, const iccp_env *env,
                              icc_error *err)
 {
     const icc_map_options options = {.kind = ICC_MAP_MESH, .iterations = iterations};
     const icc_chart_options any[2] = {{0}, {0}};
     icc_map *fresh = NULL;
-    const bool in_space = map->info.dim == 3;
-    if (in_space)
+    if (vertex != NO_VERTEX)
         iccp_log(env, "the way is blocked at vertex %zu: making a new map", vertex);
     else
         iccp_log(env, "%zu triangles could not be repaired: making a new map",
@@ -501,17 +479,16 @@ static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, co
     if (status != ICC_OK)
         return status;
     map->info = fresh->info;
-    map->mesh = fresh->mesh;
-    map->solid = fresh->solid;
-    fresh->mesh = NULL;
-    fresh->solid = NULL;
+    map->kind = fresh->kind;
+    map->state = fresh->state;
+    fresh->state = NULL;
     icc_domain *const target = map->target_domain;
     map->target_domain = fresh->target_domain;
     fresh->target_domain = target;
     iccp_map_release(fresh);
-    if (map->mesh != NULL || map->solid != NULL)
+    if (map->state != NULL)
         return ICC_OK;
-    if (in_space)
+    if (vertex != NO_VERTEX)
         return iccp_fail_at(err, ICC_ERR_CERTIFICATE, ICC_ITEM_VERTEX, (int64_t)vertex,
                             "the way from the target before is blocked at vertex %zu, and of a "
                             "map made anew %zu tetrahedra could not be repaired",
@@ -525,19 +502,14 @@ static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, co
 static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations,
                            const iccp_env *env, icc_error *err)
 {
-    const icc_domain *source = map->source_domain, *target = next->target_domain;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
-    size_t vertex = 0;
-    const icc_status status =
-        map->solid != NULL
-            ? iccp_solid_map_follow(&next->solid, map->solid, source, map->target_domain, target,
-                                    iterations, &next->info, &vertex, &part[0])
-            : iccp_mesh_map_follow(&next->mesh, map->mesh, map->isotopy, source, map->target_domain,
-                                   target, iterations, &next->info, &part[0], err);
-    const bool is_there = next->mesh != NULL || next->solid != NULL;
-    return status == ICC_OK && !is_there ? begin_anew(next, iterations, vertex, &part[1], err)
-                                         : status;
+    size_t vertex = NO_VERTEX;
+    next->kind = map->kind;
+    const icc_status status = map->kind->retarget(next, map, iterations, &vertex, &part[0], err);
+    return status == ICC_OK && next->state == NULL
+               ? begin_anew(next, iterations, vertex, &part[1], err)
+               : status;
 }
 
 icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
@@ -545,7 +517,7 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
 {
     const double start = iccp_seconds();
     icc_map *next = NULL;
-    if (map->mesh == NULL && map->solid == NULL)
+    if (map->kind->retarget == NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be followed");
     iccp_team team;
     iccp_env with;
@@ -555,20 +527,14 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
         status = retarget(next, map, iterations, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK)
-        status = iccp_map_tell_features(next, env);
-    if (status == ICC_OK)
         status = settle(next, iterations, &next->info.energy, env);
-    if (status == ICC_OK && map->info.class_kept) {
-        bool kept;
-        status = iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &next->mesh->pl,
-                                      map->source_domain, target, env);
-        next->info.class_kept = kept;
-    }
+    if (status == ICC_OK)
+        status = judge_class(next, map, true, env);
     if (status != ICC_OK) {
         iccp_map_release(next);
         return iccp_explain(err, status);
     }
-    next->info.kind = ICC_MAP_MESH;
+    next->info.kind = next->kind->number;
     next->info.certified = 1;
     next->info.reason = next->info.reason_side = 0;
     next->info.seconds = iccp_seconds() - start;
@@ -576,13 +542,37 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     return ICC_OK;
 }
 
+icc_status iccp_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *target)
+{
+    return map->kind->tie != NULL ? map->kind->tie(map, tie, info, target) : ICC_ERR_ARGUMENT;
+}
+
+static void hand_out(const iccp_frame *frame, size_t dim, size_t n, const double *local,
+                     double *points)
+{
+    for (size_t v = 0; points != NULL && v < n; ++v)
+        iccp_frame_out(frame, (int32_t)dim, local + dim * v, points + dim * v);
+}
+
+icc_status iccp_map_get_mesh(const icc_map *map, double *vertices, double *images,
+                             uint32_t *corners)
+{
+    if (map->kind->mesh == NULL)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_simplicial_map m = map->kind->mesh(map);
+    hand_out(&map->source_domain->frame, m.dim, m.n_points, m.points, vertices);
+    hand_out(&map->target_domain->frame, m.dim, m.n_points, m.images, images);
+    if (corners != NULL)
+        memcpy(corners, m.corners, (m.dim + 1) * m.n_simplices * sizeof *corners);
+    return ICC_OK;
+}
+
 void iccp_map_release(icc_map *map)
 {
     if (map == NULL)
         return;
-    iccp_mesh_map_free(map->mesh, &map->memory);
-    iccp_solid_map_free(map->solid);
-    iccp_isotopy_free(map->isotopy);
+    if (map->state != NULL)
+        map->kind->free_state(map);
     iccp_chart_release(map->source);
     iccp_chart_release(map->target);
     iccp_domain_release(map->source_domain);

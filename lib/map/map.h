@@ -1,27 +1,8 @@
-/* The map object: two charts whose boundaries correspond, and the mesh where there is one. */
+/* Maps between two domains whose boundaries correspond, whatever their kind (map/kind/kind.h). */
 #ifndef ICCP_MAP_H
 #define ICCP_MAP_H
 
-#include "map/isotopy/isotopy.h"
-#include "map/plane/mesh_map.h"
-#include "map/solid/solid_map.h"
-
-struct icc_map {
-    iccp_memory memory;
-    icc_domain *source_domain, *target_domain;
-    icc_chart *source, *target; /* both NULL for a retargeted map */
-    iccp_mesh_map *mesh;        /* kind mesh in the plane, or NULL */
-    iccp_solid_map *solid;      /* kind mesh in space, or NULL */
-    iccp_isotopy *isotopy;      /* with features; NULL where rounding is in the way */
-    icc_map_info info;
-};
-
-/* The mesh of a map that has one. */
-static inline iccp_simplicial_map iccp_map_simplicial(const icc_map *map)
-{
-    return map->mesh != NULL ? iccp_plmap_simplicial(&map->mesh->pl)
-                             : iccp_solid_simplicial(map->solid);
-}
+#include "map/kind/kind.h"
 
 /* See icc_map_create(). `options` gives kind and iterations; the charts' options are separate. */
 icc_status iccp_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
@@ -42,22 +23,27 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
                              int32_t iterations, const iccp_env *env, icc_error *err);
 void iccp_map_release(icc_map *map);
 
+/* See icc_map_get_tie() and icc_map_get_mesh(). */
+icc_status iccp_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *target);
+icc_status iccp_map_get_mesh(const icc_map *map, double *vertices, double *images,
+                             uint32_t *corners);
+
 /* ---- a map piece by piece ---- */
 
-/* Kind 0 becomes the best that the charts allow; ICC_ERR_UNSUPPORTED for others than they do. */
-icc_status iccp_map_choose_kind(int32_t *kind, const icc_chart *source, const icc_chart *target,
-                                icc_error *err);
+/* The kind with this number for domains like this one, or NULL. */
+const iccp_map_kind *iccp_map_kind_of(int32_t number, const icc_domain *source);
+
+/* The kind with this number that two charts allow, or the best of all for number 0.
+ * ICC_ERR_UNSUPPORTED if there is none. */
+icc_status iccp_map_choose_kind(const iccp_map_kind **kind, int32_t number, const icc_chart *source,
+                                const icc_chart *target, icc_error *err);
 
 /* A map of kind curves, without charts yet. ICC_ERR_BOUNDARY unless the boundaries correspond. */
 icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_domain *target,
                           const iccp_env *env, icc_error *err);
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
 
-/* Once the mesh of a map is there: between domains with features, its isotopy and what the info
- * says of features, but for class_kept. */
-icc_status iccp_map_tell_features(icc_map *map, const iccp_env *env);
-
-/* Takes the certificate away from a map that its charts do not warrant: of method field. */
-icc_status iccp_map_check_digits(icc_map *map, const iccp_env *env);
+/* Takes the certificate away from a map that its kind does not warrant. */
+icc_status iccp_map_judge(icc_map *map, const iccp_env *env);
 
 #endif

@@ -5,7 +5,6 @@
 #include "base/clock.h"
 #include "chart/load.h"
 #include "domain/domain_file.h"
-#include "map/compatible/plmap_file.h"
 
 static const char KIND[] = "MAP_";
 /* With features, and without. */
@@ -52,8 +51,9 @@ static icc_status read_charts(iccp_blob *b, icc_map *map, int32_t kind, const ic
     icc_status status = iccp_chart_read(&source, map->source_domain, b, &part[0], err);
     if (status == ICC_OK)
         status = iccp_chart_read(&target, map->target_domain, b, &part[1], err);
+    const iccp_map_kind *allowed;
     if (status == ICC_OK)
-        status = iccp_map_choose_kind(&kind, source, target, NULL);
+        status = iccp_map_choose_kind(&allowed, kind, source, target, NULL);
     if (status == ICC_OK)
         iccp_map_add_charts(map, source, target);
     iccp_chart_release(source);
@@ -87,30 +87,14 @@ static icc_status visit_story(iccp_blob *b, icc_map_info *info)
     return b->status;
 }
 
-static icc_status visit_plane_mesh(iccp_blob *b, icc_map *map, const iccp_env *env)
+static icc_status visit_state(iccp_blob *b, icc_map *map, int32_t number, const iccp_env *env)
 {
-    if (b->reads)
-        map->mesh = iccp_mesh_map_new(map->source_domain, map->target_domain, &env->memory);
-    if (map->mesh == NULL)
-        return ICC_ERR_MEMORY;
-    icc_status status =
-        iccp_plmap_visit(b, &map->mesh->pl, map->source_domain, map->target_domain, env);
-    if (!b->reads)
-        return status;
-    if (status == ICC_OK)
-        status = iccp_mesh_map_finish(map->mesh, &map->info, env, NULL);
-    return status == ICC_OK ? iccp_map_tell_features(map, env) : status;
-}
-
-static icc_status visit_mesh(iccp_blob *b, icc_map *map, const iccp_env *env)
-{
-    icc_status status = ICC_ERR_FORMAT;
-    if (map->info.dim == 2)
-        status = visit_plane_mesh(b, map, env);
-    else if (map->info.dim == 3)
-        status = iccp_solid_map_visit(b, &map->solid, map->source_domain, map->target_domain,
-                                      &map->info, env);
-    map->info.kind = ICC_MAP_MESH;
+    const iccp_map_kind *kind = iccp_map_kind_of(number, map->source_domain);
+    if (kind == NULL)
+        return ICC_ERR_FORMAT;
+    map->kind = kind;
+    map->info.kind = number;
+    const icc_status status = kind->visit != NULL ? kind->visit(b, map, env) : ICC_OK;
     if (map->source == NULL)
         map->info.certified = status == ICC_OK;
     return status;
@@ -132,8 +116,8 @@ static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_e
         status = visit_charts(b, *map, kind, &part[1], err);
     if (status == ICC_OK)
         status = visit_story(b, &(*map)->info);
-    if (status == ICC_OK && kind == ICC_MAP_MESH)
-        status = visit_mesh(b, *map, &part[2]);
+    if (status == ICC_OK)
+        status = visit_state(b, *map, kind, &part[2]);
     return status;
 }
 
@@ -155,7 +139,7 @@ static icc_status read_map(icc_map **out, iccp_blob *b, const iccp_env *env, icc
     iccp_split(part, 4, (const double[]){1, 6, 2, 1}, &whole);
     icc_status status = visit(b, out, part, err);
     if (status == ICC_OK)
-        status = iccp_map_check_digits(*out, &part[3]);
+        status = iccp_map_judge(*out, &part[3]);
     return status == ICC_OK && !iccp_blob_done(b) ? ICC_ERR_FORMAT : status;
 }
 

@@ -36,9 +36,9 @@ size_t iccp_map_count_spoilt(const icc_map *map)
     const size_t dim = (size_t)map->source_domain->dim;
     const iccp_frame *frame[2] = {&map->source_domain->frame, &map->target_domain->frame};
     const bool exact[2] = {is_exact(frame[0], dim), is_exact(frame[1], dim)};
-    if ((map->mesh == NULL && map->solid == NULL) || (exact[0] && exact[1]))
+    if (map->kind->mesh == NULL || (exact[0] && exact[1]))
         return 0;
-    const iccp_simplicial_map m = iccp_map_simplicial(map);
+    const iccp_simplicial_map m = map->kind->mesh(map);
     size_t n = 0;
     for (size_t s = 0; s < m.n_simplices; ++s) {
         const uint32_t *corners = m.corners + (dim + 1) * s;

@@ -5,6 +5,7 @@
  * first, each map is improved N times more, which is the curve of energy against work. Processor
  * time, one thread. */
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 
 #include "../random.h"
 #include "cages.h"
@@ -120,7 +121,7 @@ static void improve_on(icc_map *map, double seconds, int n)
         bench_check(icc_map_improve(&better, map, NULL, &report, NULL, &error), &error);
         seconds += bench_processor_seconds() - begin;
         printf("    %8.3f s in all %8zu %5zu %10.3g %10.6g\n", seconds, report.n_simplices,
-               report.n_iterations, better->mesh->work, report.energy);
+               report.n_iterations, iccp_plane_of(better)->work, report.energy);
         icc_map_free(map);
         map = better;
     }
@@ -139,7 +140,7 @@ static void measure(const char *name, size_t n, const double *before, const doub
     const bool is_mesh = info.kind == ICC_MAP_MESH;
     printf("%-16.16s %5zu %8.3f %8.3f %6.2f %8zu %5zu %10.3g %10.6g  %s%s\n", name, n, limit,
            seconds, seconds / limit, info.n_simplices, info.n_iterations,
-           is_mesh ? map->mesh->work : 0, info.energy, is_mesh ? "mesh" : "curves",
+           is_mesh ? iccp_plane_of(map)->work : 0, info.energy, is_mesh ? "mesh" : "curves",
            info.certified ? ", certified" : "");
     if (is_mesh)
         improve_on(map, seconds, n_more);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "chart/curves.h"
+#include "map/curves/curves.h"
 
 #include "../determinant.h"
 #include "../npy.h"

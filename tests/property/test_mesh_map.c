@@ -1,5 +1,6 @@
 /* What holds for the mesh map between every two shapes. */
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 #include "math/predicates.h"
 
 #include "../hard_shapes.h"
@@ -181,7 +182,7 @@ static double distance(const double a[2], const double b[2])
 
 static double check_triangles(const icc_map *map, const double *points)
 {
-    const iccp_plmap *pl = &map->mesh->pl;
+    const iccp_plmap *pl = &iccp_plane_of(map)->pl;
     long double twice = 0;
     size_t n_faults = 0;
     for (size_t t = 0; t < pl->corners.n_triangles; ++t) {
@@ -205,8 +206,8 @@ START_TEST(every_triangle_is_positive_and_they_cover_both_shapes)
                 ck_abort_msg("pair %d: %zu triangles not repaired", k, info.n_unrepaired);
             ck_assert_int_eq(info.certified, 1);
             ck_assert_uint_eq(info.n_unrepaired, 0);
-            const double before = check_triangles(map, map->mesh->pl.points);
-            const double after = check_triangles(map, map->mesh->pl.images);
+            const double before = check_triangles(map, iccp_plane_of(map)->pl.points);
+            const double after = check_triangles(map, iccp_plane_of(map)->pl.images);
             ck_assert_double_eq_tol(before / map->source_domain->measure, 1, 1e-12);
             ck_assert_double_eq_tol(after / map->target_domain->measure, 1, 1e-12);
             ck_assert_double_le(info.energy, info.energy_start * (1 + 1e-14));
@@ -272,7 +273,7 @@ static void pick_inside(const icc_domain *domain, random_source *r, double p[2])
 /* A point in a triangle of the mesh: inside, on an edge, or a corner. */
 static void pick_in_mesh(const icc_map *map, random_source *r, double p[2])
 {
-    const iccp_plmap *pl = &map->mesh->pl;
+    const iccp_plmap *pl = &iccp_plane_of(map)->pl;
     const uint32_t *v =
         pl->corners.vertex + 3 * (size_t)random_below(r, (int)pl->corners.n_triangles);
     double w[3] = {random_unit(r), random_below(r, 2) * random_unit(r),
@@ -369,7 +370,7 @@ START_TEST(jacobians_are_those_of_the_triangles)
         if (k == 8)
             continue;
         icc_map *map = map_number(k, 0, NULL);
-        const iccp_plmap *pl = &map->mesh->pl;
+        const iccp_plmap *pl = &iccp_plane_of(map)->pl;
         double worst = 0;
         for (size_t t = 0; t < pl->corners.n_triangles; t += 7) {
             const uint32_t *v = pl->corners.vertex + 3 * t;
@@ -444,8 +445,8 @@ START_TEST(wild_shapes_have_a_mesh_too)
         if (info.kind != ICC_MAP_MESH)
             ck_abort_msg("seed %d: %zu triangles not repaired", (int)seed, info.n_unrepaired);
         n_inverted += info.n_inverted;
-        const double before = check_triangles(map, map->mesh->pl.points);
-        const double after = check_triangles(map, map->mesh->pl.images);
+        const double before = check_triangles(map, iccp_plane_of(map)->pl.points);
+        const double after = check_triangles(map, iccp_plane_of(map)->pl.images);
         ck_assert_double_eq_tol(before / map->source_domain->measure, 1, 1e-12);
         ck_assert_double_eq_tol(after / map->target_domain->measure, 1, 1e-12);
         icc_map_free(map);
@@ -485,8 +486,8 @@ static icc_map *improve(const icc_map *map, const icc_improve_options *options,
     ck_assert_double_le(report->energy, report->energy_start * (1 + 1e-14));
     ck_assert_double_eq(report->energy, info_of(better).energy);
     ck_assert_uint_eq(report->n_simplices, info_of(better).n_simplices);
-    (void)check_triangles(better, better->mesh->pl.points);
-    (void)check_triangles(better, better->mesh->pl.images);
+    (void)check_triangles(better, iccp_plane_of(better)->pl.points);
+    (void)check_triangles(better, iccp_plane_of(better)->pl.images);
     return better;
 }
 
@@ -565,12 +566,13 @@ START_TEST(work_is_bounded)
         icc_map *map =
             k < N_PAIRS ? map_number(k, 0, NULL) : map_between(&source, &target, false, 0, NULL);
         const double most = allowed(map->source_domain->n_facets);
-        ck_assert(map->mesh->work > 0 || info_of(map).n_iterations == 0);
+        ck_assert(iccp_plane_of(map)->work > 0 || info_of(map).n_iterations == 0);
         const double n = (double)map->source_domain->n_facets;
-        ck_assert_double_le(map->mesh->work, fmin(3.5 * most + 4 * n * n, 1.6e6 + 225 * n));
+        ck_assert_double_le(iccp_plane_of(map)->work,
+                            fmin(3.5 * most + 4 * n * n, 1.6e6 + 225 * n));
         icc_improve_report report;
         icc_map *better = improve(map, NULL, &report, NULL);
-        ck_assert_double_le(better->mesh->work, most);
+        ck_assert_double_le(iccp_plane_of(better)->work, most);
         ck_assert_uint_le(report.n_simplices, 4 * info_of(map).n_simplices + 32000);
         icc_map_free(better);
         icc_map_free(map);
@@ -630,7 +632,7 @@ static void run_backwards(void *user, size_t n_tasks, icc_task task, void *argum
 
 static bool is_same(const icc_map *a, const icc_map *b)
 {
-    const iccp_plmap *p = &a->mesh->pl, *q = &b->mesh->pl;
+    const iccp_plmap *p = &iccp_plane_of(a)->pl, *q = &iccp_plane_of(b)->pl;
     return p->n_vertices == q->n_vertices && p->corners.n_triangles == q->corners.n_triangles &&
            memcmp(p->points, q->points, 2 * p->n_vertices * sizeof *p->points) == 0 &&
            memcmp(p->images, q->images, 2 * p->n_vertices * sizeof *p->images) == 0 &&

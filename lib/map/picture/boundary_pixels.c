@@ -4,6 +4,7 @@
 #include "map/picture/boundary_pixels.h"
 
 #include "base/minmax.h"
+#include "map/plane/plane_kind.h"
 
 #include <math.h>
 #include <string.h>
@@ -115,7 +116,8 @@ static bool origin(const icc_map *map, const double centre[2], double place[2])
     const int32_t where = iccp_domain_locate(from, local, false, &facet, bary);
     if (where == ICC_OUTSIDE)
         return false;
-    if (where == ICC_BOUNDARY || iccp_mesh_map_point(map->mesh, true, local, image, NULL) != ICC_OK)
+    if (where == ICC_BOUNDARY ||
+        iccp_mesh_map_point(iccp_plane_of(map), true, local, image, NULL) != ICC_OK)
         iccp_domain_facet_point(to, facet, bary, image);
     iccp_frame_out(&to->frame, 2, image, place);
     return true;

@@ -11,6 +11,7 @@
 #include "map/picture/picture_values.h"
 #include "map/picture/scan.h"
 #include "map/picture/warp_points.h"
+#include "map/plane/plane_kind.h"
 
 /* Rows in a task (a band). The triangles that reach into a band are listed once. */
 enum { ROWS = 8 };
@@ -32,7 +33,7 @@ typedef struct warp {
 
 static void place_vertices(warp *w)
 {
-    const iccp_plmap *pl = &w->map->mesh->pl;
+    const iccp_plmap *pl = &iccp_plane_of(w->map)->pl;
     for (size_t v = 0; v < pl->n_vertices; ++v) {
         double from[2], to[2];
         iccp_frame_out(&w->map->source_domain->frame, 2, pl->points + 2 * v, from);
@@ -43,7 +44,7 @@ static void place_vertices(warp *w)
 
 static void scan_triangles(warp *w)
 {
-    const iccp_corners *corners = &w->map->mesh->pl.corners;
+    const iccp_corners *corners = &iccp_plane_of(w->map)->pl.corners;
     for (size_t t = 0; t < corners->n_triangles; ++t) {
         const iccp_place *places[3];
         for (size_t k = 0; k < 3; ++k)
@@ -68,7 +69,7 @@ static void find_bands(const warp *w, size_t triangle, size_t *begin, size_t *en
  * band has its triangles in order. */
 static icc_status list_triangles(warp *w)
 {
-    const size_t n = w->map->mesh->pl.corners.n_triangles;
+    const size_t n = iccp_plane_of(w->map)->pl.corners.n_triangles;
     size_t begin, end;
     for (size_t t = 0; t < n; ++t)
         for (find_bands(w, t, &begin, &end); begin < end; ++begin)
@@ -86,7 +87,7 @@ static icc_status list_triangles(warp *w)
 
 static icc_status prepare(warp *w)
 {
-    const iccp_plmap *pl = &w->map->mesh->pl;
+    const iccp_plmap *pl = &iccp_plane_of(w->map)->pl;
     w->n_bands = ((size_t)w->target->height + ROWS - 1) / ROWS;
     w->places = iccp_alloc(w->memory, pl->n_vertices, sizeof *w->places);
     w->scans = iccp_alloc(w->memory, pl->corners.n_triangles, sizeof *w->scans);
@@ -172,7 +173,7 @@ static void paint_centre(const band *b, int32_t row, size_t column)
     const icc_map *map = b->w->map;
     double place[2] = {(double)column + 0.5, row + 0.5}, local[2], image[2];
     iccp_frame_in(&map->target_domain->frame, 2, place, local);
-    if (iccp_mesh_map_point(map->mesh, true, local, image, NULL) != ICC_OK)
+    if (iccp_mesh_map_point(iccp_plane_of(map), true, local, image, NULL) != ICC_OK)
         return;
     iccp_frame_out(&map->source_domain->frame, 2, image, place);
     const iccp_line line = {place[0] - 0.5, place[1] - 0.5, 0, 0, 1};
@@ -238,7 +239,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
               .memory = &env->memory};
     iccp_sampler_init(&w.source, source);
     iccp_boundary_pixels boundary;
-    icc_status status = iccp_mesh_map_ready(map->mesh, true);
+    icc_status status = iccp_mesh_map_ready(iccp_plane_of(map), true);
     if (status == ICC_OK)
         status = iccp_boundary_pixels_create(&boundary, map->target_domain, target, env);
     if (status != ICC_OK)
@@ -256,7 +257,7 @@ static icc_status warp_mesh(const icc_map *map, const icc_picture *source,
 icc_status iccp_map_warp(const icc_map *map, const icc_picture *source, const icc_picture *target,
                          size_t *n_failed, const iccp_env *env)
 {
-    if (map->mesh == NULL || iccp_picture_has_values(source))
+    if (iccp_plane_of(map) == NULL || iccp_picture_has_values(source))
         return iccp_warp_points(map, source, target, n_failed, env);
     if (n_failed != NULL)
         *n_failed = 0;

@@ -2,7 +2,6 @@
 #ifndef ICCP_FOLLOW_H
 #define ICCP_FOLLOW_H
 
-#include "map/isotopy/isotopy.h"
 #include "map/plane/mesh_map.h"
 
 /* The map to another target from the one to `old_target`, with features of class `isotopy`, which

@@ -12,7 +12,6 @@
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/plmap_certificate.h"
 #include "map/energy/movable.h"
-#include "map/isotopy/isotopy.h"
 #include "map/plane/feature_start.h"
 #include "map/plane/fit.h"
 
@@ -344,6 +343,7 @@ void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory)
     iccp_finder_free(&map->before);
     iccp_finder_free(&map->after);
     iccp_newton_plan_release(iccp_once_get(&map->plan));
+    iccp_isotopy_free(map->isotopy);
     iccp_free(memory, map);
 }
 

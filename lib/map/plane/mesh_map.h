@@ -2,19 +2,21 @@
 #ifndef ICCP_MESH_MAP_H
 #define ICCP_MESH_MAP_H
 
-#include "chart/chart.h"
 #include "map/compatible/improve.h"
 #include "map/energy/newton.h"
+#include "map/isotopy/isotopy.h"
+#include "map/kind/kind.h"
 #include "mesh/finder.h"
 
 /* Immutable once made, but for what is made when it is first needed. */
 typedef struct iccp_mesh_map {
     iccp_plmap pl;
-    double reach[2];    /* of the bands of source and target (geometry/band.h) */
-    iccp_finder before; /* in the source */
-    iccp_finder after;  /* in the target */
-    iccp_once plan;     /* Newton's, of the mesh: made when the map is first followed */
-    double work;        /* that it took to make: see map/energy/work.h */
+    double reach[2];       /* of the bands of source and target (geometry/band.h) */
+    iccp_finder before;    /* in the source */
+    iccp_finder after;     /* in the target */
+    iccp_once plan;        /* Newton's, of the mesh: made when the map is first followed */
+    iccp_isotopy *isotopy; /* with features; NULL where rounding is in the way */
+    double work;           /* that it took to make: see map/energy/work.h */
 } iccp_mesh_map;
 
 /* All but `reach` is still to be filled in; NULL without memory. */

@@ -3,8 +3,7 @@
 #ifndef ICCP_SOLID_MAP_H
 #define ICCP_SOLID_MAP_H
 
-#include "chart/chart.h"
-#include "map/energy/simplicial_map.h"
+#include "map/kind/kind.h"
 
 /* Immutable once made. */
 typedef struct iccp_solid_map {

@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "base/threads.h"
-#include "chart/curves.h"
+#include "map/curves/curves.h"
 #include "map/energy/mesh_repair.h"
 #include "map/solid/cone_map.h"
 #include "map/solid/solid_chords.h"

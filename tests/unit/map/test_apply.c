@@ -1,6 +1,7 @@
 /* Points through maps of kind mesh in the plane: located as the domain locates them, many at a time
  * as one at a time; and what is made when it is first needed. */
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
@@ -49,7 +50,7 @@ static icc_status reference(const icc_map *map, bool inverse, const double *poin
         iccp_domain_facet_point(to, facet, bary, local_image);
     } else {
         const icc_status status =
-            iccp_mesh_map_point(map->mesh, inverse, local, local_image, jacobian);
+            iccp_mesh_map_point(iccp_plane_of(map), inverse, local, local_image, jacobian);
         if (status != ICC_OK)
             return status;
     }
@@ -129,7 +130,7 @@ START_TEST(points_near_the_boundary_are_located_by_it)
         icc_map *map = NULL;
         if (source != NULL && target != NULL)
             (void)icc_map_create(&map, source, target, &options, NULL, NULL);
-        if (map != NULL && map->mesh != NULL) {
+        if (map != NULL && iccp_plane_of(map) != NULL) {
             for (int k = 0; k < share_of(6); ++k) {
                 check_points(map, false, (uint64_t)(10 * _i + k));
                 check_points(map, true, (uint64_t)(10 * _i + k));
@@ -357,13 +358,13 @@ START_TEST(what_frames_share_changes_nothing)
     ck_assert_int_eq(icc_map_load(&map, x.saved.n, x.saved.data, NULL, NULL), ICC_OK);
     for (int k = 0; k < 3; ++k)
         same_bytes(follow(map, 0.05 * k, NULL, NULL), follow(map, 0.05 * k, &apart, NULL));
-    ck_assert_ptr_nonnull(iccp_once_get(&map->mesh->plan));
+    ck_assert_ptr_nonnull(iccp_once_get(&iccp_plane_of(map)->plan));
     frame = map;
     for (int k = 0; k < 4; ++k) { /* each from the one before, which is freed */
-        iccp_newton_plan *plan = iccp_once_get(&frame->mesh->plan);
+        iccp_newton_plan *plan = iccp_once_get(&iccp_plane_of(frame)->plan);
         const bytes other = follow(frame, 0.04 * k, &apart, NULL);
         same_bytes(follow(frame, 0.04 * k, NULL, &next), other);
-        ck_assert_ptr_eq(iccp_once_get(&next->mesh->plan), plan);
+        ck_assert_ptr_eq(iccp_once_get(&iccp_plane_of(next)->plan), plan);
         icc_map_free(frame);
         frame = next;
     }

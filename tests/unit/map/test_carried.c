@@ -4,6 +4,7 @@
 #include "map/compatible/plmap_certificate.h"
 #include "map/isotopy/isotopy.h"
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 #include "mesh/planar.h"
 
 #include "../../feature_pairs.h"
@@ -66,7 +67,7 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     iccp_work steps = {.left = work};
     bool reached, kept = false;
     double room;
-    ck_assert_int_eq(iccp_plmap_copy(&copy, &map->mesh->pl, &env.memory), ICC_OK);
+    ck_assert_int_eq(iccp_plmap_copy(&copy, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, grain.longest, &env), ICC_OK);
     ck_assert_int_eq(iccp_carry(&copy, target, &grain, 1, &steps, &reached, &room, &env), ICC_OK);
@@ -74,8 +75,9 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     ck_assert(steps.left >= 0 || steps.spent > 0);
     ck_assert(room >= 0);
     if (reached) {
-        ck_assert_int_eq(iccp_isotopy_follows(&kept, map->isotopy, map->target_domain, &copy,
-                                              map->source_domain, target, &env),
+        ck_assert_int_eq(iccp_isotopy_follows(&kept, iccp_plane_of(map)->isotopy,
+                                              map->target_domain, &copy, map->source_domain, target,
+                                              &env),
                          ICC_OK);
         ck_assert(kept);
     }

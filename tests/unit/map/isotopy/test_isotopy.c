@@ -2,6 +2,7 @@
 #include "map/isotopy/isotopy.h"
 #include "map/isotopy/sequence_motion.h"
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 
 #include "../../../feature_pairs.h"
 #include "../../../saved.h"
@@ -75,7 +76,7 @@ static void check_returned(const icc_map *map)
     const size_t n = read_ties(map, given, ties);
     ck_assert_uint_eq(n, map->source_domain->features->n);
     icc_map *again = map_with(map->source_domain, map->target_domain, n, ties, -1);
-    ck_assert(iccp_isotopy_same(map->isotopy, again->isotopy));
+    ck_assert(iccp_isotopy_same(iccp_plane_of(map)->isotopy, iccp_plane_of(again)->isotopy));
     icc_map_free(again);
     free_ties(given, n);
 }
@@ -145,7 +146,7 @@ static void check_tie_from_corner(const icc_map *map, const iccp_sequences *want
     iccp_sequences drawn;
     read_sequence(&drawn, map->target_domain, ties[k].n_target, ties[k].target);
     ck_assert(iccp_sequences_same(&drawn, wanted));
-    iccp_sequences own = {.n = 1, .sequence = &map->isotopy->sequences.sequence[k]};
+    iccp_sequences own = {.n = 1, .sequence = &iccp_plane_of(map)->isotopy->sequences.sequence[k]};
     ck_assert(iccp_sequences_same(&own, wanted));
     iccp_sequences_free(&drawn);
     free_ties(given, n);
@@ -280,19 +281,21 @@ START_TEST(carried_round)
             icc_map_free(map);
         map = next;
     }
-    ck_assert(!iccp_isotopy_same(map->isotopy, first->isotopy));
+    ck_assert(!iccp_isotopy_same(iccp_plane_of(map)->isotopy, iccp_plane_of(first)->isotopy));
     ck_assert(info_of(map).detour > 1.2 && info_of(first).detour < 1.001);
     check_returned(map);
     /* The one is not what the other becomes when nothing moves. */
     iccp_env env;
     bool kept = true;
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_isotopy_follows(&kept, first->isotopy, first->target_domain,
-                                          &map->mesh->pl, source, map->target_domain, &env),
+    ck_assert_int_eq(iccp_isotopy_follows(&kept, iccp_plane_of(first)->isotopy,
+                                          first->target_domain, &iccp_plane_of(map)->pl, source,
+                                          map->target_domain, &env),
                      ICC_OK);
     ck_assert(!kept);
-    ck_assert_int_eq(iccp_isotopy_follows(&kept, first->isotopy, first->target_domain,
-                                          &first->mesh->pl, source, source, &env),
+    ck_assert_int_eq(iccp_isotopy_follows(&kept, iccp_plane_of(first)->isotopy,
+                                          first->target_domain, &iccp_plane_of(first)->pl, source,
+                                          source, &env),
                      ICC_OK);
     ck_assert(kept);
     icc_map_free(map);
@@ -325,7 +328,7 @@ START_TEST(there_and_back)
         ck_assert_int_eq(iccp_moving_triangulation_create(&moving, &triangulation, pair.n,
                                                           domains[0]->vertices, &env.memory),
                          ICC_OK);
-        iccp_sequences *sequences = &map->isotopy->sequences;
+        iccp_sequences *sequences = &iccp_plane_of(map)->isotopy->sequences;
         ck_assert_int_eq(
             iccp_sequences_move(sequences, &moving, domains[1]->vertices, &arrived, &env), ICC_OK);
         if (arrived) {

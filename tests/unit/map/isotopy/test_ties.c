@@ -2,6 +2,7 @@
 #include "map/compatible/density.h"
 #include "map/compatible/plmap_certificate.h"
 #include "map/map.h"
+#include "map/plane/plane_kind.h"
 
 #include "../../../feature_pairs.h"
 
@@ -163,7 +164,7 @@ START_TEST(density)
         ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
         ck_assert_int_eq(icc_map_create(&map, domains[0], domains[1], &options, NULL, NULL),
                          ICC_OK);
-        ck_assert_int_eq(iccp_plmap_copy(&copy, &map->mesh->pl, &env.memory), ICC_OK);
+        ck_assert_int_eq(iccp_plmap_copy(&copy, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
         const double energy = iccp_plmap_energy(&copy), before = longest_of(&copy);
         for (double share = 0.5; share > 0.1; share *= 0.5) {
             ck_assert_int_eq(iccp_limit_edges(&copy, share * before, &env), ICC_OK);

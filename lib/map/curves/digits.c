@@ -3,14 +3,14 @@
  * that are mapped only those are sent whose surroundings shrink so much that digits may be missing;
  * how much they do follows from the divergence of the two fields along the curves, which rounding
  * cannot spoil. */
-#include "chart/digits.h"
+#include "map/curves/digits.h"
 
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/chart_field.h"
-#include "chart/curves.h"
 #include "chart/low_discrepancy.h"
 #include "gradient/function/function.h"
+#include "map/curves/curves.h"
 #include "math/elementary.h"
 #include "math/orient.h"
 

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "chart/curves.h"
-#include "chart/digits.h"
+#include "map/curves/curves.h"
+#include "map/curves/digits.h"
 
-#include "../../determinant.h"
-#include "../../random.h"
+#include "../../../determinant.h"
+#include "../../../random.h"
 
 enum { N_VERTICES = 120, N_POINTS = 120 };
 

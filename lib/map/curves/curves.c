@@ -1,6 +1,6 @@
 /* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
  * section 4, steps 3-5: the image of a point has the same coordinates in the other domain. */
-#include "chart/curves.h"
+#include "map/curves/curves.h"
 
 #include "chart/bulk.h"
 #include "math/elementary.h"

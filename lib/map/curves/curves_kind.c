@@ -1,0 +1,102 @@
+#include "map/curves/curves_kind.h"
+
+#include "base/clock.h"
+#include "chart/bulk.h"
+#include "map/curves/curves.h"
+#include "map/curves/digits.h"
+#include "map/kind/caller_point.h"
+
+static bool suits(const icc_domain *source)
+{
+    (void)source;
+    return true;
+}
+
+static bool takes(const icc_chart *source)
+{
+    (void)source;
+    return true;
+}
+
+/* The charts are all that there is. */
+static icc_status create(icc_map *map, const icc_map_options *options, bool overlay,
+                         const iccp_env *env, icc_error *err)
+{
+    (void)map;
+    (void)options;
+    (void)overlay;
+    (void)env;
+    (void)err;
+    return ICC_OK;
+}
+
+/* True if the charts do not warrant that images come back: then points whose images do not have
+ * none. */
+static bool is_guarded(const icc_map *map)
+{
+    return map->info.certified && map->source->info.method == ICC_METHOD_FIELD;
+}
+
+static icc_status certify(icc_map *map, const iccp_env *env)
+{
+    const double start = iccp_seconds();
+    if (!is_guarded(map))
+        return ICC_OK;
+    const icc_status status = iccp_digits_check(map->source, map->target, &map->info, env);
+    map->info.seconds_certify = iccp_seconds() - start;
+    return status;
+}
+
+static icc_status ready(const icc_map *map, bool inverse)
+{
+    const icc_status status = iccp_chart_ready(inverse ? map->target : map->source, false);
+    return status == ICC_OK ? iccp_chart_ready(inverse ? map->source : map->target, true) : status;
+}
+
+/* Images and Jacobians one by one. */
+static icc_status differentiate(const icc_map *map, bool inverse, size_t n, const double *points,
+                                double *images, double *jacobians, icc_status *status,
+                                iccp_path *path)
+{
+    const icc_chart *from = inverse ? map->target : map->source;
+    const icc_chart *to = inverse ? map->source : map->target;
+    const size_t dim = (size_t)map->info.dim;
+    double own[ICC_MAX_DIM];
+    icc_status all = ICC_OK;
+    for (size_t i = 0; i < n && iccp_is_point_status(all); ++i) {
+        const double *point = points + dim * i;
+        double *image = images != NULL ? images + dim * i : own;
+        double *jacobian = jacobians + dim * dim * i;
+        all = status[i] = is_guarded(map)
+                              ? iccp_digits_point(from, to, point, image, jacobian, path)
+                              : iccp_curves_point(from, to, point, image, jacobian, path);
+        if (all != ICC_OK)
+            iccp_image_none(dim, image, jacobian);
+    }
+    return iccp_is_point_status(all) ? ICC_OK : all;
+}
+
+static icc_status apply(const icc_map *map, bool inverse, size_t n, const double *points,
+                        double *images, double *jacobians, icc_status *status, iccp_path *path)
+{
+    const icc_chart *from = inverse ? map->target : map->source;
+    const icc_chart *to = inverse ? map->source : map->target;
+    if (jacobians != NULL)
+        return differentiate(map, inverse, n, points, images, jacobians, status, path);
+    return is_guarded(map) ? iccp_digits_points(from, to, n, points, images, status, path)
+                           : iccp_curves_points(from, to, n, points, images, NULL, status, path);
+}
+
+static void free_state(icc_map *map)
+{
+    (void)map;
+}
+
+const iccp_map_kind iccp_curves_kind = {.number = ICC_MAP_CURVES,
+                                        .suits = suits,
+                                        .takes = takes,
+                                        .create = create,
+                                        .certify = certify,
+                                        .ready = ready,
+                                        .apply = apply,
+                                        .free_state = free_state};

@@ -1,0 +1,9 @@
+/* Maps point by point through two charts as a kind of map: the table of their operations. */
+#ifndef ICCP_CURVES_KIND_H
+#define ICCP_CURVES_KIND_H
+
+#include "map/kind/kind.h"
+
+extern const iccp_map_kind iccp_curves_kind;
+
+#endif

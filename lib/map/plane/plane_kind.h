@@ -1,0 +1,15 @@
+/* Mesh maps in the plane as a kind of map: the table of their operations. */
+#ifndef ICCP_PLANE_KIND_H
+#define ICCP_PLANE_KIND_H
+
+#include "map/plane/mesh_map.h"
+
+extern const iccp_map_kind iccp_plane_kind;
+
+/* The mesh map that a map is, or NULL if it is of another kind. */
+static inline iccp_mesh_map *iccp_plane_of(const icc_map *map)
+{
+    return map->kind == &iccp_plane_kind ? map->state : NULL;
+}
+
+#endif
