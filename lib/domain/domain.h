@@ -59,9 +59,8 @@ struct icc_domain {
     iccp_frame frame;
     double lower[ICC_MAX_DIM]; /* local bounding box */
     double upper[ICC_MAX_DIM];
-    iccp_band
-        /* Points this close to the boundary are on it; points within its `tolerance` are equal */
-        band;
+    /* Points this close to the boundary are on it; points within its `tolerance` are equal */
+    iccp_band band;
     double measure; /* local length, area, volume, ... */
     /* Over local vertices; of a polygon without features: for corners only, without boxes */
     iccp_facet_tree tree;

@@ -1,9 +1,10 @@
+/* Contractions: a point is merged into a neighbour. */
 #include "fill/contract.h"
 
 #include "base/minmax.h"
 #include "fill/quality.h"
 
-/* The corners of a tetrahedron of the star with v in place of p. */
+/* Lists the corners of a tetrahedron of the star with v in place of p. */
 static void renamed(const iccp_tet *tet, uint32_t p, uint32_t v, uint32_t corner[4])
 {
     for (int i = 0; i < 4; ++i)

@@ -1,6 +1,7 @@
-/* The mesh cuts the facet into cells, each in a tetrahedron or a face of its own. They join at
- * faces, and so at edges of the mesh that lie in the facet or pierce it. From the rings of its
- * boundary's edges on, the rings of all these reach every cell. */
+/* Finds how a mesh meets a facet. The mesh cuts the facet into cells, each inside a tetrahedron or
+ * a face. Cells are joined across faces, and around edges of the mesh that lie in the facet or
+ * pierce it. The search starts with the rings of the facet's boundary edges and follows the rings
+ * of all these edges. So it reaches every cell. */
 #include "fill/facet_scan.h"
 
 void iccp_facet_scan_init(iccp_facet_scan *scan, iccp_tets *m, const iccp_surface *s)
@@ -64,7 +65,7 @@ static bool push_rim(iccp_facet_scan *scan)
     return true;
 }
 
-/* The edges of one tetrahedron that lie in the facet or pierce it, and its faces there. */
+/* Visits the edges of one tetrahedron that lie in the facet or pierce it, and its faces there. */
 static bool visit(iccp_facet_scan *scan, uint32_t t)
 {
     const iccp_tet *const tet = &scan->m->tet[t];

@@ -1,8 +1,8 @@
-/* The edges of the mesh that pierce a facet go one by one: by edge removal that makes no new one
- * where there is such, else by a point of the facet, near the piercing, in their ring. It sees all
- * of the ring when it is near enough, and its own edges do not pierce. So their number falls, and
- * in the end the facet is made of faces. Nothing of what other facets have is lost: what pierces
- * one facet lies on no other. */
+/* Recovers facets. The edges of the mesh that pierce a facet are removed one by one, if possible by
+ * an edge removal that makes no new piercing edge. Otherwise a point of the facet near the piercing
+ * is inserted into the edge's ring. If it is near enough, it sees the whole ring, and its own edges
+ * do not pierce. So the number of piercing edges falls until the facet is made of faces. Other
+ * facets lose nothing, because an edge that pierces one facet lies on no other. */
 #include "fill/facets.h"
 
 #include "base/error.h"
@@ -28,7 +28,7 @@ static double worth(void *context, uint32_t x, uint32_t y, uint32_t z, bool inne
     return up < down ? up : down;
 }
 
-/* How many of the piercing edges could be removed. */
+/* Removes piercing edges and returns how many. */
 static size_t remove_edges(iccp_facet_scan *scan)
 {
     iccp_tets *const m = scan->m;
@@ -46,7 +46,7 @@ static size_t remove_edges(iccp_facet_scan *scan)
     return n;
 }
 
-/* Where edge pq meets the facet, by shares of its corners. */
+/* Computes where edge pq meets the facet, as shares of its corners. */
 static void piercing_at(const iccp_facet_scan *scan, uint32_t p, uint32_t q, double share[3])
 {
     const iccp_points *const points = &scan->m->points;
@@ -128,8 +128,8 @@ icc_status iccp_recover_facets(iccp_tets *m, const iccp_surface *s, const iccp_e
     return status;
 }
 
-/* Sets wall[side] to the facet and the mark, for both sides of all faces that facets are made of;
- * the other entries are 0. */
+/* Sets wall[side] to the facet and the mark, on both sides of all faces that make up facets. The
+ * other entries are 0. */
 static icc_status mark_walls(iccp_tets *m, const iccp_surface *s, uint32_t *wall, icc_error *err)
 {
     iccp_facet_scan scan;
@@ -149,8 +149,8 @@ static icc_status mark_walls(iccp_tets *m, const iccp_surface *s, uint32_t *wall
     return status;
 }
 
-/* m->work: all that can be reached from a corner of the box without crossing a wall; it has the
- * stamp. */
+/* Collects in m->work, and stamps, everything that can be reached from a corner of the box without
+ * crossing a wall. */
 static bool flood(iccp_tets *m, const uint32_t *wall, uint32_t stamp)
 {
     const uint32_t seed = m->tet_of[m->points.n_given];

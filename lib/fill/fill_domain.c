@@ -1,6 +1,7 @@
-/* The stages: all vertices near Delaunay in a box; the surface's edges, its facets; the outside
- * dropped; points on the surface lifted; the inside refined and improved; the result checked, as
- * any mesh is. What fails is named; a wrong mesh does not come out. */
+/* Fills a surface in stages. All vertices are inserted into a box, nearly Delaunay. The surface's
+ * edges and then its facets are recovered. The outside is removed. Points on the surface are
+ * lifted. The inside is refined and improved. Finally the result is checked like any mesh. A
+ * failure is reported with its place; a wrong mesh is never returned. */
 #include "fill/fill_domain.h"
 
 #include "base/error.h"
@@ -16,8 +17,8 @@
 
 #include <string.h>
 
-/* The surface's vertices, and the corners of a box some way round it; no five of all these corners
- * are on a sphere, nor four in a plane with much else. */
+/* Adds the surface's vertices and the corners of a box at some distance from them. Of all these
+ * corners, no five lie on a sphere, and no plane through four contains many others. */
 static icc_status add_points(iccp_tets *m, const icc_domain *surface, icc_error *err)
 {
     double middle[3], width = 0.0;
@@ -44,7 +45,7 @@ static icc_status add_points(iccp_tets *m, const icc_domain *surface, icc_error 
     return ICC_OK;
 }
 
-/* Six tetrahedra round the diagonal from corner 0 to corner 7. */
+/* Makes six tetrahedra around the diagonal from corner 0 to corner 7. */
 static icc_status make_box(iccp_tets *m, icc_error *err)
 {
     static const uint8_t corner[6][4] = {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7},
@@ -63,7 +64,7 @@ static icc_status make_box(iccp_tets *m, icc_error *err)
     return ICC_OK;
 }
 
-/* Those that belong to facets: the others are copies of one of them. */
+/* Keeps the vertices that belong to facets. The others are copies of one of them. */
 static size_t keep_used(uint32_t *order, size_t n, const icc_domain *surface, uint32_t *seen)
 {
     size_t n_used = 0;
@@ -92,8 +93,8 @@ static icc_status insert_vertices(iccp_tets *m, const icc_domain *surface, const
     return status;
 }
 
-/* The mesh in the caller's coordinates, as a domain. What it is made of is freed as soon as it is
- * known. */
+/* Converts the mesh to the caller's coordinates and makes it a domain. Frees its parts as soon as
+ * possible. */
 static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const icc_domain *surface,
                          const iccp_env *env, icc_error *err)
 {
@@ -134,7 +135,7 @@ static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const 
     return status;
 }
 
-/* The stages, and what they cost. */
+/* The stages, for which the costs below are listed. */
 enum { INSERT, SEGMENTS, FACETS, LIFT, SETTLE, REFINE, IMPROVE, CHECK, N_STAGES };
 static const double cost[N_STAGES] = {10, 5, 5, 5, 15, 30, 20, 10};
 
@@ -168,8 +169,9 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     return status;
 }
 
-/* In another order, what is in the way may be elsewhere. What has been refused in all orders is
- * taken in all of them again, in a metric where it is not stretched as a whole. */
+/* A different insertion order may avoid the obstacle, so a refused surface is tried in several
+ * orders. If all of them fail, they are tried again in a metric in which the surface is not
+ * stretched. */
 icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err)
 {

@@ -1,10 +1,29 @@
-/* Closed surfaces become domains with a mesh of tetrahedra. */
+/* Fills closed surfaces with tetrahedra, and makes them domains.
+ *
+ * Legend of lib/fill. Begin with fill_domain.c, which lists the stages, then tets.h.
+ * - given points: the vertices of the surface. A box around them contains all tetrahedra at first.
+ * - segment, facet: an edge and a triangle of the surface (surface.h).
+ * - recover: to change the mesh until a segment or facet is made of its edges or faces (segments.h,
+ *   facets.h).
+ * - obstacles: the faces that a missing edge crosses (obstacles.h).
+ * - dyadic point: a point exactly on a segment or facet, with shares that are multiples of 2^-48
+ *   (points.h).
+ * - wall: a side of a tetrahedron on the surface.
+ * - lift: to move a point from the surface to the inside (lift.h).
+ * - star, ring, link: tetrahedra at a point, those around an edge, and the points opposite to it.
+ * - cavity, rim: tetrahedra that a new point replaces, and the boundary of their space (insert.h).
+ * - settle, refine, improve: contract and smooth inner points, add points, flip and smooth.
+ * - metric: a linear map in which a stretched surface has the same extent in all directions
+ *   (metric.h).
+ *
+ * Invariants: every tetrahedron is positive by exact signs after every step. A step that fails
+ * changes nothing. */
 #ifndef ICCP_FILL_DOMAIN_H
 #define ICCP_FILL_DOMAIN_H
 
 #include "domain/domain.h"
 
-/* The ratio where the caller leaves it open. */
+/* Default of the ratio in icc_fill_options. */
 #define ICCP_FILL_RATIO 1.6
 
 typedef struct iccp_fill_options {
@@ -12,7 +31,7 @@ typedef struct iccp_fill_options {
     uint64_t max_points;
 } iccp_fill_options;
 
-/* See icc_domain_fill(); arguments have been checked. */
+/* See icc_domain_fill(). Arguments have been checked. */
 icc_status iccp_domain_fill(icc_domain **out, const icc_domain *surface,
                             const iccp_fill_options *options, const iccp_env *env, icc_error *err);
 

@@ -1,7 +1,7 @@
-/* A local coordinate is a multiple of 2^-252 and at most a few units large, a share has 48 bits: so
- * points on edges and facets are whole numbers of 300 bits, and a determinant of three has 900.
- * Schoolbook multiplication of the limbs that are not zero in all of them is fast enough for what
- * the filter leaves. */
+/* Exact orientation of dyadic points. A local coordinate is a multiple of 2^-252 and at most a few
+ * units large, and a share has 48 bits. So coordinates of points on edges and facets are integers
+ * of 300 bits, and a determinant of three has 900 bits. Schoolbook multiplication of the limbs that
+ * are not zero in all coordinates is fast enough, because a filter decides most cases. */
 #include "fill/fixed.h"
 
 #include <math.h>
@@ -9,13 +9,13 @@
 
 enum { LIMBS = ICCP_FIXED_LIMBS, UNIT_EXPONENT = 300 };
 
-/* A product of up to three differences: sign and magnitude. */
+/* A product of up to three differences, as sign and magnitude. */
 typedef struct whole {
     int sign, n;
     uint32_t limb[3 * LIMBS + 2];
 } whole;
 
-/* z += value 2^shift, or -= it. */
+/* z += value 2^shift, or z -= value 2^shift if negative. */
 static void add_shifted(uint32_t *z, uint64_t value, int shift, int negative)
 {
     const int first = shift / 32, bits = shift % 32;
@@ -129,7 +129,7 @@ static void add(whole *z, const whole *a, const whole *b, int sign)
     trim(z);
 }
 
-/* Divides the nine differences by the highest power of 2^32 that they share. */
+/* Divides the nine differences by the highest power of 2^32 that divides all of them. */
 static void shorten(whole rows[3][3])
 {
     int shared = LIMBS;

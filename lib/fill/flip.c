@@ -1,20 +1,20 @@
-/* Edge removal after G. T. Klincsek, Minimal triangulations of polygonal domains, Annals of
- * Discrete Mathematics 9, 1980: the best triangulation of the link from the best ones of its
- * parts. */
+/* Removes edges and faces. Edge removal follows G. T. Klincsek, Minimal triangulations of polygonal
+ * domains, Annals of Discrete Mathematics 9, 1980: the best triangulation of the link follows from
+ * the best ones of its parts. */
 #include "fill/flip.h"
 
 #include "base/minmax.h"
 
 enum { MOST = ICCP_MOST_RING };
 
-/* Of the part of the link from corner i to corner j: the best worth, and the third corner of the
+/* For the part of the link from corner i to corner j: the best worth, and the third corner of the
  * triangle at ij. */
 typedef struct parts {
     double worth[MOST][MOST];
     uint8_t split[MOST][MOST];
 } parts;
 
-/* Where the smallest worth counts, what is not more than `least` is left out. */
+/* If the least worth counts, triangulations that are not better than `least` are skipped. */
 static void find_best(parts *best, size_t n, const uint32_t *link, const iccp_removal *removal,
                       double least)
 {
@@ -62,7 +62,8 @@ bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *
         if (j - i < 2)
             continue;
         const uint8_t k = best.split[i][j];
-        /* (p, q, link[i], link[i + 1]) is positive: seen from q the link is counter-clockwise */
+        /* (p, q, link[i], link[i + 1]) is positive, so the link is counter-clockwise seen from
+         * q. */
         const uint32_t up[4] = {link[i], link[k], link[j], q};
         const uint32_t down[4] = {link[k], link[i], link[j], p};
         for (int c = 0; c < 4; ++c) {

@@ -1,4 +1,4 @@
-/* Flips: an edge is removed, or a face. */
+/* Flips: removal of an edge or of a face. */
 #ifndef ICCP_FLIP_H
 #define ICCP_FLIP_H
 
@@ -6,24 +6,26 @@
 
 enum { ICCP_MOST_RING = 10 };
 
-/* What becomes of the ring round edge pq: triangles of its link, each with p and with q. */
+/* How to triangulate the link of edge pq anew. Each triangle forms a tetrahedron with p and one
+ * with q. */
 typedef struct iccp_removal {
-    /* What triangle (x, y, z) is worth, with tetrahedra (x, y, z, q) and (y, x, z, p), and so side
-     * xz if it is an inner one; -HUGE_VAL: it must not be. */
+    /* Returns the worth of triangle (x, y, z), with tetrahedra (x, y, z, q) and (y, x, z, p), and
+     * of side xz if that is an inner one. Returns -HUGE_VAL if the triangle is forbidden. */
     double (*worth)(void *context, uint32_t x, uint32_t y, uint32_t z, bool inner_xz);
     void *context;
-    bool sum; /* all triangles' worths are added; else the smallest of them counts */
+    bool sum; /* true: the worths of all triangles are added; false: the least one counts */
 } iccp_removal;
 
-/* Removes edge pq, whose ring is in m->ring and m->link, for the best triangulation of the link if
- * that is worth more than `least`. False: nothing has changed. */
+/* Removes edge pq, whose ring is in m->ring and m->link. Uses the best triangulation of the link if
+ * its worth is more than `least`. Returns false if nothing has changed. */
 bool iccp_remove_edge(iccp_tets *m, uint32_t p, uint32_t q, const iccp_removal *removal,
                       double least);
 
-/* The three tetrahedra round a new edge that may replace the two at a side; false at a wall. */
+/* Lists the three tetrahedra around a new edge that may replace the two at a side. Returns false at
+ * a wall. */
 bool iccp_face_removed(const iccp_tets *m, uint32_t side, uint32_t fresh[3][4]);
 
-/* Puts them there. False: nothing has changed. */
+/* Makes that replacement. Returns false if nothing has changed. */
 bool iccp_remove_face(iccp_tets *m, uint32_t side);
 
 #endif

@@ -1,7 +1,8 @@
 /* Delaunay refinement as in J. R. Shewchuk, Tetrahedral mesh generation by Delaunay refinement,
- * 1998, with the surface as it is: circumcentres of tetrahedra that are too slender, the worst
- * first, unless they lie outside, near the surface or near another point; then nearer to the
- * middle. Sizes are those of the surface's edges, spread inside. */
+ * 1998, without changing the surface. Circumcentres of slender tetrahedra are inserted, the worst
+ * first. If a circumcentre lies outside, near the surface or near another point, a point nearer to
+ * the middle of the tetrahedron is tried. Local sizes are those of the surface's edges, spread to
+ * the inside. */
 #include "fill/inner_points.h"
 
 #include "base/error.h"
@@ -10,8 +11,8 @@
 #include "fill/insert.h"
 #include "fill/quality.h"
 
-/* Of the local size: edges that are shorter count as this long; points keep this far from others,
- * and from the surface. */
+/* In units of the local size: shorter edges count as this long; least distances of a new point from
+ * other points, and from the surface. */
 static const double least_edge_4 = 0.38, least_edge = 0.6, least_gap = 0.7, least_height = 0.3;
 
 typedef struct bad {
@@ -22,7 +23,7 @@ typedef struct bad {
 typedef struct refinement {
     iccp_tets *m;
     double ratio;
-    double *size; /* of each point, n_sizes of them; 0: unknown */
+    double *size; /* by point, n_sizes of them; 0: unknown */
     size_t n_sizes;
     bad *queue;
     size_t n_queue, room;
@@ -57,7 +58,7 @@ static bool circumcentre(const iccp_tets *m, const iccp_tet *tet, double centre[
     return *radius < 16.0;
 }
 
-/* What a tetrahedron's circumradius is measured by. */
+/* Returns the length that a tetrahedron's circumradius is compared with. */
 static double scale_of(const refinement *r, const iccp_tet *tet)
 {
     const iccp_points *const p = &r->m->points;
@@ -85,7 +86,8 @@ static bool is_bad(const refinement *r, uint32_t t, double centre[3], double *ba
     return *badness > r->ratio;
 }
 
-/* Whether a point is too near to the corners of the tetrahedra in m->cavity or to walls there. */
+/* Returns true if a point is too near to the corners of the tetrahedra in m->cavity, or to walls
+ * there. */
 static bool is_crowded(const iccp_tets *m, const double *x, double scale)
 {
     const iccp_points *const p = &m->points;
@@ -114,7 +116,7 @@ static bool is_crowded(const iccp_tets *m, const double *x, double scale)
     return false;
 }
 
-/* The new point's size is the mean of those round it. */
+/* Sets the new point's size to the mean of its neighbours' sizes. */
 static bool set_size(refinement *r, uint32_t p)
 {
     const iccp_tets *const m = r->m;
@@ -154,7 +156,7 @@ static iccp_inserted insert_at(refinement *r, uint32_t t, const double *x, doubl
     return done;
 }
 
-/* The circumcentre, or what lies between it and the middle. */
+/* Inserts the circumcentre, or a point between it and the middle. */
 static iccp_inserted split(refinement *r, uint32_t t)
 {
     static const double way[] = {1.0, 0.7, 0.4};
@@ -182,8 +184,8 @@ static int compare(const void *a, const void *b)
     return x->key != y->key ? (x->key > y->key ? -1 : 1) : x->tet < y->tet ? -1 : x->tet > y->tet;
 }
 
-/* Whether a tetrahedron is new, or much has changed round it: none of the others becomes better by
- * another try, or hardly ever. */
+/* Returns true if a tetrahedron is new or much has changed around it. Another try hardly ever
+ * improves others. */
 static bool is_worth_a_try(const iccp_tets *m, uint32_t t)
 {
     for (int i = 0; i < 4; ++i)
@@ -192,7 +194,7 @@ static bool is_worth_a_try(const iccp_tets *m, uint32_t t)
     return true;
 }
 
-/* Lists tetrahedra to be refined, the worst first. */
+/* Lists the tetrahedra to refine, the worst first. */
 static bool fill_queue(refinement *r, bool first)
 {
     const iccp_tets *const m = r->m;
@@ -214,7 +216,8 @@ static bool fill_queue(refinement *r, bool first)
     return true;
 }
 
-/* The mean length of the surface's edges at each of its vertices; inside, what is round a point. */
+/* Computes target edge lengths. At a surface vertex it is the mean length of its edges. Inside it
+ * comes from nearby vertices. */
 static bool make_sizes(refinement *r, const iccp_surface *s)
 {
     iccp_tets *const m = r->m;
@@ -274,7 +277,7 @@ icc_status iccp_tets_refine(iccp_tets *m, const iccp_surface *s, double ratio, u
                 status = iccp_fail_memory(err);
         }
     }
-    m->round = before; /* to what comes after, all this is one round */
+    m->round = before; /* for later stages, all this is one round */
     for (size_t p = 0; p < m->points.n; ++p)
         m->touched[p] = m->touched[p] < before ? m->touched[p] : before;
     iccp_free(&m->memory, r.size);

@@ -1,15 +1,15 @@
-/* Bowyer's and Watson's insertion (The Computer Journal 24, 1981): what has the point in its
- * circumsphere is replaced by the cone from the point over the boundary of it. Spheres are only
- * looked at in doubles, where "unsure" means outside; what makes the result valid are the exact
- * signs with which the point sees that boundary. So the mesh is near Delaunay, and always a
- * mesh. */
+/* Bowyer's and Watson's insertion (The Computer Journal 24, 1981). Tetrahedra whose circumspheres
+ * contain the new point form a cavity. The cone from the point over the cavity's boundary replaces
+ * them. Spheres are only tested in doubles, and "unsure" means outside. The result is valid because
+ * exact signs tell that the point sees the whole boundary. So the mesh is nearly Delaunay, and
+ * always a mesh. */
 #include "fill/insert.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
 #include "base/random.h"
 
-/* Whether a point lies in the circumsphere, for certain. */
+/* Returns true if a point certainly lies in the circumsphere. */
 static bool in_sphere(const iccp_tets *m, const iccp_tet *tet, uint32_t point)
 {
     const double *const e = iccp_point(&m->points, point);
@@ -128,7 +128,7 @@ static bool grow_cavity(iccp_tets *m, uint32_t point, uint32_t stamp)
     return true;
 }
 
-/* Whether the cavity ends at a side of a marked tetrahedron. */
+/* Returns true if the cavity ends at a side of a marked tetrahedron. */
 static bool is_rim(const iccp_tets *m, const iccp_tet *tet, int i, uint32_t stamp)
 {
     return iccp_is_wall_side(tet->across[i]) || m->mark[tet->across[i] / 4] != stamp;
@@ -142,7 +142,7 @@ static bool sees_rim(const iccp_tets *m, const iccp_tet *tet, uint32_t point, ui
     return true;
 }
 
-/* Whether all corners of a tetrahedron are on the rim, whose points have the stamp. */
+/* Returns true if all corners of a tetrahedron are on the rim. Points of the rim have the stamp. */
 static bool is_kept(const iccp_tets *m, const iccp_tet *tet, uint32_t stamp)
 {
     for (int i = 0; i < 4; ++i)
@@ -161,9 +161,9 @@ static void stamp_rim(iccp_tets *m, uint32_t stamp)
     }
 }
 
-/* Drops what the point does not see, then what would take a point with it, until neither is left;
- * the first n_base stay. False if these are at fault. A part that comes loose has a side that the
- * point does not see, so it goes, too. */
+/* Drops tetrahedra with sides that the point does not see, and tetrahedra that would take a point
+ * with them, until none are left. The first n_base stay; returns false if one of these is at fault.
+ * A part that becomes separate has a side that the point does not see, so it is dropped, too. */
 static bool trim_cavity(iccp_tets *m, uint32_t point, size_t n_base, uint32_t stamp)
 {
     for (bool again = true, rim = false; again;) {
@@ -191,9 +191,9 @@ static bool trim_cavity(iccp_tets *m, uint32_t point, size_t n_base, uint32_t st
     return true;
 }
 
-/* The side of the new tetrahedron over the next face of the rim round edge ab, beyond corner
- * `third` of tetrahedron t, whose side i is on the rim. The cavity's sides on the rim have the
- * numbers of the new ones. */
+/* Turns around edge ab to the next face of the rim and returns the new tetrahedron's side there.
+ * Starts beyond corner `third` of tetrahedron t, whose side i is on the rim. The cavity's sides on
+ * the rim hold the numbers of the new tetrahedra. */
 static uint32_t turn(const iccp_tets *m, uint32_t t, uint32_t a, uint32_t b, uint32_t third,
                      uint32_t stamp)
 {
@@ -213,7 +213,7 @@ static uint32_t turn(const iccp_tets *m, uint32_t t, uint32_t a, uint32_t b, uin
 }
 
 /* Makes the cone. The rim's sides get the numbers of the new tetrahedra with the mark of walls,
- * which inner sides do not have, so that edges find what lies beyond them. */
+ * which inner sides do not have. So each edge finds the tetrahedron beyond it. */
 static void make_cone(iccp_tets *m, uint32_t point, uint32_t stamp)
 {
     m->fresh.n = m->sides.n = 0;

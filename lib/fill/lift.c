@@ -1,8 +1,9 @@
-/* A point p on the surface is on one facet, or two if it is on an edge. On each, the faces at p
- * make a polygon, which can be triangulated without p. Then p moves inside, and cones from it over
- * these triangles fill what it leaves. As p sees its link strictly, so do the points near it; hence
- * there is a way for every p, unless doubles are too coarse. Of all places that are tried the one
- * with the best of the worst tetrahedra is taken. */
+/* Lifts points off the surface. A point p on the surface is on one facet, or on two if it is on an
+ * edge. On each facet, the faces at p form a polygon, which can be triangulated without p. Then p
+ * moves inside, and cones from p over these triangles fill the space that it leaves.
+ *
+ * p sees its link strictly, and so do points near it. So every p can be lifted, unless doubles are
+ * too coarse. Of all places tried, the one whose worst tetrahedron is best is taken. */
 #include "fill/lift.h"
 
 #include "base/error.h"
@@ -13,8 +14,8 @@
 #include "fill/quality.h"
 #include "fill/reshape.h"
 
-/* The worst quality of what p has where it is now, or something below `least` if that is lower or
- * not all is positive. */
+/* Returns the worst quality of the tetrahedra at p in its present place. May return less than
+ * `least` if it is lower or if not all tetrahedra are positive. */
 static double worst_at(const iccp_lifting *l, double least)
 {
     const iccp_tets *const m = l->m;
@@ -50,8 +51,9 @@ static bool normalise(double d[3])
 
 enum { DIRECTIONS = 4 };
 
-/* Ways inside: along the sum of the facets' normals, towards the middle of the link's inner
- * points, between these, and towards the middle of the whole link. Returns the link's radius. */
+/* Finds directions to the inside: the sum of the facets' normals, the middle of the link's inner
+ * points, directions between these two, and the middle of the whole link. Returns the link's
+ * radius. */
 static double find_directions(const iccp_lifting *l, double direction[DIRECTIONS][3])
 {
     const iccp_tets *const m = l->m;
@@ -100,7 +102,7 @@ static double find_directions(const iccp_lifting *l, double direction[DIRECTIONS
     return sqrt(radius);
 }
 
-/* Moves p to the best place found; false if there is none, and then p is where it was. */
+/* Moves p to the best place found. Returns false and leaves p if there is none. */
 static bool find_place(iccp_lifting *l)
 {
     iccp_points *const points = &l->m->points;
@@ -135,7 +137,7 @@ static bool find_place(iccp_lifting *l)
 
 typedef enum lifted { LIFTED, NOT_LIFTED, NO_MEMORY } lifted;
 
-/* Makes the cones. Their sides at p join what were walls there, and each other. */
+/* Makes the cones. Their sides at p are joined with the former walls and with each other. */
 static bool make_cones(iccp_lifting *l)
 {
     iccp_tets *const m = l->m;
@@ -156,7 +158,8 @@ static bool make_cones(iccp_lifting *l)
     return true;
 }
 
-/* Whether v is on all facets that p is on: all walls at p have it, or a facet with it. */
+/* Returns true if v is on all facets that p is on: every wall at p contains v, or belongs to a
+ * facet that does. */
 static bool is_on_all(const iccp_lifting *l, uint32_t v)
 {
     for (size_t k = 0; k < l->walls.n; ++k) {
@@ -167,7 +170,7 @@ static bool is_on_all(const iccp_lifting *l, uint32_t v)
     return true;
 }
 
-/* Contracts p with another point of all its facets, if that makes nothing worse than `least`. */
+/* Contracts p with another point of all its facets, if nothing becomes worse than `least`. */
 static bool contract_point(iccp_lifting *l, double least)
 {
     iccp_tets *const m = l->m;
@@ -211,7 +214,7 @@ static lifted lift_point(iccp_lifting *l, uint32_t p)
     return make_cones(l) ? LIFTED : NO_MEMORY;
 }
 
-/* Flips what is nearly flat at a point that is stuck. */
+/* Flips nearly flat tetrahedra at a point that is stuck. */
 static void improve_star(iccp_lifting *l, uint32_t p)
 {
     enum { MOST_FLIPS = 20 };
@@ -233,8 +236,8 @@ static void improve_star(iccp_lifting *l, uint32_t p)
     }
 }
 
-/* Joins q to the space of p's star and, as far as it takes to see all of the rim, what is beyond;
- * or, failing that, to what it sees of the star. */
+/* Joins q to the space of p's star and, as far as necessary to see the whole rim, of the tetrahedra
+ * beyond. If that fails, joins q to the part of the star that it sees. */
 static bool join_star(iccp_tets *m, uint32_t q)
 {
     enum { MOST = 500 };
@@ -258,8 +261,8 @@ static bool join_star(iccp_tets *m, uint32_t q)
     return false;
 }
 
-/* Puts a point inside, beside p: then what is at p is not flat, and p has somewhere to go. False if
- * it cannot be. */
+/* Puts a point inside, beside p. Then the tetrahedra at p are not flat, and p has room to move.
+ * Returns false if that fails. */
 static bool put_beside(iccp_lifting *l, uint32_t p)
 {
     iccp_tets *const m = l->m;
@@ -286,7 +289,7 @@ static bool put_beside(iccp_lifting *l, uint32_t p)
     return false;
 }
 
-/* In rounds: a point that is stuck may be free when others have left. */
+/* Goes in rounds, because a stuck point may become free after others have left. */
 icc_status iccp_lift(iccp_tets *m, const iccp_surface *s, const iccp_env *env, icc_error *err)
 {
     enum { MOST_ROUNDS = 12 };

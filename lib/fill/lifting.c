@@ -1,5 +1,6 @@
-/* The faces at the point on each facet make a polygon, of which ears are cut off, the best first;
- * what is an ear exact signs tell, as seen from a point inside. */
+/* Triangulates the facets of a point without it. On each facet, the faces at the point form a
+ * polygon. Ears are cut off it, the best first. Exact signs tell what is an ear, seen from a point
+ * inside. */
 #include "fill/lifting.h"
 
 #include "fill/quality.h"
@@ -31,7 +32,7 @@ void iccp_lifting_opposite(const iccp_lifting *l, uint32_t side, uint32_t edge[2
     edge[1] = tet->v[f[(i + 2) % 3]];
 }
 
-/* The points round p on one facet, counter-clockwise from inside. */
+/* Lists the points around p on one facet, counter-clockwise from inside. */
 static bool list_polygon(iccp_lifting *l, uint32_t facet)
 {
     uint32_t first = ICCP_NO_TET, edge[2], other[2];
@@ -64,8 +65,8 @@ static bool list_polygon(iccp_lifting *l, uint32_t facet)
     return true;
 }
 
-/* What corner i of the polygon is worth as an ear; 0: it is none. Point d lies inside, so that it
- * sees what is counter-clockwise. */
+/* Returns the worth of corner i of the polygon as an ear, or 0 if it is none. Point d lies inside,
+ * so it sees ears counter-clockwise. */
 static double ear(const iccp_lifting *l, size_t i, uint32_t d)
 {
     const iccp_tets *const m = l->m;
@@ -94,7 +95,8 @@ static double ear(const iccp_lifting *l, size_t i, uint32_t d)
     return 1e-300 + n2 / (edges * edges);
 }
 
-/* Cuts off the best ear until a triangle is left. False if there is no ear, or no memory. */
+/* Cuts off the best ear until a triangle is left. Returns false if there is no ear, or no
+ * memory. */
 static bool triangulate(iccp_lifting *l, uint32_t facet, uint32_t d)
 {
     uint32_t *const v = l->polygon.item;

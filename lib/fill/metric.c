@@ -1,5 +1,5 @@
-/* The second moments of the points are factorised after Cholesky, C = G G^T; then the points G^-1 x
- * have the unit matrix for their moments. */
+/* Makes a metric. The second moments of the points have the Cholesky factorisation C = G G^T. So
+ * the points G^-1 x have the unit matrix as their moments. */
 #include "fill/metric.h"
 
 #include "base/minmax.h"
@@ -8,7 +8,8 @@
 
 void iccp_metric_make(iccp_metric *metric, size_t n, const double *points)
 {
-    const double flattest = 0x1p-46; /* of the square of the size: as good as flat */
+    /* Share of the squared size below which the points count as flat */
+    const double flattest = 0x1p-46;
     double mean[3] = {0}, c[3][3] = {{0}};
     *metric = (iccp_metric){.on = true};
     for (size_t i = 0; i < 3 * n; ++i)

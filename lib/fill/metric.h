@@ -1,4 +1,5 @@
-/* A way to measure a surface that is stretched as a whole as if it were not. */
+/* A linear map that makes a stretched surface equally wide in all directions. Shapes are measured
+ * there. */
 #ifndef ICCP_METRIC_H
 #define ICCP_METRIC_H
 
@@ -7,10 +8,10 @@
 
 typedef struct iccp_metric {
     bool on;
-    double in[3][3], out[3][3]; /* lower triangular, inverse to each other */
+    double in[3][3], out[3][3]; /* lower triangular matrices, inverse to each other */
 } iccp_metric;
 
-/* The metric in which points, 3 numbers each, are spread alike in all directions. */
+/* Makes the metric in which n points, 3 numbers each, have the same spread in all directions. */
 void iccp_metric_make(iccp_metric *metric, size_t n, const double *points);
 
 /* d = lower d */
@@ -21,7 +22,7 @@ static inline void iccp_metric_apply(const double lower[3][3], double d[3])
     d[0] = lower[0][0] * d[0];
 }
 
-/* Of a plane's normal: the direction that leads away from it fastest, in the metric. */
+/* Turns the normal of a plane into the direction that leads away from it fastest in the metric. */
 static inline void iccp_metric_steepest(const iccp_metric *metric, double normal[3])
 {
     const double(*const g)[3] = metric->out;

@@ -1,3 +1,4 @@
+/* Sets of pairs of numbers, as hash tables. */
 #include "fill/pairs.h"
 
 static uint64_t key_of(uint32_t a, uint32_t b)
@@ -5,7 +6,7 @@ static uint64_t key_of(uint32_t a, uint32_t b)
     return a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
 }
 
-/* Where a key is, or would be. */
+/* Returns the place of a key, or where it would be. */
 static size_t find(const iccp_pairs *p, uint64_t key)
 {
     uint64_t hash = key * 0x9e3779b97f4a7c15u;

@@ -1,3 +1,4 @@
+/* The points of a mesh under construction. */
 #include "fill/points.h"
 
 #include "base/minmax.h"
@@ -16,8 +17,9 @@ static void make_fixed(iccp_fixed *fixed, const iccp_points *points, uint32_t p)
             iccp_fixed_add(fixed, iccp_point(points, d->of[i]), d->share[i]);
 }
 
-/* The filter: coordinates are at most 1 where they are rounded, by at most 5 2^-54; so each entry
- * is off by at most 5 2^-53, and the determinant by 6 times that and the products of two rows. */
+/* The filter: coordinates are at most 1 where they are rounded, by at most 5 2^-54. So the error of
+ * each entry is at most 5 2^-53. The error of the determinant is at most 6 times that and the
+ * products of two rows. */
 int iccp_points_orient_dyadic(const iccp_points *points, const uint32_t corner[4])
 {
     const double rounding = 0x1p-47; /* 64 2^-53 */

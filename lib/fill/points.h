@@ -1,5 +1,5 @@
-/* The points of a mesh that is being made, some of which lie exactly on edges or facets of the
- * surface though doubles do not. */
+/* The points of a mesh under construction. Some lie exactly on edges or facets of the surface,
+ * where no double does. */
 #ifndef ICCP_POINTS_H
 #define ICCP_POINTS_H
 
@@ -11,21 +11,22 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A point on an edge or a facet: the shares are multiples of 2^-48 and sum to 1. */
+/* A point on an edge or a facet. The shares are multiples of 2^-48 and sum to 1. */
 typedef struct iccp_dyadic {
-    uint32_t of[3];  /* vertices of the surface */
-    uint32_t next;   /* of a point on an edge: the next on it */
-    double share[3]; /* of an edge the third is 0; all are 0 when the point was moved */
+    uint32_t of[3]; /* vertices of the surface */
+    uint32_t next;  /* of a point on an edge: the next one */
+    /* Of a point on an edge the third share is 0; all are 0 after the point was moved */
+    double share[3];
 } iccp_dyadic;
 
 typedef struct iccp_points {
     size_t n, room;
-    size_t n_given; /* vertices of the surface; the corners of a box follow, */
-    size_t n_fixed; /* and after all these, n_dyadic that are, or were, on the surface */
+    size_t n_given; /* number of vertices of the surface; the corners of a box follow */
+    size_t n_fixed; /* after these come n_dyadic points that are, or were, on the surface */
     size_t n_dyadic, dyadic_room;
-    double *x; /* 3 each, the nearest doubles */
+    double *x; /* 3 each, nearest doubles */
     iccp_dyadic *dyadic;
-    const iccp_frame *frame; /* to the caller's coordinates */
+    const iccp_frame *frame; /* leads to the caller's coordinates */
 } iccp_points;
 
 static inline const double *iccp_point(const iccp_points *points, uint32_t p)
@@ -39,10 +40,10 @@ static inline bool iccp_is_dyadic(const iccp_points *points, uint32_t p)
            points->dyadic[p - points->n_fixed].share[0] != 0.0;
 }
 
-/* iccp_points_orient() where some are dyadic. */
+/* iccp_points_orient() if some points are dyadic. */
 int iccp_points_orient_dyadic(const iccp_points *points, const uint32_t corner[4]);
 
-/* As iccp_orient3d(), of points by their numbers. */
+/* Like iccp_orient3d(), for points given by their numbers. */
 static inline int iccp_points_orient(const iccp_points *points, uint32_t a, uint32_t b, uint32_t c,
                                      uint32_t d)
 {
@@ -53,11 +54,11 @@ static inline int iccp_points_orient(const iccp_points *points, uint32_t a, uint
                          iccp_point(points, d));
 }
 
-/* Moves x to the nearest point that stays what it is on the way to the caller's coordinates and
+/* Moves x to the nearest point that is the same after conversion to the caller's coordinates and
  * back. */
 void iccp_points_snap(const iccp_points *points, double x[3]);
 
-/* Six times the volume of a tetrahedron, in doubles. */
+/* Returns six times the volume of a tetrahedron, in doubles. */
 static inline double iccp_points_volume(const double *a, const double *b, const double *c,
                                         const double *d)
 {

@@ -1,4 +1,4 @@
-/* How well tetrahedra are shaped. */
+/* Measures the shape of tetrahedra. */
 #ifndef ICCP_QUALITY_H
 #define ICCP_QUALITY_H
 
@@ -10,8 +10,8 @@ static inline double iccp_square_distance(const double *a, const double *b)
     return x * x + y * y + z * z;
 }
 
-/* The volume against the edges: 1 for a regular tetrahedron, 0 for a flat one, with the sign of
- * the volume. */
+/* Compares the volume with the edges. Returns 1 for a regular tetrahedron and 0 for a flat one,
+ * with the sign of the volume. */
 static inline double iccp_tet_quality(const double *a, const double *b, const double *c,
                                       const double *d)
 {
@@ -23,7 +23,7 @@ static inline double iccp_tet_quality(const double *a, const double *b, const do
     return cube > 0.0 ? 432.0 * volume * fabs(volume) / cube : 0.0;
 }
 
-/* Of a tetrahedron in the metric of a mesh. */
+/* Returns the quality of a tetrahedron in the mesh's metric. */
 static inline double iccp_metric_quality(const iccp_tets *m, const uint32_t corner[4])
 {
     double x[4][3];
@@ -35,7 +35,7 @@ static inline double iccp_metric_quality(const iccp_tets *m, const uint32_t corn
     return iccp_tet_quality(x[0], x[1], x[2], x[3]);
 }
 
-/* In the mesh's metric. */
+/* Returns the quality of a tetrahedron in the mesh's metric. */
 static inline double iccp_tets_quality(const iccp_tets *m, uint32_t a, uint32_t b, uint32_t c,
                                        uint32_t d)
 {

@@ -1,4 +1,4 @@
-/* Flips and moves that make the worst tetrahedron that they touch better, as in L. Freitag and C.
+/* Flips and moves that improve the worst tetrahedron that they touch, as in L. Freitag and C.
  * Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing, 1997. */
 #include "fill/reshape.h"
 
@@ -8,8 +8,8 @@
 #include "fill/flip.h"
 #include "fill/quality.h"
 
-/* What counts as better; and what is good enough to be left alone. Quality .03 has dihedral angles
- * of some 10 degrees, .1 of some 18. */
+/* Least improvement, and the quality from which tetrahedra are left alone. Quality 0.03 means
+ * dihedral angles of some 10 degrees, and 0.1 some 18. */
 static const double gain = 1e-4, good = 0.12;
 static const size_t most_ring = 8;
 
@@ -34,7 +34,7 @@ static bool try_edge(iccp_tets *m, uint32_t t, uint32_t p, uint32_t q)
     const double worst = iccp_quality_of(m, t);
     for (size_t k = 1; k < m->ring.n; ++k)
         if (iccp_quality_of(m, m->ring.item[k]) < worst)
-            return false; /* that one has its turn */
+            return false; /* the other tetrahedron has its own turn */
     return iccp_remove_edge(m, p, q, &removal, worst + gain * fabs(worst));
 }
 
@@ -66,7 +66,7 @@ bool iccp_improve_tet(iccp_tets *m, uint32_t t)
     return false;
 }
 
-/* The worst quality at a point whose star is in m->star, or something below `least`. */
+/* Returns the worst quality at a point whose star is in m->star, or something below `least`. */
 static double worst_at(const iccp_tets *m, double least)
 {
     double worst = 1.0;
@@ -89,7 +89,7 @@ typedef struct place {
     double x[3], worst;
 } place;
 
-/* Moves the point to x if that is better than `best`, which is then x. */
+/* Moves the point to x if that is better than `best`, and then updates `best`. */
 static void try_place(iccp_tets *m, uint32_t p, const double *x, place *best)
 {
     double *const now = m->points.x + 3 * (size_t)p;
@@ -101,7 +101,7 @@ static void try_place(iccp_tets *m, uint32_t p, const double *x, place *best)
         *best = (place){{now[0], now[1], now[2]}, worst};
 }
 
-/* The middle of the link, then a search along 14 directions in steps that shrink. */
+/* Tries the middle of the link, then searches along 14 directions in shrinking steps. */
 bool iccp_smooth_point(iccp_tets *m, uint32_t p)
 {
     double *const now = m->points.x + 3 * (size_t)p;
@@ -147,8 +147,8 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p)
     return true;
 }
 
-/* What was tried in vain in the last round is tried again only where something changed since: the
- * same comes out. */
+/* A try that failed in the last round is repeated only where something has changed since, because
+ * it would fail again. */
 static void flip_all(iccp_tets *m)
 {
     const size_t n = m->n_tets;
@@ -157,8 +157,8 @@ static void flip_all(iccp_tets *m)
             iccp_improve_tet(m, t);
 }
 
-/* Stamps the points of tetrahedra that are not good. One that no corner of is touched has none to
- * be tried. */
+/* Stamps the points of bad tetrahedra. Skips tetrahedra whose corners have not changed, because
+ * there is nothing new to try. */
 static uint32_t stamp_bad(iccp_tets *m)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
@@ -172,7 +172,7 @@ static uint32_t stamp_bad(iccp_tets *m)
 icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };
-    const double enough = 1e-4; /* what is left may have this quality */
+    const double enough = 1e-4; /* worst quality that may remain */
     for (int round = 0; round < ROUNDS; ++round) {
         const icc_status status =
             iccp_explain(err, iccp_progress(env, "mesh", (double)round / ROUNDS));

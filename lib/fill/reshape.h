@@ -1,20 +1,21 @@
-/* Flips and smoothing: the worst tetrahedra become better. */
+/* Improves the worst tetrahedra by flips and smoothing. */
 #ifndef ICCP_RESHAPE_H
 #define ICCP_RESHAPE_H
 
 #include "fill/tets.h"
 
-/* Makes the worst of what is round a tetrahedron better by a flip, if one does: never worse. */
+/* Tries flips around a tetrahedron. Makes one only if it improves the worst of the tetrahedra that
+ * change. */
 bool iccp_improve_tet(iccp_tets *m, uint32_t t);
 
-/* Moves an inner point to where the worst tetrahedron at it is better. */
+/* Moves an inner point to improve the worst tetrahedron at it. */
 bool iccp_smooth_point(iccp_tets *m, uint32_t p);
 
-/* Contracts and smooths the points inside, which are where they had to be, not where they should
- * be. */
+/* Contracts and smooths the inner points. The earlier stages put them where they were necessary,
+ * not where they give a good shape. */
 icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err);
 
-/* Some rounds of flips and smoothing. */
+/* Makes some rounds of flips and smoothing. */
 icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err);
 
 #endif

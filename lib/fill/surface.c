@@ -1,9 +1,11 @@
+/* The surface to be filled. */
 #include "fill/surface.h"
 
 #include "base/error.h"
 #include "domain/complex.h"
 
-/* Numbers the edges: each by the facet where it runs from its smaller vertex to the other. */
+/* Numbers the edges. Each is counted in the facet where it runs from its smaller vertex to the
+ * larger one. */
 static void number_edges(iccp_surface *s, const uint32_t *across)
 {
     for (uint32_t i = 0; i < 3 * s->n_facets; ++i) {

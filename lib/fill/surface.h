@@ -5,39 +5,39 @@
 #include "fill/pairs.h"
 #include "fill/tets.h"
 
-/* An edge of the surface from a to b, a < b; the points on it are linked from `first` on to b. */
+/* An edge of the surface from a to b, a < b. The points on it are linked from `first` to b. */
 typedef struct iccp_segment {
     uint32_t a, b, first;
-    uint32_t facet; /* one of its two */
+    uint32_t facet; /* one of its two facets */
 } iccp_segment;
 
 typedef struct iccp_surface {
     iccp_memory memory;
     size_t n_facets, n_segments;
     const uint32_t *facets; /* 3 vertices each */
-    uint32_t *side;         /* 3 of each facet: the segment opposite a corner */
+    uint32_t *side;         /* 3 per facet: the segment opposite each corner */
     iccp_segment *segment;
-    iccp_pairs edges; /* all that ever was a piece of a segment */
+    iccp_pairs edges; /* all edges that ever were pieces of segments */
 } iccp_surface;
 
 icc_status iccp_surface_create(iccp_surface *s, size_t n_vertices, size_t n_facets,
                                const uint32_t *facets, const iccp_env *env, icc_error *err);
 void iccp_surface_free(iccp_surface *s);
 
-/* The point after p, which is on a segment, on the way to its b. */
+/* Returns the next point after p towards b on the segment. p lies on the segment. */
 uint32_t iccp_segment_next(const iccp_tets *m, const iccp_segment *segment, uint32_t p);
 
-/* How far along a segment one of its points is. */
+/* Returns the position of one of its points along a segment, as a share. */
 double iccp_segment_share(const iccp_tets *m, const iccp_segment *segment, uint32_t p);
 
-/* Whether a point is a corner of a facet or was put on it or one of its edges. */
+/* Returns true if a point is a corner of the facet, or was put on it or on one of its edges. */
 bool iccp_is_on_facet(const iccp_tets *m, const uint32_t corners[3], uint32_t p);
 
-/* A new point on the surface; ICCP_NO_TET if there is no memory. */
+/* Adds a point on the surface. Returns ICCP_NO_TET if there is no memory. */
 uint32_t iccp_tets_add_dyadic(iccp_tets *m, const iccp_dyadic *point);
 void iccp_tets_drop_dyadic(iccp_tets *m);
 
-/* ICC_ERR_RESOLUTION naming a facet. */
+/* Returns ICC_ERR_RESOLUTION with a message that names a facet. */
 icc_status iccp_fail_facet(icc_error *err, uint32_t facet, const char *what);
 
 #endif

@@ -1,3 +1,4 @@
+/* The mesh of tetrahedra under construction. */
 #include "fill/tets.h"
 
 #include "base/random.h"
@@ -158,11 +159,11 @@ bool iccp_tets_star(iccp_tets *m, uint32_t point)
     return true;
 }
 
-/* Goes round from the first tetrahedron, whose two other points are taken in the order that makes
- * it positive: across the face opposite the first of them, and so on. */
+/* Goes around from the first tetrahedron, across the face opposite the first of its two other
+ * points, and so on. These points are taken in the order that makes the tetrahedron positive. */
 bool iccp_tets_ring(iccp_tets *m, uint32_t a, uint32_t b, uint32_t tet, size_t most)
 {
-    /* third and fourth corner after corners i and j such that the order is an even one */
+    /* Third and fourth corner after corners i and j, such that the permutation is even. */
     static const uint8_t after[4][4][2] = {{{0, 0}, {2, 3}, {3, 1}, {1, 2}},
                                            {{3, 2}, {0, 0}, {0, 3}, {2, 0}},
                                            {{1, 3}, {3, 0}, {0, 0}, {0, 1}},
@@ -182,7 +183,7 @@ bool iccp_tets_ring(iccp_tets *m, uint32_t a, uint32_t b, uint32_t tet, size_t m
     return true;
 }
 
-/* The star one by one, for where the walk goes astray. */
+/* Looks at the whole star, for cases in which the walk fails. */
 static uint32_t search_towards(iccp_tets *m, uint32_t a, uint32_t b)
 {
     if (!iccp_tets_star(m, a))
@@ -203,8 +204,8 @@ static uint32_t search_towards(iccp_tets *m, uint32_t a, uint32_t b)
     return ICCP_NO_TET;
 }
 
-/* Walks through the star of a, always across a face at a that b lies beyond; ICCP_NO_TET where that
- * leads to a wall or takes long. */
+/* Walks through the star of a, always across a face at a that b lies beyond. Returns ICCP_NO_TET if
+ * that leads to a wall or takes too long. */
 static uint32_t walk_towards(iccp_tets *m, uint32_t a, uint32_t b)
 {
     enum { MOST_STEPS = 200 };
@@ -230,8 +231,8 @@ static uint32_t walk_towards(iccp_tets *m, uint32_t a, uint32_t b)
     return ICCP_NO_TET;
 }
 
-/* An edge may be found from either end, and where one has very many tetrahedra, the other mostly
- * has few. */
+/* Looks for the edge from either end, because if one end has very many tetrahedra, the other
+ * usually has few. */
 uint32_t iccp_tets_towards(iccp_tets *m, uint32_t a, uint32_t b)
 {
     uint32_t t = walk_towards(m, a, b);
@@ -275,7 +276,7 @@ void iccp_tets_match(iccp_tets *m, size_t n, uint32_t *sides)
     }
 }
 
-/* p becomes v; false if v is there already. */
+/* Replaces p by v. Returns false if v is there already. */
 static bool rename_corner(uint32_t key[3], uint32_t p, uint32_t v)
 {
     bool has_p = false, has_v = false;
@@ -288,8 +289,8 @@ static bool rename_corner(uint32_t key[3], uint32_t p, uint32_t v)
     return !(has_p && has_v);
 }
 
-/* The sides of the old ones that lead out are kept in m->sides, four numbers each: three corners,
- * of which p becomes v, and what is across. */
+/* Stores the outward sides of the old tetrahedra in m->sides, four numbers each: three corners,
+ * with v in place of p, and the neighbour. */
 static bool list_rim(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const uint32_t *old)
 {
     const uint32_t stamp = iccp_tets_stamp(m);
@@ -314,7 +315,7 @@ static bool list_rim(iccp_tets *m, uint32_t p, uint32_t v, size_t n_old, const u
     return true;
 }
 
-/* Gives the sides of new tetrahedra that lie on the rim what was across there, and joins the
+/* Connects sides of new tetrahedra on the rim with the old neighbours there, and joins the
  * others. */
 static void close_rim(iccp_tets *m)
 {

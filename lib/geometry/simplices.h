@@ -25,10 +25,9 @@ typedef struct iccp_simplices {
     /* The caller's number of each point; ascending within the boundary, and beyond */
     uint32_t *given;
     uint32_t *corners; /* dim + 1 each, in the order for which iccp_orient() returns 1 */
-    uint32_t
-        /* For each side: the same facet as a side of its other simplex, or ICC_ON_BOUNDARY and the
-         * domain's facet. */
-        *across;
+    /* For each side: the same facet as a side of its other simplex, or ICCP_ON_BOUNDARY and the
+     * domain's facet. */
+    uint32_t *across;
 } iccp_simplices;
 
 void iccp_simplices_free(iccp_simplices *mesh);
