@@ -142,9 +142,8 @@ typedef struct icc_chart_info {
                                       not, see `reason` */
     int32_t reason;              /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
     int32_t cells;               /**< cells along the longest side that were used; method field in
-                                      thin shapes: twice those asked for, where those do not do, and
-                                      one more where that saves the certificate, or up to half as
-                                      many more where none were asked for; 0 on a domain's mesh */
+                                      thin shapes may take more than were asked for; 0 on a
+                                      domain's mesh */
     double maximum[ICC_MAX_DIM]; /**< the point that every curve ends at */
     double spacing;              /**< distance of grid or lattice neighbours; 0 on a domain's
                                       mesh */
@@ -278,20 +277,13 @@ typedef struct icc_chart_report {
  *         ::ICC_ERR_CANCELLED
  *
  * Cost with n boundary vertices and N cells along the longest side, by method:
- * - gradient: at most O(N^2 + n N) time and memory in 2-D, about 1 ms at N = 50; O(N^dim) beyond,
- *   in 3-D at N = 64 from 0.1 s. A point takes 15 us in each direction in 3-D.
- * - field: O() as gradient; in 3-D at N = 64 from 0.05 to 0.5 s. A point takes 10 us in each
- *   direction (15 without AVX2). At most 40 bytes a grid vertex and 24 a
- *   facet are kept (in 3-D; 12 a vertex more where values lie below 2^-900, 8 more once
- *   icc_function_logs() has been called), 5.4 GB at 512^3; up to 70, and 150 for each of
- *   icc_field_info::n_contacts, are needed while it is made, beside another chart's 40 where other
- *   numbers of cells are tried, four at most.
+ * - gradient and field: at most O(N^2 + n N) time and memory in 2-D, about 1 ms at N = 50; O(N^dim)
+ *   beyond, in 3-D at N = 64 some tenths of a second. A point takes some 10 us in each direction in
+ *   3-D. Field keeps about 40 bytes a grid vertex and needs twice as much while it is made.
  * - foliation and disc in 2-D: a mesh of at most 2 n + 4 N^2 vertices (far fewer in practice),
- *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000. 500
- *   bytes a vertex.
- * - foliation on a domain with a mesh, in 3-D: 7 to 9 us a tetrahedron up to 90,000, of which
- *   the certificate takes 2 to 4 %. A point takes 1 to 2 us in each direction at 20,000 tetrahedra,
- *   3 to 4 us at 80,000. 130 bytes a tetrahedron, 1.4 kB while it is made.
+ *   whose Laplacian is factorised: about 1 ms at N = 50 and n < 100, 0.06 s at n = 15,000.
+ * - foliation on a domain with a mesh, in 3-D: some 10 us a tetrahedron. A point takes 1 to 4 us in
+ *   each direction.
  */
 ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                                     const icc_chart_options *options, const icc_env *env,

@@ -370,7 +370,7 @@ ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights 
  * @param env       may be NULL
  * @param err       may be NULL
  * @return ::ICC_OK; ::ICC_ERR_ARGUMENT (a node that is not there or named twice, a rigidity that is
- *         not positive); ::ICC_ERR_SOLVER (not solved after 10,000 steps); ::ICC_ERR_MEMORY,
+ *         not positive); ::ICC_ERR_SOLVER (not solved within the limit of steps); ::ICC_ERR_MEMORY,
  *         ::ICC_ERR_CANCELLED
  *
  * Cost: some hundred steps, more for longer parts, each a product with a matrix of these nodes or,

@@ -244,7 +244,7 @@ ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t 
 typedef struct icc_fill_options {
     size_t size;         /**< sizeof(icc_fill_options) */
     double ratio;        /**< circumradius over shortest edge from which tetrahedra are refined, at
-                              least 1.2; 0: 1.6; infinite: no vertices but those it takes */
+                              least 1.2; 0: the default; infinite: no vertices but those it takes */
     uint64_t max_points; /**< refinement ends at so many inner vertices; 0: no limit */
 } icc_fill_options;
 
@@ -253,17 +253,15 @@ typedef struct icc_fill_options {
  * makes of a mesh of its inside. The vertices and facets are those of the surface, bit by bit;
  * vertices are added inside only.
  *
- * Near-Delaunay insertion, recovery of edges and facets, then refinement, flips and smoothing; all
- * that decides whether the mesh is one is exact, and the result is checked as that of
+ * Everything that decides whether the mesh is one is exact, and the result is checked as that of
  * icc_domain_create_mesh() is. The same bits on every machine. Vertices that belong to no facet are
  * not among those of the result.
  *
- * Not guaranteed: that every surface can be filled. There are six attempts: in three orders, and
- * in these again with lengths measured as if the surface were not stretched as a whole. One of ten
- * surfaces that were stretched a thousandfold and lie askew is refused all the same. Nor are
- * angles guaranteed: tetrahedra at facets may be very flat.
+ * Not guaranteed: that every surface can be filled, and angles. Tetrahedra at facets may be very
+ * flat.
  *
- * Cost: about 10 us per tetrahedron, six times as much if it fails, and at most 200 bytes.
+ * Cost: proportional to the number of tetrahedra, some 10 us and 200 bytes each; several times as
+ * long if it fails. docs/theory.md says what is tried.
  * @param[out] out the filled domain, for the caller to free; NULL on failure
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL
@@ -446,9 +444,9 @@ typedef struct icc_match_options {
 typedef struct icc_match_info {
     size_t size;        /**< set by the caller: `sizeof(icc_match_info)` */
     int32_t dim;        /**< dimension */
-    int32_t mirrored;   /**< 1: the target's mirror image fits at least 1.06 times better, compared
-                             as for `sure`. Then y may point down in one of the two. It changes
-                             nothing, because a map cannot mirror; without landmarks only */
+    int32_t mirrored;   /**< 1: the target's mirror image fits clearly better, compared as for
+                             `sure`. Then y may point down in one of the two. It changes nothing,
+                             because a map cannot mirror; without landmarks only */
     size_t n_vertices;  /**< common vertices of the two domains */
     size_t n_landmarks; /**< landmarks; they are among these */
     size_t n_joined;    /**< of these, how many are vertices of the source and of the target */
@@ -495,20 +493,16 @@ typedef struct icc_match_info {
  * them.
  *
  * In space, surfaces that need not have the same triangles become two with common ones. Both are
- * drawn on the sphere, one-to-one, one drawing is turned so that the map between them stretches
- * little, vertices of both are moved so that it stretches less, and both are cut by one another;
- * then both are made coarse together, up to icc_match_options::tolerance, except where a surface
- * would meet itself. By exact signs, before places are rounded: the drawings are one-to-one, and
- * what they are cut into is the same on both. Checked on each result: neither surface meets itself,
- * and the distance in icc_match_info::off. That like parts lie on one another is neither: without
- * landmarks, surfaces that are nearly the same up to a motion, or bend moderately, do well; bodies
- * with limbs in other poses do not, and icc_match_info::energy shows it. With landmarks, each at a
- * vertex, paths between them triangulate both surfaces alike; both are shrunk to that, and grow on
- * the sphere with their landmarks in the same places, moved at every size so that the map between
- * them stretches little. Beside fewer than four, others are chosen first: where they go if the
- * drawings are turned so that landmarks come near their partners. Landmarks then are common
- * vertices, whatever places they are in. Vertices that are left have the bits they were given with;
- * facets are listed as seen from outside.
+ * drawn on the sphere, one-to-one, and cut by one another there; then both are made coarse
+ * together, up to icc_match_options::tolerance, except where a surface would meet itself. By exact
+ * signs, before places are rounded: the drawings are one-to-one, and what they are cut into is the
+ * same on both. Checked on each result: neither surface meets itself, and the distance in
+ * icc_match_info::off. That like parts lie on one another is neither: without landmarks, surfaces
+ * that are nearly the same up to a motion, or bend moderately, do well; bodies with limbs in other
+ * poses do not, and icc_match_info::energy shows it. With landmarks, each at a vertex, like parts
+ * are those between like landmarks. Landmarks then are common vertices, whatever places they are
+ * in. Vertices that are left have the bits they were given with; facets are listed as seen from
+ * outside.
  *
  * With icc_match_options::keep_source, in space, the source's surface stays what it is: common
  * vertices begin with those of the source that have facets, in their order; others are added on its
@@ -538,19 +532,13 @@ typedef struct icc_match_info {
  *         ::ICC_ERR_BOUNDARY (other numbers of features of a kind; or the common vertices, which
  *         `index` tells of, cannot be told apart in doubles); ::ICC_ERR_RESOLUTION (surfaces whose
  *         triangles are too different in size to be drawn on the sphere in doubles, or landmarks
- *         in so different places that paths between them take more than 20 times the vertices);
+ *         in so different places that paths between them take too many vertices);
  *         ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION, ::ICC_ERR_CANCELLED
  *
- * Where both outlines have many vertices, they are paired with one another as far as their edges
- * run alike; few are left to be paired with places on edges.
- *
- * Cost: some 0.4 s and 6 MB whatever the number of vertices n, then O(n log n), some 0.2 s and 6 MB
- * for 15,000 on both sides; some 0.01 s for each hole or line, and O(m^3) at worst, O(m^2) mostly,
- * for m features of a kind. Deterministic. The map between the two domains then takes longer than
- * between outlines of which the same vertices correspond: on coasts to which a third was added at
- * random on both sides two to four times, on one that is turned into a swirl eight times. Where a
- * corner is paired with a straight place, triangles fold at first and have to be repaired. In space
- * some 1 s and 20 MB for 4,700 vertices on both sides, 10 s and 150 MB for 21,000.
+ * Cost in 2-D: some tenths of a second whatever the number of vertices n, then O(n log n); for m
+ * features of a kind O(m^3) at worst, mostly O(m^2). In space O(n log n), some 1 s and 20 MB for
+ * 4,700 vertices on both sides, 10 s and 150 MB for 21,000. Deterministic. The map between the two
+ * domains then takes longer than between outlines of which the same vertices correspond.
  */
 ICC_API icc_status icc_match_create(icc_match **out, const icc_domain *source,
                                     const icc_domain *target, size_t n_landmarks,
@@ -633,18 +621,17 @@ typedef struct icc_map icc_map;
 enum {
     ICC_MAP_CURVES = 1, /**< point by point through the two charts, as the papers do; any
                              dimension */
-    /** A piecewise linear map on an internal mesh. The fastest queries: in 2-D less than 0.1 us a
-     *  point, in 3-D 1 to 5 us. On the boundary it agrees with the cages up to rounding (samples of
-     *  a side lie on it to one unit in the last place).
+    /** A piecewise linear map on an internal mesh, always certified. The fastest queries: in 2-D
+     *  less than 0.1 us a point, in 3-D 1 to 5 us. On the boundary it agrees with the cages up to
+     *  rounding (samples of a side lie on it to one unit in the last place).
      *
-     *  In 2-D: a triangle mesh of the source with an image for every vertex. The images start from
-     *  the charts, are repaired until every triangle is positive, made fair, and certified: every
+     *  In 2-D: triangles that fill the source, with an image for every vertex, made fair. Every
      *  triangle is exactly positive before and after, and both boundaries are exactly simple.
      *
      *  In 3-D, between closed surfaces, which are filled unless they bring a mesh: the source's
-     *  mesh, with images that start from the charts and are repaired, made fair and certified
-     *  likewise. The target's mesh serves its chart only. Inner edges of the source's mesh that
-     *  join boundary vertices are cut where that is needed. */
+     *  mesh, with images that are made fair and certified likewise. The target's mesh serves its
+     *  chart only. Inner edges of the source's mesh that join boundary vertices are cut where that
+     *  is needed. */
     ICC_MAP_MESH = 2
 };
 
@@ -669,9 +656,8 @@ typedef struct icc_map_options {
     int32_t kind;       /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless
                                          both domains have caller-supplied meshes, and for foliation
                                          in 3-D; else curves */
-    int32_t iterations; /**< mesh: improvement steps on each level of refinement; 0: as
-                                         long as they pay off, at most 60; in 3-D, where the mesh is
-                                         not refined here, at most 8; -1: no improvement */
+    int32_t iterations; /**< mesh: at most so many improvement steps on each level of
+                           refinement; 0: as long as they pay off; -1: no improvement */
     const struct icc_chart_options
         *chart;                   /**< for both charts, or NULL; its `maximum` is the source's.
                                          For kind mesh in 2-D method 0 means disc (foliation when a
@@ -754,18 +740,11 @@ typedef struct icc_map_info {
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
  * same barycentric coordinates.
  *
- * If a boundary moves affinely, a map of kind mesh takes its inside along by the same affine map,
- * up to rounding (1e-12 of the size). A boundary counts as affine if the affine map that fits best
- * takes every vertex, also of features, to its partner within 1e-13 of the largest coordinate.
- * Vertices still go to their partners as given. Exceptions are options with `iterations` -1, and
- * features whose ties ask for another isotopy class.
+ * If a boundary moves affinely, up to rounding, a map of kind mesh takes its inside along by the
+ * same affine map, up to rounding. Vertices still go to their partners as given. Exceptions are
+ * options with `iterations` -1, and features whose ties ask for another isotopy class.
  *
- * Both charts are built together. Foliation and disc cut both boundaries alike. The maxima are
- * paired:
- * - by foliation, the target's is where the disc maps take the source's;
- * - by field, through the affine map that fits the boundary best, near parts of it counting most;
- * - by foliation on domains with meshes, a vertex of the source that is deep inside both domains,
- *   before and after a harmonic map, with the target's vertex nearest to its image.
+ * Both charts are built together, and their maxima are paired.
  *
  * In 3-D a surface without a mesh is filled as icc_domain_fill() does it without options, unless
  * the method is gradient or field. One that cannot be filled is ::ICC_ERR_RESOLUTION, and `err`
@@ -781,32 +760,12 @@ typedef struct icc_map_info {
  * @param err      may be NULL; `side` is 1 for the source, 2 for the target
  * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
  *
- * Cost of kind mesh in 2-D: two charts, then Newton steps on the mesh, which are counted in steps
- * times triangles, half a microsecond each; those of the repair take twice as long and count
- * twice. For n facets all of it takes at most 1,600,000 + 225 n: improvement at most
- * W = 300,000 + 300 n, the repair of a start as many steps, and a start without the charts, where
- * theirs cannot be repaired, half as many. That start is the overlay of two triangulations, each of
- * whose crossings counts as four; only they may exceed the budget, being 100,000 + 100 n at most.
- * Most maps take a small part of it: from 4 ms for cages of a few dozen vertices to 0.3 s for
- * 15,000; where W is used up, icc_map_improve() goes on. Of all that we have tried (letters,
- * coasts, outlines turned onto themselves, stars, combs, spirals of up to 300 turns onto discs)
- * none takes more than half a second and 15 times as long as kind curves by method disc, but for
- * the overlay with the most crossings (800,000, of a spiral of 200 turns and a coast), which takes
- * a third more. Deterministic: work is counted, and no clock is read.
- *
- * Kind mesh in 3-D starts from the source's mesh. Where that cannot be repaired, the map is the
- * inverse of one that starts from the target's mesh. Where that cannot be either, these ways are
- * tried one after the other, each of them from both sides: by a ball, where a point inside sees all
- * of the surface; by pockets, where 40 tetrahedra or fewer are left: what is round each of them,
- * 4,096 at most, is filled and mapped anew (there are pockets on the way by a ball, too); by
- * tetrahedra that are put in place one by one, where a point sees all; by points that are added to
- * both meshes. Every tetrahedron of a map of kind mesh is checked, exactly, before and after; that
- * one of these ways comes to a map is not guaranteed, only seen on most pairs tried; docs/3d.md
- * names them, and one that it was not seen on. Cost: Newton steps on all tetrahedra, at most 160 on
- * each mesh, without what crosses it from boundary to boundary in the second half; then 480 on
- * each, which may grow to twice as many tetrahedra meanwhile; by a ball, as many again for either
- * side; and those of pockets, of which there are 40 at most on each mesh, each of up to nine sizes.
- * Most maps take less than 20.
+ * Cost of kind mesh: that of two charts, and a number of improvement steps that is limited in
+ * proportion to the size of the boundary in 2-D, and by a number of passes over the tetrahedra in
+ * 3-D. In 2-D from 4 ms for cages of a few dozen vertices to 0.3 s for 15,000. Where the limit ends
+ * the improvement, icc_map_improve() goes on. Deterministic: work is counted, and no clock is read.
+ * In 3-D a map of kind mesh is found for most pairs, not for all. docs/theory.md and docs/3d.md say
+ * what is tried, in which order, and what it takes.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
@@ -833,10 +792,10 @@ ICC_API icc_status icc_map_create_polygons(icc_map **out, size_t n, const double
 /** Options of icc_map_improve(). */
 typedef struct icc_improve_options {
     size_t size;        /**< set by the caller: `sizeof(icc_improve_options)` */
-    int32_t iterations; /**< at most so many steps on each level; 0: 60 */
-    int32_t levels;     /**< at most so many refinements; 0: 16; -1: none */
+    int32_t iterations; /**< at most so many steps on each level; 0: as long as they pay */
+    int32_t levels;     /**< at most so many refinements; 0: as long as they pay; -1: none */
     double tolerance;   /**< the last level ends when a step gains less than this share of the
-                             energy; 0: 1e-4 */
+                             energy; 0: the default */
 } icc_improve_options;
 
 /** What icc_map_improve() did. */
@@ -855,17 +814,15 @@ typedef struct icc_improve_report {
  * and every intermediate map is certified, so stopping early is safe: when the progress callback
  * asks to stop, the call succeeds with the map reached so far and says so in the report.
  *
- * Steps and refinements end where they do not pay. When all options are 0, a call takes at most
- * 300,000 + 300 n steps times triangles, for n facets, about a microsecond each, and refines to at
- * most four times as many triangles, or 32,000: calling again goes on from there. When any is set,
- * neither is limited.
+ * Steps and refinements end where they do not pay. When all options are 0, the work and the number
+ * of triangles are limited in proportion to what the map has; calling again goes on from there.
+ * When any is set, neither is limited.
  *
- * In 3-D these are tetrahedra, and a step takes about 1.5 microseconds for each. A refinement
- * replaces tetrahedra by others that fill the same space, before and after, where the energy falls
- * (flips), and cuts edges in the middle: those inside from boundary to boundary, and the longest
- * edge of the fifth of the tetrahedra with the most energy. So the map's mesh (icc_map_get_mesh())
- * is no longer the source's inside; its surface stays as it is, and every tetrahedron is exactly
- * positive before and after. Some 300 to 500 bytes a tetrahedron are needed meanwhile.
+ * In 3-D a refinement replaces tetrahedra by others that fill the same space, before and after, and
+ * cuts edges in the middle. So the map's mesh (icc_map_get_mesh()) is no longer the source's
+ * inside; its surface stays as it is, and every tetrahedron is exactly positive before and after.
+ *
+ * Cost: about a microsecond for each step and triangle, half as much again for a tetrahedron.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a map of kind mesh, else ::ICC_ERR_UNSUPPORTED
@@ -880,36 +837,30 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
 
 /**
  * Makes the map to a target that has moved. The source stays; the mesh and the images of its inner
- * vertices are taken from `map`, repaired, and improved by a few steps. For dragging a cage or a
+ * vertices are taken from `map`, moved along, and improved by a few steps. For dragging a cage or a
  * surface, where each frame continues from the one before. The mesh is not refined further; frames
  * with the same mesh and allocator share what is known of it.
  *
- * Without features inside, any target is reached that icc_map_create() can make a map to, however
- * far it is: when what has moved at once cannot be repaired, the old map is carried along in parts;
- * and when that does not get there, the map is a new one, with another mesh.
+ * Without features inside, any target in the plane is reached, however far it is; if need be with
+ * another mesh.
  *
- * In 3-D the inside follows what the surface does by the energy's own model, in parts where a
- * tetrahedron would flip, every tetrahedron exactly positive after each, and takes steps until one
- * gains less than 0.1 %. Where the way is blocked tetrahedra are replaced and cut, as
- * icc_map_improve() does it, up to twice as many as the source's. As a last resort the map is made
- * anew, as icc_map_create() does it, which fills a target without a mesh; `log` then says so. That
- * a target is reached is not guaranteed, only that what is returned is certified. A frame costs a
- * tenth of making the map or less where it is reached at once, some two to seven microseconds a
- * tetrahedron; docs/3d.md has a table.
+ * In 3-D, tetrahedra are replaced and cut where the way is blocked, and as a last resort the map is
+ * made anew, as icc_map_create() does it, which fills a target without a mesh; `log` then says so.
+ * That a target is reached is not guaranteed, only that what is returned is certified. A frame that
+ * is reached at once costs a tenth of making the map or less; docs/3d.md has a table.
  *
  * Features go straight to their new places, and the map stays what becomes of the old one: it
  * passes them on the same sides (icc_map_info::class_kept). The mesh changes as it must. Where
  * features would meet on the way, the call fails with ::ICC_ERR_CERTIFICATE: go another way, in
- * several calls. To a target that is 16 times as large or small, or 16 sizes away, all go along
- * with the shape first, and straight from there.
+ * several calls. To a target of a very different size, or far away, all go along with the shape
+ * first, and straight from there.
  *
  * @param[out] out   the map; owned by the caller. It has no charts: icc_map_source_chart() gives
  *                   NULL.
  * @param map        a map of kind mesh, else ::ICC_ERR_UNSUPPORTED. It stays as it is
  * @param target     the new target, which must correspond as icc_map_create() requires; in 3-D a
  *                   surface or a mesh, whose inside is used by a map that is made anew only
- * @param iterations at most so many improvement steps; 0: 8, or what a frame has time for with
- *                   features; -1: none
+ * @param iterations at most so many improvement steps; 0: what a frame has time for; -1: none
  * @param env        may be NULL
  * @param err        may be NULL
  * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target cannot be reached; in 3-D
@@ -992,8 +943,8 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  * @param err              may be NULL
  * @return as icc_map_certify()
  *
- * Cost: proportional to the number of inverted simplices; where repairing patches does not suffice,
- * some hundred passes over the mesh. Deterministic: iterations are capped, and no clock is read.
+ * Cost: proportional to the number of inverted simplices; at worst a limited number of passes over
+ * the mesh. Deterministic: iterations are capped, and no clock is read.
  */
 ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
                                   size_t n_simplices, const uint32_t *simplices, double *images,
