@@ -50,7 +50,7 @@ static icc_status reserve(pairing *p, const iccp_memory *memory, icc_error *err)
 }
 
 /* Where the outer rings take what is inside the source. */
-static void move_inside(pairing *p, const iccp_outline *outer, const iccp_common *common)
+static void move_inside(pairing *p, const iccp_outline *outer, const iccp_union_outline *common)
 {
     iccp_mean_value at;
     const icc_domain *const source = p->domain[0];
@@ -140,7 +140,7 @@ static void move_outline(pairing *p, iccp_outline *outline, size_t n)
 }
 
 /* Two holes or lines. */
-static icc_status pair_outlines(pairing *p, iccp_common *common, iccp_outline *outline,
+static icc_status pair_outlines(pairing *p, iccp_union_outline *common, iccp_outline *outline,
                                 uint32_t feature, const iccp_env *env, icc_error *err)
 {
     const uint32_t partner = p->partner[feature];
@@ -169,30 +169,32 @@ static icc_status pair_outlines(pairing *p, iccp_common *common, iccp_outline *o
     return iccp_pair_moved(common, &outline[0], &outline[1], n, p->shares, p->options, env, err);
 }
 
-static icc_status pair_feature(pairing *p, iccp_joint *joint, uint32_t feature, const iccp_env *env,
-                               icc_error *err)
+static icc_status pair_feature(pairing *p, iccp_matched_domains *matched, uint32_t feature,
+                               const iccp_env *env, icc_error *err)
 {
     const iccp_feature *const a = &p->domain[0]->features->item[feature];
     const iccp_feature *const b = &p->domain[1]->features->item[p->partner[feature]];
     icc_status status = ICC_OK;
     if (a->kind == ICC_FEATURE_POINT || a->rim_of != NONE) {
-        iccp_joint_add_vertices(joint, p->domain, (const uint32_t[]){a->first, b->first}, a->n);
+        iccp_matched_domains_add_vertices(matched, p->domain,
+                                          (const uint32_t[]){a->first, b->first}, a->n);
     } else {
-        iccp_common common = {0};
+        iccp_union_outline common = {0};
         iccp_outline outline[2] = {{0}, {0}};
         status = pair_outlines(p, &common, outline, feature, env, err);
         if (status == ICC_OK)
-            iccp_joint_add(joint, outline, &common);
-        iccp_common_free(&common, &env->memory);
+            iccp_matched_domains_add(matched, outline, &common);
+        iccp_union_outline_free(&common, &env->memory);
         iccp_outline_free(&outline[0], &env->memory);
         iccp_outline_free(&outline[1], &env->memory);
     }
-    iccp_joint_end_feature(joint, a->kind);
+    iccp_matched_domains_end_feature(matched, a->kind);
     return status;
 }
 
-icc_status iccp_pair_features(iccp_joint *joint, const iccp_outline *outer,
-                              const iccp_common *common, const iccp_parted_landmarks *landmarks,
+icc_status iccp_pair_features(iccp_matched_domains *matched, const iccp_outline *outer,
+                              const iccp_union_outline *common,
+                              const iccp_parted_landmarks *landmarks,
                               const icc_match_options *options, const iccp_env *env, icc_error *err)
 {
     pairing p = {
@@ -213,7 +215,7 @@ icc_status iccp_pair_features(iccp_joint *joint, const iccp_outline *outer,
     for (uint32_t f = 0; f < n && status == ICC_OK; ++f) {
         const iccp_env part =
             iccp_part(env, NULL, (double)f / (double)n, (double)(f + 1) / (double)n);
-        status = pair_feature(&p, joint, f, &part, err);
+        status = pair_feature(&p, matched, f, &part, err);
         if (status == ICC_OK)
             status = iccp_explain(err, iccp_progress(&part, NULL, 1));
     }

@@ -3,12 +3,13 @@
 #define ICCP_FEATURE_PAIRING_H
 
 #include "match/feature_landmarks.h"
-#include "match/outline/joint.h"
+#include "match/outline/matched_domains.h"
 
 /* Adds the features of two domains whose outer rings have `common` vertices, in the order of the
  * source's; both have as many of each kind. ICC_ERR_AMBIGUOUS, ICC_ERR_ARGUMENT. */
-icc_status iccp_pair_features(iccp_joint *joint, const iccp_outline *outer,
-                              const iccp_common *common, const iccp_parted_landmarks *landmarks,
+icc_status iccp_pair_features(iccp_matched_domains *matched, const iccp_outline *outer,
+                              const iccp_union_outline *common,
+                              const iccp_parted_landmarks *landmarks,
                               const icc_match_options *options, const iccp_env *env,
                               icc_error *err);
 

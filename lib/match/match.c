@@ -48,20 +48,22 @@ static icc_status check_both(const icc_domain *source, const icc_domain *target,
 }
 
 /* The domains, from what is joint. */
-static icc_status make(icc_match *match, iccp_joint *joint, const iccp_env *env, icc_error *err)
+static icc_status make(icc_match *match, iccp_matched_domains *matched, const iccp_env *env,
+                       icc_error *err)
 {
     icc_status status = ICC_OK;
-    match->n = joint->n;
+    match->n = matched->n;
     for (size_t e = 0; e < 2 && status == ICC_OK; ++e) {
-        match->origin[e] = joint->origin[e];
-        joint->origin[e] = NULL;
-        status = iccp_joint_domain(&match->domain[e], joint, e, env, err);
+        match->origin[e] = matched->origin[e];
+        matched->origin[e] = NULL;
+        status = iccp_matched_domains_get(&match->domain[e], matched, e, env, err);
     }
     return status;
 }
 
 static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
-                    const iccp_common *outer, const iccp_joint *joint, size_t n_landmarks)
+                    const iccp_union_outline *outer, const iccp_matched_domains *matched,
+                    size_t n_landmarks)
 {
     info->dim = 2;
     info->cost = report->cost;
@@ -69,9 +71,9 @@ static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
     info->sure = report->sure;
     info->turn = 360 * report->turn + 0.0; /* which is not -0 */
     info->mirrored = report->mirrored >= iccp_clearly_better;
-    info->n_vertices = joint->n;
+    info->n_vertices = matched->n;
     info->n_landmarks = n_landmarks;
-    info->n_joined = joint->n_joined;
+    info->n_joined = matched->n_joined;
     info->least_slope = outer->least;
     info->most_slope = outer->most;
 }
@@ -86,8 +88,8 @@ static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const d
     iccp_split(parts, 3, (const double[]){20, source->features != NULL ? 10 : 0, 1}, env);
     parts[0].stage = parts[1].stage = "match";
     iccp_elastic_report report = {0};
-    iccp_common common = {0};
-    iccp_joint joint = {0};
+    iccp_union_outline common = {0};
+    iccp_matched_domains matched = {0};
     iccp_parted_landmarks landmarks = {0};
     double *const shares = iccp_alloc(memory, 2 * n, sizeof *shares);
     icc_status status = shares == NULL ? iccp_fail_memory(err) : ICC_OK;
@@ -100,20 +102,22 @@ static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const d
         status = iccp_pair_rings(&common, &report, &outline[0], &outline[1], landmarks.n_ring,
                                  shares, options, &parts[0], err);
     if (status == ICC_OK)
-        status = iccp_explain(err, iccp_joint_create(&joint, source, target, n, memory));
+        status =
+            iccp_explain(err, iccp_matched_domains_create(&matched, source, target, n, memory));
     if (status == ICC_OK) {
-        iccp_joint_add(&joint, outline, &common);
-        iccp_joint_end_outer(&joint);
-        status = iccp_pair_features(&joint, outline, &common, &landmarks, options, &parts[1], err);
+        iccp_matched_domains_add(&matched, outline, &common);
+        iccp_matched_domains_end_outer(&matched);
+        status =
+            iccp_pair_features(&matched, outline, &common, &landmarks, options, &parts[1], err);
     }
     if (status == ICC_OK)
-        status = make(match, &joint, &parts[2], err);
+        status = make(match, &matched, &parts[2], err);
     if (status == ICC_OK)
         iccp_match_index(match);
     if (status == ICC_OK)
-        fill_in(&match->info, &report, &common, &joint, n);
-    iccp_joint_free(&joint, memory);
-    iccp_common_free(&common, memory);
+        fill_in(&match->info, &report, &common, &matched, n);
+    iccp_matched_domains_free(&matched, memory);
+    iccp_union_outline_free(&common, memory);
     iccp_parted_landmarks_free(&landmarks, memory);
     iccp_free(memory, shares);
     return status;

@@ -11,7 +11,7 @@
 
 enum { N = ICCP_MATCH_SAMPLES };
 
-void iccp_mean_value_sample(iccp_mean_value *out, const iccp_common *common,
+void iccp_mean_value_sample(iccp_mean_value *out, const iccp_union_outline *common,
                             const iccp_outline *source, const iccp_outline *target)
 {
     const iccp_pairing_knots knots = {common->n, common->share};

@@ -2,14 +2,14 @@
 #ifndef ICCP_MEAN_VALUE_H
 #define ICCP_MEAN_VALUE_H
 
-#include "match/outline/common.h"
+#include "match/outline/union_outline.h"
 
 /* Places of the source's outline, in order, and the target's that they are paired with. */
 typedef struct iccp_mean_value {
     double from[2 * ICCP_MATCH_SAMPLES], to[2 * ICCP_MATCH_SAMPLES];
 } iccp_mean_value;
 
-void iccp_mean_value_sample(iccp_mean_value *out, const iccp_common *common,
+void iccp_mean_value_sample(iccp_mean_value *out, const iccp_union_outline *common,
                             const iccp_outline *source, const iccp_outline *target);
 
 /* Moves n local points of the source in place. */

@@ -1,13 +1,13 @@
-/* Both surfaces are drawn on the sphere (match/bodies.h) and cut by one another
+/* Both surfaces are drawn on the sphere (match/sphere_pair.h) and cut by one another
  * (match/common_mesh/sphere_overlay.h), so that they have the same triangles, which are then made
  * fewer (match/common_mesh/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "match/bodies.h"
 #include "match/common_mesh/simplify_apart.h"
 #include "match/sphere/landmark_paths.h"
+#include "match/sphere_pair.h"
 #include "match/surface/corner_angle.h"
 #include "match/surface/stretch.h"
 #include "math/elementary.h"
@@ -203,7 +203,7 @@ static icc_status run(icc_match *match, iccp_body bodies[2], iccp_common_surface
     for (int k = 0; k < 4; ++k)
         parts[k].stage = "match";
     double off = 0;
-    icc_status status = iccp_bodies_draw(bodies, n_landmarks, landmarks, &parts[0], err);
+    icc_status status = iccp_sphere_pair_draw(bodies, n_landmarks, landmarks, &parts[0], err);
     if (status == ICC_OK)
         status = cut(common, bodies, &parts[1], err);
     if (status != ICC_OK)
@@ -235,10 +235,10 @@ icc_status iccp_match_surfaces(icc_match *match, const icc_domain *source, const
                             ICCP_MOST_SURFACE_LANDMARKS);
     iccp_body bodies[2] = {{0}, {0}};
     iccp_common_surface common = {0};
-    icc_status status = iccp_bodies_create(bodies, source, target, env, err);
+    icc_status status = iccp_sphere_pair_create(bodies, source, target, env, err);
     if (status == ICC_OK)
         status = run(match, bodies, &common, n_landmarks, landmarks, options, env, err);
     iccp_common_surface_free(&common, &env->memory);
-    iccp_bodies_free(bodies, &env->memory);
+    iccp_sphere_pair_free(bodies, &env->memory);
     return status;
 }

@@ -2,8 +2,8 @@
 
 #include "base/minmax.h"
 #include "geometry/facet_tree.h"
-#include "match/common_mesh/meeting.h"
-#include "match/common_mesh/touch_up.h"
+#include "match/common_mesh/intersections.h"
+#include "match/common_mesh/optimise_shape.h"
 
 #include <string.h>
 
@@ -106,7 +106,7 @@ static icc_status simplify(rounds *r, iccp_common_surface *c, const iccp_env *en
         return status;
     memset(r->is_bad, 0, r->whole->n_vertices);
     r->any = false;
-    return iccp_meeting_mark(r->is_bad, &r->any, c, &env->memory) ? ICC_OK : ICC_ERR_MEMORY;
+    return iccp_intersections_mark(r->is_bad, &r->any, c, &env->memory) ? ICC_OK : ICC_ERR_MEMORY;
 }
 
 /* Rounding may have brought together what is on the whole surfaces. */
@@ -115,7 +115,8 @@ static icc_status look_for_flaws(rounds *r, const iccp_memory *memory)
     if (r->knows_flaws)
         return ICC_OK;
     r->knows_flaws = true;
-    return iccp_meeting_mark(r->flawed, &r->has_flaws, r->whole, memory) ? ICC_OK : ICC_ERR_MEMORY;
+    return iccp_intersections_mark(r->flawed, &r->has_flaws, r->whole, memory) ? ICC_OK
+                                                                               : ICC_ERR_MEMORY;
 }
 
 /* Simplifies until nothing meets and all is near enough; *is_done if that has come about. */
@@ -178,8 +179,8 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
         iccp_common_surface fine;
         status = iccp_common_surface_copy(&fine, c, memory);
         if (status == ICC_OK)
-            status = iccp_touch_up(&fine, became, &rise, k, r->whole, r->became, r->given, r->x,
-                                   &limits, &part);
+            status = iccp_optimise_shape(&fine, became, &rise, k, r->whole, r->became, r->given,
+                                         r->x, &limits, &part);
         if (status == ICC_OK && rise <= most_rise)
             status = take_if_near(r, c, &fine, memory);
         iccp_common_surface_free(&fine, memory);

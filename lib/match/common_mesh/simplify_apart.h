@@ -8,7 +8,7 @@
  * too far off the surface that was given, all that went there stays and it is done once more, but
  * for vertices that meet others before anything goes; at last these alone go, as they do from the
  * start if `only_flaws`. Where they are not alone, what is left is touched up
- * (match/common_mesh/touch_up.h), as far as nothing meets. limits->off is the most allowed, and
+ * (match/common_mesh/optimise_shape.h), as far as nothing meets. limits->off is the most allowed, and
  * *off the share of it that has come about, as measured both ways: from all vertices of `common`,
  * and from the middles of what is left and of its sides; 0 where nothing goes. ICC_ERR_MEMORY,
  * ICC_ERR_CANCELLED without a text. What meets is told exactly; nothing is promised where `common`

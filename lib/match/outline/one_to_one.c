@@ -8,7 +8,7 @@
 
 /* The shift between vertices that are joined which most joins have, if any has more than half of
  * them (R. Boyer and J. Moore, MJRTY - a fast majority vote algorithm, 1991). */
-static uint32_t majority(const iccp_common *common, uint32_t n)
+static uint32_t majority(const iccp_union_outline *common, uint32_t n)
 {
     uint32_t shift = 0;
     size_t votes = 0;
@@ -24,7 +24,7 @@ static uint32_t majority(const iccp_common *common, uint32_t n)
 }
 
 /* Whether half of the vertices are joined, three of four of these joins by the shift. */
-static bool is_common(const iccp_common *common, uint32_t n, uint32_t shift)
+static bool is_common(const iccp_union_outline *common, uint32_t n, uint32_t shift)
 {
     size_t n_alike = 0;
     for (size_t k = 0; k < common->n; ++k) {
@@ -56,8 +56,8 @@ static bool has_landmarks(const iccp_outline *source, const iccp_outline *target
     return true;
 }
 
-void iccp_one_to_one(iccp_common *common, const iccp_outline *source, const iccp_outline *target,
-                     size_t n_landmarks, const double *landmarks)
+void iccp_one_to_one(iccp_union_outline *common, const iccp_outline *source,
+                     const iccp_outline *target, size_t n_landmarks, const double *landmarks)
 {
     const uint32_t n = (uint32_t)source->n;
     if (source->n != target->n)

@@ -37,7 +37,7 @@ static icc_status refuse(const iccp_elastic_report *report, double sure, icc_err
 
 /* The common vertices of two outlines with a pairing; an elastic one has corners and vertices that
  * are still to be paired with one another, unless they turn out to correspond as they are. */
-static icc_status finish(iccp_common *common, iccp_pairing_knots *knots, bool is_elastic,
+static icc_status finish(iccp_union_outline *common, iccp_pairing_knots *knots, bool is_elastic,
                          const iccp_outline *source, const iccp_outline *target, size_t n,
                          const double *landmarks, const icc_match_options *options,
                          const iccp_env *env)
@@ -48,8 +48,8 @@ static icc_status finish(iccp_common *common, iccp_pairing_knots *knots, bool is
     if (is_elastic && status == ICC_OK)
         status = iccp_pair_vertices(knots, source, target, n, landmarks, env);
     if (status == ICC_OK)
-        status = iccp_common_create(common, knots, source, target, n, landmarks, options->drop,
-                                    &env->memory);
+        status = iccp_union_outline_create(common, knots, source, target, n, landmarks,
+                                           options->drop, &env->memory);
     if (is_elastic && status == ICC_OK)
         iccp_one_to_one(common, source, target, n, landmarks);
     return status;
@@ -61,7 +61,7 @@ static double *reserve(size_t n_landmarks, const iccp_memory *memory)
                       sizeof(double));
 }
 
-icc_status iccp_pair_rings(iccp_common *common, iccp_elastic_report *report,
+icc_status iccp_pair_rings(iccp_union_outline *common, iccp_elastic_report *report,
                            const iccp_outline *source, const iccp_outline *target, size_t n,
                            const double *landmarks, const icc_match_options *options,
                            const iccp_env *env, icc_error *err)
@@ -91,7 +91,7 @@ icc_status iccp_pair_rings(iccp_common *common, iccp_elastic_report *report,
     return status == ICC_ERR_AMBIGUOUS ? status : iccp_explain(err, status);
 }
 
-icc_status iccp_pair_moved(iccp_common *common, const iccp_outline *source,
+icc_status iccp_pair_moved(iccp_union_outline *common, const iccp_outline *source,
                            const iccp_outline *target, size_t n, const double *landmarks,
                            const icc_match_options *options, const iccp_env *env, icc_error *err)
 {

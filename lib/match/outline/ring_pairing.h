@@ -2,7 +2,7 @@
 #ifndef ICCP_RING_PAIRING_H
 #define ICCP_RING_PAIRING_H
 
-#include "match/outline/common.h"
+#include "match/outline/union_outline.h"
 
 /* A pairing is refused unless it fits this many times better than any other. A mirror image that
  * fits this many times better is reported. Among the development pairs (tests/bench/bench_match.c)
@@ -15,14 +15,14 @@ double iccp_least_sure(const icc_match_options *options);
 
 /* Pairs outer rings, through n landmarks (pairs of shares as iccp_landmarks_place() makes them).
  * ICC_ERR_AMBIGUOUS. */
-icc_status iccp_pair_rings(iccp_common *common, iccp_elastic_report *report,
+icc_status iccp_pair_rings(iccp_union_outline *common, iccp_elastic_report *report,
                            const iccp_outline *source, const iccp_outline *target, size_t n,
                            const double *landmarks, const icc_match_options *options,
                            const iccp_env *env, icc_error *err);
 
 /* The same of a source that has been moved to where the target should be: without landmarks what
  * lies near goes together. */
-icc_status iccp_pair_moved(iccp_common *common, const iccp_outline *source,
+icc_status iccp_pair_moved(iccp_union_outline *common, const iccp_outline *source,
                            const iccp_outline *target, size_t n, const double *landmarks,
                            const icc_match_options *options, const iccp_env *env, icc_error *err);
 

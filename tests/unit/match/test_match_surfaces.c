@@ -3,7 +3,7 @@
 
 #include "../../faulty.h"
 #include "../../surfaces.h"
-#include "match/common_mesh/meeting.h"
+#include "match/common_mesh/intersections.h"
 #include "match/common_mesh/simplify_apart.h"
 
 #include <check.h>
@@ -236,7 +236,7 @@ START_TEST(what_rounding_brings_together_goes)
             c.within[side][f] = f / 4;
     }
     uint8_t is_bad[SURFACE_VERTICES] = {0};
-    ck_assert(iccp_meeting_mark(is_bad, &any, &c, &env.memory));
+    ck_assert(iccp_intersections_mark(is_bad, &any, &c, &env.memory));
     ck_assert(any);
     const iccp_simplify_limits limits = {.off = {1e-3, 1e-3}, .edge = {2, 2}};
     ck_assert_int_eq(iccp_simplify_apart(&c, &off, (const iccp_half_edges *const[]){&given, &given},
@@ -244,7 +244,7 @@ START_TEST(what_rounding_brings_together_goes)
                                          &limits, true, &env),
                      ICC_OK);
     any = false;
-    ck_assert(iccp_meeting_mark(is_bad, &any, &c, &env.memory));
+    ck_assert(iccp_intersections_mark(is_bad, &any, &c, &env.memory));
     ck_assert(!any);
     ck_assert_uint_lt(c.n_vertices, two.n_vertices);
     ck_assert_double_le(off, 1e-9);

@@ -2,7 +2,7 @@
 #include "../../../hard_bodies.h"
 #include "base/env.h"
 #include "match/common_mesh/clearance.h"
-#include "match/common_mesh/meeting.h"
+#include "match/common_mesh/intersections.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -53,7 +53,7 @@ static bool would_meet(const iccp_half_edges *m, double *x, const change *c)
     }
     memcpy(faces + 3 * all.n_faces, c->corner, c->n * sizeof *c->corner);
     all.n_faces += c->n;
-    ck_assert(iccp_meeting_mark(is_bad, &any, &all, &memory));
+    ck_assert(iccp_intersections_mark(is_bad, &any, &all, &memory));
     return any;
 }
 

@@ -1,4 +1,4 @@
-#include "match/common_mesh/meeting.h"
+#include "match/common_mesh/intersections.h"
 
 #include "domain/simplicial.h"
 #include "geometry/facet_tree.h"
@@ -31,8 +31,8 @@ static bool mark(const iccp_facet_tree *tree, uint8_t *is_bad)
     return any;
 }
 
-bool iccp_meeting_mark(uint8_t *is_bad, bool *any, const iccp_common_surface *c,
-                       const iccp_memory *memory)
+bool iccp_intersections_mark(uint8_t *is_bad, bool *any, const iccp_common_surface *c,
+                             const iccp_memory *memory)
 {
     bool has_memory = true;
     for (int side = 0; side < 2 && has_memory; ++side) {

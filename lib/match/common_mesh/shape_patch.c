@@ -1,7 +1,7 @@
 /* What a change of common triangles does: to their shape, to how one surface is stretched to become
  * the other (match/surface/stretch.h), to how far both are off (match/common_mesh/covering.h) and
  * to what meets (match/common_mesh/clearance.h). */
-#include "match/common_mesh/touch_patch.h"
+#include "match/common_mesh/shape_patch.h"
 
 #include "base/minmax.h"
 #include "match/surface/corner_angle.h"
@@ -22,7 +22,7 @@ static const double longer2 = 1.5;
 /* Of 1 / sine^2: nothing is thinner. */
 static const double least_sine2 = 1e-12;
 
-bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint32_t v)
+bool iccp_patch_may_unite(const iccp_patch_state *s, int side_of_u, uint32_t u, uint32_t v)
 {
     const uint32_t one = s->at[0][u], other = s->at[0][v];
     if (side_of_u >= 0 && (s->keep[v] >> side_of_u & 1) != 0)
@@ -31,7 +31,7 @@ bool iccp_patch_may_unite(const iccp_patches *s, int side_of_u, uint32_t u, uint
                                                : iccp_kept_cells_may_go(s->cells, one, other));
 }
 
-bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint32_t place)
+bool iccp_patch_may_move(const iccp_patch_state *s, uint32_t v, uint32_t sides, uint32_t place)
 {
     const uint32_t from = s->at[0][v];
     return s->cells == NULL || (sides & 1) == 0 ||
@@ -39,7 +39,7 @@ bool iccp_patch_may_move(const iccp_patches *s, uint32_t v, uint32_t sides, uint
             iccp_kept_cells_may_go(s->cells, place, from));
 }
 
-bool iccp_patch_may_flip(const iccp_patches *s, const uint32_t corners[4])
+bool iccp_patch_may_flip(const iccp_patch_state *s, const uint32_t corners[4])
 {
     uint32_t places[4];
     for (int i = 0; i < 4; ++i)
@@ -47,7 +47,7 @@ bool iccp_patch_may_flip(const iccp_patches *s, const uint32_t corners[4])
     return s->cells == NULL || iccp_kept_cells_share(s->cells, places);
 }
 
-void iccp_patch_add_ring(const iccp_patches *s, iccp_patch *p, uint32_t v, uint32_t but,
+void iccp_patch_add_ring(const iccp_patch_state *s, iccp_patch *p, uint32_t v, uint32_t but,
                          uint32_t as)
 {
     const iccp_half_edges *const m = &s->m;
@@ -69,7 +69,7 @@ void iccp_patch_add_ring(const iccp_patches *s, iccp_patch *p, uint32_t v, uint3
 }
 
 /* Corners on one side of triangle k, with all vertices where they are or as they will be. */
-static iccp_corners corners_of(const iccp_patches *s, const iccp_patch *p,
+static iccp_corners corners_of(const iccp_patch_state *s, const iccp_patch *p,
                                const iccp_patch_triangles *t, int side, uint32_t k)
 {
     iccp_corners c;
@@ -81,7 +81,7 @@ static iccp_corners corners_of(const iccp_patches *s, const iccp_patch *p,
     return c;
 }
 
-static bool look(const iccp_patches *s, const iccp_patch *p, const iccp_patch_triangles *t,
+static bool look(const iccp_patch_state *s, const iccp_patch *p, const iccp_patch_triangles *t,
                  double least, double most, iccp_patch_shape *shape)
 {
     *shape = (iccp_patch_shape){.least = HUGE_VAL};
@@ -100,15 +100,16 @@ static bool look(const iccp_patches *s, const iccp_patch *p, const iccp_patch_tr
     return true;
 }
 
-iccp_patch_shape iccp_patch_before(const iccp_patches *s, const iccp_patch *p)
+iccp_patch_shape iccp_patch_before(const iccp_patch_state *s, const iccp_patch *p)
 {
     iccp_patch_shape shape;
     (void)look(s, p, &p->before, 0, HUGE_VAL, &shape);
     return shape;
 }
 
-bool iccp_patch_after(const iccp_patches *s, const iccp_patch *p, const iccp_patch_shape *before,
-                      double least, double most, iccp_patch_shape *after)
+bool iccp_patch_after(const iccp_patch_state *s, const iccp_patch *p,
+                      const iccp_patch_shape *before, double least, double most,
+                      iccp_patch_shape *after)
 {
     const double grown2 = s->caution < ICCP_PATCH_SHORT && before->least < thin ? longer2 : 1;
     bool is_good = look(s, p, &p->after, least, most, after);
@@ -127,7 +128,8 @@ void iccp_patch_add_energy(double sum[2], const iccp_corners *c, const iccp_corn
     sum[1] += weight;
 }
 
-static double energy_of(const iccp_patches *s, const iccp_patch *p, const iccp_patch_triangles *t)
+static double energy_of(const iccp_patch_state *s, const iccp_patch *p,
+                        const iccp_patch_triangles *t)
 {
     double sum[2] = {0, 0};
     for (uint32_t k = 0; k < t->n; ++k) {
@@ -138,14 +140,14 @@ static double energy_of(const iccp_patches *s, const iccp_patch *p, const iccp_p
 }
 
 /* Puts the vertex that moves, if any, in a place. */
-static void put(iccp_patches *s, const iccp_patch *p, int side, uint32_t place)
+static void put(iccp_patch_state *s, const iccp_patch *p, int side, uint32_t place)
 {
     if (p->vertex != ICCP_NO_EDGE)
         memcpy(s->x[side] + 3 * (size_t)p->vertex, iccp_patch_point(s, side, place),
                3 * sizeof(double));
 }
 
-bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_before)
+bool iccp_patch_allowed(iccp_patch_state *s, const iccp_patch *p, double least_before)
 {
     const iccp_patch_triangles *const t = &p->after;
     const double most = s->cells != NULL ? most_calm_if_kept : most_calm;
@@ -169,7 +171,7 @@ bool iccp_patch_allowed(iccp_patches *s, const iccp_patch *p, double least_befor
     return is_allowed;
 }
 
-void iccp_patch_apply(iccp_patches *s, const iccp_patch *p)
+void iccp_patch_apply(iccp_patch_state *s, const iccp_patch *p)
 {
     const iccp_patch_triangles *const t = &p->after;
     for (int side = 0; side < 2; ++side) {

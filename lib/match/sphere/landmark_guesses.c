@@ -1,4 +1,4 @@
-#include "match/sphere/helpers.h"
+#include "match/sphere/landmark_guesses.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
@@ -51,9 +51,9 @@ static void add_pair(uint32_t *const vertices[2], size_t n, const iccp_half_edge
     }
 }
 
-icc_status iccp_helpers_find(uint32_t *const vertices[2], size_t n, size_t n_all,
-                             const iccp_half_edges *const m[2], const double *const x[2],
-                             const iccp_env *env, icc_error *err)
+icc_status iccp_landmark_guesses_find(uint32_t *const vertices[2], size_t n, size_t n_all,
+                                      const iccp_half_edges *const m[2], const double *const x[2],
+                                      const iccp_env *env, icc_error *err)
 {
     double *directions[2] = {NULL, NULL}, energy;
     iccp_env parts[3];

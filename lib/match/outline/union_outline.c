@@ -1,10 +1,10 @@
 /* The union of the vertices of two outlines. Near ones join, else an edge of the one would be cut
  * as close to its end as rounding; the pairing is bent to pass through those that do, and all
  * others follow it, so that their order stays. */
-#include "match/outline/common.h"
+#include "match/outline/union_outline.h"
 
 #include "base/sort.h"
-#include "match/outline/weave.h"
+#include "match/outline/merge_order.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,7 +23,7 @@ static bool is_before(const void *context, uint32_t a, uint32_t b)
     return place[a] < place[b];
 }
 
-static void release(iccp_weave *w, const iccp_memory *memory)
+static void release(iccp_merge_order *w, const iccp_memory *memory)
 {
     iccp_free(memory, w->place);
     iccp_free(memory, w->edge);
@@ -36,7 +36,7 @@ static void release(iccp_weave *w, const iccp_memory *memory)
     iccp_free(memory, w->is_joined);
 }
 
-static icc_status reserve(iccp_weave *w, size_t n_knots, size_t n_landmarks,
+static icc_status reserve(iccp_merge_order *w, size_t n_knots, size_t n_landmarks,
                           const iccp_memory *memory)
 {
     const size_t n = w->n[0] + w->n[1];
@@ -58,7 +58,7 @@ static icc_status reserve(iccp_weave *w, size_t n_knots, size_t n_landmarks,
 }
 
 /* Cuts the pairing open in the middle of its first piece, and the outlines with it. */
-static void open(iccp_weave *w, const iccp_pairing_knots *knots)
+static void open(iccp_merge_order *w, const iccp_pairing_knots *knots)
 {
     const double *const k = knots->knot;
     const double next[2] = {knots->n > 1 ? k[2] : k[0] + 1, knots->n > 1 ? k[3] : k[1] + 1};
@@ -86,7 +86,7 @@ static void open(iccp_weave *w, const iccp_pairing_knots *knots)
 
 /* The pairing through all joins: between two of them it is stretched along the target, but for
  * knots that lie next to one. */
-static void bend(iccp_weave *w)
+static void bend(iccp_merge_order *w)
 {
     double *last = w->bent;
     memcpy(last, w->knot, 2 * sizeof *last);
@@ -94,8 +94,8 @@ static void bend(iccp_weave *w)
     for (size_t k = 0; k <= w->n_joins; ++k) {
         const double *const next = k < w->n_joins ? w->join[k].at : w->knot + 2 * (w->n_knots - 1);
         const double from[2] = {last[0], last[1]};
-        const double image = iccp_weave_follow(w->knot, w->n_knots, 0, from[0]);
-        const double width = iccp_weave_follow(w->knot, w->n_knots, 0, next[0]) - image;
+        const double image = iccp_merge_order_follow(w->knot, w->n_knots, 0, from[0]);
+        const double width = iccp_merge_order_follow(w->knot, w->n_knots, 0, next[0]) - image;
         const double stretch = width > 0 ? (next[1] - from[1]) / width : 1;
         for (; knot + 1 < w->n_knots && w->knot[2 * knot] < next[0]; ++knot) {
             const double p[2] = {w->knot[2 * knot],
@@ -110,7 +110,7 @@ static void bend(iccp_weave *w)
 }
 
 /* All vertices, in order. */
-static void line_up(iccp_weave *w)
+static void line_up(iccp_merge_order *w)
 {
     memset(w->is_joined, 0, w->n[0] + w->n[1]);
     w->n_events = 0;
@@ -129,7 +129,7 @@ static void line_up(iccp_weave *w)
             to->d = 0;
             to->is_fixed = true;
             to->at[e] = w->place[k];
-            to->at[1 - e] = iccp_weave_follow(w->bent, w->n_bent, e, w->place[k]);
+            to->at[1 - e] = iccp_merge_order_follow(w->bent, w->n_bent, e, w->place[k]);
             to->vertex[e] = (uint32_t)v;
             to->vertex[1 - e] = NONE;
         }
@@ -137,7 +137,7 @@ static void line_up(iccp_weave *w)
 }
 
 /* How much longer the edge from event k is in the target. */
-static double slope(const iccp_weave *w, size_t k)
+static double slope(const iccp_merge_order *w, size_t k)
 {
     const iccp_event *const p = &w->event[k], *const q = &w->event[(k + 1) % w->n_events];
     const double turn = k + 1 == w->n_events ? 1 : 0;
@@ -145,7 +145,7 @@ static double slope(const iccp_weave *w, size_t k)
 }
 
 /* Forgets the knots at joins that are undone, which would hold their vertices together. */
-static void forget(iccp_weave *w)
+static void forget(iccp_merge_order *w)
 {
     size_t n = 1, knot = 1;
     for (size_t k = 0; k < w->n_events; ++k) {
@@ -163,7 +163,7 @@ static void forget(iccp_weave *w)
 }
 
 /* Marks the joins within `reach` events of event k as undone; whether there were any. */
-static bool undo_around(iccp_weave *w, size_t k, size_t reach)
+static bool undo_around(iccp_merge_order *w, size_t k, size_t reach)
 {
     bool has_any = false;
     const size_t n = 2 * reach + 2 < w->n_events ? 2 * reach + 2 : w->n_events;
@@ -177,7 +177,7 @@ static bool undo_around(iccp_weave *w, size_t k, size_t reach)
 
 /* Takes joins apart at edges that they stretch too much: the worse of the two at such an edge, or
  * all within `reach` events of it; whether there were any. */
-static bool relent(iccp_weave *w, size_t reach)
+static bool relent(iccp_merge_order *w, size_t reach)
 {
     bool has_any = false;
     for (size_t k = 0; k < w->n_events; ++k) {
@@ -206,7 +206,7 @@ static bool relent(iccp_weave *w, size_t reach)
 
 /* Joins, and takes them apart again until no edge is stretched too much for them: first one by one,
  * then more and more round such an edge, so that the rounds are as few as binary digits. */
-static void weave(iccp_weave *w)
+static void merge(iccp_merge_order *w)
 {
     bend(w);
     line_up(w);
@@ -217,7 +217,8 @@ static void weave(iccp_weave *w)
     }
 }
 
-static icc_status finish(iccp_common *common, const iccp_weave *w, const iccp_memory *memory)
+static icc_status finish(iccp_union_outline *common, const iccp_merge_order *w,
+                         const iccp_memory *memory)
 {
     common->n = w->n_events;
     common->share = iccp_alloc(memory, 2 * w->n_events, sizeof *common->share);
@@ -236,25 +237,25 @@ static icc_status finish(iccp_common *common, const iccp_weave *w, const iccp_me
     return ICC_OK;
 }
 
-icc_status iccp_common_create(iccp_common *common, const iccp_pairing_knots *knots,
-                              const iccp_outline *source, const iccp_outline *target,
-                              size_t n_landmarks, const double *landmarks, double drop,
-                              const iccp_memory *memory)
+icc_status iccp_union_outline_create(iccp_union_outline *common, const iccp_pairing_knots *knots,
+                                     const iccp_outline *source, const iccp_outline *target,
+                                     size_t n_landmarks, const double *landmarks, double drop,
+                                     const iccp_memory *memory)
 {
-    *common = (iccp_common){0};
-    iccp_weave w = {.outline = {source, target}, .n = {source->n, target->n}};
+    *common = (iccp_union_outline){0};
+    iccp_merge_order w = {.outline = {source, target}, .n = {source->n, target->n}};
     icc_status status = reserve(&w, knots->n, n_landmarks, memory);
     if (status == ICC_OK) {
         open(&w, knots);
-        iccp_weave_join(&w, n_landmarks, landmarks, drop);
-        weave(&w);
+        iccp_merge_vertices(&w, n_landmarks, landmarks, drop);
+        merge(&w);
         status = finish(common, &w, memory);
     }
     release(&w, memory);
     return status;
 }
 
-void iccp_common_free(iccp_common *common, const iccp_memory *memory)
+void iccp_union_outline_free(iccp_union_outline *common, const iccp_memory *memory)
 {
     iccp_free(memory, common->share);
     iccp_free(memory, common->vertex);

@@ -2,12 +2,12 @@
  * other (match/sphere/rotation.h), and each is moved on the other (match/sphere/relax.h). With
  * landmarks both are drawn by way of the same few triangles (match/sphere/landmark_sphere.h). Equal
  * ones are drawn in the same way (match/sphere/equal_surfaces.h). */
-#include "match/bodies.h"
+#include "match/sphere_pair.h"
 
 #include "base/error.h"
 #include "match/sphere/close_vertices.h"
 #include "match/sphere/equal_surfaces.h"
-#include "match/sphere/helpers.h"
+#include "match/sphere/landmark_guesses.h"
 #include "match/sphere/landmark_paths.h"
 #include "match/sphere/landmark_sphere.h"
 #include "match/sphere/likely_pairs.h"
@@ -152,10 +152,10 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_en
     double *directions[2] = {NULL, NULL};
     icc_status status = ICC_OK;
     if (n < n_all)
-        status =
-            iccp_helpers_find((uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n,
-                              n_all, (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
-                              (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
+        status = iccp_landmark_guesses_find(
+            (uint32_t *const[]){bodies[0].landmarks, bodies[1].landmarks}, n, n_all,
+            (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
+            (const double *const[]){bodies[0].x, bodies[1].x}, &parts[0], err);
     if (status == ICC_OK && n_all < ENOUGH_PAIRS)
         status = iccp_explain(
             err, iccp_likely_pairs_find(
@@ -181,15 +181,15 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_en
     return status;
 }
 
-icc_status iccp_bodies_create(iccp_body bodies[2], const icc_domain *source,
-                              const icc_domain *target, const iccp_env *env, icc_error *err)
+icc_status iccp_sphere_pair_create(iccp_body bodies[2], const icc_domain *source,
+                                   const icc_domain *target, const iccp_env *env, icc_error *err)
 {
     const icc_status status = make_body(&bodies[0], source, env, err);
     return status == ICC_OK ? make_body(&bodies[1], target, env, err) : status;
 }
 
-icc_status iccp_bodies_draw(iccp_body bodies[2], size_t n_landmarks, const double *landmarks,
-                            const iccp_env *env, icc_error *err)
+icc_status iccp_sphere_pair_draw(iccp_body bodies[2], size_t n_landmarks, const double *landmarks,
+                                 const iccp_env *env, icc_error *err)
 {
     bool is_equal = false;
     icc_status status = ICC_OK;
@@ -214,7 +214,7 @@ icc_status iccp_bodies_draw(iccp_body bodies[2], size_t n_landmarks, const doubl
     return status;
 }
 
-void iccp_bodies_free(iccp_body bodies[2], const iccp_memory *memory)
+void iccp_sphere_pair_free(iccp_body bodies[2], const iccp_memory *memory)
 {
     for (int side = 0; side < 2; ++side) {
         iccp_half_edges_free(&bodies[side].m);

@@ -1,6 +1,6 @@
 /* Two outlines as their vertices are woven into one another. */
-#ifndef ICCP_WEAVE_H
-#define ICCP_WEAVE_H
+#ifndef ICCP_MERGE_ORDER_H
+#define ICCP_MERGE_ORDER_H
 
 #include "match/outline/outline.h"
 
@@ -12,7 +12,7 @@ typedef struct iccp_event {
     bool is_fixed;
 } iccp_event;
 
-typedef struct iccp_weave {
+typedef struct iccp_merge_order {
     const iccp_outline *outline[2];
     size_t n[2];
     double cut[2]; /* where both outlines are cut open */
@@ -26,16 +26,17 @@ typedef struct iccp_weave {
     iccp_event *join, *event;
     size_t n_joins, n_events;
     unsigned char *is_joined; /* of all vertices */
-} iccp_weave;
+} iccp_merge_order;
 
 /* Where n monotone knots take x on side `from`. */
-double iccp_weave_follow(const double *knot, size_t n, int from, double x);
+double iccp_merge_order_follow(const double *knot, size_t n, int from, double x);
 
 /* In order along the source, then along the target; for iccp_sort(). */
 int iccp_event_by_source(const void *a, const void *b);
 
 /* Finds the joins: landmarks, and pairs of vertices that lie near one another; `drop`: so near in
  * shares of the perimeter in any case. In order along both. */
-void iccp_weave_join(iccp_weave *w, size_t n_landmarks, const double *landmarks, double drop);
+void iccp_merge_vertices(iccp_merge_order *w, size_t n_landmarks, const double *landmarks,
+                         double drop);
 
 #endif

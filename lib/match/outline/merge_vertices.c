@@ -1,5 +1,5 @@
 /* Which vertices of two outlines become one: those that the pairing takes near one another. */
-#include "match/outline/weave.h"
+#include "match/outline/merge_order.h"
 
 #include "base/sort.h"
 
@@ -32,7 +32,7 @@ int iccp_event_by_source(const void *a, const void *b)
     return 0;
 }
 
-double iccp_weave_follow(const double *knot, size_t n, int from, double x)
+double iccp_merge_order_follow(const double *knot, size_t n, int from, double x)
 {
     size_t low = 0, high = n - 1;
     while (high - low > 1) {
@@ -50,19 +50,19 @@ double iccp_weave_follow(const double *knot, size_t n, int from, double x)
 
 /* Pairs of a vertex of the source and one of the two of the target next to its image that are near
  * enough. */
-static void propose(iccp_weave *w, double drop)
+static void propose(iccp_merge_order *w, double drop)
 {
     const double *const a = w->place, *const b = w->place + w->n[0];
     const double *const edge_b = w->edge + w->n[0];
     size_t y = 0;
     for (size_t x = 0; x < w->n[0]; ++x) {
         const uint32_t i = w->order[0][x];
-        const double image = iccp_weave_follow(w->knot, w->n_knots, 0, a[i]);
+        const double image = iccp_merge_order_follow(w->knot, w->n_knots, 0, a[i]);
         while (y < w->n[1] && b[w->order[1][y]] < image)
             ++y;
         for (size_t k = y > 0 ? y - 1 : 0; k <= y && k < w->n[1]; ++k) {
             const uint32_t j = w->order[1][k];
-            const double da = fabs(a[i] - iccp_weave_follow(w->knot, w->n_knots, 1, b[j]));
+            const double da = fabs(a[i] - iccp_merge_order_follow(w->knot, w->n_knots, 1, b[j]));
             const double db = fabs(b[j] - image);
             const double d = da / w->edge[i] > db / edge_b[j] ? da / w->edge[i] : db / edge_b[j];
             const bool must_join = d < reach || da < least_edge || db < least_edge;
@@ -74,7 +74,7 @@ static void propose(iccp_weave *w, double drop)
 }
 
 /* Landmarks become joins that stay; of vertices where there are some. */
-static void add_landmarks(iccp_weave *w, size_t n, const double *landmarks)
+static void add_landmarks(iccp_merge_order *w, size_t n, const double *landmarks)
 {
     for (size_t k = 0; k < n; ++k) {
         iccp_event *const to = &w->join[w->n_joins++];
@@ -95,17 +95,17 @@ static void add_landmarks(iccp_weave *w, size_t n, const double *landmarks)
 }
 
 /* Whether two joins that follow one another may both be, as far as stretching goes. */
-static bool is_even(const iccp_weave *w, const iccp_event *p, const iccp_event *q)
+static bool is_even(const iccp_merge_order *w, const iccp_event *p, const iccp_event *q)
 {
-    const double given = iccp_weave_follow(w->knot, w->n_knots, 0, q->at[0]) -
-                         iccp_weave_follow(w->knot, w->n_knots, 0, p->at[0]);
+    const double given = iccp_merge_order_follow(w->knot, w->n_knots, 0, q->at[0]) -
+                         iccp_merge_order_follow(w->knot, w->n_knots, 0, p->at[0]);
     const double joined = q->at[1] - p->at[1];
     return (p->d <= reach && q->d <= reach) ||
            (joined <= most_uneven * given && given <= most_uneven * joined);
 }
 
 /* Whether the last of the joins kept must go for one that comes after it along the source. */
-static bool gives_way(const iccp_weave *w, const iccp_event *last, const iccp_event *join)
+static bool gives_way(const iccp_merge_order *w, const iccp_event *last, const iccp_event *join)
 {
     const bool is_in_order = join->at[1] > last->at[1];
     if (last->is_fixed)
@@ -113,7 +113,7 @@ static bool gives_way(const iccp_weave *w, const iccp_event *last, const iccp_ev
     return is_in_order ? !is_even(w, last, join) && last->d >= join->d : join->is_fixed;
 }
 
-static bool may_follow(const iccp_weave *w, const iccp_event *last, const iccp_event *join)
+static bool may_follow(const iccp_merge_order *w, const iccp_event *last, const iccp_event *join)
 {
     return join->at[1] > last->at[1] && join->at[0] > last->at[0] &&
            (join->is_fixed || is_even(w, last, join));
@@ -121,7 +121,7 @@ static bool may_follow(const iccp_weave *w, const iccp_event *last, const iccp_e
 
 /* Of the proposed joins, the nearest first, those that use each vertex once; then, along the
  * source, those that are in order along the target, and even. */
-static void select(iccp_weave *w)
+static void select(iccp_merge_order *w)
 {
     iccp_sort(w->join, w->n_joins, sizeof *w->join, by_distance);
     size_t n = 0;
@@ -148,7 +148,8 @@ static void select(iccp_weave *w)
     w->n_joins = kept;
 }
 
-void iccp_weave_join(iccp_weave *w, size_t n_landmarks, const double *landmarks, double drop)
+void iccp_merge_vertices(iccp_merge_order *w, size_t n_landmarks, const double *landmarks,
+                         double drop)
 {
     add_landmarks(w, n_landmarks, landmarks);
     propose(w, drop);

@@ -3,7 +3,7 @@
  * afterwards. Here for two surfaces at once; a vertex may take its place on one from one end of an
  * edge that is collapsed and that on the other from the other end, so that vertices of the two
  * surfaces become one. */
-#include "match/common_mesh/touch_up.h"
+#include "match/common_mesh/optimise_shape.h"
 
 #include "base/heap.h"
 #include "base/minmax.h"
@@ -26,14 +26,14 @@ static const double thin_sine = 0.12, readily = 0.05;
 static const double later = 1.2;
 
 typedef struct touching {
-    iccp_patches s;
+    iccp_patch_state s;
     iccp_heap heap; /* vertices by their cheapest collapse's cost, or less */
 } touching;
 
 /* ---- collapses ---- */
 
 /* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is allowed. */
-static uint32_t find_cheapest(iccp_patches *s, uint32_t u, iccp_patch *best, double *cost)
+static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
     const double share = s->cells != NULL ? worse_if_kept : 1;
@@ -118,7 +118,7 @@ static icc_status collapse_all(touching *t, bool *any, const iccp_env *env)
 
 /* ---- flips and moves ---- */
 
-static bool flip_all(iccp_patches *s)
+static bool flip_all(iccp_patch_state *s)
 {
     iccp_half_edges *const m = &s->m;
     bool any = false;
@@ -147,7 +147,7 @@ static bool flip_all(iccp_patches *s)
 
 /* The place for a vertex where triangles are best, among those of the points beside them: on the
  * sides whose bits are set. Whether one is better than its own. */
-static bool move(iccp_patches *s, uint32_t v, uint32_t sides)
+static bool move(iccp_patch_state *s, uint32_t v, uint32_t sides)
 {
     const iccp_covering *const points = &s->covering[sides == 2];
     iccp_patch p = {.vertex = v, .place = {s->at[0][v], s->at[1][v]}}, best;
@@ -176,7 +176,7 @@ static bool move(iccp_patches *s, uint32_t v, uint32_t sides)
     return any;
 }
 
-static bool move_all(iccp_patches *s)
+static bool move_all(iccp_patch_state *s)
 {
     bool any = false;
     for (uint32_t v = 0; v < s->m.n_vertices; ++v)
@@ -206,7 +206,8 @@ static icc_status run(touching *t, const iccp_env *env)
 }
 
 /* Whether a vertex of the whole is still there, as one of what is left. */
-static bool is_left(const iccp_patches *s, const iccp_common_surface *c, uint32_t v, uint32_t left)
+static bool is_left(const iccp_patch_state *s, const iccp_common_surface *c, uint32_t v,
+                    uint32_t left)
 {
     bool is = true;
     for (int side = 0; side < 2; ++side)
@@ -249,7 +250,7 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
                            const double *const x[2], const double *off, const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
-    iccp_patches *const s = &t->s;
+    iccp_patch_state *const s = &t->s;
     bool has_memory = iccp_heap_create(&t->heap, c->n_vertices, memory);
     for (int side = 0; side < 2 && has_memory; ++side) {
         s->x[side] = c->x[side];
@@ -276,11 +277,11 @@ static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became
     return status;
 }
 
-icc_status iccp_touch_up(iccp_common_surface *common, uint32_t *became, double *rise,
-                         iccp_patch_caution caution, const iccp_common_surface *whole,
-                         const uint32_t *left, const iccp_half_edges *const given[2],
-                         const double *const x[2], const iccp_simplify_limits *limits,
-                         const iccp_env *env)
+icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became, double *rise,
+                               iccp_patch_caution caution, const iccp_common_surface *whole,
+                               const uint32_t *left, const iccp_half_edges *const given[2],
+                               const double *const x[2], const iccp_simplify_limits *limits,
+                               const iccp_env *env)
 {
     touching t = {
         .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .caution = caution}};
