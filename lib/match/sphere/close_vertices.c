@@ -1,5 +1,5 @@
-/* The vertex of the other drawing is found in the face that one walks to (drawn_finder.c), and is
- * taken where the exact signs of the faces round it allow. */
+/* Walks to the face that contains a vertex of the other drawing (drawn_finder.c). Moves the vertex
+ * there if the exact signs of the faces around it allow this. */
 #include "match/sphere/close_vertices.h"
 
 #include "base/minmax.h"
@@ -8,8 +8,9 @@
 
 #include <string.h>
 
-/* Of the shortest edge at the vertex. Two drawings of equal surfaces, one of them turned, are 1e-11
- * apart; of other pairs (t01, t05, t06, t08) no two vertices are nearer than 1e-4. */
+/* As a share of the shortest edge at the vertex. Two drawings of equal surfaces, one of them
+ * turned, differ by 1e-11. In other pairs (t01, t05, t06, t08) all vertices are at least 1e-4
+ * apart. */
 static const double close_by = 1e-8;
 
 static double shortest_edge(const iccp_half_edges *m, const double *directions, uint32_t v)
@@ -33,7 +34,7 @@ static bool is_positive_round(const iccp_half_edges *m, const double *directions
     return true;
 }
 
-/* A vertex that is so close is a corner of the face that the first one is in. */
+/* A vertex this close is a corner of the face that contains the first one. */
 void iccp_close_vertices_join(const iccp_half_edges *const m[2], double *const directions[2])
 {
     uint32_t face = 0;

@@ -1,8 +1,9 @@
-/* Based on: P. Schmidt, M. Campen, J. Born, L. Kobbelt, Inter-Surface Maps via Constant-Curvature
- * Metrics, 2020, for the energy of the map from one surface to another on what pairs of triangles
- * have in common on a sphere. Here both surfaces give the sphere a metric, seen in the plane that
- * touches it at the vertex, where straight lines stay straight; the energy is that of one metric
- * against the other. */
+/* The energy of the map from one surface to the other, on the pieces that pairs of triangles have
+ * in common on the sphere. Based on: P. Schmidt, M. Campen, J. Born, L. Kobbelt, Inter-Surface Maps
+ * via Constant-Curvature Metrics, 2020.
+ *
+ * Here each surface gives the sphere a metric. It is seen in the plane that touches the sphere at
+ * the vertex, where straight lines stay straight. The energy compares the two metrics. */
 #include "match/sphere/composed_star.h"
 
 #include "base/minmax.h"
@@ -10,17 +11,17 @@
 
 #include <string.h>
 
-/* A face counts as somewhat fatter than it is: this share of its squared sides is added to each.
- * `thickness` is added too, so that faces without any area have a metric. */
+/* This share of a face's squared sides is added to each of them, so that no face is too thin.
+ * `thickness` is added too, so that faces without area have a metric. */
 static const double fatter = 1e-4, thickness = 1e-14;
 
-/* Directions of the ring are at most so far away: their cosine. */
+/* The smallest cosine between the vertex and a direction of its ring. */
 static const double least_cosine = 0.1;
 
-/* Overlaps of two faces that are smaller come from rounding. */
+/* Smaller overlaps of two faces are caused by rounding. */
 static const double least_area = 1e-24;
 
-/* Faces that a star may overlap. */
+/* Faces that a star may overlap, and corners of a piece. */
 enum { MOST_OTHERS = 4000, MOST_CORNERS = 8 };
 
 bool iccp_composed_star_create(iccp_composed_star *star, size_t most_neighbours, size_t n_faces,
@@ -96,7 +97,7 @@ static double side(const double plane[3], const double p[3])
     return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2];
 }
 
-/* Keeps what of a polygon is on the positive side of a plane. */
+/* Keeps the part of a polygon on the positive side of a plane. */
 static size_t clip(double (*out)[3], const double (*in)[3], size_t n, const double plane[3])
 {
     double at[MOST_CORNERS];
@@ -149,8 +150,8 @@ static bool add_piece(iccp_composed_star *star, uint32_t sector, uint32_t face)
     return true;
 }
 
-/* Whether a face of the star and one of the other drawing may overlap: no side of either has the
- * other on its outer side. */
+/* Returns true if a face of the star and a face of the other drawing may overlap: no side of one
+ * separates them. */
 static bool overlaps(const iccp_seen_face *a, const iccp_seen_face *b)
 {
     for (int i = 0; i < 3; ++i) {
@@ -229,7 +230,8 @@ icc_status iccp_composed_star_gather(iccp_composed_star *star, const iccp_drawn_
 
 /* ---- energy ---- */
 
-/* The metric g that a face's surface gives the plane at a point; the root of its determinant. */
+/* The metric g that a face's surface gives the plane at a point. Returns the root of its
+ * determinant. */
 static double metric(double g[3], const iccp_seen_face *f, const double q[2])
 {
     const double d = 1 / (f->sum[0] * q[0] + f->sum[1] * q[1] + f->sum[2]);
@@ -246,7 +248,7 @@ static double metric(double g[3], const iccp_seen_face *f, const double q[2])
     return fabs(f->root * (a0 * b1 - a1 * b0));
 }
 
-/* The area of a polygon in the plane and its middle. */
+/* The area of a polygon in the plane, and its middle. */
 static double middle(double q[2], const double (*corner)[3], size_t n)
 {
     double p[MOST_CORNERS][2], twice = 0;

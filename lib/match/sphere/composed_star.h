@@ -1,11 +1,11 @@
-/* The triangles round one vertex of a drawing on the sphere, and how much they are stretched on
- * their way through the sphere onto another surface that is drawn there. */
+/* The star of one vertex of a drawing on the sphere, and how much its triangles are stretched when
+ * they are mapped to another surface that is drawn there. */
 #ifndef ICCP_COMPOSED_STAR_H
 #define ICCP_COMPOSED_STAR_H
 
 #include "match/surface/half_edges.h"
 
-/* A surface and its drawing; some of its vertices may have been taken away. */
+/* A surface and its drawing. Some vertices may have been removed. */
 typedef struct iccp_drawn_surface {
     const iccp_half_edges *m;
     const double *x;
@@ -13,25 +13,26 @@ typedef struct iccp_drawn_surface {
     double scale; /* gives the surface the area of the sphere */
 } iccp_drawn_surface;
 
-/* A face as seen from the vertex: coordinates along two axes across and along its direction. */
+/* A face as seen from the vertex: coordinates along two axes across the vertex's direction and
+ * along it. */
 typedef struct iccp_seen_face {
     double corner[3][3];
-    double plane[3][3]; /* through the centre and the side opposite each corner */
-    double sum[3];      /* of the planes */
-    double gram[3];     /* of the surface: products of the sides from corner 0 to 1 and 2 */
-    double root;        /* of their determinant */
+    double plane[3][3]; /* planes through the centre and the side opposite each corner */
+    double sum[3];      /* sum of the planes */
+    double gram[3];     /* of the surface: products of the sides from corner 0 to corners 1 and 2 */
+    double root;        /* the root of their determinant */
 } iccp_seen_face;
 
-/* A face of the other drawing as far as it is on the inner side of the star's outer edge. */
+/* The part of a face of the other drawing that lies inside the star's outer edge. */
 typedef struct iccp_star_piece {
-    uint32_t sector, face; /* of the star; in `other` */
+    uint32_t sector, face; /* `sector` of the star; `face` is an index into `other` */
     uint32_t n;
     double corner[4][3];
 } iccp_star_piece;
 
 typedef struct iccp_composed_star {
     iccp_memory memory;
-    double p[3], axis[2][3]; /* the direction of the vertex, and two across */
+    double p[3], axis[2][3]; /* the direction of the vertex, and two axes across */
     size_t n, n_other, n_pieces;
     const double **ring; /* n + 1 directions, counter-clockwise; the last is the first */
     iccp_seen_face *face;
@@ -39,32 +40,34 @@ typedef struct iccp_composed_star {
     iccp_star_piece *piece;
     uint32_t *list; /* n_other: their numbers */
     size_t room, room_other, room_pieces;
-    uint32_t *seen, stamp; /* by face of the other drawing: when it was looked at last */
-    double radius;         /* the least distance from the vertex to the ring's edges */
-    double farthest;       /* the greatest one to its corners */
-    double weight;         /* the areas, once there is an energy */
-    bool is_severe;        /* what is stretched most counts more */
+    uint32_t *seen, stamp; /* by face of the other drawing: the stamp of the last visit */
+    double radius;         /* the smallest distance from the vertex to the ring's edges */
+    double farthest;       /* the greatest distance to the ring's corners */
+    double weight;         /* sum of the areas; known after the energy */
+    bool is_severe;        /* strong stretch counts more */
 } iccp_composed_star;
 
-/* For stars on surfaces of so many faces. False if there is no memory; to be freed in any case. */
+/* Makes room for stars on surfaces with this many faces. False if there is no memory. Free it in
+ * any case. */
 bool iccp_composed_star_create(iccp_composed_star *star, size_t most_neighbours, size_t n_faces,
                                const iccp_memory *memory);
 void iccp_composed_star_free(iccp_composed_star *star);
 
-/* The star of a vertex of one drawing and what it overlaps of the other, whose face `start` has the
- * vertex. ICC_ERR_RESOLUTION where the star is too large to be seen from its vertex, or overlaps
- * too many faces; ICC_ERR_MEMORY. O(the number of overlapping pairs). */
+/* Gathers the star of a vertex of one drawing, and the faces of the other drawing that it overlaps.
+ * The vertex lies in face `start` of the other drawing. ICC_ERR_RESOLUTION if the star is too large
+ * to be seen from its vertex, or overlaps too many faces. ICC_ERR_MEMORY. O(the number of
+ * overlapping pairs). */
 icc_status iccp_composed_star_gather(iccp_composed_star *star, const iccp_drawn_surface *one,
                                      uint32_t vertex, const iccp_drawn_surface *other,
                                      uint32_t start);
 
-/* How a direction near the vertex is seen from it. */
+/* Computes the coordinates of a direction near the vertex, as seen from it. */
 void iccp_composed_star_see(double seen[3], const iccp_composed_star *star, const double q[3]);
 
-/* The sum, over what triangles of both have in common, of the area on both surfaces times E, or
- * E^1.5 if star->is_severe, where E = (s^2 + t^2)(1 + 1 / (s t)^2) for the singular values s and t
- * of the map from one to the other there, the vertex being at `seen`: as seen from where it is,
- * within the ring. */
+/* Returns the energy if the vertex moves to `seen`, a place inside the ring as seen from the
+ * present one. It is a sum over the common pieces of triangles: the area on both surfaces times E,
+ * or E^1.5 if star->is_severe. Here E = (s^2 + t^2)(1 + 1 / (s t)^2), where s and t are the
+ * singular values of the map from one surface to the other. */
 double iccp_composed_star_energy(iccp_composed_star *star, const double seen[3]);
 
 #endif

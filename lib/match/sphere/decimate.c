@@ -10,15 +10,15 @@
 
 #include <math.h>
 
-/* The sum over planes (normal n of length 1, n . p = d), by area, of the squared distance to them:
- * n n^T (six entries), -d n, d^2. */
+/* A quadric is the sum of the squared distances to planes, weighted by area. A plane has a unit
+ * normal n, and n . p = d. It stores n n^T (six entries), -d n and d^2. */
 enum { QUADRIC = 10 };
 
-/* Most neighbours of a vertex that edges are collapsed to. Doubled when nothing else is left. */
+/* Most neighbours of a vertex that another is merged into. It is doubled if no collapse is left. */
 enum { MOST_NEIGHBOURS = 18 };
 
-/* The length of a collapsed edge counts this much beside what it does to the shape, so that flat
- * parts are thinned out evenly. */
+/* Weight of the collapsed edge's length beside the change of shape. It thins out flat parts
+ * evenly. */
 static const double length_weight = 1e-4;
 
 typedef struct decimation {
@@ -26,9 +26,9 @@ typedef struct decimation {
     const double *x;
     double (*quadric)[QUADRIC];
     double area;                  /* twice that of the surface */
-    uint32_t most;                /* neighbours */
-    const iccp_decimate_web *web; /* NULL: none */
-    iccp_heap heap; /* vertices by their cheapest collapse's cost when they were last looked at */
+    uint32_t most;                /* the most neighbours */
+    const iccp_decimate_web *web; /* or NULL */
+    iccp_heap heap; /* vertices by the cost of their cheapest collapse, as computed last */
 } decimation;
 
 static const double *at(const decimation *d, uint32_t vertex)
@@ -43,7 +43,7 @@ static void normal(double n[3], const double *a, const double *b, const double *
     iccp_vec_cross(u, v, n);
 }
 
-/* Adds the plane of each face to its corners. */
+/* Adds the plane of each face to its corners' quadrics. */
 static void add_planes(decimation *d)
 {
     const iccp_half_edges *const m = d->m;
@@ -62,7 +62,7 @@ static void add_planes(decimation *d)
     }
 }
 
-/* The trace of its quadric: normals have length 1. */
+/* The trace of the quadric, because normals have length 1. */
 static double area_round(const decimation *d, uint32_t vertex)
 {
     const double *const q = d->quadric[vertex];
@@ -76,7 +76,7 @@ static double quadric_at(const double q[QUADRIC], const double *p)
                 q[6] * p[1] + q[8] * p[2]);
 }
 
-/* How much dearer a collapse is for the faces that it turns round or makes thin. */
+/* The factor on a collapse's cost for faces that it turns over or makes thin. */
 static double penalty(const decimation *d, uint32_t h)
 {
     const iccp_half_edges *const m = d->m;
@@ -122,8 +122,8 @@ bool iccp_share_path(const iccp_decimate_web *web, uint32_t a, uint32_t b)
     return ends[0] == k || ends[1] == k;
 }
 
-/* A vertex of a path goes along it only, and no edge comes about that joins two vertices of one
- * path beside it: it could never shrink to that. */
+/* A vertex of a path may only move along the path. No collapse may make an edge that joins two
+ * vertices of one path beside it, because the path could never shrink to that edge. */
 static bool is_allowed(const decimation *d, uint32_t h)
 {
     const iccp_half_edges *const m = d->m;
@@ -140,7 +140,7 @@ static bool is_allowed(const decimation *d, uint32_t h)
     return true;
 }
 
-/* Of two edges that become one, one may be of a path. */
+/* Two edges become one. If one of them belongs to a path, the result does. */
 static void merge_paths(const iccp_decimate_web *web, const iccp_half_edges *m, uint32_t h)
 {
     for (int way = 0; way < 2; ++way, h = m->twin[h]) {
@@ -150,7 +150,7 @@ static void merge_paths(const iccp_decimate_web *web, const iccp_half_edges *m, 
     }
 }
 
-/* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is possible. */
+/* Finds the cheapest collapse of a vertex, or ICCP_NO_EDGE. */
 static uint32_t find_cheapest(const decimation *d, uint32_t vertex, double *cost)
 {
     const iccp_half_edges *const m = d->m;
@@ -207,11 +207,13 @@ static void collapse(decimation *d, uint32_t h)
         look_at(d, iccp_edge_end(m, e));
 }
 
-/* What a vertex costs depends on all faces round it and round its neighbours. Only those next to a
- * collapse are looked at again at once; the others when their turn comes: if they have become
- * dearer they go back into the queue. Where the queue ends too early, all are looked at once more,
- * and if that is in vain vertices may have more neighbours. A vertex with at most five neighbours,
- * of which there always are some, has an edge that is collapsible, so this comes to an end. */
+/* The cost of a vertex depends on the faces around it and around its neighbours. After a collapse
+ * only the next vertices are computed anew. Others are computed again when their turn comes, and go
+ * back into the queue if they have become more expensive.
+ *
+ * If the queue ends too early, all vertices are computed once more. If that does not help either,
+ * vertices may have more neighbours. There is always a vertex with at most five neighbours, which
+ * has a collapsible edge. So the loop ends. */
 static icc_status run(decimation *d, size_t n_left, const iccp_env *env)
 {
     iccp_half_edges *const m = d->m;

@@ -1,5 +1,6 @@
-/* A walk from face to face towards the direction (O. Devillers, S. Pion, M. Teillaud, Walking in a
- * Triangulation, 2002), from a face near it, which the cell of a cube's surface knows. */
+/* Walks from face to face towards the direction (O. Devillers, S. Pion, M. Teillaud, Walking in a
+ * Triangulation, 2002). The walk begins at a nearby face, which is stored for each cell of a cube's
+ * surface. */
 #include "match/sphere/drawn_finder.h"
 
 #include "match/surface/drawn_place.h"
@@ -8,7 +9,8 @@
 
 enum { LEAST_CELLS = 2, MOST_CELLS = 128 };
 
-/* The half-edge of a face that p is farthest to the right of; ICCP_NO_EDGE if of none. */
+/* The half-edge of a face that has p farthest to its right, or ICCP_NO_EDGE if p is right of
+ * none. */
 static uint32_t exit_of(const iccp_half_edges *m, const double *directions, uint32_t face,
                         const double p[3], double *how)
 {
@@ -25,8 +27,8 @@ static uint32_t exit_of(const iccp_half_edges *m, const double *directions, uint
     return exit;
 }
 
-/* Walks that go round in circles, which are rare, and those that come to the other side of the
- * sphere end with a look at all faces that are there. */
+/* A walk may go in circles, which is rare, or come to the other side of the sphere. Then all
+ * present faces are searched. */
 uint32_t iccp_drawn_walk(const iccp_half_edges *m, const double *directions, uint32_t face,
                          const double p[3])
 {

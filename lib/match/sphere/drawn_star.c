@@ -1,5 +1,5 @@
-/* The energy is that of J. Smith, S. Schaefer, Bijective Parameterization with Free Boundaries,
- * 2015. */
+/* The energy of a vertex's star. It is that of J. Smith, S. Schaefer, Bijective Parameterization
+ * with Free Boundaries, 2015. */
 #include "match/sphere/drawn_star.h"
 
 #include "match/surface/direction.h"
@@ -7,17 +7,17 @@
 
 #include <math.h>
 
-/* A face counts as somewhat fatter than it is: this share of its squared sides is added to each,
- * so that needles do not keep their neighbours from moving. */
+/* This share of a face's squared sides is added to each of them, so that needles do not prevent
+ * their neighbours from moving. */
 static const double fatter = 1e-3;
 
-/* And no face counts as smaller than one with sides of this length, squared, on the sphere of
- * radius 1: directions are 2^-51 apart. */
+/* The smallest squared side that a face may count with, on the unit sphere. Directions are 2^-51
+ * apart. */
 static const double least_side2 = 1e-12;
 
-/* The energy of a drawn face whose plane is nearer to the centre than this grows with the inverse
- * square of the distance. Large faces could otherwise come to lie along a great circle, with no
- * room left beside them. Few faces are large, so derivatives leave this out. */
+/* If the plane of a drawn face is closer to the centre than this, the energy grows with the inverse
+ * square of its distance. Otherwise large faces could come to lie along a great circle, with no
+ * room left beside them. Few faces are large, so the derivatives ignore this. */
 static const double least_distance = 0.2;
 
 bool iccp_drawn_star_create(iccp_drawn_star *star, size_t n, const iccp_memory *memory)
@@ -43,7 +43,7 @@ static iccp_drawn_star_face face_of(const double *o, const double *p, const doub
     iccp_drawn_star_face f = {iccp_vec_dot(3, a, a), iccp_vec_dot(3, a, b), iccp_vec_dot(3, b, b),
                               0, 0};
     const double more = fatter * 2 * (f.aa - f.ab + f.bb) + least_side2;
-    f.aa += more; /* an equilateral triangle's, so that all three sides grow alike */
+    f.aa += more; /* the sides of an equilateral triangle, so all three sides grow alike */
     f.ab += more / 2;
     f.bb += more;
     const double square = f.aa * f.bb - f.ab * f.ab;
@@ -83,9 +83,9 @@ bool iccp_drawn_star_holds(const iccp_drawn_star *star, const double p[3])
 typedef struct drawn {
     double g[3], h[3], gg, gh, hh;
     double square;  /* (2 area)^2 */
-    double stretch; /* 4 area of the surface's face by the squared singular values */
+    double stretch; /* 4 area of the surface's face times the sum of the squared singular values */
     double energy;
-    double value; /* energy^1.5, more where the face is near the centre */
+    double value; /* energy^1.5, and more if the face is near the centre */
 } drawn;
 
 static drawn draw(const iccp_drawn_star *star, size_t i, const double p[3])
@@ -119,10 +119,10 @@ double iccp_drawn_star_energy(const iccp_drawn_star *star, const double p[3])
     return sum;
 }
 
-/* With D the stretch and S the square, E = D (1 / S0 + 1 / S): D is a quadratic function of p with
- * the Hessian 2 |a - b|^2 I (a and b of the surface), S one with 2 (|w|^2 I - w w^T), w = g - h. On
- * the sphere the way along a coordinate bends towards the centre, which takes the derivative along
- * p off the diagonal. */
+/* With D the stretch and S the square, E = D (1 / S0 + 1 / S). D is a quadratic function of p with
+ * the Hessian 2 |a - b|^2 I, where a and b are of the surface. S is one with the Hessian 2 (|w|^2 I
+ * - w w^T), where w = g - h. On the sphere a path along a coordinate bends towards the centre. So
+ * the derivative along p is subtracted from the diagonal. */
 static void add_face(iccp_drawn_star_jet *jet, const iccp_drawn_star_face *f, const drawn *d,
                      const double *p)
 {

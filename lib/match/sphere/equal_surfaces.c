@@ -1,6 +1,6 @@
-/* One half-edge and what it becomes determine the rest (L. Weinberg, A Simple and Efficient
- * Algorithm for Determining Isomorphism of Planar Triply Connected Graphs, 1966): one from a vertex
- * that has most neighbours is followed to each that it may become. */
+/* One half-edge and its image determine all others (L. Weinberg, A Simple and Efficient Algorithm
+ * for Determining Isomorphism of Planar Triply Connected Graphs, 1966). A half-edge from a vertex
+ * with the most neighbours is taken. Each possible image of it is followed. */
 #include "match/sphere/equal_surfaces.h"
 
 #include "match/sphere/sphere.h"
@@ -8,19 +8,19 @@
 
 #include <string.h>
 
-/* Faces that are looked at, in all, for each that there is. */
+/* Largest number of faces visited in all, for each face of a surface. */
 enum { MOST_VISITS = 200 };
 
-/* Lengths of edges differ by less than this share of them. */
+/* Two lengths of edges count as equal if they differ by less than this share. */
 static const double differ = 1e-3;
 
 typedef struct comparison {
     const iccp_half_edges *const *m;
     const double *const *x;
     double scale;     /* makes the second surface as large as the first */
-    uint32_t *image;  /* by half-edge of the first; ICCP_NO_EDGE: not known */
+    uint32_t *image;  /* by half-edge of the first; ICCP_NO_EDGE if not known */
     uint32_t *list;   /* half-edges, one of each face whose image is known */
-    uint32_t *vertex; /* by vertex of the first: what it becomes */
+    uint32_t *vertex; /* by vertex of the first: its image */
     size_t n_visits;
 } comparison;
 
@@ -31,8 +31,8 @@ static double length_of(const comparison *c, int side, uint32_t h)
                              c->x[side] + 3 * (size_t)iccp_edge_end(m, h));
 }
 
-/* A half-edge becomes another, the other two of its face along with it; false if they are to
- * become something else already, have other numbers of neighbours, or are not as long. */
+/* Sets the image of a half-edge, and of the other two half-edges of its face. Returns false if they
+ * have other images already, or if numbers of neighbours or lengths differ. */
 static bool set(comparison *c, size_t *n, uint32_t h, uint32_t g)
 {
     if (c->image[h] != ICCP_NO_EDGE)
@@ -50,8 +50,9 @@ static bool set(comparison *c, size_t *n, uint32_t h, uint32_t g)
     return true;
 }
 
-/* Whether all half-edges become others so that what is next to and what is a twin of another is so
- * again: onto a surface of as many faces such a map is one-to-one. The number of faces seen. */
+/* Follows a pair of half-edges to all others. *is_good if neighbours and twins of each half-edge
+ * have the right images. Such a map onto a surface with as many faces is one-to-one. Returns the
+ * number of faces visited. */
 static size_t follow(comparison *c, uint32_t from, uint32_t to, bool *is_good)
 {
     const iccp_half_edges *const a = c->m[0], *const b = c->m[1];
@@ -74,7 +75,8 @@ static void compare(comparison *c, bool *found, size_t n, const uint32_t *const 
     for (uint32_t h = 1; h < n_edges; ++h)
         from = a->degree[a->origin[h]] > a->degree[a->origin[from]] ? h : from;
     memset(c->image, 0xff, n_edges * sizeof *c->image);
-    /* What has the same number comes first: it stays as it is where that is as good. */
+    /* The half-edge with the same number is tried first. So a surface that equals the other as
+     * numbered keeps its numbering. */
     for (uint32_t k = 0; k < n_edges && !*found && c->n_visits < MOST_VISITS * a->n_faces; ++k) {
         const uint32_t to = (from + k) % n_edges;
         const size_t n_faces = follow(c, from, to, found);

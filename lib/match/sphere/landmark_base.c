@@ -1,6 +1,6 @@
 /* Based on: V. Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models,
- * 2004, for a base that both surfaces have in common; here both are made coarse along its paths
- * until nothing else is left, and it is drawn on the sphere once. */
+ * 2004, for a base that both surfaces have in common. Here both surfaces are made coarse along
+ * their paths until only the base is left. The base is drawn on the sphere once. */
 #include "match/sphere/landmark_base.h"
 
 #include "base/error.h"
@@ -11,13 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Landmarks where paths may begin are tried until no path is so many times as long on one surface
- * as on the other, or the best one of so many is taken. For even paths it matters
- * little, and the first one is. */
+/* Starts are tried until no path is longer on one surface than on the other by more than this
+ * factor. If none succeeds, the best start is taken. For even paths the start matters little, so
+ * the first one is taken. */
 static const double good_ratio = 1.5;
 enum { TRIES = 6 };
 
-/* Whether both surfaces, of which landmarks alone are left, have the same triangles. */
+/* Returns true if both surfaces, which have only landmarks left, have the same triangles. */
 static bool is_same_base(const iccp_half_edges m[2], const iccp_split_surface s[2], size_t n,
                          const uint32_t *const vertices[2])
 {
@@ -40,7 +40,7 @@ static bool is_same_base(const iccp_half_edges m[2], const iccp_split_surface s[
     return true;
 }
 
-/* Takes away what has been put into edges to make room for paths, where no path has come. */
+/* Removes vertices that were added to edges for paths, if no path uses them. */
 static void unite(iccp_split_surface *s, const iccp_decimate_web *web)
 {
     for (uint32_t v = (uint32_t)s->n_vertices; v-- > s->n_given;)
@@ -69,8 +69,8 @@ static icc_status shrink(iccp_half_edges m[2], iccp_split_surface s[2], size_t n
     return ICC_OK;
 }
 
-/* Paths that begin at one landmark or another may go round different sides of a limb on the two
- * surfaces, which shows in their lengths. */
+/* Paths that begin at different landmarks may pass a limb on different sides. The ratio of their
+ * lengths shows this. */
 static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *const given[2],
                              const double *const x[2], const double scale[2], size_t n,
                              const uint32_t *const vertices[2], double most_ratio,
@@ -111,7 +111,7 @@ static icc_status find_paths(iccp_split_surface s[2], const iccp_half_edges *con
     return iccp_fail_side(err, status, report.side + 1);
 }
 
-/* By the first surface. */
+/* Draws the base by the shape of the first surface. */
 static icc_status draw(iccp_landmark_base *b, double scale, size_t n,
                        const uint32_t *const vertices[2], const iccp_env *env, icc_error *err)
 {

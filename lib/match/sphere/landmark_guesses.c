@@ -1,3 +1,4 @@
+/* Finds pairs of vertices that probably correspond, to use beside few landmarks. */
 #include "match/sphere/landmark_guesses.h"
 
 #include "base/error.h"
@@ -14,7 +15,7 @@ static bool is_taken(const uint32_t *vertices, size_t n, uint32_t v)
     return any;
 }
 
-/* How far a direction is from the nearest of these, squared. */
+/* The squared distance from a direction to the nearest of the given vertices. */
 static double room_round(const double *directions, const uint32_t *vertices, size_t n, uint32_t v)
 {
     double least = HUGE_VAL;
@@ -24,8 +25,8 @@ static double room_round(const double *directions, const uint32_t *vertices, siz
     return least;
 }
 
-/* The vertex that is farthest from all pairs there are, and of the other surface the one that is
- * drawn nearest to it. */
+/* Adds the vertex that is farthest from all pairs, together with the vertex of the other surface
+ * that is drawn nearest to it. */
 static void add_pair(uint32_t *const vertices[2], size_t n, const iccp_half_edges *const m[2],
                      double *const directions[2])
 {

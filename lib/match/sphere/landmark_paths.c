@@ -1,5 +1,5 @@
-/* Based on: E. Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001: a tree
- * of paths first, which leaves one face, then diagonals of faces; round each landmark a path
+/* Based on: E. Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001. A tree of
+ * paths comes first, which leaves one face; then come diagonals of faces. At each landmark a path
  * begins in the same sector on both surfaces. */
 #include "match/sphere/landmark_paths.h"
 
@@ -12,8 +12,8 @@ enum { MOST_ADDED = 20 };
 
 /* ---- halves ---- */
 
-/* Halves the edges round a vertex of the web that join it to others of the web. Those that it has
- * are as many afterwards, but may have other numbers. */
+/* Halves the edges at a vertex of the web that lead to other vertices of the web. The number of its
+ * edges stays the same, but their numbers may change. */
 static bool make_room_at(const iccp_landmark_web *w, int side, uint32_t v)
 {
     iccp_split_surface *const s = &w->s[side];
@@ -32,7 +32,7 @@ static bool make_room_at(const iccp_landmark_web *w, int side, uint32_t v)
 
 /* ---- one path ---- */
 
-/* Lays the next path on one side; its length there. */
+/* Lays the next path on one side and measures it. */
 static bool lay(iccp_landmark_web *w, int side, uint32_t from, uint32_t to, double *length)
 {
     iccp_split_surface *const s = &w->s[side];
@@ -46,7 +46,7 @@ static bool lay(iccp_landmark_web *w, int side, uint32_t from, uint32_t to, doub
             break;
         s->holder[s->origin[h]] = path;
     }
-    /* Its vertices are found once more by following it, since halving moves half-edges. */
+    /* Halving changes half-edges. So the path's vertices are found again by following it. */
     uint32_t v = w->vertices[side][iccp_web_landmark_of(w, to)], before = ICCP_NO_EDGE;
     while (v != start) {
         uint32_t h = s->out[v];
@@ -90,8 +90,8 @@ static icc_status add_path(iccp_landmark_web *w, uint32_t from, uint32_t to, con
 
 /* ---- all paths ---- */
 
-/* J. Kruskal's rule as R. C. Prim has it: the cheapest path from a landmark outside to the tree.
- * */
+/* R. C. Prim's form of J. Kruskal's rule: takes the cheapest path from a landmark outside to the
+ * tree. */
 static icc_status make_tree(iccp_landmark_web *w, const iccp_env *env)
 {
     icc_status status = ICC_OK;
@@ -141,7 +141,7 @@ static icc_status add_diagonals(iccp_landmark_web *w, const iccp_env *env)
         if (!(least < HUGE_VAL))
             return ICC_ERR_RESOLUTION;
         status = add_path(w, best[0], best[1], env);
-        /* The face's sectors are those that could be reached from there. */
+        /* The sectors of the face are those that could be reached from there. */
         for (uint32_t k = 0; k < n + 2; ++k)
             w->is_stale[k] =
                 k >= n || k == best[0] || w->cost[w->n_sectors * best[0] + k] < HUGE_VAL;

@@ -1,6 +1,6 @@
 /* Based on: V. Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models,
- * 2004, for two surfaces that grow from a base (match/sphere/landmark_base.h); here both drawings
- * grow together, each moved on the other, so that every face is positive at any time. */
+ * 2004, for two surfaces that grow from a base (match/sphere/landmark_base.h). Here both drawings
+ * grow together and each is moved on the other, so every face is positive at all times. */
 #include "match/sphere/landmark_sphere.h"
 
 #include "base/error.h"
@@ -11,30 +11,31 @@
 
 #include <string.h>
 
-/* Each drawing is first moved on the other when there are so many vertices, of a base and for each
- * landmark; then whenever there are so many times as many, oftener while there are no more than
- * MANY, which costs little and decides how limbs come to lie; in so many rounds at most. */
+/* Each drawing is first moved on the other when FEW vertices, or FEW_EACH for each landmark, are
+ * present. Then it is moved whenever the number has grown by `finer`, and by `finer_of_few` up to
+ * MANY vertices. With few vertices this costs little and decides where limbs come to lie. The last
+ * two are the largest numbers of rounds. */
 enum { FEW = 120, FEW_EACH = 12, MANY = 6000, ROUNDS_OF_FEW = 200, ROUNDS = 30 };
 static const double finer = 1.6, finer_of_few = 1.3;
 
-/* While there are few both ways are tried: with steps as long as later, and with shorter ones. A
- * limb may come to lie beside its partner with either, and never comes back. */
+/* With few vertices, two step lengths are tried: the later one and a shorter one. Either may leave
+ * a limb beside its partner, from where it never returns. */
 static const double lengths[2] = {ICCP_LONGER, 1.25};
 
-/* Where some landmarks are only likely there are several beginnings, each without so many of these
- * more; the one that has the least energy with so many vertices goes on. On t04 with 4 landmarks
- * they end at 5.38, 5.25, which goes on, and 13.1 (4: an isometry). */
+/* If some landmarks are guesses, there are several starts. Each of them uses FEWER guesses less
+ * than the one before. The start with the least energy at CHOICE vertices goes on. On t04 with 4
+ * landmarks three starts end at 5.38, 5.25 (chosen) and 13.1, where 4 is an isometry. */
 enum { FEWER = 4, MOST_FEWER = 2, LEAST = 4, CHOICE = 300 };
 
-/* Where a path is so many times as long on one surface as on the other it may go round something on
- * one of them alone, and there is a beginning by paths whose lengths differ little. */
+/* If a path is longer on one surface by this factor, it may pass something on one surface only.
+ * Then another start is made with paths whose lengths differ little. */
 static const double uneven = 2;
 
 typedef struct beginning {
     iccp_landmark_base base;
     uint8_t *is_fixed[2];
     iccp_relaxation r;
-    double level, energy; /* how many vertices are there; 0: landmarks alone */
+    double level, energy; /* `level`: vertices present; 0 if only landmarks are */
 } beginning;
 
 typedef struct problem {
@@ -45,8 +46,8 @@ typedef struct problem {
     size_t n, n_fixed;
 } problem;
 
-/* Moves drawings of few vertices, from where they are, in several ways; the best one stays, which
- * has the energy *least. */
+/* Moves drawings with few vertices in several ways from the same start. Keeps the best result,
+ * whose energy is *least. */
 static icc_status relax_few(iccp_relaxation *r, bool is_severe, double *least, const iccp_env *env)
 {
     enum { N = sizeof lengths / sizeof *lengths };
@@ -63,7 +64,7 @@ static icc_status relax_few(iccp_relaxation *r, bool is_severe, double *least, c
         else
             memcpy(kept[side], r->side[side].directions, n[side] * sizeof *kept[side]);
     }
-    /* Behind the directions at the beginning, the best ones so far. */
+    /* The first half holds the directions at the start, the second half the best ones found. */
     for (size_t k = 0; k < N && status == ICC_OK; ++k) {
         const iccp_env part =
             iccp_part(env, NULL, (double)k / (double)N, (double)(k + 1) / (double)N);
@@ -83,11 +84,11 @@ static icc_status relax_few(iccp_relaxation *r, bool is_severe, double *least, c
     return status;
 }
 
-/* Both drawings get more and more vertices, and each is moved on the other whenever there are so
- * many times as many, until there are `until`, or all: how limbs come to lie is decided while
- * there are few. Landmarks that are only likely stay while there are very few; where there are some
- * what is stretched most counts more only in the end: limbs that nobody holds find better places by
- * the energy itself. */
+/* Adds vertices to both drawings until `until` or all are present. Each drawing is moved on the
+ * other whenever the number of vertices has grown enough. Where limbs come to lie is decided while
+ * vertices are few. Guessed landmarks stay fixed only while there are very few vertices. With
+ * guesses, strong stretch counts more only at the end, because limbs without a landmark find better
+ * places by the plain energy. */
 static icc_status grow(beginning *b, const problem *p, double until, const iccp_env *env,
                        icc_error *err)
 {
@@ -119,7 +120,7 @@ static icc_status grow(beginning *b, const problem *p, double until, const iccp_
     return status;
 }
 
-/* With so many of the landmarks. */
+/* Starts with the first n landmarks. */
 static icc_status begin(beginning *b, const problem *p, size_t n, bool is_even, const iccp_env *env,
                         icc_error *err)
 {
@@ -161,9 +162,9 @@ static void give_up(beginning *b, const iccp_memory *memory)
     *b = (beginning){.level = 0};
 }
 
-/* Begins with all landmarks and with fewer and fewer, and where paths between all were uneven last
- * by even ones, if there are; the best beginning, and no other is left. Those for which there is no
- * room are passed over, unless none is left. */
+/* Starts with all landmarks, then with fewer and fewer guesses. If the paths between all were
+ * uneven, the last start uses even ones. Keeps only the best start. A start for which there is no
+ * room is skipped, unless it is the last one left. */
 static icc_status begin_somehow(beginning *tries, size_t n_tries, size_t *best, const problem *p,
                                 const iccp_env *env, icc_error *err)
 {

@@ -1,5 +1,5 @@
-/* Based on: E. W. Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959, from a sector
- * of a landmark to sectors. */
+/* Shortest paths from one sector of a landmark to other sectors, based on: E. W. Dijkstra, A Note
+ * on Two Problems in Connexion with Graphs, 1959. */
 #include "match/sphere/landmark_web.h"
 
 #include "base/minmax.h"
@@ -16,7 +16,8 @@ uint32_t iccp_web_landmark_of(const iccp_landmark_web *w, uint32_t sector)
                                       : sector - (uint32_t)(2 * w->most_paths);
 }
 
-/* The sector that a half-edge from a landmark lies in: that of the path before it, clockwise. */
+/* The sector that contains a half-edge from a landmark. It is named by the path before it,
+ * clockwise. */
 static uint32_t sector_at(const iccp_landmark_web *w, int side, uint32_t h)
 {
     const iccp_split_surface *const s = &w->s[side];
@@ -48,7 +49,7 @@ static double length_of(const iccp_split_surface *s, uint32_t h)
                              s->x + 3 * (size_t)iccp_split_end(s, h));
 }
 
-/* Goes along half-edge h with `before` behind it. */
+/* Reaches the end of half-edge h. `before` is the distance to its start. */
 static void reach(iccp_landmark_web *w, int side, uint32_t h, double before)
 {
     const iccp_split_surface *const s = &w->s[side];

@@ -1,21 +1,22 @@
 /* Based on: A. Elad, R. Kimmel, On Bending Invariant Signatures for Surfaces, 2003: distances
- * within a surface stay nearly as they are when limbs are bent. Along edges, by E. W. Dijkstra, A
- * Note on Two Problems in Connexion with Graphs, 1959. */
+ * within a surface hardly change when limbs are bent. They are measured along edges by E. W.
+ * Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959. */
 #include "match/sphere/likely_pairs.h"
 
 #include "base/heap.h"
 #include "base/minmax.h"
 #include "math/vec.h"
 
-/* Vertices that are tried, for each pair that may be found. */
+/* Vertices that are tried for each pair that may be found. */
 enum { TRIES = 3 };
 
-/* Distances where the area is 4 pi. What is nearer than the first to a pair needs none of its own;
- * distances may differ by a share of how far the vertex is from all pairs, or of the second where
- * it is nearer; the way back may miss by the third. Tried on t01 to t08 with 4 landmarks. */
+/* Distances on surfaces of area 4 pi. A vertex closer than `near` to a pair needs no pair of its
+ * own. Distances of partners may differ by the share `differ` of the vertex's distance from all
+ * pairs, or of `least_far` if that is larger. The search back from the partner may miss the vertex
+ * by `back`. Tried on t01 to t08 with 4 landmarks. */
 static const double near = 0.43, least_far = 1.06, back = 0.35, differ = 0.25;
 
-/* The partner is so many times as far from all pairs, at least. */
+/* The partner's distance from all pairs is at least this share of the vertex's distance. */
 static const double as_far = 0.5;
 
 typedef struct likely {
@@ -30,7 +31,7 @@ static double *row_of(const likely *l, int side, size_t k)
     return l->row[side] + k * l->m[side]->n_vertices;
 }
 
-/* Distances from a vertex; what is not there is infinitely far. */
+/* Finds the distances from a vertex. A vertex that is not present is infinitely far. */
 static void find_distances(likely *l, int side, uint32_t from, double *row)
 {
     const iccp_half_edges *const m = l->m[side];
@@ -54,8 +55,8 @@ static void find_distances(likely *l, int side, uint32_t from, double *row)
     }
 }
 
-/* The vertex of a side whose distances from n pairs are most nearly those of one on the other; by
- * how much one of them differs. */
+/* Finds the vertex of a side whose distances to n pairs are closest to those of a vertex of the
+ * other side. *off is the largest difference. */
 static uint32_t find_partner(const likely *l, int side, size_t n, uint32_t other, double *off)
 {
     uint32_t best = 0;
@@ -72,8 +73,8 @@ static uint32_t find_partner(const likely *l, int side, size_t n, uint32_t other
     return best;
 }
 
-/* Tries the vertex that is farthest from all pairs and from all that have been tried (`room`, by
- * vertex); *any if there was one. */
+/* Tries the vertex that is farthest from all pairs and from all vertices tried before (`room`, by
+ * vertex). *any is true if there was one. */
 static void try_one(likely *l, double *room, uint32_t *const vertices[2], size_t *n, bool *any)
 {
     double off, none, apart = HUGE_VAL;
@@ -98,7 +99,7 @@ static void try_one(likely *l, double *room, uint32_t *const vertices[2], size_t
     }
 }
 
-/* Distances from the pairs there are, then one try after the other. */
+/* Finds the distances from the given pairs, then tries one vertex after the other. */
 static icc_status find(likely *l, double *room, uint32_t *const vertices[2], size_t *n, size_t most,
                        const iccp_env *env)
 {

@@ -1,6 +1,7 @@
-/* Newton's method in the plane for one vertex at a time (J. Schreiner, A. Asirvatham, E. Praun, H.
- * Hoppe, Inter-Surface Mapping, 2004, move them by line searches, likewise in turn on both sides),
- * derivatives by differences: as a vertex moves, what triangles have in common changes. */
+/* Newton's method in the plane for one vertex at a time, on both sides in turn. J. Schreiner, A.
+ * Asirvatham, E. Praun, H. Hoppe, Inter-Surface Mapping, 2004, move vertices by line searches in
+ * the same way. Derivatives are computed by differences, because the common pieces of triangles
+ * change as a vertex moves. */
 #include "match/sphere/relax.h"
 
 #include "base/minmax.h"
@@ -11,19 +12,19 @@
 
 #include <string.h>
 
-/* Trial lengths of a step, each `shorter` than the one before. */
+/* Trial lengths of a step; each is `shorter` times the one before. */
 enum { TRIALS = 5 };
 static const double shorter = 0.4;
 
-/* Vertices whose triangles have a mean energy above this, or one to the power 1.5, may jump, unless
- * they have very many neighbours. */
+/* A vertex may jump if its triangles have a mean energy above `bad`, or a mean of the power 1.5
+ * above `severely_bad`. Vertices with very many neighbours do not jump. */
 static const double bad = 20, severely_bad = 90;
 enum { MOST_NEIGHBOURS = 64 };
 
 /* Rounds end when one lowers the energy by less than this share. */
 static const double little = 0.003;
 
-/* Steps of differences, as a share of the distance to the nearest edge of the ring. */
+/* Step of differences, as a share of the distance to the nearest edge of the ring. */
 static const double aside = 0.05;
 
 icc_status iccp_relaxation_create(iccp_relaxation *r, const iccp_drawn_surface side[2],
@@ -72,7 +73,7 @@ static double energy_at(iccp_composed_star *star, double x, double y)
     return iccp_composed_star_energy(star, (const double[]){x, y, 1});
 }
 
-/* By differences. */
+/* Computes the derivatives by differences. */
 static double expand(double gradient[2], double hessian[3], iccp_composed_star *star)
 {
     const double h = aside * star->radius;
@@ -88,7 +89,7 @@ static double expand(double gradient[2], double hessian[3], iccp_composed_star *
     return here;
 }
 
-/* The energy with the vertex in direction q, which is one that the star holds; or HUGE_VAL. */
+/* The energy with the vertex at direction q, or HUGE_VAL if the star does not hold q. */
 static double energy_towards(iccp_composed_star *star, double q[3])
 {
     double seen[3];
@@ -99,7 +100,7 @@ static double energy_towards(iccp_composed_star *star, double q[3])
     return iccp_composed_star_energy(star, seen);
 }
 
-/* Looks for a better place for a vertex in all the room that its ring leaves it: the middle, and on
+/* Looks for a better place in the whole room that the ring leaves a vertex: at its middle, and on
  * the way from there to each corner. */
 static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], double least)
 {
@@ -120,8 +121,8 @@ static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], do
     return least;
 }
 
-/* Moves one vertex; its star's energy and what that fell by are added. A star that is too large to
- * be seen from its vertex stays. */
+/* Moves one vertex. Adds its star's energy to *energy and its fall to *gain. A vertex stays if its
+ * star is too large to be seen from it. */
 static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, double *energy,
                        double *gain)
 {

@@ -1,3 +1,4 @@
+/* Searches the rotation of one drawing on a grid of quaternions, and refines the best ones. */
 #include "match/sphere/rotation.h"
 
 #include "base/minmax.h"
@@ -11,19 +12,19 @@
 
 #include <string.h>
 
-/* Vertices of the first surface that are looked at. */
+/* Vertices of the first surface that are compared. */
 enum { SAMPLES = 150 };
 
-/* Rotations by quaternions on a tesseract: one coordinate is 1, the others are among so many. They
- * are about 40 degrees apart. The best of them are made better in so many rounds of ever smaller
- * turns. */
+/* Rotations are quaternions on the surface of a tesseract: one coordinate is 1, and the others take
+ * STEPS values each. They are about 40 degrees apart. The BEST ones are refined in ROUNDS rounds of
+ * ever smaller turns. */
 enum { STEPS = 5, BEST = 12, ROUNDS = 24 };
 static const double first_turn = 0.2, last_turn = 1e-3;
 
-/* Triangles that are stretched more count no more: they say nothing. */
+/* The energy of a triangle is cut off here, because stronger stretch tells nothing. */
 static const double most = 1000;
 
-/* What a pair of directions costs at the distance 1. */
+/* Cost of a pair of directions at distance 1. */
 static const double apart = 1e4;
 
 typedef struct search {
@@ -66,7 +67,7 @@ static double total_area(const iccp_half_edges *m, const double *x)
     return sum;
 }
 
-/* Where a direction of the second drawing is on its surface, scaled. */
+/* The place on the second surface of a direction of its drawing, scaled. */
 static void find_image(const search *s, const double p[3], double image[3])
 {
     const uint32_t face = iccp_drawn_find(&s->finder, p);
@@ -83,7 +84,7 @@ static void find_image(const search *s, const double p[3], double image[3])
     }
 }
 
-/* The squared distance of pairs of vertices, mean. */
+/* The mean squared distance of pairs of vertices. */
 static double distance_of_pairs(const search *s, const double q[4])
 {
     double sum = 0;
@@ -95,7 +96,7 @@ static double distance_of_pairs(const search *s, const double q[4])
     return s->n_pairs > 0 ? sum / (double)s->n_pairs : 0;
 }
 
-/* The mean energy over the faces that are left of the first surface, and what pairs cost. */
+/* The mean energy over the faces left of the first surface, plus the cost of pairs. */
 static double energy_of(const search *s, const double q[4])
 {
     double sum = 0, weights = 0;
@@ -131,7 +132,7 @@ static double energy_of(const search *s, const double q[4])
     return sum / weights + apart * distance_of_pairs(s, q);
 }
 
-/* Keeps the best ones, in order. */
+/* Keeps the best rotations, in order. */
 static void offer(turn *best, size_t *n, const turn *t)
 {
     if (*n == BEST && best[BEST - 1].energy <= t->energy)
@@ -158,7 +159,7 @@ static icc_status search_grid(const search *s, turn *best, size_t *n_best, const
     return status;
 }
 
-/* Small turns about the axes, both ways, halved whenever none of them helps. */
+/* Turns a little about each axis, both ways. Halves the angle whenever nothing helps. */
 static void improve(const search *s, turn *t)
 {
     double size = first_turn;
@@ -185,7 +186,7 @@ static void improve(const search *s, turn *t)
     }
 }
 
-/* Turns all directions unless the drawing is not one-to-one then. */
+/* Turns all directions. Refuses if the drawing is then not one-to-one. */
 static bool apply(double *first, double *turned, const iccp_half_edges *m, const double q[4])
 {
     memset(turned, 0, 3 * m->n_vertices * sizeof *turned);

@@ -1,8 +1,8 @@
-/* Based on: E. Praun, H. Hoppe, Spherical Parametrization and Remeshing, 2003: the surface is made
- * coarse down to a tetrahedron, and its vertices are put back one by one, each where it sees all
- * sides of the ring of its neighbours. There always is such a place beside the vertex that it was
- * collapsed to. A vertex only moves within the cone of these places, so that all faces stay
- * positive and the neighbours of every vertex go round it once. */
+/* Based on: E. Praun, H. Hoppe, Spherical Parametrization and Remeshing, 2003. The surface is made
+ * coarse until a tetrahedron is left. Then its vertices are put back one by one, each where it sees
+ * all sides of the ring of its neighbours. There always is such a place close to the vertex that it
+ * was collapsed to. A vertex only moves within the cone of these places. So all faces stay
+ * positive, and each vertex's neighbours turn once around it. */
 #include "match/sphere/sphere.h"
 
 #include "base/error.h"
@@ -17,22 +17,22 @@
 #include <math.h>
 #include <string.h>
 
-/* All vertices are moved in sweeps whenever there are so many times as many: in more of them while
- * there are few, which costs little and decides how limbs come to lie. */
+/* All vertices are moved in sweeps whenever their number has grown by this factor. There are more
+ * sweeps while vertices are few, which costs little and decides where limbs come to lie. */
 static const double level = 1.5;
 enum { FEW = 2000, SWEEPS_OF_FEW = 24, SWEEPS = 6, LAST_SWEEPS = 30 };
 
-/* Steps of a vertex in one turn, and trial lengths of a step, at most. */
+/* Most steps of a vertex in one turn, and most trial lengths of a step. */
 enum { STEPS = 8, STEPS_WHEN_NEW = 4, HALVINGS = 6 };
 
-/* Vertices with more neighbours than this move in sweeps only, not each time that one of these is
- * put back, and never jump: work stays in proportion. */
+/* Vertices with more neighbours than this never jump and move in sweeps only, not each time that a
+ * neighbour is put back. So the work stays in proportion. */
 enum { MOST_NEIGHBOURS = 64 };
 
-/* A vertex takes another step if the last one has left less than this share of its energy. */
+/* A vertex takes another step if the last one left less than this share of its energy. */
 static const double worthwhile = 0.9;
 
-/* Vertices whose faces have a mean energy, to the power 1.5, above this may jump. */
+/* A vertex may jump if the mean energy of its faces, to the power 1.5, exceeds this. */
 static const double bad = 90;
 
 /* The last sweeps end when one lowers the energy by less than this share. */
@@ -44,7 +44,7 @@ typedef struct drawing {
     double *directions;
     const uint8_t *is_fixed; /* by vertex; or NULL */
     bool is_quiet;           /* only new vertices move */
-    double scale;            /* area of the surface times its square: that of the sphere */
+    double scale;            /* the surface's area times the square of this is that of the sphere */
     iccp_drawn_star star;
     double (*room)[3];
 } drawing;
@@ -61,8 +61,9 @@ static void gather(drawing *d, uint32_t vertex)
 
 /* ---- moving ---- */
 
-/* Moves a vertex whose star has been gathered by a step of Newton's method, shortened until the
- * star holds it and its energy falls. The energy then; what it fell by is added to *gain. */
+/* Moves a vertex, whose star has been gathered, by a step of Newton's method. The step is shortened
+ * until the star holds the new place and the energy falls. Returns the new energy and adds its fall
+ * to *gain. */
 static double move(drawing *d, uint32_t vertex, double *gain)
 {
     double *const p = direction_of(d, vertex);
@@ -91,9 +92,9 @@ static double move(drawing *d, uint32_t vertex, double *gain)
     return jet.value;
 }
 
-/* Looks for a better place for a vertex whose star has been gathered among some in the room that it
- * has as seen from an axis: the middle, and half the way from there to each corner. `least` is the
- * energy where it is. */
+/* Looks for a better place for a vertex whose star has been gathered. It tries the middle of the
+ * vertex's room, as seen from an axis, and half the way from there to each corner. `least` is the
+ * present energy. */
 static double jump(drawing *d, uint32_t vertex, const double axis[3], double least)
 {
     const size_t n = iccp_kernel_room(d->room, axis, d->star.n, d->star.ring);
@@ -115,7 +116,7 @@ static double jump(drawing *d, uint32_t vertex, const double axis[3], double lea
     return least;
 }
 
-/* Moves a vertex by some steps, as long as they help much. */
+/* Moves a vertex by several steps, as long as they help much. */
 static double improve(drawing *d, uint32_t vertex, int n_steps, double *gain)
 {
     double energy = HUGE_VAL;
@@ -141,7 +142,7 @@ static bool is_fixed(const drawing *d, uint32_t vertex)
     return d->is_fixed != NULL && d->is_fixed[vertex] != 0;
 }
 
-/* A sweep: the sum of the energies, and what it fell by. */
+/* Does one sweep. *energy is the sum of the energies, and *gain their fall. */
 static void move_all(drawing *d, double *energy, double *gain)
 {
     *energy = *gain = 0;
@@ -152,7 +153,7 @@ static void move_all(drawing *d, double *energy, double *gain)
 
 /* ---- growing ---- */
 
-/* The corners of a regular tetrahedron for the last four vertices. */
+/* Puts the last four vertices at the corners of a regular tetrahedron. */
 static void begin(drawing *d)
 {
     static const double corner[4][3] = {{1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, -1}};
@@ -166,7 +167,7 @@ static void begin(drawing *d)
         iccp_direction(direction_of(d, iccp_edge_end(m, h)), corner[k]);
 }
 
-/* Puts the last vertex that was taken away back. */
+/* Puts back the vertex that was removed last. */
 static bool grow(drawing *d)
 {
     const uint32_t u = iccp_edge_restore(d->m);
@@ -186,7 +187,7 @@ static bool grow(drawing *d)
     return true;
 }
 
-/* Until `until` vertices are there. */
+/* Puts vertices back until `until` are present. */
 static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_error *err)
 {
     size_t next = d->m->n_left + 1;

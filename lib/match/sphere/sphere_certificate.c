@@ -1,10 +1,11 @@
+/* Counts the faces and stars of a drawing that are not right. */
 #include "match/sphere/sphere_certificate.h"
 
 #include "match/surface/direction.h"
 
-/* How often the neighbours of a vertex go round it, where each step from one to the next is a turn
- * to the left by less than half the way: how often they come from the right half of the circle of
- * ways into the left one, which begins with the way to the first neighbour. */
+/* Counts how often the neighbours of a vertex turn around it. Each step from one neighbour to the
+ * next is a left turn by less than 180 degrees. So it counts how often they pass from the right
+ * half of the circle into the left half, which begins at the first neighbour. */
 static size_t count_turns(const iccp_half_edges *m, const double *directions, uint32_t vertex)
 {
     const double *const p = directions + 3 * (size_t)vertex;
@@ -17,7 +18,8 @@ static size_t count_turns(const iccp_half_edges *m, const double *directions, ui
     for (; h != start; h = iccp_edge_turn(m, h)) {
         const double *const q = directions + 3 * (size_t)iccp_edge_end(m, h);
         const int side = iccp_direction_sign(p, first, q);
-        /* On the line through the first one: before the second, or opposite. */
+        /* The neighbour lies on the line through the first one: on the same side as it, or
+         * opposite. */
         const bool is_left = side > 0 || (side == 0 && iccp_direction_sign(p, q, second) > 0);
         n += is_left && !was_left;
         was_left = is_left;

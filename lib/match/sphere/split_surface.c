@@ -1,3 +1,4 @@
+/* Halving edges of a surface, and undoing it. */
 #include "match/sphere/split_surface.h"
 
 #include <string.h>
@@ -73,8 +74,8 @@ static void join(iccp_split_surface *s, uint32_t h, uint32_t g)
     s->twin[g] = h;
 }
 
-/* Half-edge h of a face (a, b, c) gets the new vertex m: the face becomes (a, m, c), and (m, b, c)
- * comes about, whose first half-edge is told. */
+/* Half-edge h of face (a, b, c) gets the new vertex m. The face becomes (a, m, c), and a new face
+ * (m, b, c) is made. Returns the first half-edge of the new face. */
 static uint32_t halve_face(iccp_split_surface *s, uint32_t h, uint32_t m)
 {
     const uint32_t next = iccp_after(h), last = iccp_before(h), p = (uint32_t)(3 * s->n_faces++);
@@ -99,7 +100,7 @@ bool iccp_split_halve(iccp_split_surface *s, uint32_t h)
     for (size_t k = 0; k < 3; ++k)
         s->x[3 * (size_t)m + k] =
             0.5 * (s->x[3 * (size_t)s->origin[h] + k] + s->x[3 * (size_t)iccp_split_end(s, h) + k]);
-    /* Both faces keep the half that begins where their half-edge did: (a, m) and (b, m). */
+    /* Both faces keep the half where their half-edge starts: (a, m) and (b, m). */
     const uint32_t p = halve_face(s, h, m), q = halve_face(s, g, m);
     join(s, h, q);
     join(s, g, p);
@@ -110,7 +111,7 @@ bool iccp_split_halve(iccp_split_surface *s, uint32_t h)
     return true;
 }
 
-/* The last face gets the number of one that is taken away. */
+/* The last face takes the number of a face that is removed. */
 static void remove_face(iccp_split_surface *s, uint32_t face)
 {
     const uint32_t last = (uint32_t)--s->n_faces;
@@ -136,8 +137,8 @@ static bool are_joined(const iccp_split_surface *s, uint32_t a, uint32_t b)
     return false;
 }
 
-/* Of the four faces at m, (m, a, c), (m, c, b), (m, b, d), (m, d, a), the second one becomes (a, c,
- * b) and the last one (b, d, a). */
+/* The four faces at m are (m, a, c), (m, c, b), (m, b, d), (m, d, a). The second becomes (a, c, b)
+ * and the last (b, d, a). */
 bool iccp_split_unite(iccp_split_surface *s, uint32_t m)
 {
     const uint32_t a = s->halves[m][0], b = s->halves[m][1];

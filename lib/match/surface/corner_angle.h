@@ -5,7 +5,7 @@
 #include "base/minmax.h"
 #include "math/vec.h"
 
-/* A normal, as long as twice the area. */
+/* Sets a normal whose length is twice the area. */
 static inline void iccp_triangle_normal(double normal[3], const double *a, const double *b,
                                         const double *c)
 {
@@ -14,8 +14,8 @@ static inline void iccp_triangle_normal(double normal[3], const double *a, const
     iccp_vec_cross(u, v, normal);
 }
 
-/* The sine of the least angle of a triangle: its height on the longest side by the longer one of
- * the others. 0 if it has no area. */
+/* The sine of a triangle's smallest angle. It is the height on the longest side, divided by the
+ * longer of the other two sides. 0 if the triangle has no area. */
 static inline double iccp_least_sine(const double *a, const double *b, const double *c)
 {
     double normal[3];
@@ -23,7 +23,7 @@ static inline double iccp_least_sine(const double *a, const double *b, const dou
     const double twice = iccp_vec_norm(3, normal);
     const double ab = iccp_vec_distance2(3, a, b), bc = iccp_vec_distance2(3, b, c);
     const double ca = iccp_vec_distance2(3, c, a);
-    /* Of the three products of two sides the largest is that at the least angle. */
+    /* The smallest angle lies between the two sides with the largest product. */
     const double most = iccp_max(ab * bc, iccp_max(bc * ca, ca * ab));
     return most > 0 ? twice / sqrt(most) : 0;
 }

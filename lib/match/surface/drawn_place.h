@@ -1,11 +1,11 @@
-/* From the sphere back to the surface that is drawn there. */
+/* Maps points of the sphere back to the surface that is drawn on it. */
 #ifndef ICCP_DRAWN_PLACE_H
 #define ICCP_DRAWN_PLACE_H
 
 #include "base/minmax.h"
 #include "math/vec.h"
 
-/* a . (b x c) for directions near each other, whose differences are exact. */
+/* a . (b x c) for directions close to one another, whose differences are exact. */
 static inline double iccp_direction_det(const double a[3], const double b[3], const double c[3])
 {
     const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
@@ -15,10 +15,10 @@ static inline double iccp_direction_det(const double a[3], const double b[3], co
     return iccp_vec_dot(3, a, normal);
 }
 
-/* Weights, not negative, of sum 1, for the corners of a triangle of the sphere: where the ray with
- * direction p meets the plane through its three corners. Of one that p is not in, a place on its
- * boundary. The faces of a surface are mapped to those of its drawing so: straight lines to great
- * circles. */
+/* Finds the weights of a triangle's corners s at the point where the ray with direction p meets the
+ * plane through them. The weights are not negative and their sum is 1. If p is outside the
+ * triangle, the weights give a point on its boundary. This is how the faces of a surface are mapped
+ * to the faces of its drawing: straight lines become great circles. */
 static inline void iccp_drawn_weights(double weight[3], const double p[3], const double *const s[3])
 {
     double sum = 0;

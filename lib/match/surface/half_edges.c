@@ -1,3 +1,4 @@
+/* Half edges of a closed surface: building them, collapsing and restoring edges. */
 #include "match/surface/half_edges.h"
 
 #include "base/error.h"
@@ -12,7 +13,7 @@ static void count_neighbours(iccp_half_edges *m, uint32_t vertex, uint32_t degre
         m->most_neighbours = degree;
 }
 
-/* The half-edge of a face that comes from a vertex. */
+/* The half-edge of a face that starts at a vertex. */
 static uint32_t edge_from(const iccp_half_edges *m, uint32_t face, uint32_t vertex)
 {
     uint32_t h = 3 * face;
@@ -86,7 +87,8 @@ bool iccp_edge_collapsible(const iccp_half_edges *m, uint32_t h)
     const uint32_t end = iccp_edge_end(m, h);
     if (m->n_left <= 4)
         return false;
-    /* The first and the last neighbour beside the end are its own, too; others must not be. */
+    /* The first and the last of these neighbours are neighbours of the edge's end, too. No others
+     * may be. */
     uint32_t e = iccp_edge_turn(m, iccp_edge_turn(m, h));
     for (; iccp_edge_turn(m, e) != h; e = iccp_edge_turn(m, e))
         if (iccp_are_neighbours(m, iccp_edge_end(m, e), end))
@@ -111,8 +113,8 @@ static void pair(iccp_half_edges *m, uint32_t h, uint32_t g)
     m->twin[g] = h;
 }
 
-/* Says that what comes from u, but for the edges of the two faces, comes from `vertex`; how many
- * those are. */
+/* Gives the half-edges from u another origin, `vertex`, except in the two faces beside the edge.
+ * Returns their number. */
 static uint32_t rename_between(iccp_half_edges *m, sides s, uint32_t vertex)
 {
     uint32_t n = 0;

@@ -1,10 +1,32 @@
-/* A closed surface of triangles that shrinks by collapses of edges and grows again by taking them
- * back.
+/* A closed surface of triangles. It shrinks by collapses of edges and grows when these are undone.
  *
- * Half-edge 3 f + i, which has the number of a corner, runs from it to the next one. A collapse
- * changes none of the entries of the two faces that it takes away, so that they are all that is
- * needed to take it back: D. E. Knuth, Dancing Links, 2000. Taken back in reverse order the surface
- * is what it was, number by number. */
+ * Half-edge 3 f + i has the number of a corner and runs from it to the next corner. A collapse does
+ * not change the entries of the two faces that it removes. So these entries are enough to undo it:
+ * D. E. Knuth, Dancing Links, 2000. If collapses are undone in reverse order, the surface is the
+ * same as before, number by number.
+ *
+ * Words of lib/match/surface, lib/match/sphere and lib/match/common_mesh
+ * - present: a vertex or face that no collapse has removed.
+ * - drawing: a direction for each vertex of a surface, so that its faces become triangles on the
+ *   sphere.
+ * - star: the faces around a vertex. ring: the polygon of its neighbours.
+ * - certified: shown to be one-to-one by exact signs (sphere/sphere_certificate.h).
+ * - landmark: a pair of vertices, one on each surface, that must come to the same direction.
+ * - overlay: the surface of all pieces that the faces of two drawings have in common.
+ * - common surface: one mesh with two places for each vertex, one on each surface.
+ *
+ * Invariants
+ * - Every face of a drawing is positive at all times, and each vertex's neighbours turn once around
+ *   it.
+ * - Exact signs decide (direction.h, perturbed.h), so results are the same on every machine.
+ *
+ * Ways
+ * - One surface: sphere/sphere.h draws it. Two: rotation.h turns one drawing, relax.h moves both.
+ * - With landmarks: landmark_sphere.h, which begins with a base of few triangles (landmark_base.h).
+ * - Equal surfaces: equal_surfaces.h. Then common_mesh/sphere_overlay.h makes common triangles.
+ * - common_mesh/simplify_apart.h removes vertices that are not needed.
+ *
+ * Begin with ../surfaces.c and ../sphere_pair.c. */
 #ifndef ICCP_HALF_EDGES_H
 #define ICCP_HALF_EDGES_H
 
@@ -18,50 +40,53 @@
 typedef struct iccp_half_edges {
     iccp_memory memory;
     size_t n_vertices, n_faces; /* of the whole surface */
-    size_t n_left;              /* vertices that are there now */
+    size_t n_left;              /* vertices present */
     size_t n_collapsed;
-    size_t most_neighbours; /* that a vertex has had so far */
-    uint32_t *collapsed;    /* half-edges, the first collapse first */
-    uint32_t *origin;       /* 3 n_faces: the vertex that a half-edge comes from */
-    uint32_t *twin;         /* 3 n_faces: the same edge the other way */
-    uint32_t *out;          /* n_vertices: one half-edge from it; ICCP_NO_EDGE: it is not there */
-    uint32_t *degree;       /* n_vertices: half-edges from it; 0: it is not there */
+    size_t most_neighbours; /* the most that any vertex has had */
+    uint32_t *collapsed;    /* half-edges, in the order of their collapses */
+    uint32_t *origin;       /* 3 n_faces: the vertex where a half-edge starts */
+    uint32_t *twin;         /* 3 n_faces: the same edge in the other direction */
+    uint32_t *out;          /* n_vertices: a half-edge that starts at it; ICCP_NO_EDGE if it is
+                               not present */
+    uint32_t *degree;       /* n_vertices: number of its half-edges; 0 if it is not present */
 } iccp_half_edges;
 
-/* The vertex that it runs to. */
+/* The vertex where a half-edge ends. */
 static inline uint32_t iccp_edge_end(const iccp_half_edges *m, uint32_t h)
 {
     return m->origin[iccp_after(h)];
 }
 
-/* The next half-edge from the same vertex, counter-clockwise. */
+/* The next half-edge that starts at the same vertex, counter-clockwise. */
 static inline uint32_t iccp_edge_turn(const iccp_half_edges *m, uint32_t h)
 {
     return m->twin[iccp_before(h)];
 }
 
-/* Faces of a closed surface of one piece, on which those at a vertex form one ring; vertices
- * without faces are not there. ICC_ERR_BOUNDARY or ICC_ERR_MEMORY; to be freed in either case. */
+/* Makes the half edges of a closed, connected surface, on which the faces at each vertex form one
+ * ring. Vertices without faces are not present. ICC_ERR_BOUNDARY or ICC_ERR_MEMORY. Free it in any
+ * case. */
 icc_status iccp_half_edges_create(iccp_half_edges *m, size_t n_vertices, size_t n_faces,
                                   const uint32_t *faces, const iccp_env *env, icc_error *err);
 void iccp_half_edges_free(iccp_half_edges *m);
 
 bool iccp_are_neighbours(const iccp_half_edges *m, uint32_t a, uint32_t b);
 
-/* Whether the origin of a half-edge may become its end: no other edge would then join the same two
- * vertices twice, and at least four vertices are left. O(degree of the origin) but where both it
- * and its end have neighbours with many neighbours. */
+/* Returns true if the half-edge's origin may be merged into its end. Then no two vertices are
+ * joined twice, and at least four vertices are left. Linear in the origin's degree, unless both
+ * ends have neighbours with many neighbours. */
 bool iccp_edge_collapsible(const iccp_half_edges *m, uint32_t h);
 
-/* Takes the origin of a half-edge that is collapsible away: what it was joined to is joined to the
- * end. O(its degree). */
+/* Removes the origin of a collapsible half-edge. Its other neighbours are then joined to the end.
+ * O(its degree). */
 void iccp_edge_collapse(iccp_half_edges *m, uint32_t h);
 
-/* Joins the two corners across an edge in place of its ends, which have more than three neighbours
- * each; the corners are no neighbours yet. What was collapsed before cannot be taken back then. */
+/* Replaces an edge by the edge between the two corners that face it. Both ends must have more than
+ * three neighbours, and the corners must not be neighbours yet. Collapses made before can no longer
+ * be undone. */
 void iccp_edge_flip(iccp_half_edges *m, uint32_t h);
 
-/* Takes the last collapse back; the vertex that is there again. O(its degree). */
+/* Undoes the last collapse. Returns the vertex that is present again. O(its degree). */
 uint32_t iccp_edge_restore(iccp_half_edges *m);
 
 #endif

@@ -1,5 +1,5 @@
-/* Based on: I. E. Sutherland, G. W. Hodgman, Reentrant Polygon Clipping, 1974, with planes through
- * the centre of the sphere. */
+/* Finds where a vertex may lie by clipping: I. E. Sutherland, G. W. Hodgman, Reentrant Polygon
+ * Clipping, 1974, with planes through the centre of the sphere. */
 #include "match/surface/kernel_room.h"
 
 #include "match/surface/direction.h"
@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A cone round a direction, wide enough for all that the faces at it can surround in a drawing: its
- * corners are 83 degrees off. */
+/* Starts with a cone around a direction. Its corners are 83 degrees away, which is wide enough for
+ * every drawing. */
 static void begin(double (*corner)[3], const double *axis)
 {
     static const double eighth[ICCP_ROOM_CORNERS][2] = {
@@ -20,7 +20,7 @@ static void begin(double (*corner)[3], const double *axis)
             corner[i][k] = axis[k] + eighth[i][0] * across[0][k] + eighth[i][1] * across[1][k];
 }
 
-/* Keeps what lies on the positive side of a plane. */
+/* Keeps the part on the positive side of a plane. */
 static size_t clip(double (*out)[3], size_t n, const double (*corner)[3], const double normal[3])
 {
     size_t n_out = 0;

@@ -1,12 +1,12 @@
-/* Steps of Newton's method in the plane. */
+/* One step of Newton's method in the plane. */
 #ifndef ICCP_NEWTON_STEP_H
 #define ICCP_NEWTON_STEP_H
 
 #include "base/minmax.h"
 #include "math/vec.h"
 
-/* Newton's step, with a multiple of the identity added to the Hessian (00, 01, 11) where it is not
- * clearly positive; no longer than `most`. */
+/* Computes Newton's step, at most `most` long. The Hessian has the entries 00, 01, 11. If it is not
+ * clearly positive, a multiple of the identity is added. */
 static inline void iccp_newton_step(double step[2], const double gradient[2],
                                     const double hessian[3], double most)
 {

@@ -1,14 +1,14 @@
 /* Based on: H. Edelsbrunner, E. P. Mücke, Simulation of Simplicity, ACM Transactions on Graphics 9,
- * 1990: coordinate c of the vertex of rank r is moved by e to the power 2^(3 r + c). */
+ * 1990. Coordinate c of the vertex of rank r is moved by e to the power 2^(3 r + c). */
 #include "match/surface/perturbed.h"
 
 #include "match/surface/direction.h"
 
 #include <stdbool.h>
 
-/* Of the product of the infinitesimals that are the bits of `code`: which column each row gives, 3
- * where it gives none. False where two come from one row or one column: the determinant has no such
- * term. */
+/* The bits of `code` stand for infinitesimals, and `code` for their product. Finds the column that
+ * each row contributes to it, or 3 if it contributes none. Returns false if two come from one row
+ * or one column, because the determinant has no such term. */
 static bool read_code(unsigned code, unsigned column[3])
 {
     unsigned used = 0;
@@ -22,8 +22,8 @@ static bool read_code(unsigned code, unsigned column[3])
     return true;
 }
 
-/* The sign of what such a product is multiplied by in the determinant with rows p: a minor, of the
- * rows and columns that give nothing to it, with the sign of its place. */
+/* The sign of the factor that such a product has in the determinant with rows p. The factor is the
+ * minor of the rows and columns that contribute nothing, with the sign of its place. */
 static int minor_sign(const double *const p[3], unsigned column[3])
 {
     unsigned row[3], n = 0;
@@ -72,8 +72,8 @@ int iccp_perturbed_sign(const double *const p[3], const uint32_t number[3])
             order = -order;
         }
     }
-    /* The smaller the code, the larger the product; that of three infinitesimals is multiplied by
-     * +1 or -1. */
+    /* The product grows as the code falls. A product of three infinitesimals has the factor +1 or
+     * -1. */
     for (unsigned code = 1;; ++code) {
         unsigned column[3];
         const int s = read_code(code, column) ? minor_sign(row, column) : 0;

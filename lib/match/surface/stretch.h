@@ -1,11 +1,12 @@
-/* How much a triangle is stretched when it becomes another. */
+/* Measures how much a triangle is stretched when it is mapped to another. */
 #ifndef ICCP_STRETCH_H
 #define ICCP_STRETCH_H
 
 #include "match/surface/corner_angle.h"
 
-/* The symmetric Dirichlet energy of the linear map of one triangle in space onto another: (s^2 +
- * t^2)(1 + 1 / (s t)^2) for the singular values s and t; 4 for an isometry, at most `most`. */
+/* The symmetric Dirichlet energy of the linear map of one triangle in space onto another. It is
+ * (s^2 + t^2)(1 + 1 / (s t)^2) for the singular values s and t. It is 4 for an isometry, and at
+ * most `most`. */
 static inline double iccp_stretch_energy(const double *const from[3], const double *const to[3],
                                          double most)
 {
@@ -26,9 +27,9 @@ static inline double iccp_stretch_energy(const double *const from[3], const doub
     return energy < most ? energy : most;
 }
 
-/* A triangle, and another that is made so many times as large before. */
+/* The measures of a triangle that is scaled and then mapped to another. */
 typedef struct iccp_stretch {
-    double twice[2]; /* both areas */
+    double twice[2]; /* twice the area of each */
     double energy;   /* at most 1e8 */
 } iccp_stretch;
 
