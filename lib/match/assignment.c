@@ -1,5 +1,5 @@
-/* Shortest augmenting paths: R. Jonker and A. Volgenant, A shortest augmenting path algorithm for
- * dense and sparse linear assignment problems, 1987. */
+/* Solves the assignment problem by shortest augmenting paths: R. Jonker and A. Volgenant, A
+ * shortest augmenting path algorithm for dense and sparse linear assignment problems, 1987. */
 #include "match/assignment.h"
 
 #include <math.h>
@@ -9,8 +9,8 @@
 typedef struct search {
     const iccp_spot *a, *b;
     size_t n;
-    double *u, *v, *least;      /* duals of both sides; least reduced cost to each of b */
-    uint32_t *row, *from, *way; /* of each of b: its partner; the one before it on the path */
+    double *u, *v, *least;      /* duals of both sides; least reduced cost to each spot of b */
+    uint32_t *row, *from, *way; /* of each spot of b: its partner; the spot before it on the path */
     unsigned char *is_done;
 } search;
 
@@ -20,8 +20,8 @@ double iccp_spot_distance(const iccp_spot *a, const iccp_spot *b)
     return x * x + y * y + s * s;
 }
 
-/* The shortest path of alternating pairs from a's spot i to one of b that has no partner (Dijkstra
- * on reduced costs), along which all partners change. `way` keeps the order of b's spots that were
+/* Finds the shortest alternating path from a's spot i to a spot of b without a partner (Dijkstra on
+ * reduced costs), and exchanges partners along it. `way` keeps the order in which b's spots were
  * reached. */
 static void augment(search *s, uint32_t i)
 {
@@ -64,7 +64,7 @@ static void augment(search *s, uint32_t i)
         s->row[j] = s->from[j] != NONE ? s->row[s->from[j]] : i;
 }
 
-/* Spot j goes to place row[j], along each cycle. */
+/* Moves spot j to place row[j], along each cycle. */
 static void reorder(const search *s, iccp_spot *b)
 {
     for (uint32_t j = 0; j < s->n; ++j)

@@ -1,3 +1,4 @@
+/* Assigns landmarks to the outer ring or to features. */
 #include "match/feature_landmarks.h"
 
 #include "base/error.h"
@@ -11,7 +12,7 @@
 
 #define NONE UINT32_MAX
 
-/* The nearest feature; NONE: the outer ring is nearer, or there are none. */
+/* Returns the nearest feature, or NONE if the outer ring is nearer or there are no features. */
 static uint32_t feature_near(const icc_domain *domain, const double *point)
 {
     const iccp_features *const all = domain->features;
@@ -43,7 +44,8 @@ static const char *name_of(const icc_domain *domain, uint32_t feature)
                            : iccp_feature_name(domain->features->item[feature].kind);
 }
 
-/* Whether both sides' features may be partners, and are no others' by an earlier landmark. */
+/* Checks that both sides' features may be partners, and that no earlier landmark gave them
+ * others. */
 static icc_status check(const iccp_parted_landmarks *all, const iccp_feature_landmark *l,
                         const icc_domain *source, const icc_domain *target, icc_error *err)
 {

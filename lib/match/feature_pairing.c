@@ -1,6 +1,6 @@
-/* The outer rings say, by mean value coordinates, about where in the target each feature should be
- * and how it is bent there. Moved so, features go to those that are nearest on the whole, and what
- * is nearest on two holes or lines is where their own pairing begins. */
+/* Mean value coordinates of the outer rings predict where each feature should lie in the target and
+ * how it is bent. The moved features are paired with those that are nearest on the whole. The
+ * pairing of two holes or lines begins at their nearest points. */
 #include "match/feature_pairing.h"
 
 #include "base/error.h"
@@ -18,7 +18,7 @@
 
 typedef struct pairing {
     const icc_domain *domain[2];
-    double *moved; /* the source's vertices, where the target's should be */
+    double *moved; /* the source's vertices, moved to where the target's should be */
     uint32_t *partner;
     const iccp_parted_landmarks *landmarks;
     size_t *number; /* of one feature's landmarks */
@@ -49,7 +49,7 @@ static icc_status reserve(pairing *p, const iccp_memory *memory, icc_error *err)
                : iccp_fail_memory(err);
 }
 
-/* Where the outer rings take what is inside the source. */
+/* Moves the inside of the source as the outer rings predict. */
 static void move_inside(pairing *p, const iccp_outline *outer, const iccp_union_outline *common)
 {
     iccp_mean_value at;
@@ -60,7 +60,7 @@ static void move_inside(pairing *p, const iccp_outline *outer, const iccp_union_
     iccp_mean_value_move(&at, source->n_vertices - n_outer, p->moved + 2 * n_outer);
 }
 
-/* The landmarks of one feature; how many. */
+/* Collects the landmarks of one feature. Returns their number. */
 static size_t collect(pairing *p, uint32_t feature)
 {
     size_t n = 0;
@@ -73,8 +73,9 @@ static size_t collect(pairing *p, uint32_t feature)
     return n;
 }
 
-/* Whether a line's partner, walked from its first vertex, runs against it: by the order of their n
- * landmarks, by how far the only one is along both, or by their ends. */
+/* Returns true if a line's partner, walked from its first vertex, runs in the opposite direction.
+ * The order of their n landmarks decides. With one landmark its place along both decides, and
+ * without any, the ends. */
 static bool runs_against(const pairing *p, const iccp_outline *lines, size_t n)
 {
     double sum[2] = {0, 0}, product = 0, along = 0, against = 0, away;
@@ -99,8 +100,8 @@ static bool runs_against(const pairing *p, const iccp_outline *lines, size_t n)
     return against < along;
 }
 
-/* The ends of two lines become landmarks, with n others in order; how many there are then, 0: they
- * cannot all be obeyed. */
+/* Makes the ends of two lines landmarks, in order with n others. Returns the new number, or 0 if
+ * not all can be obeyed. */
 static size_t add_ends(pairing *p, const iccp_outline *lines, size_t n)
 {
     const double end[2] = {lines[0].share[lines[0].end], lines[1].share[lines[1].end]};
@@ -121,7 +122,7 @@ static size_t add_ends(pairing *p, const iccp_outline *lines, size_t n)
     return n;
 }
 
-/* Moves the source's outline, and n landmarks with it; not where it would collapse. */
+/* Moves the source's outline and n landmarks with it, unless the outline would collapse. */
 static void move_outline(pairing *p, iccp_outline *outline, size_t n)
 {
     for (size_t k = 0; k < n; ++k) {
@@ -139,7 +140,7 @@ static void move_outline(pairing *p, iccp_outline *outline, size_t n)
     }
 }
 
-/* Two holes or lines. */
+/* Pairs two holes or lines. */
 static icc_status pair_outlines(pairing *p, iccp_union_outline *common, iccp_outline *outline,
                                 uint32_t feature, const iccp_env *env, icc_error *err)
 {

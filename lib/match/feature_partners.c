@@ -1,3 +1,4 @@
+/* Finds the partners of features by solving an assignment problem for each kind. */
 #include "match/feature_partners.h"
 
 #include "base/error.h"
@@ -10,11 +11,11 @@
 
 #define NONE UINT32_MAX
 
-/* Shares of the target's diameter that places differ by without saying anything. */
+/* Differences of places below this share of the target's diameter mean nothing. */
 static const double noise = 1e-3;
 
-/* The kinds that features have here: a circle is more than a line, and settles what its point goes
- * with. */
+/* Kinds of features. A point with a circle is a kind of its own, which decides the partner of the
+ * point. */
 enum { RIM = ICC_FEATURE_POINT + 1, KINDS };
 
 static int32_t kind_of(const iccp_feature *feature)
@@ -46,7 +47,7 @@ icc_status iccp_features_count(const icc_domain *source, const icc_domain *targe
     return ICC_OK;
 }
 
-/* A feature's centre by length, and how far it reaches from there on the average. */
+/* A feature's centre by length, and its mean distance from there. */
 static iccp_spot spot_of(const iccp_feature *f, uint32_t number, const double *vertices)
 {
     iccp_spot out = {.number = number};
@@ -68,7 +69,7 @@ static iccp_spot spot_of(const iccp_feature *f, uint32_t number, const double *v
     return out;
 }
 
-/* Whether no two of n pairs could change partners. */
+/* Checks that no two of n pairs could exchange partners. */
 static icc_status check(const iccp_spot *a, const iccp_spot *b, size_t n, const iccp_feature *all,
                         double least, double sure, icc_error *err)
 {
@@ -92,8 +93,8 @@ static icc_status check(const iccp_spot *a, const iccp_spot *b, size_t n, const 
 
 typedef struct pairs {
     const icc_domain *domain[2];
-    const double *vertices[2]; /* the source's moved */
-    uint32_t *partner[2];      /* of the features of each side */
+    const double *vertices[2]; /* the source's are moved */
+    uint32_t *partner[2];      /* by feature of each side */
     iccp_spot *spots[2];
 } pairs;
 
@@ -103,7 +104,8 @@ static void settle(pairs *p, uint32_t f, uint32_t g)
     p->partner[1][g] = f;
 }
 
-/* A circle and its point have partners alike: from the one to the other, either way. */
+/* A circle and its point have the same partners. Copies them from one to the other, in either
+ * direction. */
 static void settle_rims(pairs *p, bool is_known_by_point)
 {
     const iccp_feature *const a = p->domain[0]->features->item;
@@ -120,7 +122,7 @@ static void settle_rims(pairs *p, bool is_known_by_point)
     }
 }
 
-/* The features of one kind that have no partner yet. */
+/* Pairs the features of one kind that have no partner yet. */
 static icc_status pair_kind(pairs *p, int32_t kind, double sure, const iccp_env *env,
                             icc_error *err)
 {

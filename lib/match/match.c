@@ -1,3 +1,4 @@
+/* Creating and freeing a match: outlines in the plane, surfaces in space. */
 #include "match/match.h"
 
 #include "base/error.h"
@@ -47,7 +48,7 @@ static icc_status check_both(const icc_domain *source, const icc_domain *target,
     return status == ICC_OK ? iccp_features_count(source, target, err) : status;
 }
 
-/* The domains, from what is joint. */
+/* Makes the two domains. */
 static icc_status make(icc_match *match, iccp_matched_domains *matched, const iccp_env *env,
                        icc_error *err)
 {
@@ -69,7 +70,7 @@ static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
     info->cost = report->cost;
     info->second = report->second;
     info->sure = report->sure;
-    info->turn = 360 * report->turn + 0.0; /* which is not -0 */
+    info->turn = 360 * report->turn + 0.0; /* + 0.0 turns -0 into 0 */
     info->mirrored = report->mirrored >= iccp_clearly_better;
     info->n_vertices = matched->n;
     info->n_landmarks = n_landmarks;
@@ -78,7 +79,7 @@ static void fill_in(icc_match_info *info, const iccp_elastic_report *report,
     info->most_slope = outer->most;
 }
 
-/* The outer rings, then what is inside. */
+/* Pairs the outer rings, then the features. */
 static icc_status run(icc_match *match, iccp_outline *outline, size_t n, const double *given,
                       const icc_match_options *options, const iccp_env *env, icc_error *err)
 {

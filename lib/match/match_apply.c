@@ -1,3 +1,4 @@
+/* Takes points of one boundary to the other, by the nearest facet. */
 #include "match/match_apply.h"
 
 #include "base/threads.h"
@@ -24,7 +25,7 @@ void iccp_match_index(icc_match *match)
     }
 }
 
-/* Finds the facet nearest to a local point, among those of the boundary, of lines and of points. */
+/* Finds the facet nearest to a local point among those of the boundary, lines and points. */
 static void find(const follow *f, const double *local, uint32_t *facet, double *bary)
 {
     double reachable[ICC_MAX_DIM];
@@ -36,7 +37,7 @@ static void find(const follow *f, const double *local, uint32_t *facet, double *
     *facet = iccp_facet_tree_nearest_local(f->places, reachable, bary);
 }
 
-/* The place of a facet, in the caller's coordinates; at a vertex, as that was given. */
+/* A place on a facet, in the caller's coordinates. At a vertex it is the vertex as given. */
 static void place_of(const icc_domain *domain, uint32_t facet, const double *bary, double *out)
 {
     const size_t dim = (size_t)domain->dim;

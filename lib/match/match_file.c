@@ -1,3 +1,4 @@
+/* Writing and reading matches, and checks of what was read. */
 #include "match/match_file.h"
 
 #include "base/blob.h"
@@ -11,7 +12,7 @@
 static const char KIND[] = "MTCH";
 static const uint32_t VERSION = 1;
 
-/* ---- whether two domains can be those of a match ---- */
+/* ---- checks that two domains can belong to a match ---- */
 
 static bool is_plain(const icc_domain *domain)
 {
@@ -38,7 +39,7 @@ static bool correspond(const icc_domain *a, const icc_domain *b)
            same_features(a, b);
 }
 
-/* ---- both ways ---- */
+/* ---- writing and reading ---- */
 
 static void visit_info(iccp_blob *b, icc_match_info *info)
 {

@@ -1,6 +1,6 @@
 /* Mean value coordinates with respect to the outline: M. Floater, Mean value coordinates, 2003; for
  * outlines of any shape, K. Hormann and M. Floater, Mean value coordinates for arbitrary planar
- * polygons, 2006. They reproduce affine maps, and follow where outlines bend. */
+ * polygons, 2006. They reproduce affine maps, and bend where the outlines bend. */
 #include "match/mean_value.h"
 
 #include "match/outline/pins.h"
@@ -22,8 +22,8 @@ void iccp_mean_value_sample(iccp_mean_value *out, const iccp_union_outline *comm
     }
 }
 
-/* The sum over edges of tan(angle / 2) / distance at both ends, of which each is a share of a
- * weight. Stays where it is if it lies on the outline, and all weights are no number. */
+/* Moves a point by its weights. The weight of a vertex is a sum over its edges of tan(angle / 2)
+ * divided by its distance. A point on the outline has no finite weights and stays where it is. */
 static void move(const iccp_mean_value *at, double *point)
 {
     double sum[2] = {0, 0}, weight = 0;

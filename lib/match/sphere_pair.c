@@ -1,7 +1,7 @@
-/* Each surface is drawn on the sphere (match/sphere/sphere.h), one drawing is turned to lie on the
- * other (match/sphere/rotation.h), and each is moved on the other (match/sphere/relax.h). With
- * landmarks both are drawn by way of the same few triangles (match/sphere/landmark_sphere.h). Equal
- * ones are drawn in the same way (match/sphere/equal_surfaces.h). */
+/* Draws both surfaces on the sphere (match/sphere/sphere.h), turns one drawing to fit the other
+ * (match/sphere/rotation.h), and moves each on the other (match/sphere/relax.h). With landmarks,
+ * both are drawn from the same few triangles (match/sphere/landmark_sphere.h). Equal surfaces are
+ * drawn in the same way (match/sphere/equal_surfaces.h). */
 #include "match/sphere_pair.h"
 
 #include "base/error.h"
@@ -18,13 +18,13 @@
 
 #include <string.h>
 
-/* In which drawings are moved on one another where there are no landmarks. */
+/* Rounds in which drawings without landmarks are moved on each other. */
 enum { ROUNDS = 30 };
 
-/* Of the diagonal: how far a landmark may be from a vertex. */
+/* The largest distance of a landmark from a vertex, as a share of the diagonal. */
 static const double farthest_landmark = 0.02;
 
-/* Paths need so many pairs; where there are fewer than the second others are looked for, so that a
+/* Paths need LEAST_PAIRS pairs. If there are fewer than ENOUGH_PAIRS, more are guessed, so that a
  * limb without a landmark comes to lie on its partner. */
 enum { LEAST_PAIRS = 4, ENOUGH_PAIRS = 12 };
 
@@ -72,8 +72,9 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
     return status;
 }
 
-/* Draws both; equal ones, of which `partner` has what belongs to a vertex of the first, in the same
- * way, the others each alone, and moves them on one another. */
+/* Draws both surfaces. Equal ones are drawn in the same way; `partner` has the vertex that
+ * corresponds to each vertex of the first. Others are drawn separately and then moved on each
+ * other. */
 static icc_status draw(iccp_body bodies[2], const uint32_t *partner, const iccp_env *env,
                        icc_error *err)
 {
@@ -106,7 +107,7 @@ static icc_status draw(iccp_body bodies[2], const uint32_t *partner, const iccp_
     return status == ICC_OK ? relax(bodies, &last, err) : status;
 }
 
-/* The vertices nearest to the landmarks of one side, which are no two of them the same. */
+/* Finds the vertices nearest to the landmarks of one side. No two may be the same. */
 static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, int side,
                                  const iccp_memory *memory, icc_error *err)
 {
@@ -139,8 +140,8 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
     return ICC_OK;
 }
 
-/* Draws both surfaces with landmarks in the same places; their edges may be halved then. Where
- * landmarks are few others are found beside them, of which nothing more is asked. */
+/* Draws both surfaces with landmarks at the same directions. This may halve edges. If landmarks are
+ * few, pairs that were guessed help to place the limbs. */
 static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_env *env,
                                     icc_error *err)
 {

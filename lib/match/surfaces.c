@@ -1,6 +1,6 @@
-/* Both surfaces are drawn on the sphere (match/sphere_pair.h) and cut by one another
- * (match/common_mesh/sphere_overlay.h), so that they have the same triangles, which are then made
- * fewer (match/common_mesh/simplify_apart.h). */
+/* Both surfaces are drawn on the sphere (match/sphere_pair.h) and cut by each other
+ * (match/common_mesh/sphere_overlay.h), which gives them the same triangles. Then vertices that are
+ * not needed are removed (match/common_mesh/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"
@@ -12,15 +12,15 @@
 #include "match/surface/stretch.h"
 #include "math/elementary.h"
 
-/* Of the diagonal. */
+/* As a share of the diagonal. */
 static const double default_tolerance = 1e-3;
 
-/* Edges that come about are at most this part of the diagonal, or so many times as long as those
- * that were given are on average, or as the longest where the source keeps its own: the map between
- * the surfaces bends at vertices only. */
+/* The longest new edge. It is this share of the diagonal, or `times_given` times the mean length of
+ * given edges, or the longest given edge if the source is kept. The map between the surfaces bends
+ * at vertices only, so long edges would make it coarse. */
 static const double longest_edge = 0.05, times_given = 2;
 
-/* Crossings of the two drawings, at most, for each vertex: with a fair map there are 3. */
+/* The most crossings of the two drawings, for each vertex. A map of low distortion has 3. */
 enum { MOST_CROSSINGS = 200 };
 
 static double diagonal_of(const iccp_body *b)
@@ -69,8 +69,8 @@ static icc_status cut(iccp_common_surface *common, const iccp_body bodies[2], co
             /* Vertices in the middle of edges were not given. */
             if (common->origin[side][v] >= bodies[side].domain->n_vertices)
                 common->origin[side][v] = ICCP_NO_EDGE;
-            /* What was not given is rounded as the caller will see it: what meets there has to be
-             * seen to meet here. */
+            /* New vertices are rounded as the caller will see them. So intersections that the
+             * caller would see are found here. */
             if (common->origin[side][v] == ICCP_NO_EDGE) {
                 iccp_frame_out(frame, 3, p, p);
                 iccp_frame_in(frame, 3, p, p);
@@ -79,7 +79,7 @@ static icc_status cut(iccp_common_surface *common, const iccp_body bodies[2], co
     return status;
 }
 
-/* ---- what came of it ---- */
+/* ---- report ---- */
 
 static void gather_corners(const double *p[2][3], const iccp_common_surface *c, size_t face)
 {
@@ -88,7 +88,7 @@ static void gather_corners(const double *p[2][3], const iccp_common_surface *c, 
             p[side][i] = c->x[side] + 3 * (size_t)c->faces[3 * face + i];
 }
 
-/* Energy, slopes and angles of the common triangles. Stretch is known once the areas are. */
+/* Energy, slopes and angles of the common triangles. The stretch is known once the areas are. */
 static void measure(icc_match_info *info, const iccp_common_surface *c)
 {
     const double *p[2][3];
@@ -126,8 +126,8 @@ static void fill_in(icc_match_info *info, const iccp_common_surface *c, double o
     measure(info, c);
 }
 
-/* A common surface as a domain, in the caller's coordinates; vertices that were given have the bits
- * that they were given with. */
+/* Makes a domain from a common surface, in the caller's coordinates. Given vertices keep the bits
+ * with which they were given. */
 static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side,
                               const iccp_body *b, const iccp_env *env, icc_error *err)
 {
@@ -145,7 +145,7 @@ static icc_status make_domain(icc_domain **out, iccp_common_surface *c, int side
 
 /* ---- from beginning to end ---- */
 
-/* Landmarks stay on both sides; and all that the source had, if it is kept. */
+/* Keeps landmarks on both sides, and all vertices of the source if it is to be kept. */
 static void find_kept(uint8_t *keep, const iccp_common_surface *c, size_t n_landmarks,
                       const uint32_t *landmarks, bool keep_source)
 {
@@ -157,8 +157,8 @@ static void find_kept(uint8_t *keep, const iccp_common_surface *c, size_t n_land
     }
 }
 
-/* Leaves as few vertices as are needed, and those that have to stay; a source that is kept stays
- * what it is, so that the target alone tells how many that are. */
+/* Leaves as few vertices as needed, besides those to be kept. If the source is kept, the target
+ * alone decides how many are needed. */
 static icc_status simplify(iccp_common_surface *common, double *off, const iccp_body bodies[2],
                            size_t n_landmarks, double tolerance, bool keep_source,
                            const iccp_env *env)

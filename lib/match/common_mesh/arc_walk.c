@@ -1,3 +1,4 @@
+/* Walks every edge of a drawing on the sphere through the faces of another drawing. */
 #include "match/common_mesh/arc_walk.h"
 
 #include "base/error.h"
@@ -31,7 +32,7 @@ static int sign(vertex a, vertex b, vertex c)
     return iccp_perturbed_sign(p, number);
 }
 
-/* The origin of a half-edge of y. */
+/* The vertex where a half-edge of y starts. */
 static vertex origin(const walker *w, uint32_t h)
 {
     return vertex_of(w->y, w->y->m->origin[h]);
@@ -52,15 +53,15 @@ static icc_status add_crossing(walker *w, uint32_t h, const iccp_env *env)
 
 /* ---- one edge ---- */
 
-/* Where a walk from u to v leaves the first face: the half-edge of y, from right to left of the
- * way, that it comes to first, and whether v is at a corner or before it. */
+/* The start of a walk from u to v: the first half-edge of y that the path meets, from right to
+ * left. It also tells if v is a corner of the face or lies before that half-edge. */
 typedef struct start {
     uint32_t exit;
-    uint32_t corner; /* the half-edge of the face from the corner that v is; or ICCP_NO_EDGE */
+    uint32_t corner; /* the half-edge of the face that starts at v; or ICCP_NO_EDGE */
     bool ends;
 } start;
 
-/* From inside a face: of the three angles at u between the corners, v is in one. */
+/* Starts inside a face: v lies in one of the three angles at u between the corners. */
 static start start_inside(const walker *w, uint32_t face, vertex u, vertex v)
 {
     start s = {ICCP_NO_EDGE, ICCP_NO_EDGE, false};
@@ -80,7 +81,8 @@ static start start_inside(const walker *w, uint32_t face, vertex u, vertex v)
     return s;
 }
 
-/* From a vertex of y: v is in the angle of one of the faces there, or is one of its neighbours. */
+/* Starts at a vertex of y: v lies in the angle of one of the faces there, or is one of the
+ * neighbours. */
 static start start_at(const walker *w, uint32_t h, uint32_t at, vertex u, vertex v)
 {
     const iccp_half_edges *const m = w->y->m;
@@ -105,9 +107,9 @@ static start start_at(const walker *w, uint32_t h, uint32_t at, vertex u, vertex
     return s;
 }
 
-/* Follows half-edge h of x to its end, face by face of y: behind the edge from p to q that was
- * crossed comes a face with a third corner r; it has v, or the way leaves it between r and the one
- * of p and q on the other side. Notes what is crossed and where the end is. */
+/* Follows half-edge h of x to its end, face by face of y. Behind a crossed edge from p to q there
+ * is a face with a third corner r. Either the face contains the end, or the path leaves between r
+ * and p or between r and q. Records the crossings and the place of the end. */
 static icc_status walk_edge(walker *w, uint32_t h, const iccp_env *env)
 {
     const iccp_half_edges *const m = w->y->m;
@@ -144,7 +146,7 @@ static icc_status walk_edge(walker *w, uint32_t h, const iccp_env *env)
 
 /* ---- all edges ---- */
 
-/* The face of y that a vertex is in. */
+/* Finds the face of y that contains a vertex. */
 static uint32_t find_face(const walker *w, vertex v)
 {
     uint32_t face = 0;
@@ -157,8 +159,8 @@ static uint32_t find_face(const walker *w, vertex v)
     return face;
 }
 
-/* From a first vertex on, the edges from each vertex that has been reached are walked unless they
- * have been walked the other way; so every vertex is found on the way. */
+/* Walks all edges, starting at a first vertex. From each vertex reached, it walks those edges that
+ * have not been walked in the other direction. So each vertex is found on the way. */
 static icc_status walk_all(walker *w, const iccp_env *env)
 {
     const iccp_half_edges *const m = w->x->m;

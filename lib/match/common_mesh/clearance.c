@@ -1,5 +1,6 @@
-/* C. Ericson, Real-Time Collision Detection, section 6.3.4: the boxes of a tree follow what moves.
- * Here they only grow: a triangle stays near to those that it has taken the place of. */
+/* The boxes of a tree follow triangles that move: C. Ericson, Real-Time Collision Detection,
+ * section 6.3.4. Here boxes only grow, because a triangle stays close to the triangles that it
+ * replaced. */
 #include "match/common_mesh/clearance.h"
 
 #include "domain/simplicial.h"
@@ -24,7 +25,7 @@ void iccp_clearance_free(iccp_clearance *c, const iccp_memory *memory)
     iccp_free(memory, c->place);
 }
 
-/* Whether a triangle that may come to be there, number k of `fresh`, meets another that stays. */
+/* Returns true if new triangle number k of `fresh` meets another triangle that stays. */
 static bool meets_any(const iccp_clearance *c, const iccp_facet_tree *fresh, uint32_t k,
                       size_t n_old, const uint32_t *old)
 {
@@ -45,8 +46,9 @@ static bool meets_any(const iccp_clearance *c, const iccp_facet_tree *fresh, uin
     return false;
 }
 
-/* Two of the new ones that meet need not be looked for: an edge of one that is not between the two
- * passes through the other, and the triangle on its other side, which stays, meets that as well. */
+/* Two new triangles need not be compared. If they meet, an edge of one passes through the other.
+ * That edge is not common to both, and the triangle on its other side, which stays, meets the other
+ * new triangle as well. */
 bool iccp_clearance_allows(const iccp_clearance *c, size_t n_old, const uint32_t *old, size_t n,
                            const uint32_t (*corners)[3])
 {

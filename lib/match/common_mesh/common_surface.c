@@ -1,3 +1,4 @@
+/* Cuts the faces of an overlay into triangles, and places their vertices on both surfaces. */
 #include "match/common_mesh/common_surface.h"
 
 #include "base/error.h"
@@ -20,7 +21,7 @@ static const double *vector_of(const double *all, uint32_t vertex)
     return all + 3 * (size_t)vertex;
 }
 
-/* Says that the next vertex is where `v` of a surface is. */
+/* Puts the next vertex at vertex `v` of a surface. */
 static void put_vertex(const maker *k, int side, uint32_t v)
 {
     iccp_common_surface *const c = k->common;
@@ -41,7 +42,8 @@ static void put_between(const maker *k, int side, size_t n, const double *const 
     c->origin[side][c->n_vertices] = ICCP_NO_EDGE;
 }
 
-/* The next vertex's place on the other surface, in the face where a vertex of one is drawn. */
+/* Puts the next vertex on the other surface, in the face where a vertex of this surface is
+ * drawn. */
 static void put_in_face(const maker *k, int other, const double p[3], uint32_t face)
 {
     const double *s[3], *x[3];
@@ -55,8 +57,8 @@ static void put_in_face(const maker *k, int other, const double p[3], uint32_t f
     put_between(k, other, 3, x, weight);
 }
 
-/* The next vertex's place on an edge that is crossed: the great circle through the ends of the
- * other edge parts it in the ratio of the determinants with its own ends. */
+/* Puts the next vertex on an edge that is crossed. The great circle through the ends of the other
+ * edge divides it in the ratio of the determinants with its own ends. */
 static void put_on_edge(const maker *k, int side, const uint32_t h[2])
 {
     const iccp_half_edges *const m = k->m[side], *const other = k->m[1 - side];
@@ -78,7 +80,7 @@ static void put_vertices(maker *k)
     for (int side = 0; side < 2; ++side)
         for (uint32_t v = 0; v < o->n_vertices[side]; ++v, ++node) {
             const bool is_common = side == 0 && o->partner[v] != ICCP_NO_EDGE;
-            /* The second drawing's that are also the first's have been put in with these. */
+            /* Vertices of the second drawing that are also the first's were put in with these. */
             if (k->m[side]->degree[v] == 0 || k->vertex[node] != ICCP_NO_EDGE)
                 continue;
             put_vertex(k, side, v);
@@ -97,7 +99,7 @@ static void put_vertices(maker *k)
     }
 }
 
-/* The least angle, on either surface, of the triangles into which a face is cut from one corner. */
+/* The least angle, on both surfaces, of the triangles into which a face is cut from one corner. */
 static double least_angle(const maker *k, const uint32_t *v, size_t n, size_t from)
 {
     double least = HUGE_VAL;
@@ -146,7 +148,7 @@ icc_status iccp_common_surface_create(iccp_common_surface *common,
                                       const double *const directions[2], const double *const x[2],
                                       const iccp_memory *memory, icc_error *err)
 {
-    const size_t n = overlay->n_nodes, n_faces = 2 * n; /* Euler: 2 n - 4 */
+    const size_t n = overlay->n_nodes, n_faces = 2 * n; /* Euler's formula: 2 n - 4 */
     const size_t n_all = overlay->n_vertices[0] + overlay->n_vertices[1] + overlay->n_crossings;
     maker k = {common, overlay, {m[0], m[1]}, {directions[0], directions[1]}, {x[0], x[1]}, NULL};
     bool has_memory = true;
@@ -209,7 +211,7 @@ void iccp_common_surface_compact(iccp_common_surface *c, const iccp_half_edges *
     }
     for (uint32_t f = 0; f < m->n_faces; ++f) {
         const uint32_t *const v = m->origin + 3 * (size_t)f;
-        /* The two that go with a vertex still have it for a corner. */
+        /* The two faces that disappear with a vertex still have it as a corner. */
         if (m->degree[v[0]] == 0 || m->degree[v[1]] == 0 || m->degree[v[2]] == 0)
             continue;
         for (int side = 0; side < 2; ++side)

@@ -1,14 +1,14 @@
 /* Based on: J. Cohen, D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings,
- * 1997: each point of the surface that was given keeps a partner on the coarser one, so that only
- * what is beside a changed place has to be measured. */
+ * 1997. Each point of the given surface keeps a partner on the coarser one. So only the
+ * surroundings of a change have to be measured. */
 #include "match/common_mesh/covering.h"
 
 #include "match/surface/corner_angle.h"
 
-/* What is told to be near once is so when it is measured another way. */
+/* A point that was accepted as close stays close if it is measured another way. */
 static const double rounding = 1 - 1e-9;
 
-/* A normal stays within 60 degrees of that of the surface. */
+/* A normal stays within 60 degrees of the surface's. */
 static const double least_cosine = 0.5;
 
 bool iccp_covering_create(iccp_covering *c, const iccp_half_edges *given, const double *x_given,
@@ -40,7 +40,7 @@ void iccp_covering_free(iccp_covering *c, const iccp_memory *memory)
 }
 
 /* The squared distance of a point from a triangle. C. Ericson, Real-Time Collision Detection, 2005,
- * section 5.1.5: which corner, side or face is nearest is told by the signs of products. */
+ * section 5.1.5: signs of products tell which corner, side or face is nearest. */
 static double distance2(const iccp_corners *t, const double *p)
 {
     double ab[3], ac[3], at[3][3], d[3][2];
@@ -83,8 +83,8 @@ static double distance2(const iccp_corners *t, const double *p)
     return sum;
 }
 
-/* How far the mean of some corners is off the surface, squared; *faces_so if the triangle faces as
- * that does there. */
+/* The squared distance from the surface to a weighted mean of a triangle's corners. *faces_so
+ * becomes true if the triangle faces the same way as the surface there. */
 static double look_at(const iccp_covering *c, const iccp_corners *t, const double weight[3],
                       const double normal[3], bool *faces_so)
 {
@@ -99,8 +99,9 @@ static double look_at(const iccp_covering *c, const iccp_corners *t, const doubl
     return off2;
 }
 
-/* Whether a triangle's middle, and that of its first side, are near the surface, and it faces as
- * that does at one of its middles. Its other sides are first sides of others, or were there. */
+/* Returns true if the middles of a triangle and of its first side are close to the surface, and the
+ * triangle faces the same way at one of them. Its other sides are first sides of other triangles,
+ * or were there before. */
 static bool fits(const iccp_covering *c, const iccp_corners *t)
 {
     static const double middles[4][3] = {
@@ -124,13 +125,13 @@ bool iccp_covering_allows(iccp_covering *c, size_t n_old, const uint32_t *old, s
         for (uint32_t before = ICCP_NO_EDGE, i = c->first[old[k]]; i != ICCP_NO_EDGE;
              before = i, i = c->next[i]) {
             size_t tries = 0;
-            /* Its neighbour was near to this one. */
+            /* The point before it was close to this triangle. */
             while (tries < n && !(distance2(&triangles[t], c->x + 3 * (size_t)i) <= c->most2)) {
                 t = t + 1 == n ? 0 : t + 1;
                 ++tries;
             }
             if (tries == n) {
-                /* What was too far off is looked at first another time. */
+                /* A point that was too far away is tested first next time. */
                 if (before != ICCP_NO_EDGE) {
                     c->next[before] = c->next[i];
                     c->next[i] = c->first[old[k]];

@@ -1,10 +1,12 @@
+/* Finds triangles that intersect, with a tree of boxes. */
 #include "match/common_mesh/intersections.h"
 
 #include "domain/simplicial.h"
 #include "geometry/facet_tree.h"
 #include "geometry/triangles.h"
 
-/* Marks the corners of triangles that meet others, or have no area; whether there are any. */
+/* Marks the corners of triangles that meet others or have no area. Returns true if there are
+ * any. */
 static bool mark(const iccp_facet_tree *tree, uint8_t *is_bad)
 {
     bool any = false;

@@ -1,3 +1,5 @@
+/* Finds the cell of each vertex of a common surface, and tells which vertices may move into
+ * which cells. */
 #include "match/common_mesh/kept_cells.h"
 
 #include <string.h>
@@ -50,7 +52,8 @@ bool iccp_kept_cells_may_go(const iccp_kept_cells *cells, uint32_t u, uint32_t v
 
 bool iccp_kept_cells_share(const iccp_kept_cells *cells, const uint32_t places[4])
 {
-    /* A face has three vertices, so that one of four places tells which faces there may be. */
+    /* A face has three vertices, so at least one of four places that share a face is inside it or
+     * on an edge. That place tells which faces are possible. */
     int i = 0;
     while (i < 3 && cells->at[places[i]][0] == ICCP_NO_EDGE)
         ++i;

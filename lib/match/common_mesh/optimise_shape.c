@@ -1,8 +1,8 @@
-/* Based on: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Mesh Optimization, 1993, for
- * the three moves (a collapse, a flip, another place), each taken if the surface is near enough
- * afterwards. Here for two surfaces at once; a vertex may take its place on one from one end of an
- * edge that is collapsed and that on the other from the other end, so that vertices of the two
- * surfaces become one. */
+/* Based on: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Mesh Optimization, 1993. It
+ * makes three kinds of changes: a collapse, a flip, and a move of a vertex. A change is made if the
+ * surface stays close enough. Here there are two surfaces at once. When an edge is collapsed, a
+ * vertex may take its place on one surface from one end and on the other surface from the other
+ * end. So vertices of the two surfaces become one. */
 #include "match/common_mesh/optimise_shape.h"
 
 #include "base/heap.h"
@@ -11,28 +11,30 @@
 
 #include <string.h>
 
-/* More make triangles a little rounder, and take as long each. */
+/* More rounds make triangles a little rounder, and each takes as long. */
 enum { ROUNDS = 2 };
 
-/* Collapses: triangles may have least angles of this sine, or else as those that were there; where
- * a surface keeps its vertices this share of it, as one after the other may have to come to them.
- * Flips and moves: what is thinner becomes better, by so much. */
+/* fair_sine: a collapse may leave triangles whose least angle has this sine, or as small a one as
+ * before. worse_if_kept: it may leave this share of it if a surface keeps its vertices, because
+ * vertices may have to come to them one by one. better: flips and moves must improve thinner
+ * triangles by this factor. */
 static const double fair_sine = 0.2, worse_if_kept = 0.1, better = 0.98;
 
-/* Vertices at triangles thinner than this go first, and so many times as readily. */
+/* Vertices at triangles thinner than thin_sine go first. Their cost is multiplied by `readily`. */
 static const double thin_sine = 0.12, readily = 0.05;
 
-/* What is beside a collapse is looked at again at so many times its cost, maybe after others. */
+/* After a collapse, neighbours wait until this multiple of its cost before they are tested
+ * again. */
 static const double later = 1.2;
 
 typedef struct touching {
     iccp_patch_state s;
-    iccp_heap heap; /* vertices by their cheapest collapse's cost, or less */
+    iccp_heap heap; /* vertices by the cost of their cheapest collapse, or less */
 } touching;
 
 /* ---- collapses ---- */
 
-/* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is allowed. */
+/* Finds the cheapest collapse of a vertex, or ICCP_NO_EDGE if none is allowed. */
 static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
@@ -55,7 +57,7 @@ static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best,
             !iccp_edge_collapsible(m, h))
             continue;
         iccp_patch_shape before = round_u, after;
-        /* Both places from v; or one from u. */
+        /* Takes both places from v, or one from u. */
         for (int from_u = -1; from_u < 2; ++from_u) {
             if (!iccp_patch_may_unite(s, from_u, u, v))
                 continue;
@@ -83,8 +85,8 @@ static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best,
     return found;
 }
 
-/* A vertex is looked at when its turn comes; if it is dearer than it had been thought to be it
- * waits for another turn. *any if something was collapsed. */
+/* Collapses vertices in the order of their costs. A vertex is tested when its turn comes, and waits
+ * for another turn if its cost has risen. *any becomes true if something was collapsed. */
 static icc_status collapse_all(touching *t, bool *any, const iccp_env *env)
 {
     iccp_half_edges *const m = &t->s.m;
@@ -125,7 +127,7 @@ static bool flip_all(iccp_patch_state *s)
     for (uint32_t h = 0; h < 3 * m->n_faces; ++h) {
         const uint32_t g = m->twin[h], u = m->origin[h], v = iccp_edge_end(m, h);
         const uint32_t b = m->origin[iccp_before(h)], a = m->origin[iccp_before(g)];
-        /* Triangles that are gone have a corner that is. */
+        /* Triangles that were removed have a corner that was removed. */
         if (g < h || m->degree[u] < 4 || m->degree[v] < 4 || m->degree[b] == 0 ||
             iccp_are_neighbours(m, a, b) || !iccp_patch_may_flip(s, (const uint32_t[]){u, v, a, b}))
             continue;
@@ -145,8 +147,8 @@ static bool flip_all(iccp_patch_state *s)
     return any;
 }
 
-/* The place for a vertex where triangles are best, among those of the points beside them: on the
- * sides whose bits are set. Whether one is better than its own. */
+/* Moves a vertex, on the sides whose bits are set, to the place with the best triangles. The places
+ * tried are those of the points of these triangles. Returns true if one is better than its own. */
 static bool move(iccp_patch_state *s, uint32_t v, uint32_t sides)
 {
     const iccp_covering *const points = &s->covering[sides == 2];
@@ -205,7 +207,7 @@ static icc_status run(touching *t, const iccp_env *env)
     return status;
 }
 
-/* Whether a vertex of the whole is still there, as one of what is left. */
+/* Returns true if a vertex of the whole is still present as a vertex of the result. */
 static bool is_left(const iccp_patch_state *s, const iccp_common_surface *c, uint32_t v,
                     uint32_t left)
 {
@@ -231,7 +233,7 @@ static double area_of(const iccp_common_surface *c, int side)
     return area;
 }
 
-/* The mean energy, by area on both sides. */
+/* The mean energy, weighted by the areas on both sides. */
 static double energy_of(const iccp_common_surface *c, double scale)
 {
     double sum[2] = {0, 0};

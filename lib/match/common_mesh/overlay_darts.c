@@ -1,8 +1,8 @@
-/* A graph on a surface by the cyclic order of the edges at each node: J. Edmonds, A Combinatorial
- * Representation for Polyhedral Surfaces, 1960. */
+/* A graph on a surface is described by the cyclic order of the edges at each node: J. Edmonds, A
+ * Combinatorial Representation for Polyhedral Surfaces, 1960. */
 #include "match/common_mesh/overlay_darts.h"
 
-/* The dart with which a half-edge begins. An edge of both drawings has the first one's. */
+/* The first dart of a half-edge. An edge of both drawings has the darts of the first drawing. */
 static uint32_t first_dart(const iccp_overlay_darts *g, int side, uint32_t h)
 {
     if (side == 1 && g->walk[1].is_common[h])
@@ -38,15 +38,16 @@ static void name_pieces(iccp_overlay_darts *g)
         }
 }
 
-/* `dart` comes clockwise after `before`, both from a node. */
+/* Puts `dart` clockwise after `before`. Both start at a node. */
 static void put(iccp_overlay_darts *g, uint32_t before, uint32_t dart, uint32_t node)
 {
     g->back[before] = dart;
     g->origin[before] = node;
 }
 
-/* Round a vertex of one drawing alone its own order; round one of both that of the second drawing,
- * with the first one's edges, but for those of both, in the angles where they lie. */
+/* Sets the order of darts at vertices. At a vertex of one drawing alone it is that drawing's order.
+ * At a common vertex it is that of the second drawing, and edges of the first drawing alone are put
+ * into its angles. */
 static void turn_round_vertices(iccp_overlay_darts *g)
 {
     for (int side = 0; side < 2; ++side) {
@@ -64,8 +65,8 @@ static void turn_round_vertices(iccp_overlay_darts *g)
     }
 }
 
-/* From half-edge h of the first drawing, counter-clockwise, those of it in the angle behind
- * `sector` are put behind dart `last`; the last dart then. */
+/* Puts those half-edges of the first drawing, from h on counter-clockwise, that lie in the angle
+ * after `sector` behind the dart `last`. Returns the new last dart. */
 static uint32_t turn_through(iccp_overlay_darts *g, uint32_t *h, uint32_t sector, uint32_t last,
                              uint32_t node)
 {
@@ -86,7 +87,7 @@ static void turn_round_common(iccp_overlay_darts *g)
         const uint32_t w = g->drawing[0].partner[v], node = g->drawing[0].number[v];
         if (w == ICCP_NO_EDGE || a->degree[v] == 0)
             continue;
-        /* The first edge of the first drawing in its angle. */
+        /* The first edge of the first drawing inside its angle. */
         uint32_t h = a->out[v];
         for (uint32_t k = 0; k < a->degree[v]; ++k) {
             const uint32_t next = iccp_edge_turn(a, h);
@@ -106,7 +107,7 @@ static void turn_round_common(iccp_overlay_darts *g)
     }
 }
 
-/* Round a crossing: on along the first edge, left along the second, back, and right. */
+/* Sets the order at a crossing: on along the first edge, left along the second, back, and right. */
 static void turn_round_crossings(iccp_overlay_darts *g, size_t n_vertices)
 {
     for (uint32_t p = 0; p < g->walk[0].n_crossed; ++p) {

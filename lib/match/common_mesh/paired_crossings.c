@@ -1,3 +1,4 @@
+/* Sorts the crossings of both walks by their edges, and compares them. */
 #include "match/common_mesh/paired_crossings.h"
 
 #include "base/error.h"
@@ -20,7 +21,7 @@ static uint32_t edge_number(const iccp_half_edges *m, uint32_t h)
     return h < m->twin[h] ? h : m->twin[h];
 }
 
-/* The crossings of a walk in the order of their edges. */
+/* Lists the crossings of a walk in the order of their edges. */
 static void list_crossings(iccp_paired_crossings *paired, const iccp_drawing drawing[2],
                            const iccp_arc_walk walks[2], int side, key *keys)
 {
@@ -37,8 +38,8 @@ static void list_crossings(iccp_paired_crossings *paired, const iccp_drawing dra
     iccp_sort(keys, walk->n_crossed, sizeof *keys, by_edges);
 }
 
-/* Pairs the crossings of both walks: whether they are the same, no two of the same edges, and cross
- * the same way. */
+/* Pairs the crossings of both walks. Returns false if they differ, if two belong to the same edges,
+ * or if they cross in different directions. */
 static bool pair_crossings(iccp_paired_crossings *paired, const iccp_arc_walk walk[2], const key *a,
                            const key *b)
 {
@@ -49,7 +50,7 @@ static bool pair_crossings(iccp_paired_crossings *paired, const iccp_arc_walk wa
         const uint32_t p = a[k].place, q = b[k].place;
         if (by_edges(&a[k], &b[k]) != 0 || (k > 0 && by_edges(&a[k - 1], &a[k]) == 0))
             return false;
-        /* Of two that cross, one comes from the right if the other comes from the left. */
+        /* If one edge crosses the other from the left, that one crosses it from the right. */
         const bool forward = walk[0].crossed[p] == paired->edge_of[1][q];
         if (forward == (walk[1].crossed[q] == paired->edge_of[0][p]))
             return false;

@@ -1,6 +1,6 @@
-/* What a change of common triangles does: to their shape, to how one surface is stretched to become
- * the other (match/surface/stretch.h), to how far both are off (match/common_mesh/covering.h) and
- * to what meets (match/common_mesh/clearance.h). */
+/* Measures what a change of common triangles does. It may change their shape, the stretch from one
+ * surface to the other (match/surface/stretch.h), the distance from the given surfaces
+ * (match/common_mesh/covering.h) and intersections (match/common_mesh/clearance.h). */
 #include "match/common_mesh/shape_patch.h"
 
 #include "base/minmax.h"
@@ -9,17 +9,17 @@
 
 #include <string.h>
 
-/* The mean energy becomes at most so many times what it was: `calm`, and where the least angle has
- * a sine below `thin` more, in inverse proportion, up to `most_calm`. The fox t08 keeps a tenth
- * more vertices where thin triangles may cost no more than others. Where a surface keeps its
- * vertices there are so many that the whole would cost too much, and nothing came of it. */
+/* A change may raise the mean energy by the factor `calm`. If the least angle has a sine below
+ * `thin`, the factor grows in inverse proportion, up to `most_calm`. Without that, the fox t08
+ * keeps 10 % more vertices. A surface that keeps its vertices has so many thin triangles that this
+ * would cost too much, without a gain. */
 static const double calm = 1.01, thin = 0.13, most_calm = 4, most_calm_if_kept = 1.2;
 
-/* There sides may become longer, too: so many times as long, squared, as the longest one before,
- * or else a thin triangle at a long side has no way out. */
+/* At thin triangles, sides may become longer, too: their squared length may exceed the longest one
+ * before by this factor. Otherwise a thin triangle at a long side could not be removed. */
 static const double longer2 = 1.5;
 
-/* Of 1 / sine^2: nothing is thinner. */
+/* Added to sine^2 before 1 / sine^2 is taken. */
 static const double least_sine2 = 1e-12;
 
 bool iccp_patch_may_unite(const iccp_patch_state *s, int side_of_u, uint32_t u, uint32_t v)
@@ -68,7 +68,8 @@ void iccp_patch_add_ring(const iccp_patch_state *s, iccp_patch *p, uint32_t v, u
     }
 }
 
-/* Corners on one side of triangle k, with all vertices where they are or as they will be. */
+/* The corners on one side of triangle k, with vertices at their present or at their future
+ * places. */
 static iccp_corners corners_of(const iccp_patch_state *s, const iccp_patch *p,
                                const iccp_patch_triangles *t, int side, uint32_t k)
 {
@@ -139,7 +140,7 @@ static double energy_of(const iccp_patch_state *s, const iccp_patch *p,
     return sum[0] / sum[1];
 }
 
-/* Puts the vertex that moves, if any, in a place. */
+/* Puts the vertex that moves, if any, at a place. */
 static void put(iccp_patch_state *s, const iccp_patch *p, int side, uint32_t place)
 {
     if (p->vertex != ICCP_NO_EDGE)

@@ -1,3 +1,4 @@
+/* Sorts the directions of both drawings, and finds equal ones. */
 #include "match/common_mesh/shared_vertices.h"
 
 #include "base/sort.h"
@@ -6,7 +7,8 @@
 
 typedef struct place {
     double p[3];
-    uint32_t number; /* of all: of one drawing no two have the same direction */
+    uint32_t number; /* in the numbers of both drawings; within one drawing no two directions are
+                        equal */
 } place;
 
 static int by_direction(const void *a, const void *b)
@@ -24,7 +26,7 @@ static bool is_same(const place *a, const place *b)
              a->p[2] < b->p[2] || a->p[2] > b->p[2]);
 }
 
-/* The vertices of both that are there, in the order of their directions. */
+/* Lists the present vertices of both drawings in the order of their directions. */
 static size_t list_places(const iccp_drawing drawing[2], place *places)
 {
     size_t n = 0;

@@ -1,7 +1,7 @@
 /* Based on: J. Cohen, D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings,
- * 1997, for the planes that a vertex stands for R. Ronfard, J. Rossignac, Full-range Approximation
- * of Triangulated Polyhedra, 1996: the vertex that takes the place of another is near all planes
- * that the other one stood for, and stands for them from then on. Here for two surfaces at once. */
+ * 1997; for the planes of a vertex, R. Ronfard, J. Rossignac, Full-range Approximation of
+ * Triangulated Polyhedra, 1996. A vertex that replaces another must be close to all planes that the
+ * other stood for, and stands for them from then on. Here for two surfaces at once. */
 #include "match/common_mesh/simplify.h"
 
 #include "base/heap.h"
@@ -10,24 +10,25 @@
 
 #include <string.h>
 
-/* Most neighbours of a vertex that edges are collapsed to. */
+/* The most neighbours of a vertex that others are merged into. */
 enum { MOST_NEIGHBOURS = 18 };
 
-/* Triangles may have least angles of this sine, or else this share of the least that was there.
- * Where a surface keeps its vertices there are fewer ways, and what is worse is passed through. */
+/* A collapse may leave triangles whose least angle has the sine `fair_sine`, or the share
+ * `not_much_worse` of the least one before. If a surface keeps its vertices, fewer collapses are
+ * possible, so worse triangles are allowed on the way. */
 static const double fair_sine = 0.2, not_much_worse = 0.7, worse_if_kept = 0.1;
 
-/* A normal stays within 60 degrees of that of the given face which the triangle is a part of. */
+/* A normal stays within 60 degrees of that of the given face that contains the triangle. */
 static const double least_cosine = 0.5;
 
-/* Vertices at triangles thinner than this go first, and so many times as readily. */
+/* Vertices at triangles thinner than thin_sine go first. Their cost is multiplied by `readily`. */
 static const double thin_sine = 0.05, readily = 0.05;
 
 typedef struct plane {
     double normal[3], at; /* normal . p = at */
 } plane;
 
-/* The planes that a vertex stands for, in a list. */
+/* The planes that a vertex stands for, as a linked list. */
 typedef struct link {
     uint32_t plane, next; /* the next link, or ICCP_NO_EDGE */
 } link;
@@ -38,10 +39,10 @@ typedef struct simplification {
     const iccp_simplify_limits *limits;
     plane *plane[2];     /* by given face */
     uint32_t *first[2];  /* by vertex: its first link; or ICCP_NO_EDGE */
-    link *links[2];      /* one for each corner: more than there are */
-    uint32_t *marked[2]; /* by given face: who has looked at it last */
+    link *links[2];      /* one for each corner, which is more than needed */
+    uint32_t *marked[2]; /* by given face: the last vertex that visited it */
     uint32_t mark;
-    iccp_heap heap; /* vertices by their cheapest collapse's cost when they were last looked at */
+    iccp_heap heap; /* vertices by the cost of their cheapest collapse, as computed last */
 } simplification;
 
 static const double *at(const simplification *s, int side, uint32_t vertex)
@@ -66,7 +67,7 @@ static void find_planes(const simplification *s, int side, const iccp_half_edges
     }
 }
 
-/* Each vertex stands for the planes of the triangles round it, each plane once. */
+/* Links each vertex to the planes of the triangles around it, each plane once. */
 static void link_planes(simplification *s, int side)
 {
     const iccp_half_edges *const m = &s->m;
@@ -86,7 +87,7 @@ static void link_planes(simplification *s, int side)
     }
 }
 
-/* `v` stands for what `u` stood for. */
+/* `v` now stands for the planes that `u` stood for. */
 static void hand_over(simplification *s, int side, uint32_t u, uint32_t v)
 {
     link *const links = s->links[side];
@@ -103,7 +104,7 @@ static void hand_over(simplification *s, int side, uint32_t u, uint32_t v)
     s->first[side][u] = ICCP_NO_EDGE;
 }
 
-/* How far `v` is off the planes of `u`, if that is at most what is allowed. */
+/* The distance of `v` from the planes of `u`, if the limit allows it. */
 static double distance_off(const simplification *s, int side, uint32_t u, uint32_t v)
 {
     double off = 0;
@@ -117,7 +118,7 @@ static double distance_off(const simplification *s, int side, uint32_t u, uint32
 
 /* ---- collapses ---- */
 
-/* The sine of the least angle round a vertex, on both sides. */
+/* The sine of the least angle around a vertex, on both sides. */
 static double thinnest_round(const simplification *s, uint32_t u)
 {
     const iccp_half_edges *const m = &s->m;
@@ -132,7 +133,7 @@ static double thinnest_round(const simplification *s, uint32_t u)
     return least;
 }
 
-/* How a triangle that is a part of a given face faces as that does: a cosine. */
+/* The cosine between a triangle's normal and that of the given face that contains it. */
 static double facing(const simplification *s, int side, uint32_t face, const double *p,
                      const double *a, const double *b)
 {
@@ -143,8 +144,8 @@ static double facing(const simplification *s, int side, uint32_t face, const dou
     return length > 0 ? iccp_vec_dot(3, normal, right) / length : -1;
 }
 
-/* The sine of the least angle of the triangles that a collapse changes, on both sides, once it is
- * done; -1 if one of them turns over or has too long an edge. */
+/* The sine of the least angle, on both sides, of the triangles that a collapse changes. Returns -1
+ * if one of them turns over or has too long an edge. */
 static double thinnest_after(const simplification *s, uint32_t h)
 {
     const iccp_half_edges *const m = &s->m;
@@ -168,7 +169,7 @@ static double thinnest_after(const simplification *s, uint32_t h)
     return least;
 }
 
-/* The cheapest collapse of a vertex; ICCP_NO_EDGE if none is allowed. */
+/* Finds the cheapest collapse of a vertex, or ICCP_NO_EDGE if none is allowed. */
 static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
@@ -229,8 +230,8 @@ static void collapse(simplification *s, uint32_t h)
         look_at(s, iccp_edge_end(m, e));
 }
 
-/* What a vertex costs depends on the triangles round it and round its neighbours; it is found anew
- * when its turn comes, and if it has become dearer the vertex goes back into the queue. */
+/* The cost of a vertex depends on the triangles around it and around its neighbours. It is computed
+ * again when its turn comes. If it has risen, the vertex goes back into the queue. */
 static icc_status run(simplification *s, const iccp_env *env)
 {
     const size_t n_first = s->m.n_left;

@@ -1,25 +1,26 @@
-/* Two surfaces with common triangles, both made coarse together. */
+/* Makes two surfaces with common triangles coarse, both together. */
 #ifndef ICCP_SIMPLIFY_H
 #define ICCP_SIMPLIFY_H
 
 #include "match/common_mesh/kept_cells.h"
 
 typedef struct iccp_simplify_limits {
-    double off[2];       /* on either side: how far a vertex that goes may leave the planes of the
-                              given surface that it stood for; > 0 */
-    double edge[2];      /* on either side: longest edge that comes about */
-    const uint8_t *keep; /* by vertex: not 0: it stays; 1 and 2, as bits: its place on either
-                              side does */
-    const iccp_kept_cells *cells; /* of the first surface, which keeps its shape; or NULL */
+    double off[2];       /* by side: how far a vertex may leave the planes of the given surface
+                            for which the removed vertex stood; > 0 */
+    double edge[2];      /* by side: longest new edge */
+    const uint8_t *keep; /* by vertex: if not 0, it is kept; bits 1 and 2: its place on that side
+                            is kept */
+    const iccp_kept_cells *cells; /* of the first surface if it keeps its shape; or NULL */
 } iccp_simplify_limits;
 
-/* Collapses edges of both surfaces at a time, so that their triangles stay the same and each
- * surface keeps its shape; triangles do not become much thinner than they are. Vertices that are
- * left are where they were. `given`: the two surfaces that `common` was made from, with coordinates
- * `x`. Nothing is said about parts of a surface that come to meet. common->within then tells of
- * each triangle a face of which it has been a part. `became`: of each vertex that was there the
- * number of the one that it has come to, itself or another. ICC_ERR_MEMORY, ICC_ERR_CANCELLED
- * without a text: `common` is as it was. O(n log n) for n vertices. */
+/* Collapses edges of both surfaces at once. Their triangles stay the same, and each surface keeps
+ * its shape. Triangles do not become much thinner. Remaining vertices do not move. `given` are the
+ * two surfaces that `common` was made from, with coordinates `x`. Parts of a surface may come to
+ * meet; nothing prevents that here.
+ *
+ * Afterwards common->within names a face that contained part of each triangle. `became`: for each
+ * old vertex, the number of the vertex that it was merged into, or its own. ICC_ERR_MEMORY,
+ * ICC_ERR_CANCELLED without a text, and `common` is unchanged. O(n log n) for n vertices. */
 icc_status iccp_simplify(iccp_common_surface *common, uint32_t *became,
                          const iccp_half_edges *const given[2], const double *const x[2],
                          const iccp_simplify_limits *limits, const iccp_env *env);

@@ -1,3 +1,5 @@
+/* Simplifies a common surface in rounds. Vertices that cause intersections or errors are kept in
+ * the next round. */
 #include "match/common_mesh/simplify_apart.h"
 
 #include "base/minmax.h"
@@ -7,15 +9,15 @@
 
 #include <string.h>
 
-/* In each of which more vertices stay, until nothing goes. */
+/* Rounds in which ever more vertices are kept, until no triangles meet. */
 enum { ROUNDS = 12 };
 
-/* Where the whole is mended vertices go as little off as they can: so many times as far in each
- * round as in the one before, up to what is allowed. */
+/* Rounds of mending the whole surface. The first one moves the surface as little as possible. Each
+ * allows `farther` times the distance of the one before, up to the limit. */
 enum { MENDS = 7 };
 static const double farther = 10;
 
-/* The mean energy of the map becomes at most so many times what it was by touching up. */
+/* Shape optimisation may raise the map's mean energy by this factor. */
 static const double most_rise = 1.03;
 
 typedef struct rounds {
@@ -24,17 +26,18 @@ typedef struct rounds {
     const double *const *x;
     iccp_simplify_limits limits;
     uint8_t *keep;    /* by vertex of the whole */
-    uint8_t *is_bad;  /* by vertex of what is left */
+    uint8_t *is_bad;  /* by vertex of the result */
     uint32_t *became; /* by vertex of the whole */
-    uint8_t *flawed;  /* by vertex of the whole: it is bad there, once that has been looked at */
+    uint8_t *flawed;  /* by vertex of the whole: it meets others there; known once that has been
+                         checked */
     bool knows_flaws, has_flaws;
-    bool any; /* something is bad */
+    bool any; /* some vertex is bad */
     double off;
 } rounds;
 
-/* ---- what is far off ---- */
+/* ---- distances ---- */
 
-/* Whether a point is too far from the surface of a tree. */
+/* Returns true if a point is too far from the surface of a tree. */
 static bool is_far(rounds *r, int side, const iccp_facet_tree *tree, const double *p)
 {
     double bary[3], distance2;
@@ -44,7 +47,7 @@ static bool is_far(rounds *r, int side, const iccp_facet_tree *tree, const doubl
     return share > 1;
 }
 
-/* The middles of the triangles and of their sides. */
+/* Tests the middles of the triangles and of their sides. */
 static void look_at_middles(rounds *r, const iccp_facet_tree *given, const iccp_common_surface *c,
                             int side)
 {
@@ -68,7 +71,8 @@ static void look_at_middles(rounds *r, const iccp_facet_tree *given, const iccp_
     }
 }
 
-/* Looks how far the surfaces are off; *any_more if more has to stay. Whether there is memory. */
+/* Measures how far the surfaces are from each other. *any_more becomes true if more vertices must
+ * be kept. Returns false if there is no memory. */
 static bool measure(rounds *r, const iccp_common_surface *c, bool *any_more,
                     const iccp_memory *memory)
 {
@@ -109,7 +113,7 @@ static icc_status simplify(rounds *r, iccp_common_surface *c, const iccp_env *en
     return iccp_intersections_mark(r->is_bad, &r->any, c, &env->memory) ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Rounding may have brought together what is on the whole surfaces. */
+/* Looks for intersections on the whole surfaces, which rounding may have caused. */
 static icc_status look_for_flaws(rounds *r, const iccp_memory *memory)
 {
     if (r->knows_flaws)
@@ -119,7 +123,8 @@ static icc_status look_for_flaws(rounds *r, const iccp_memory *memory)
                                                                                : ICC_ERR_MEMORY;
 }
 
-/* Simplifies until nothing meets and all is near enough; *is_done if that has come about. */
+/* Simplifies until no triangles meet and everything is close enough. *is_done tells if this
+ * succeeded. */
 static icc_status run(rounds *r, iccp_common_surface *c, bool *is_done, const iccp_env *env)
 {
     icc_status status = ICC_OK;
@@ -140,7 +145,7 @@ static icc_status run(rounds *r, iccp_common_surface *c, bool *is_done, const ic
     return status;
 }
 
-/* Puts `fine` in the place of c, and c in its, if it is near enough as measured. */
+/* Exchanges c and `fine` if `fine` is close enough, as measured. */
 static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_surface *fine,
                                const iccp_memory *memory)
 {
@@ -158,8 +163,8 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
     return ICC_OK;
 }
 
-/* Touches up what is done, and anew, with more and more caution, if the energy rises too much; if
- * it still does it stays as it was. */
+/* Optimises the shape of the result. If the energy rises too much, it starts again with more
+ * caution. If that does not help, the result stays as it was. */
 static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
@@ -190,7 +195,7 @@ static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *kee
     return status;
 }
 
-/* What is still bad, and what is next to it in the whole, is flawed, too. */
+/* Vertices that are still bad count as flawed, and so do their neighbours in the whole. */
 static void widen(rounds *r)
 {
     const iccp_common_surface *const c = r->whole;
@@ -203,8 +208,8 @@ static void widen(rounds *r)
     }
 }
 
-/* Takes away of the whole what meets there, and more round it as long as something meets, and
- * nothing else. The whole stays where nothing does. */
+/* Removes those vertices of the whole where triangles meet, then more around them as long as
+ * triangles meet, and no others. If no triangles of the whole meet, it changes nothing. */
 static icc_status mend(rounds *r, const uint8_t *keep, iccp_common_surface *c, bool *is_done,
                        const iccp_env *env)
 {

@@ -1,16 +1,17 @@
-/* The faces of a graph on a surface are orbits of its darts (match/common_mesh/overlay_darts.h). */
+/* Overlays two drawings on the sphere. The faces of a graph on a surface are the orbits of its
+ * darts (match/common_mesh/overlay_darts.h). */
 #include "match/common_mesh/sphere_overlay.h"
 
 #include "base/error.h"
 #include "match/common_mesh/overlay_darts.h"
 #include "match/common_mesh/shared_vertices.h"
 
-/* Crossings, at most: darts, four more for each, are counted in 32 bits. */
+/* The most crossings. Darts, four more for each crossing, are counted in 32 bits. */
 static const size_t most_of_all = (size_t)1 << 28;
 
 /* ---- faces ---- */
 
-/* A dart of a face: the drawings' faces to its left, where it runs along their edges. */
+/* Finds the drawings' faces on the left of a dart that runs along their edges. */
 static void look_left(uint32_t within[2], const iccp_overlay_darts *g, uint32_t dart)
 {
     const int side = dart / 2 >= g->n_first;
@@ -21,7 +22,8 @@ static void look_left(uint32_t within[2], const iccp_overlay_darts *g, uint32_t 
         within[1] = g->walk[0].sector[h] / 3;
 }
 
-/* A corner of a face: the face of the other drawing that a vertex of one alone is in. */
+/* Finds the face of the other drawing that contains a corner, if the corner is a vertex of one
+ * drawing alone. */
 static void look_round(uint32_t within[2], const iccp_sphere_overlay *overlay,
                        const iccp_overlay_darts *g, uint32_t node)
 {
@@ -31,8 +33,8 @@ static void look_round(uint32_t within[2], const iccp_sphere_overlay *overlay,
         within[1 - side] = g->walk[side].face[v];
 }
 
-/* Follows the darts round each face, which is to their left. A face that has no edge of a drawing
- * is one of the other, whole: at least two of its corners are of that alone. */
+/* Follows the darts around each face, which lies on their left. A face without an edge of one
+ * drawing is a whole face of the other. At least two of its corners belong to that one alone. */
 static bool trace_faces(iccp_sphere_overlay *overlay, iccp_overlay_darts *g, uint8_t *is_done)
 {
     size_t n = 0;
@@ -144,7 +146,7 @@ icc_status iccp_sphere_overlay_create(iccp_sphere_overlay *overlay,
     const size_t most = most_crossings < most_of_all ? most_crossings : most_of_all;
     status =
         status == ICC_OK ? overlay_all(overlay, &g, most, env, err) : iccp_explain(err, status);
-    /* Where vertices are is kept. */
+    /* The caller keeps the places of the vertices. */
     overlay->partner = g.drawing[0].partner;
     g.drawing[0].partner = NULL;
     for (int side = 0; side < 2; ++side) {

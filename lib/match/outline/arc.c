@@ -1,13 +1,14 @@
-/* The start by arc length: with centres and lengths made the same, the one that leaves the least
- * mean square distance; that is the greatest cyclic correlation of the points (S. Marshall, Review
- * of shape coding techniques, 1989, has it for boundaries). Discs keep their direction so. */
+/* The start of a pairing by arc length. Centres and lengths are made equal. The best start has
+ * the least mean square distance, which is the greatest cyclic correlation of the points (S.
+ * Marshall, Review of shape coding techniques, 1989, uses it for boundaries). So discs keep
+ * their direction. */
 #include "match/outline/arc.h"
 
 #include "match/outline/elastic.h"
 
 enum { N = ICCP_MATCH_SAMPLES };
 
-/* Samples about their centre, in units of the perimeter. */
+/* Samples relative to their centre, in units of the perimeter. */
 static void sample(double *points, const iccp_outline *outline)
 {
     double mean[2] = {0, 0};

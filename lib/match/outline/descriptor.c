@@ -1,7 +1,7 @@
-/* Turning of chords at several scales: the discrete curvature of an outline as a complex number of
- * length 1, as in multi-scale shape contexts by arc length; F. Mokhtarian and A. Mackworth, A
- * theory of multiscale, curvature-based shape representation for planar curves, 1992, is the idea
- * of looking at several scales. Constants are those that gave the fewest errors on the pairs of
+/* Turns of chords at several scales: the discrete curvature of an outline, as a complex number of
+ * length 1. Multi-scale shape contexts by arc length do the same. The idea of several scales is
+ * that of F. Mokhtarian and A. Mackworth, A theory of multiscale, curvature-based shape
+ * representation for planar curves, 1992. The constants gave the fewest errors on the pairs of
  * tests/bench/bench_match.c. */
 #include "match/outline/descriptor.h"
 
@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-/* Shares of the perimeter, and weights, which sum to 1. */
+/* Chord lengths as shares of the perimeter, and weights whose sum is 1. */
 static const double scale[ICCP_SCALES] = {1 / 128.0, 1 / 64.0, 1 / 32.0,
                                           1 / 16.0,  1 / 8.0,  1 / 4.0};
 static const double weight[ICCP_SCALES] = {.5 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5};
@@ -21,7 +21,7 @@ void iccp_unit(double *z)
     z[1] = length > 0 ? z[1] / length : 0;
 }
 
-/* f / |f| times the conjugate of b / |b|; 0 where a chord has no length. */
+/* Sets f / |f| times the conjugate of b / |b|, or 0 if a chord has no length. */
 static void turn(float *out, double size, const double *back, const double *here, const double *on)
 {
     const double f[2] = {on[0] - here[0], on[1] - here[1]};

@@ -1,5 +1,5 @@
-/* Elastic matching in two stages: shapes alone find the candidates, among all starts; then each is
- * followed with the directions of tangents (match/outline/elastic_candidate.c). */
+/* Elastic matching in two stages. Shapes alone find candidates among all starts. Then each
+ * candidate is refined with the directions of tangents (match/outline/elastic_candidate.c). */
 #include "match/outline/elastic.h"
 
 #include "match/outline/elastic_candidate.h"
@@ -11,13 +11,13 @@
 
 enum {
     N = ICCP_MATCH_SAMPLES,
-    STRIDE = 4, /* elastic steps reach the starts between */
+    STRIDE = 4, /* distance of starts; elastic steps reach those in between */
     N_STARTS = N / STRIDE,
-    N_CANDIDATES = 7 /* by shape, and an upright one */
+    N_CANDIDATES = 7 /* candidates by shape, and an upright one */
 };
 
-/* Preference for upright; what two different pairings are apart, in samples; and
- * what is added to costs before they are compared, since small ones differ by sampling alone. */
+/* upright: preference for upright pairings. far: pairings this many samples apart are different.
+ * noise: added to costs before they are compared, because small costs differ by sampling alone. */
 static const double upright = .05, far = .05 * N, noise = .05;
 
 typedef struct elastic {
@@ -82,7 +82,7 @@ static double distance(const float *p, const float *q)
     return sum / N;
 }
 
-/* Fills in the costs of all pairs of samples. Rows go twice along the target. */
+/* Fills in the costs of all pairs of samples. Each row goes twice around the target. */
 static void all_costs(elastic *e, double weight)
 {
     static const double none[2] = {1, 0};
@@ -95,7 +95,7 @@ static void all_costs(elastic *e, double weight)
     }
 }
 
-/* Takes a path as a candidate unless one is near by. */
+/* Accepts a path as a candidate unless another one is close. */
 static void take(elastic *e, const iccp_lattice_path *path)
 {
     iccp_elastic_candidate *const c = &e->candidates[e->n_candidates];
@@ -120,8 +120,8 @@ static size_t cheapest(const iccp_lattice_path *paths)
     return best;
 }
 
-/* The candidates: by shape alone, and the best one that is upright, which shapes alone do not tell
- * from others where they are round. */
+/* Finds the candidates by shape alone, and the best upright one. Shapes alone do not distinguish
+ * the upright one if they are round. */
 static icc_status find_candidates(elastic *e, bool is_free, const iccp_env *env)
 {
     iccp_env parts[2];
@@ -148,7 +148,7 @@ static icc_status find_candidates(elastic *e, bool is_free, const iccp_env *env)
     return status;
 }
 
-/* Finds candidates and follows each. `least` becomes the least cost, whatever the turn. */
+/* Finds candidates and refines each. `least` becomes the least cost, whatever the rotation. */
 static icc_status search(elastic *e, bool is_free, double *least, const iccp_env *env)
 {
     iccp_env parts[2];
@@ -166,7 +166,7 @@ static icc_status search(elastic *e, bool is_free, double *least, const iccp_env
 }
 
 /* Turns the target's samples into those of its mirror image with y reversed, or back. The order of
- * the samples is reversed, from sample 0 on, so chords turn the same way as before. */
+ * the samples is reversed from sample 0 on, so chords turn the same way as before. */
 static void mirror(iccp_descriptor *b)
 {
     for (size_t i = 1; i < N - i; ++i) {
@@ -187,7 +187,7 @@ static void read_knots(iccp_pairing_knots *knots, const iccp_elastic_candidate *
     }
 }
 
-/* The best candidate, and how much better it is than the next one elsewhere. */
+/* Chooses the best candidate and measures how much better it is than the next one elsewhere. */
 static iccp_elastic_candidate *choose(elastic *e, iccp_elastic_report *report)
 {
     iccp_elastic_candidate *best = &e->candidates[0];
@@ -232,7 +232,7 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     return status;
 }
 
-/* Whether a candidate passes near all landmarks. */
+/* Returns true if a candidate passes close to all landmarks. */
 static bool passes(const iccp_elastic_candidate *c, size_t n, const double *landmarks)
 {
     for (size_t k = 0; k < n; ++k) {

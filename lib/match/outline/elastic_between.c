@@ -1,5 +1,5 @@
-/* Elastic matching where landmarks say which points go together: one search for each piece between
- * two of them, with the costs of match/outline/elastic.c; no start is looked for. */
+/* Elastic matching between landmarks. Each piece between two landmarks gets its own search, with
+ * the costs of match/outline/elastic.c. No start is searched. */
 #include "match/outline/elastic.h"
 
 #include "match/outline/descriptor.h"
@@ -75,7 +75,7 @@ static void describe(between *w, iccp_descriptor *out, const iccp_outline *outli
     iccp_descriptors(out, outline, (size_t)p->n + 1, w->share, .5 / N);
 }
 
-/* The best path through one piece; its knots, and what it says about the rotation. */
+/* Finds the best path through one piece: its knots, and its part of the rotation. */
 static void match_piece(between *w, const piece *p, const double *rotation, double weight,
                         iccp_pairing_knots *knots, double *sum)
 {

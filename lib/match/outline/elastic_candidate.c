@@ -1,6 +1,7 @@
-/* A candidate of the elastic search is followed with the directions of tangents after its own
- * rotation (the square-root velocity of A. Srivastava et al., Shape analysis of elastic curves in
- * Euclidean spaces, 2011): cut open at its surest place, then the best path near by. */
+/* Refines a candidate of the elastic search with the directions of tangents after its own rotation
+ * (the square-root velocity of A. Srivastava et al., Shape analysis of elastic curves in Euclidean
+ * spaces, 2011). The candidate is cut open at its most certain place. Then the best path close to
+ * it is found. */
 #include "match/outline/elastic_candidate.h"
 
 #include "match/outline/widths.h"
@@ -12,19 +13,21 @@
 enum {
     N = ICCP_MATCH_SAMPLES,
     N_PASSES = 2,
-    N_BENT = 4,         /* passes of each kind with rotations of their own for each sample */
-    BAND = N / 10,      /* how far a pass may leave the one before */
-    MARGIN = 8,         /* columns that steps pass beyond it */
-    HALF = N / 64,      /* samples on each side of a place that is to be sure */
-    WIDE = 3 * (N / 32) /* samples on each side that a rotation is the mean of */
+    N_BENT = 4,         /* passes of each kind with a separate rotation for each sample */
+    BAND = N / 10,      /* how far a pass may leave the path of the one before */
+    MARGIN = 8,         /* columns beyond the band that steps may cross */
+    HALF = N / 64,      /* samples on each side of a place that is judged for certainty */
+    WIDE = 3 * (N / 32) /* samples on each side in the mean of a rotation */
 };
 
-/* Where large scales count for little: samples on each side of a patch, and those that a rotation
- * is the mean of; the share of tangents in the cost; how often all this is gone through. Of .8, .9
- * and 1, with 12, 16, 24 and 32 samples on each side, .8 and 16 had the least energy on bent
- * development pairs of few vertices. Coasts have details that tell places apart within short
- * patches, and may be stretched too unevenly for long ones: of 3 to 24 samples, 5 to 16 and .8 to
- * 1, these found the limbs of a swirl most often. */
+/* Settings for passes in which large scales count little. They are the samples on each side of a
+ * patch, the samples in the mean of a rotation, the weight of tangents, and the number of passes.
+ *
+ * On bent development pairs with few vertices, weights of 0.8, 0.9 and 1 were tried with 12 to 32
+ * samples on each side. A weight of 0.8 with 16 samples had the least energy. Coasts have details
+ * that identify places within short patches, and may be stretched too unevenly for long ones.
+ * There, weights of 0.8 to 1 were tried with 3 to 24 samples. The settings here found the limbs of
+ * a swirl most often. */
 typedef struct closeness {
     int32_t patch, reach;
     double tangents;
@@ -33,14 +36,14 @@ typedef struct closeness {
 
 static const closeness smooth = {16, 16, .8, 1}, fine = {6, 10, .92, 2};
 
-/* A pairing whose rotations round all samples have a mean shorter than this is followed with these.
- * Of the development pairs (tests/bench/bench_match.c) bent limbs, a swirl and a coast in two
- * projections, for most draws, have .95 to .966; pairs that one rotation serves better, .978 up. In
- * between it is done if widths change so many times as unevenly then: .5 for a draw of the swirl
- * with .976, .98 and more for others below .99. */
+/* `bent`: a pairing is refined with local rotations if their mean is shorter than this. On the
+ * development pairs (tests/bench/bench_match.c), bent limbs, a swirl and a coast in two projections
+ * mostly have 0.95 to 0.966. Pairs that one rotation serves better have 0.978 or more. Up to
+ * `perhaps_bent`, the result is kept if it changes widths more evenly by the factor `fairer`. A
+ * draw of the swirl with 0.976 has the factor 0.5, and others below 0.99 have 0.98 or more. */
 static const double bent = .97, perhaps_bent = .985, fairer = .7;
 
-/* Its first column in a row, and between in proportion. */
+/* Sets each sample's place: its first column in its row. Rows without one are interpolated. */
 void iccp_elastic_candidate_place(iccp_elastic_candidate *c)
 {
     const int32_t *const p = c->path.points;
@@ -67,7 +70,8 @@ static void mean_turns(const iccp_descriptor *b, iccp_descriptor *mean)
             mean->turns[m] += b[k].turns[m] / N;
 }
 
-/* The sample that is told from others best and is matched well: where a path may be cut. */
+/* Finds the sample that is best distinguished from others and well matched. A path may be cut
+ * there. */
 static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c, double (*rotation)[2])
 {
     static const double none[2] = {1, 0};
@@ -106,8 +110,8 @@ static void rotation_of(const iccp_samples *s, iccp_elastic_candidate *c)
     memcpy(c->rotation, sum, sizeof sum);
 }
 
-/* The rotation round each sample of the source, the nearer ones counting more; returns the length
- * of their mean, 1 if they are all the same. */
+/* Finds the rotation around each sample of the source, where closer samples count more. Returns the
+ * length of their mean, which is 1 if all rotations are equal. */
 static double rotations_along(double (*rotation)[2], const iccp_samples *s,
                               const iccp_elastic_candidate *c, int reach)
 {
@@ -129,8 +133,8 @@ static double rotations_along(double (*rotation)[2], const iccp_samples *s,
     return iccp_hypot(mean[0], mean[1]);
 }
 
-/* What a pair costs by how well the tangents round it agree after the rotation that serves them
- * best, whatever that is. */
+/* The cost of a pair by tangents alone: how well the tangents around it agree after the best
+ * rotation. */
 static float patch_cost(const iccp_samples *s, int32_t i, int32_t j)
 {
     const int32_t n = s->are_fine ? fine.patch : smooth.patch;
@@ -144,8 +148,9 @@ static float patch_cost(const iccp_samples *s, int32_t i, int32_t j)
     return (float)(2 - 2 * iccp_hypot(sum[0], sum[1]) / ((n + 1) * (n + 1)));
 }
 
-/* A better path near the candidate's, cut at its surest place, with tangents after the rotation of
- * each sample of the source; these are `share` of the cost. 0: by patches, without rotations. */
+/* Finds a better path close to the candidate's, cut at its most certain place. Tangents count with
+ * the weight `share`, after the rotation of each sample of the source. With a `share` of 0, patches
+ * are compared without rotations. */
 static void follow(iccp_samples *s, iccp_elastic_candidate *c, double (*rotation)[2], double share)
 {
     const int32_t i = surest(s, c, rotation), j = (int32_t)floor((double)c->place[i] + .5);
@@ -184,9 +189,8 @@ void iccp_elastic_candidate_follow(iccp_elastic_candidate *c, iccp_samples *s)
     }
 }
 
-/* Where the target is bent, large scales mislead, and so do rotations along a path that they have
- * led astray. So they count for little once the path is near, and the first of these passes
- * knows of no rotation. */
+/* If the target is bent, large scales mislead, and so do rotations along a path that they misled.
+ * So they count little once the path is close, and the first of these passes uses no rotation. */
 static void follow_near(iccp_elastic_candidate *c, iccp_samples *s, double (*rotation)[2])
 {
     const closeness near = s->are_fine ? fine : smooth;
@@ -207,7 +211,8 @@ static void copy(iccp_elastic_candidate *to, const iccp_elastic_candidate *from)
     memcpy(points, from->path.points, 2 * (size_t)from->path.n_points * sizeof *points);
 }
 
-/* From where it is, and by way of large scales if it is surely bent; widths choose. */
+/* Refines the candidate from where it is, and by way of large scales if it is certainly bent. The
+ * result with more even widths is kept. */
 void iccp_elastic_candidate_bend(iccp_elastic_candidate *c, iccp_elastic_candidate *spare,
                                  iccp_samples *s)
 {

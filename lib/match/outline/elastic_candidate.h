@@ -10,9 +10,9 @@
 
 typedef struct iccp_elastic_candidate {
     double score, rotation[2];
-    float
-        place[ICCP_MATCH_SAMPLES]; /* of each source sample in the target, in samples, unwrapped */
-    int32_t i, j;                  /* where the path begins */
+    float place[ICCP_MATCH_SAMPLES]; /* of each source sample: its place in the target, in samples,
+                                      unwrapped */
+    int32_t i, j;                    /* where the path begins */
     iccp_lattice_path path;
 } iccp_elastic_candidate;
 
@@ -20,21 +20,21 @@ typedef struct iccp_elastic_candidate {
 typedef struct iccp_samples {
     const iccp_outline *source, *target; /* borrowed */
     iccp_descriptor a[ICCP_MATCH_SAMPLES], b[ICCP_MATCH_SAMPLES];
-    bool are_fine; /* vertices are closer than samples on both sides */
+    bool are_fine; /* on both sides, vertices are closer than samples */
     float *cost;
     iccp_lattice lattice;
     iccp_lattice_path path; /* scratch */
 } iccp_samples;
 
-/* Where the candidate's path takes each sample, from the path and where it begins. */
+/* Computes where the candidate's path takes each sample. */
 void iccp_elastic_candidate_place(iccp_elastic_candidate *candidate);
 
-/* Follows a candidate with the directions of tangents, as often as it pays. */
+/* Refines a candidate with the directions of tangents, as often as this helps. */
 void iccp_elastic_candidate_follow(iccp_elastic_candidate *candidate, iccp_samples *samples);
 
-/* Where it turns by other angles here than there, as bent limbs do: follows it once more, with the
- * rotation round each sample, in two ways, and takes the one that changes widths more evenly. Its
- * score and the rotation of the whole stay as they were. `spare` has room for a path. */
+/* Refines a candidate that turns by different angles in different places, as bent limbs do. It uses
+ * the rotation around each sample, in two ways, and keeps the result with more even widths. The
+ * candidate's score and its whole rotation do not change. `spare` has room for a path. */
 void iccp_elastic_candidate_bend(iccp_elastic_candidate *candidate, iccp_elastic_candidate *spare,
                                  iccp_samples *samples);
 

@@ -1,3 +1,4 @@
+/* Finds the places of landmarks on two outlines, and checks their order. */
 #include "match/outline/landmarks.h"
 
 #include "base/error.h"
@@ -6,8 +7,9 @@
 
 #include <math.h>
 
-/* Shares of the outline's diameter: how far from the outline a landmark may lie, and within which
- * distance a vertex is meant, unless the landmark lies on the outline, up to rounding. */
+/* Shares of the outline's diameter. farthest: largest distance of a landmark from the outline.
+ * vertex_reach: a vertex this close is meant, unless the landmark lies on the outline up to
+ * `rounding`. */
 static const double farthest = .02, vertex_reach = .005, rounding = 1e-9;
 
 typedef struct landmark {
@@ -23,7 +25,7 @@ static int by_source(const void *a, const void *b)
     return p->number < q->number ? -1 : 1;
 }
 
-/* The nearest point of the outline, or the vertex that is meant. */
+/* Finds the nearest point of the outline, or the vertex that is meant. */
 static double nearest(const iccp_outline *outline, const double *point, double *away)
 {
     double share = 0, to_vertex = HUGE_VAL;
@@ -85,7 +87,8 @@ static icc_status place(landmark *out, const double *given, const iccp_outline *
     return ICC_OK;
 }
 
-/* Whether landmarks in order along the source are so along the target, each only once. */
+/* Checks that landmarks in order along the source are in order along the target, without
+ * doubles. */
 static icc_status check_order(landmark *all, size_t n, icc_error *err)
 {
     for (size_t k = 0; k < n; ++k) {

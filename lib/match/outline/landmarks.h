@@ -1,20 +1,21 @@
-/* Points of two outlines that a caller knows to go together. */
+/* Points of two outlines that the caller knows to correspond. */
 #ifndef ICCP_LANDMARKS_H
 #define ICCP_LANDMARKS_H
 
 #include "match/outline/outline.h"
 
-/* The most of them. */
+/* The largest number of landmarks. */
 enum { ICCP_MAX_LANDMARKS = 1000 };
 
-/* The share of the outline's point that is nearest to a point as the caller gives it, or of a
- * vertex close by; and how far it is, in diameters. On the way there, of a line. */
+/* Returns the share of the outline's point nearest to a point in the caller's coordinates, or of a
+ * vertex close to it. *away is the distance in diameters. For a line the share is on the way from
+ * its first end. */
 double iccp_landmark_share(const iccp_outline *outline, const double *point, double *away);
 
-/* Finds the outlines' nearest points to n landmarks, 4 coordinates each as the caller gave
- * them, who has given them these numbers (NULL: 0, 1, ..): n pairs of shares, in order along
- * the source, the target's growing by less than a turn. ICC_ERR_ARGUMENT names the landmark
- * that is off the outline, out of order or a double. */
+/* Finds the outlines' nearest points to n landmarks: n pairs of shares, in order along the source,
+ * growing along the target by less than a turn. A landmark has 4 coordinates, as the caller gave
+ * them. `numbers` are the caller's numbers of the landmarks, or NULL for 0, 1, ... ICC_ERR_ARGUMENT
+ * names the landmark that is off the outline, out of order or a double. */
 icc_status iccp_landmarks_place(double *shares, size_t n, const double *landmarks,
                                 const size_t *numbers, const iccp_outline *source,
                                 const iccp_outline *target, const iccp_memory *memory,

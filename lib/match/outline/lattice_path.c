@@ -1,8 +1,8 @@
-/* All starts of a cyclic match: M. Maes, On a cyclic string-to-string correction problem,
- * Information Processing Letters 35, 1990. A path need not cross one from another start, so that
- * those from starts between two known ones lie between these. The steps are those of elastic
- * matching of curves; one of (p, q) costs (p + q) / 2 times the mean cost of the pairs along it,
- * and what it stretches. */
+/* Finds paths of least cost for all starts of a cyclic match: M. Maes, On a cyclic string-to-string
+ * correction problem, Information Processing Letters 35, 1990. Paths from different starts need not
+ * cross, so a path between two known starts lies between their paths. The steps are those of
+ * elastic matching of curves. A step (p, q) costs (p + q) / 2 times the mean cost of the pairs
+ * along it, plus its stretch. */
 #include "match/outline/lattice_path.h"
 
 #include <float.h>
@@ -15,8 +15,8 @@ static const int32_t step[N_STEPS][2] = {{1, 1}, {1, 2}, {2, 1}, {2, 3}, {3, 2},
                                          {3, 1}, {3, 4}, {4, 3}, {1, 4}, {4, 1}, {1, 5},
                                          {5, 1}, {2, 5}, {5, 2}, {1, 0}, {0, 1}};
 
-/* Cost of stretch, and what a step adds that does not advance on one side. .4: of .25, .4 and .8
- * the one with the least median error on the development pairs. */
+/* The cost of stretch, and the extra cost of a step that does not advance on one side. Of 0.25, 0.4
+ * and 0.8, the value 0.4 had the least median error on the development pairs. */
 static const double stretch = .4, flat = .05;
 
 icc_status iccp_lattice_create(iccp_lattice *lattice, int32_t n, const iccp_memory *memory)
@@ -44,7 +44,7 @@ void iccp_lattice_free(iccp_lattice *lattice, const iccp_memory *memory)
     iccp_free(memory, lattice->step);
 }
 
-/* What one step costs: the pairs along it, as offsets behind its end, and what it stretches. */
+/* The cost of one step: the pairs along it, as offsets from its end, and its stretch. */
 typedef struct step_cost {
     int32_t n_along;
     size_t behind[N_ALONG];
@@ -64,7 +64,7 @@ static step_cost cost_of(int32_t k, size_t width)
     return s;
 }
 
-/* Offers step k, from an earlier row, to the columns of row i. */
+/* Offers step k from an earlier row to the columns of row i. */
 static void offer(iccp_lattice *lattice, int32_t i, int32_t k, const step_cost *s,
                   const float *cost, int32_t *which)
 {
@@ -111,7 +111,7 @@ static void fill_row(iccp_lattice *lattice, int32_t i, int32_t first, const step
         from[j - low] = (unsigned char)which[j - low];
 }
 
-/* The path's points from its end, turned round. */
+/* Reads the path's points from its end, and reverses them. */
 static void read_back(iccp_lattice_path *path, const iccp_lattice *lattice, int32_t n, int32_t last)
 {
     int32_t i = n, j = last, count = 0;
@@ -158,7 +158,7 @@ void iccp_lattice_search(iccp_lattice_path *path, iccp_lattice *lattice, int32_t
     read_back(path, lattice, n, last);
 }
 
-/* The first (`upper` false) or last column of each row that a path passes. */
+/* The first column of each row that a path passes, or the last one if `upper` is true. */
 static void envelope(int32_t *bound, const iccp_lattice_path *path, bool upper, int32_t shift)
 {
     const int32_t *const p = path->points;

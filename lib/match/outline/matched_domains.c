@@ -1,3 +1,4 @@
+/* Builds the two domains of a match, ring by ring and line by line. */
 #include "match/outline/matched_domains.h"
 
 #include "base/error.h"
@@ -35,7 +36,7 @@ void iccp_matched_domains_free(iccp_matched_domains *matched, const iccp_memory 
     iccp_free(memory, matched->first);
 }
 
-/* A vertex as it was given, or a point of an edge. */
+/* A vertex as the caller gave it, or a point of an edge. */
 static void point_of(double *point, const iccp_outline *outline, uint32_t vertex, double share)
 {
     if (vertex != NONE) {

@@ -1,45 +1,47 @@
-/* The two domains of a match as they come about, ring by ring and line by line. */
+/* The two domains of a match while they are built, ring by ring and line by line. */
 #ifndef ICCP_MATCHED_DOMAINS_H
 #define ICCP_MATCHED_DOMAINS_H
 
 #include "match/outline/union_outline.h"
 
 typedef struct iccp_matched_domains {
-    size_t n; /* common vertices so far */
+    size_t n; /* common vertices added until now */
     size_t n_joined;
-    uint32_t *origin[2]; /* vertices of the domains given; UINT32_MAX: added */
-    double *points[2];   /* as the caller sees them */
+    uint32_t *origin[2]; /* vertices of the given domains; UINT32_MAX if added */
+    double *points[2];   /* in the caller's coordinates */
     size_t n_features;
     icc_feature *feature[2];
-    uint32_t *first; /* n_features + 1: where features begin; of the first, how many vertices the
-                        outer ring has */
+    uint32_t *first; /* n_features + 1: where each feature begins; the first entry is the number
+                        of vertices of the outer ring */
 } iccp_matched_domains;
 
-/* Room for all vertices of two domains with as many features, and n_landmarks. Frees nothing. */
+/* Makes room for all vertices of two domains with equally many features, and for n_landmarks. The
+ * caller frees it even after an error. */
 icc_status iccp_matched_domains_create(iccp_matched_domains *matched, const icc_domain *source,
                                        const icc_domain *target, size_t n_landmarks,
                                        const iccp_memory *memory);
 
-/* Accepts one that is all zero. */
+/* Accepts a struct of zeros. */
 void iccp_matched_domains_free(iccp_matched_domains *matched, const iccp_memory *memory);
 
-/* Adds common vertices, from the source's first one on and in the source's sense; of a line from
- * its first end to the other. */
+/* Adds common vertices, from the source's first vertex on and in the source's direction. A line
+ * goes from its first end to the other. */
 void iccp_matched_domains_add(iccp_matched_domains *matched, const iccp_outline *outline,
                               const iccp_union_outline *common);
 
-/* Adds n vertices of both domains, which go together one by one. */
+/* Adds n vertices of both domains that correspond one by one. */
 void iccp_matched_domains_add_vertices(iccp_matched_domains *matched,
                                        const icc_domain *const *domains, const uint32_t *first,
                                        size_t n);
 
-/* All that was added so far is the outer ring. */
+/* Ends the outer ring, which consists of everything added before. */
 void iccp_matched_domains_end_outer(iccp_matched_domains *matched);
 
-/* What was added since then, or since the last feature, is one of this kind. */
+/* Ends a feature of this kind. It consists of everything added since the outer ring or the last
+ * feature. */
 void iccp_matched_domains_end_feature(iccp_matched_domains *matched, int32_t kind);
 
-/* One of the two domains. */
+/* Makes one of the two domains. */
 icc_status iccp_matched_domains_get(icc_domain **out, iccp_matched_domains *matched, size_t side,
                                     const iccp_env *env, icc_error *err);
 

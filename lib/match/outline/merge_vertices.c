@@ -1,4 +1,5 @@
-/* Which vertices of two outlines become one: those that the pairing takes near one another. */
+/* Decides which vertices of two outlines become one: those that the pairing takes close to each
+ * other. */
 #include "match/outline/merge_order.h"
 
 #include "base/sort.h"
@@ -7,12 +8,13 @@
 
 #define NONE UINT32_MAX
 
-/* Vertices join within this share of the shorter edge at them, on both sides, or when so near, in
- * shares of the perimeter, that an edge between them would be lost. */
+/* Vertices are joined within `reach`, as a share of the shorter edge at them on both sides. They
+ * are also joined within `least_edge`, as a share of the perimeter, because an edge between them
+ * would be lost. */
 static const double reach = .3, least_edge = 1e-9;
 
-/* Where vertices join that are farther apart, `drop`, two neighbours do only if what is between
- * them becomes no more than so many times longer or shorter than the pairing makes it. */
+/* With a larger `drop`, vertices farther apart are joined. Two neighbouring joins must then not
+ * stretch the piece between them by more than this factor, compared with the pairing. */
 static const double most_uneven = 3;
 
 static int by_distance(const void *a, const void *b)
@@ -48,8 +50,8 @@ double iccp_merge_order_follow(const double *knot, size_t n, int from, double x)
     return p[1 - from] + part * (q[1 - from] - p[1 - from]);
 }
 
-/* Pairs of a vertex of the source and one of the two of the target next to its image that are near
- * enough. */
+/* Proposes joins: pairs of a source vertex and one of the two target vertices next to its image, if
+ * close enough. */
 static void propose(iccp_merge_order *w, double drop)
 {
     const double *const a = w->place, *const b = w->place + w->n[0];
@@ -73,7 +75,7 @@ static void propose(iccp_merge_order *w, double drop)
     }
 }
 
-/* Landmarks become joins that stay; of vertices where there are some. */
+/* Turns landmarks into joins that stay. A landmark at a vertex uses that vertex. */
 static void add_landmarks(iccp_merge_order *w, size_t n, const double *landmarks)
 {
     for (size_t k = 0; k < n; ++k) {
@@ -94,7 +96,7 @@ static void add_landmarks(iccp_merge_order *w, size_t n, const double *landmarks
     }
 }
 
-/* Whether two joins that follow one another may both be, as far as stretching goes. */
+/* Returns true if stretch permits two successive joins together. */
 static bool is_even(const iccp_merge_order *w, const iccp_event *p, const iccp_event *q)
 {
     const double given = iccp_merge_order_follow(w->knot, w->n_knots, 0, q->at[0]) -
@@ -104,7 +106,7 @@ static bool is_even(const iccp_merge_order *w, const iccp_event *p, const iccp_e
            (joined <= most_uneven * given && given <= most_uneven * joined);
 }
 
-/* Whether the last of the joins kept must go for one that comes after it along the source. */
+/* Returns true if the last kept join must give way to a join that follows it along the source. */
 static bool gives_way(const iccp_merge_order *w, const iccp_event *last, const iccp_event *join)
 {
     const bool is_in_order = join->at[1] > last->at[1];
@@ -119,8 +121,8 @@ static bool may_follow(const iccp_merge_order *w, const iccp_event *last, const 
            (join->is_fixed || is_even(w, last, join));
 }
 
-/* Of the proposed joins, the nearest first, those that use each vertex once; then, along the
- * source, those that are in order along the target, and even. */
+/* Selects joins, the closest first, so that each vertex is used once. Then keeps those, along the
+ * source, that are also in order along the target, and even. */
 static void select(iccp_merge_order *w)
 {
     iccp_sort(w->join, w->n_joins, sizeof *w->join, by_distance);

@@ -1,13 +1,13 @@
-/* Outlines whose vertices correspond already, such as those that a match gave before: then what was
- * found by shape gives way to the order of the vertices. */
+/* Recognises outlines whose vertices correspond already, for example those of an earlier match.
+ * Then the order of the vertices replaces the pairing by shape. */
 #include "match/outline/one_to_one.h"
 
 #include <math.h>
 
 #define NONE UINT32_MAX
 
-/* The shift between vertices that are joined which most joins have, if any has more than half of
- * them (R. Boyer and J. Moore, MJRTY - a fast majority vote algorithm, 1991). */
+/* Finds the shift of vertex numbers that more than half of the joins have, if there is one (R.
+ * Boyer and J. Moore, MJRTY - a fast majority vote algorithm, 1991). */
 static uint32_t majority(const iccp_union_outline *common, uint32_t n)
 {
     uint32_t shift = 0;
@@ -23,7 +23,8 @@ static uint32_t majority(const iccp_union_outline *common, uint32_t n)
     return shift;
 }
 
-/* Whether half of the vertices are joined, three of four of these joins by the shift. */
+/* Returns true if half of the vertices are joined and three quarters of these joins have the
+ * shift. */
 static bool is_common(const iccp_union_outline *common, uint32_t n, uint32_t shift)
 {
     size_t n_alike = 0;
@@ -34,7 +35,7 @@ static bool is_common(const iccp_union_outline *common, uint32_t n, uint32_t shi
     return 2 * common->n_joined >= n && 4 * n_alike >= 3 * common->n_joined;
 }
 
-/* Whether the vertices that are joined by a landmark, which is kept, have this shift. */
+/* Returns true if all vertices joined by a landmark have this shift, so that landmarks are kept. */
 static bool has_landmarks(const iccp_outline *source, const iccp_outline *target, uint32_t shift,
                           size_t n_landmarks, const double *landmarks)
 {

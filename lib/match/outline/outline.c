@@ -1,3 +1,4 @@
+/* Rings and lines of plane domains as outlines, measured by arc length. */
 #include "match/outline/outline.h"
 
 #include "base/error.h"

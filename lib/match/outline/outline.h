@@ -1,5 +1,27 @@
-/* A ring of a domain of the plane, walked counter-clockwise, by its share of arc length; or a line
- * inside, which is walked from end to end and back. */
+/* An outline: a ring of a plane domain, walked counter-clockwise and measured by its share of arc
+ * length. A line inside is an outline that is walked from end to end and back.
+ *
+ * Words of this folder
+ * - share: a part of the outline's length, from its first vertex on, in [0, 1). Unwrapped shares go
+ *   on.
+ * - pairing: a monotone map from the shares of the source to those of the target; knots describe
+ *   it.
+ * - landmark: a pair of points that the caller knows to correspond. pin: a place where a pairing is
+ *   held.
+ * - sample: one of ICCP_MATCH_SAMPLES places at equal distances, for comparing shapes.
+ * - candidate: a pairing of samples that the elastic search refines.
+ * - join: a vertex of the source and one of the target that become one vertex.
+ *
+ * Invariants
+ * - Pairings are monotone, so both outlines get their common vertices in the same cyclic order.
+ * - Landmarks are vertices of the result.
+ *
+ * Ways (ring_pairing.h calls them)
+ * - By shape: elastic.h over all starts, then pins.h (corners) and vertices.h (single edges).
+ * - With landmarks: iccp_elastic_between() and iccp_elastic_bend(). By arc length: arc.h.
+ * - Vertices that correspond already: one_to_one.h. Always last: union_outline.h.
+ *
+ * Begin with ring_pairing.c. */
 #ifndef ICCP_OUTLINE_H
 #define ICCP_OUTLINE_H
 
@@ -8,36 +30,36 @@
 typedef struct iccp_outline {
     const icc_domain *domain; /* borrowed */
     size_t n;
-    size_t end;       /* of a line: the place of its other end among the n; else 0 */
-    bool is_back;     /* the domain lists it the other way round */
-    uint32_t *vertex; /* n: the domain's numbers of the vertices, the first one first */
-    double *points;   /* 2 (n + 1), local; the first once more at the end */
-    double *share;    /* n + 1: the length up to a vertex, of that of the whole: 0 .. 1 */
+    size_t end;       /* for a line: the place of its other end among the n vertices; else 0 */
+    bool is_back;     /* the domain lists it in the other direction */
+    uint32_t *vertex; /* n: the domain's numbers of the vertices, from the first one on */
+    double *points;   /* 2 (n + 1), local; the first point is repeated at the end */
+    double *share;    /* n + 1: the length up to each vertex as a share of the whole: 0 .. 1 */
     double diameter;  /* diagonal of the bounding box */
     double perimeter;
 } iccp_outline;
 
-/* Of the outer ring. */
+/* Makes the outline of the outer ring. */
 icc_status iccp_outline_create(iccp_outline *outline, const icc_domain *domain,
                                const iccp_memory *memory, icc_error *err);
 
-/* Of a hole, or of a line, which is walked from its last vertex if `is_back`. */
+/* Makes the outline of a hole or a line. A line is walked from its last vertex if `is_back`. */
 icc_status iccp_outline_create_feature(iccp_outline *outline, const icc_domain *domain,
                                        size_t feature, bool is_back, const iccp_memory *memory);
 
-/* Puts the points to where these vertices of the domain are, and measures. */
+/* Moves the outline to these vertices of the domain, and measures it. */
 void iccp_outline_place(iccp_outline *outline, const double *vertices);
 
-/* Accepts one that is all zero. */
+/* Accepts a struct of zeros. */
 void iccp_outline_free(iccp_outline *outline, const iccp_memory *memory);
 
-/* The part of a share of arc length beyond whole turns, in [0, 1). */
+/* Returns a share of arc length without its whole turns, in [0, 1). */
 double iccp_outline_wrap(double share);
 
-/* The edge with a share of arc length, and how far along it. */
+/* Returns the edge at a share of arc length. *along is the place on it. */
 size_t iccp_outline_edge(const iccp_outline *outline, double share, double *along);
 
-/* The local point there. */
+/* The local point at a share. */
 void iccp_outline_at(const iccp_outline *outline, double share, double *point);
 
 #endif

@@ -1,3 +1,4 @@
+/* Finds corners that correspond, and makes a pairing pass through them and all landmarks. */
 #include "match/outline/pins.h"
 
 #include "base/sort.h"
@@ -6,15 +7,16 @@
 #include <math.h>
 #include <string.h>
 
-enum { WINDOWS = 256 }; /* of the perimeter: one corner in each at most */
+enum { WINDOWS = 256 }; /* windows of the perimeter; each has at most one corner */
 
-/* A corner turns by so many turns over a window; one goes to another that lies within so much of
- * the perimeter and turns alike. */
+/* least_corner: a corner turns by at least this many turns over a window. alike, near_corner: two
+ * corners may correspond if their turns differ by less than `alike`, and they lie within this share
+ * of the perimeter. */
 static const double least_corner = 25.0 / 360, alike = 60.0 / 360,
                     near_corner = 3.0 / ICCP_MATCH_SAMPLES;
 
-/* Share of arc length that is blended in between pins, and the least slope that steps along one
- * outline alone get by it. Distance that pins keep. */
+/* arc_share: the weight of arc length in a pairing between pins. least_slope: the smallest slope of
+ * steps along one outline alone that results. apart: the least distance of pins. */
 static const double arc_share = .01, least_slope = 1.25e-3, apart = 1e-9;
 
 typedef struct corner {
@@ -41,7 +43,7 @@ static int by_place(const void *a, const void *b)
     return (p->is_landmark ? 0 : 1) - (q->is_landmark ? 0 : 1);
 }
 
-/* Difference of two shares, the short way round. */
+/* The difference of two shares, the short way around. */
 static double gap(double a, double b)
 {
     return iccp_outline_wrap(a - b + .5) - .5;
@@ -57,7 +59,7 @@ static double turn_at(const iccp_outline *outline, double share)
     return iccp_atan2_turns(f[1] * b[0] - f[0] * b[1], f[0] * b[0] + f[1] * b[1]);
 }
 
-/* The corners, the sharpest first, each without another in its window; room for WINDOWS. */
+/* Finds the corners, the sharpest first, at most one in a window. `out` has room for WINDOWS. */
 static icc_status find_corners(corner *out, size_t *n_out, const iccp_outline *outline,
                                const iccp_memory *memory)
 {
@@ -104,8 +106,8 @@ double iccp_knots_at(const iccp_pairing_knots *knots, double share)
     return turns + k[2 * low + 1] + part * (y - k[2 * low + 1]);
 }
 
-/* The corner nearest to a place, of those that turn alike; n: none. `image`: where the pairing
- * takes the corners; it is their place on the other side. */
+/* Finds the corner nearest to a place, among those with a similar turn; n if there is none.
+ * `image`: where the pairing takes the corners. */
 static size_t nearest(const corner *of, const double *image, size_t n, double share, double angle)
 {
     size_t best = n;
@@ -139,7 +141,7 @@ static size_t pin_corners(pin *pins, const iccp_pairing_knots *knots, const corn
     return n;
 }
 
-/* Drops pins that landmarks or earlier pins leave no room for; those that stay are in order. */
+/* Drops pins for which landmarks or earlier pins leave no room. The rest are in order. */
 static size_t thin_out(pin *pins, size_t n)
 {
     size_t kept = 0;
@@ -165,8 +167,8 @@ static size_t thin_out(pin *pins, size_t n)
     return kept;
 }
 
-/* How much of arc length is blended in between pins that are w apart on both sides: where these are
- * very unlike, more, as half of it goes along each side. */
+/* The weight of arc length between two pins that are w apart on both sides. It is larger if the two
+ * distances are very different, because half of it goes along each side. */
 static double share_of_arc(const double *w)
 {
     const double ratio = w[0] < w[1] ? w[0] / w[1] : w[1] / w[0];
@@ -174,7 +176,7 @@ static double share_of_arc(const double *w)
     return least < arc_share ? arc_share : least < 1 ? least : 1;
 }
 
-/* Knots between two pins, which keep away from them, with arc length blended in. */
+/* Makes the knots between two pins. They keep away from the pins, and arc length is blended in. */
 static void blend(iccp_pairing_knots *out, const iccp_pairing_knots *from, const double *p,
                   const double *q)
 {
@@ -201,7 +203,7 @@ static void blend(iccp_pairing_knots *out, const iccp_pairing_knots *from, const
         }
 }
 
-/* All pins in order: landmarks among them, where the pairing has them. */
+/* Collects all pins in order, with the landmarks among them. */
 static size_t collect(pin *pins, size_t n, const iccp_pairing_knots *knots, size_t n_landmarks,
                       const double *landmarks)
 {

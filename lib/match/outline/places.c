@@ -1,3 +1,4 @@
+/* Places of an outline that may be paired, their chords, and the bends of a pairing. */
 #include "match/outline/places.h"
 
 #include "match/outline/descriptor.h"
@@ -5,7 +6,7 @@
 
 #include <math.h>
 
-/* Of bends; the least is its inverse. */
+/* The largest slope of a bend. The least one is its inverse. */
 static const double most_slope = 16;
 
 icc_status iccp_places_create(iccp_places *places, const iccp_outline *outline,
@@ -30,7 +31,7 @@ void iccp_places_free(iccp_places *places, const iccp_memory *memory)
     iccp_free(memory, places->chord[0][0]);
 }
 
-/* How many vertices come before a share, counted through all turns. */
+/* The number of vertices before a share, counted through all turns. */
 static int64_t count_before(const iccp_outline *outline, double share)
 {
     double along;
@@ -38,7 +39,7 @@ static int64_t count_before(const iccp_outline *outline, double share)
     return (int64_t)floor(share) * (int64_t)outline->n + (int64_t)edge + 1;
 }
 
-/* The share of a vertex counted so. */
+/* The share of a vertex that is counted in this way. */
 static double share_of(const iccp_outline *outline, int64_t count)
 {
     const int64_t n = (int64_t)outline->n, turns = count >= 0 ? count / n : -((n - 1 - count) / n);
@@ -51,8 +52,8 @@ static void add(iccp_places *places, double share)
         places->share[places->n++] = share;
 }
 
-/* Places on an edge for vertices that it is paired with: every second one between the first and the
- * last, and those that are far from the ends. */
+/* Adds places on an edge that is paired with several vertices: for every second vertex between the
+ * first and the last, and for those far from both ends. */
 static void add_between(iccp_places *places, const iccp_outline *other,
                         const iccp_pairing_knots *knots, double from, double to)
 {

@@ -1,3 +1,4 @@
+/* Pairs two outlines by all ways in turn, then makes their vertices common. */
 #include "match/outline/ring_pairing.h"
 
 #include "base/error.h"
@@ -14,7 +15,7 @@ double iccp_least_sure(const icc_match_options *options)
     return options->least_sure > 0 ? options->least_sure : iccp_clearly_better;
 }
 
-/* Knots that go by arc length between landmarks, or from a start. */
+/* Makes knots by arc length between landmarks, or from a start. */
 static void find_by_arc(iccp_pairing_knots *knots, size_t n, const double *landmarks,
                         const iccp_outline *source, const iccp_outline *target)
 {
@@ -35,8 +36,8 @@ static icc_status refuse(const iccp_elastic_report *report, double sure, icc_err
                      report->sure, sure, remedy);
 }
 
-/* The common vertices of two outlines with a pairing; an elastic one has corners and vertices that
- * are still to be paired with one another, unless they turn out to correspond as they are. */
+/* Makes the common vertices of two outlines that have a pairing. Before that, an elastic pairing
+ * gets its corners and vertices paired, unless the vertices turn out to correspond already. */
 static icc_status finish(iccp_union_outline *common, iccp_pairing_knots *knots, bool is_elastic,
                          const iccp_outline *source, const iccp_outline *target, size_t n,
                          const double *landmarks, const icc_match_options *options,

@@ -1,6 +1,6 @@
-/* The union of the vertices of two outlines. Near ones join, else an edge of the one would be cut
- * as close to its end as rounding; the pairing is bent to pass through those that do, and all
- * others follow it, so that their order stays. */
+/* Makes the union of the vertices of two outlines. Vertices that lie close to each other are
+ * joined. Otherwise an edge of one outline would be cut very close to its end. The pairing is bent
+ * to pass through the joined vertices, and all other vertices follow it, so their order is kept. */
 #include "match/outline/union_outline.h"
 
 #include "base/sort.h"
@@ -14,7 +14,7 @@
 /* Rounds in which joins are undone one by one. */
 enum { SINGLE_ROUNDS = 8 };
 
-/* Knots keep away from joined vertices by so much of the perimeter. */
+/* Knots keep this distance from joined vertices, as a share of the perimeter. */
 static const double clear = 1e-7;
 
 static bool is_before(const void *context, uint32_t a, uint32_t b)
@@ -57,7 +57,7 @@ static icc_status reserve(iccp_merge_order *w, size_t n_knots, size_t n_landmark
     return ICC_OK;
 }
 
-/* Cuts the pairing open in the middle of its first piece, and the outlines with it. */
+/* Cuts the pairing and the outlines open in the middle of the pairing's first piece. */
 static void open(iccp_merge_order *w, const iccp_pairing_knots *knots)
 {
     const double *const k = knots->knot;
@@ -84,8 +84,8 @@ static void open(iccp_merge_order *w, const iccp_pairing_knots *knots)
     }
 }
 
-/* The pairing through all joins: between two of them it is stretched along the target, but for
- * knots that lie next to one. */
+/* Bends the pairing through all joins. Between two joins it is stretched along the target. Knots
+ * next to a join are dropped. */
 static void bend(iccp_merge_order *w)
 {
     double *last = w->bent;
@@ -109,7 +109,7 @@ static void bend(iccp_merge_order *w)
     w->n_bent = (size_t)(last - w->bent) / 2 + 1;
 }
 
-/* All vertices, in order. */
+/* Lists all vertices in order. */
 static void line_up(iccp_merge_order *w)
 {
     memset(w->is_joined, 0, w->n[0] + w->n[1]);
@@ -136,7 +136,8 @@ static void line_up(iccp_merge_order *w)
     iccp_sort(w->event, w->n_events, sizeof *w->event, iccp_event_by_source);
 }
 
-/* How much longer the edge from event k is in the target. */
+/* The stretch of the edge from event k: its length in the target divided by its length in the
+ * source. */
 static double slope(const iccp_merge_order *w, size_t k)
 {
     const iccp_event *const p = &w->event[k], *const q = &w->event[(k + 1) % w->n_events];
@@ -144,7 +145,7 @@ static double slope(const iccp_merge_order *w, size_t k)
     return (q->at[1] + turn - p->at[1]) / (q->at[0] + turn - p->at[0]);
 }
 
-/* Forgets the knots at joins that are undone, which would hold their vertices together. */
+/* Drops the knots at joins that are undone, because they would hold the vertices together. */
 static void forget(iccp_merge_order *w)
 {
     size_t n = 1, knot = 1;
@@ -162,7 +163,7 @@ static void forget(iccp_merge_order *w)
     w->n_knots -= knot - n;
 }
 
-/* Marks the joins within `reach` events of event k as undone; whether there were any. */
+/* Undoes the joins within `reach` events of event k. Returns true if there were any. */
 static bool undo_around(iccp_merge_order *w, size_t k, size_t reach)
 {
     bool has_any = false;
@@ -175,8 +176,8 @@ static bool undo_around(iccp_merge_order *w, size_t k, size_t reach)
     return has_any;
 }
 
-/* Takes joins apart at edges that they stretch too much: the worse of the two at such an edge, or
- * all within `reach` events of it; whether there were any. */
+/* Undoes joins at edges that they stretch too much. At first that is the worse of the two joins at
+ * such an edge, later all joins within `reach` events. Returns true if there were any. */
 static bool relent(iccp_merge_order *w, size_t reach)
 {
     bool has_any = false;
@@ -204,8 +205,8 @@ static bool relent(iccp_merge_order *w, size_t reach)
     return has_any;
 }
 
-/* Joins, and takes them apart again until no edge is stretched too much for them: first one by one,
- * then more and more round such an edge, so that the rounds are as few as binary digits. */
+/* Joins vertices and undoes joins until none stretches an edge too much. Joins are undone one by
+ * one at first, then in a growing range, so the number of rounds is logarithmic. */
 static void merge(iccp_merge_order *w)
 {
     bend(w);

@@ -1,9 +1,9 @@
-/* Elastic matching at the scale of single edges: of all pairings near a given one that take
- * vertices to vertices, linear between, the one with the least elastic energy (A. Srivastava et
- * al., Shape analysis of elastic curves in Euclidean spaces, 2011), in which chords between the
- * vertices stand for the outlines. So vertices along straight edges may stay alone, while a corner
- * that does costs what it turns. Directions are compared after the rotation that the given pairing
- * has round there. */
+/* Elastic matching at the scale of single edges. Among all pairings close to a given one that take
+ * vertices to vertices and are linear between them, it finds the one with the least elastic energy
+ * (A. Srivastava et al., Shape analysis of elastic curves in Euclidean spaces, 2011). Chords
+ * between the vertices stand for the outlines. So a vertex on a straight edge may stay alone, but a
+ * corner that stays alone costs its turn. Directions are compared after the local rotation of the
+ * given pairing. */
 #include "match/outline/vertices.h"
 
 #include "match/outline/pins.h"
@@ -12,33 +12,34 @@
 #include <math.h>
 #include <string.h>
 
-/* How far a pairing may lie from the given one, in places: between these, and for all vertices of
- * one side together no more than PAIRS. */
+/* Limits of how far a pairing may lie from the given one, in places. For all vertices of one side
+ * together the limit is PAIRS. */
 enum { LEAST_BAND = 64, MOST_BAND = 192, PAIRS = 1000000 };
 enum { MOST_WIDTH = 2 * MOST_BAND + 1, BASE = ICCP_CHORD + 1 };
 
-/* Outlines with fewer vertices have edges of many samples, which the given pairing has resolved. */
+/* Outlines with fewer vertices have edges of many samples, so the given pairing is fine enough. */
 enum { LEAST_VERTICES = ICCP_MATCH_SAMPLES / 8 };
 
-/* Where vertices are closer than samples, the directions round them are better known after a first
- * time, and what was out of the band's reach may be in it. */
+/* If vertices are closer than samples, a first pass improves the local directions. The second pass
+ * may reach pairs that were outside the band. */
 enum { PASSES = 2 };
 
-/* What stretching costs by what turning does; and how many times more or less than round there an
- * edge may be stretched, first and where there is no other way, as roots. */
+/* stiffness: the cost of stretch relative to turns. Limits: roots of the factor by which an edge
+ * may be stretched more or less than its surroundings. The last limit is used if the first finds no
+ * path. */
 static const float stiffness = 1, first_limit = 2, last_limit = 4;
 
-/* Share of the perimeter on each side of a place in which a pair to begin with is looked for. */
+/* A first pair is searched within this share of the perimeter on each side of a place. */
 static const double around = 1.0 / 16;
 
 typedef struct search {
     const iccp_outline *outline[2];
-    const iccp_pairing_knots *knots; /* as given */
+    const iccp_pairing_knots *knots; /* the given ones */
     iccp_pairing_knots inverse, out;
     iccp_bend bends[ICCP_BENDS];
     iccp_places places[2];
     size_t *low; /* the first column of each row, */
-    size_t *end; /* and the one behind the last */
+    size_t *end; /* and the one after the last */
     size_t band, width;
     float best[BASE][MOST_WIDTH];
     int32_t step[MOST_WIDTH];
@@ -95,7 +96,7 @@ static search *prepare(const iccp_pairing_knots *knots, const iccp_outline *sour
     return s;
 }
 
-/* The band: the columns near a row's image, of which there may be none. */
+/* Sets the band: the columns close to a row's image. There may be none. */
 static void place_band(search *s)
 {
     const iccp_places *const a = &s->places[0], *const b = &s->places[1];
@@ -141,7 +142,8 @@ static void offer(search *s, size_t i, size_t p, size_t q, float limit)
     }
 }
 
-/* Takes the greatest of row i from all rows that are kept: single steps must not drown in sums. */
+/* Subtracts the greatest value of row i from all rows kept, so that single steps are not lost in
+ * large sums. */
 static void lower(search *s, size_t i)
 {
     float most = -HUGE_VALF;
@@ -152,7 +154,7 @@ static void lower(search *s, size_t i)
             s->best[row][k] -= most;
 }
 
-/* The best path from end to end with limited slopes; whether there is one. */
+/* Finds the best path from end to end with limited slopes. Returns false if there is none. */
 static bool find_path(search *s, float limit)
 {
     const size_t n = s->places[0].n, m = s->places[1].n;
@@ -174,7 +176,7 @@ static bool find_path(search *s, float limit)
     return s->best[(n - 1) % BASE][m - 1 - s->low[n - 1]] > -HUGE_VALF;
 }
 
-/* Appends the path's pairs, but for the last. */
+/* Appends the path's pairs, except the last. */
 static void read_path(search *s)
 {
     double *const out = s->out.knot + 2 * s->out.n;
@@ -195,7 +197,7 @@ static void read_path(search *s)
     s->out.n += n;
 }
 
-/* Appends the knots as they were, but for the last. */
+/* Appends the knots as they were, except the last. */
 static void copy_knots(search *s, const double *from, const double *to)
 {
     double *last = s->out.knot + 2 * s->out.n++;
@@ -211,7 +213,7 @@ static void copy_knots(search *s, const double *from, const double *to)
         }
 }
 
-/* Between two pairs of shares. */
+/* Finds the pairs between two given pairs of shares. */
 static void pair_between(search *s, const double *from, const double *to)
 {
     for (size_t e = 0; e < 2; ++e) {
@@ -229,8 +231,7 @@ static void pair_between(search *s, const double *from, const double *to)
         copy_knots(s, from, to);
 }
 
-/* A pair to begin with where there is no landmark: the one of the first knot's surroundings that is
- * nearest to it. */
+/* Finds a first pair if there is no landmark: the closest one around the first knot. */
 static void find_first(search *s, double *first)
 {
     const double share = s->knots->knot[0], from = share - around, to = share + around;

@@ -1,5 +1,6 @@
-/* Where one side of a limb is paired some way along the other's, each side may look as alike as in
- * the right pairing; but what was opposite is not any more. */
+/* Measures how evenly a pairing changes an outline's widths. If one side of a limb is paired with a
+ * shifted part of the other outline, each side may look as similar as in the right pairing. But
+ * opposite points then no longer correspond. */
 #include "match/outline/widths.h"
 
 #include "math/elementary.h"
@@ -9,10 +10,10 @@
 
 enum { N = ICCP_MATCH_SAMPLES, BESIDE = 4 };
 
-/* What is opposite lies within 45 degrees of the normal: the cosine, squared. */
+/* An opposite point lies within 45 degrees of the normal: the squared cosine. */
 static const double least_cosine2 = .5;
 
-/* The nearest of the samples that lie inside, about along the normal, and are not beside it. */
+/* Finds the nearest sample that lies inside, roughly along the normal, and not beside sample k. */
 static int32_t find_across(double (*point)[2], int32_t k)
 {
     const double *const p = point[k], *const before = point[(k + N - 1) % N],
@@ -44,7 +45,7 @@ void iccp_widths_measure(iccp_widths *w, const iccp_outline *source, const iccp_
     }
 }
 
-/* Between samples. */
+/* A point between two samples. */
 static void point_at(double out[2], const iccp_widths *w, int side, double at)
 {
     const double whole = floor(at), f = at - whole;
@@ -53,7 +54,7 @@ static void point_at(double out[2], const iccp_widths *w, int side, double at)
         out[e] = (1 - f) * w->point[side][k][e] + f * w->point[side][(k + 1) % N][e];
 }
 
-/* Where the source's samples have to be for the target's to be paired with them. */
+/* Inverts a pairing: finds the source's places that are paired with the target's samples. */
 static void invert(float *back, const float *place)
 {
     for (int k = 0; k < N; ++k) {
