@@ -1,7 +1,8 @@
-/* Vertices are lifted off the surface one after the other: a vertex becomes a point from which all
- * its tetrahedra and all its faces are seen, and the cones from there over these faces fill the
- * gap. Below a face that leaves three, of which the vertex that was first has one corner, the last
- * three: a prism. Every step is exactly positive. */
+/* Lifts the vertices off the surface one after the other. A vertex moves to a point that sees all
+ * its tetrahedra and all its faces. Cones from there over these faces fill the gap. In the end
+ * there are three tetrahedra below each face. The vertex lifted first has a corner in one of them,
+ * and the vertex lifted last in all three. Together they are a prism. Every step is positive,
+ * exactly. */
 #include "map/solid/coat.h"
 
 #include "fill/tets.h"
@@ -9,20 +10,20 @@
 
 #include <string.h>
 
-/* How far to the middle of where a vertex may go. */
+/* How far a vertex is lifted towards the middle of its room, as a share. */
 static const double DEPTH = 0.5;
 
 typedef struct lifter {
     iccp_tets mesh; /* points below vertices come last */
     iccp_halfspaces room;
-    size_t n_points, n_boundary; /* at first */
+    size_t n_points, n_boundary; /* before lifting */
     uint32_t *below;
     size_t n_below;
 } lifter;
 
 /* ---- lifting ---- */
 
-/* The side of a face of a tetrahedron on which the others of its points are. */
+/* Adds the half-space on the inner side of a face of a tetrahedron. */
 static bool add_room(lifter *l, const iccp_tet *tet, int side)
 {
     const uint8_t *f = iccp_tet_face[side];
@@ -35,7 +36,7 @@ static bool add_room(lifter *l, const iccp_tet *tet, int side)
                                iccp_point(p, tet->v[f[2]]));
 }
 
-/* Where vertex v, whose star is in l->mesh.star, may go. */
+/* Finds a place for vertex v, whose star is in l->mesh.star. */
 static bool find_place(lifter *l, uint32_t v, double *x)
 {
     iccp_tets *m = &l->mesh;
@@ -56,7 +57,7 @@ static bool find_place(lifter *l, uint32_t v, double *x)
     return true;
 }
 
-/* What the star of v becomes when v is lifted to a point, in m->cavity. */
+/* Lists the star of v after v is lifted to a point, in m->cavity. */
 static bool list_lifted(iccp_tets *m, uint32_t v, uint32_t point)
 {
     m->cavity.n = 0;
@@ -93,7 +94,7 @@ static void lift(lifter *l, uint32_t v)
         iccp_tets_drop_point(m);
 }
 
-/* ---- what is inside, and what is not ---- */
+/* ---- core and coat ---- */
 
 static bool is_lifted(const lifter *l, uint32_t point)
 {
@@ -124,8 +125,8 @@ static icc_status alloc_core(const lifter *l, size_t n_tets, iccp_coat *coat)
                                                                                  : ICC_ERR_MEMORY;
 }
 
-/* number: of each tetrahedron, among those of the core or those of the coat; vertex: of each point
- * below one. */
+/* `number`: of each tetrahedron, among those of the core or of the coat. `vertex`: of each point
+ * below a vertex. */
 static void fill_core(const lifter *l, const uint32_t *number, const uint32_t *vertex,
                       iccp_simplices *core)
 {

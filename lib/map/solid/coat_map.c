@@ -1,8 +1,8 @@
-/* A body in a coat comes onto whatever the apex sees: the core onto a ball inside, where every
- * point is in the direction of that of the target. Between two points in each direction, one on the
- * ball and one further out, the prisms of the coat are positive wherever the cone over their face
- * is: that over directions a, b, c has tetrahedra of volumes that are det(a, b, c) times lengths.
- * Hence what is hard about the target, flat faces and dents, does not matter to what is inside. */
+/* Maps a solid with a coat onto a star-shaped region. The core goes onto a ball inside, and each
+ * point's image keeps its direction from the apex. In each direction there is a point on the ball
+ * and one farther out. A prism of the coat is positive if the cone over its face is: over
+ * directions a, b, c its tetrahedra have volumes of det(a, b, c) times lengths. So flat faces and
+ * dents of the target do not affect the inside. */
 #include "map/solid/coat_map.h"
 
 #include "base/minmax.h"
@@ -13,17 +13,17 @@
 
 #include <string.h>
 
-/* Of the distance of the nearest vertex: the ball's radius. */
+/* The ball's radius, as a share of the distance of the nearest vertex. */
 static const double INSIDE = 0.8;
 
-/* Over all images, in the end. */
+/* Final sweeps over all images. */
 enum { LAST_SWEEPS = 10 };
 
-/* Both meshes with their images: the core's, and that with its coat, where points below vertices
+/* Two meshes with images: the core's, and the one with the coat, in which points below vertices
  * come last. */
 typedef struct dress {
     const iccp_coat *coat;
-    const double *images; /* of the core, about the origin */
+    const double *images; /* of the core, around the origin */
     const double *boundary, *apex;
     iccp_simplices *mesh;
     double *out;
@@ -65,7 +65,7 @@ static void join_corners(const dress *d)
     }
 }
 
-/* The ball's radius, in terms of that of the images. */
+/* The ball's radius, in terms of the radius of the images. */
 static double find_scale(const dress *d)
 {
     double least = HUGE_VAL, most = 0;
@@ -76,7 +76,7 @@ static double find_scale(const dress *d)
     return INSIDE * least / most;
 }
 
-/* Vertices with nothing below are on the ball for now. */
+/* Vertices without a point below stay on the ball for now. */
 static void place_points(const dress *d, const double *vertices)
 {
     const iccp_coat *coat = d->coat;
@@ -97,7 +97,7 @@ static void place_points(const dress *d, const double *vertices)
     }
 }
 
-/* Raises the vertices with nothing below; then all images move to where there is room. */
+/* Raises the vertices without a point below, then moves all images to where there is room. */
 static icc_status finish(dress *d, bool *done, const iccp_env *env)
 {
     iccp_cone cone;

@@ -1,10 +1,12 @@
-/* The edges from a vertex to the points below it are cut, in the image where a plane across its
- * direction meets them: what was its star has a flat bottom then, which it sees from wherever it is
- * raised to. How far down the plane may be is tried: volumes are linear in the height, and next to
- * the vertex those of cells with a cut edge are positive at both ends. Where a neighbour has
- * nothing below either, the plane has to contain the edge between the two: from far away, that is
- * as a point without a cut edge, the neighbour sees the bottom in the order in which the vertex saw
- * it round the edge. */
+/* Cuts the edges from a vertex to the points below it where, in the image, a plane across its
+ * direction meets them. Then the vertex's star has a flat bottom, which it sees from wherever it is
+ * raised to.
+ *
+ * The depth of the plane is found by trial. Volumes are linear in the height, and next to the
+ * vertex the cells with a cut edge are positive at both ends. If a neighbour has no point below
+ * either, the plane must contain the edge to it. Seen from far away, the neighbour is a point
+ * without a cut edge. It then sees the bottom in the order in which the vertex saw it around the
+ * edge. */
 #include "map/solid/coat_raise.h"
 
 #include "base/minmax.h"
@@ -13,17 +15,18 @@
 
 #include <string.h>
 
-/* How often the plane is lowered to half of its depth, and images are sunk by half of the way; how
- * often all of them are sunk. */
+/* MOST_TRIES: how often the plane's depth is halved, and how often the way of a sinking image is
+ * halved. MOST_ROUNDS: how often all images are sunk. */
 enum { MOST_TRIES = 30, MOST_ROUNDS = 8 };
 
-/* Sines of angles below the plane. */
+/* Smallest sine of an angle below the plane. */
 static const double FLAT = 0.02;
 
-/* Between the first and the last point round an edge. */
+/* Largest angle, in turns, between the first and the last point around an edge. */
 static const double MOST_TURNS = 0.49999;
 
-/* The points of its star, once each: those inside, and those vertices that have nothing below. */
+/* Lists the points of a vertex's star once: those inside, and the vertices without a point
+ * below. */
 static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex, iccp_list *inside,
                       iccp_list *beside)
 {
@@ -45,7 +48,7 @@ static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex,
     return true;
 }
 
-/* Cuts an edge in the middle; the image of the new point is in the middle, too. */
+/* Cuts an edge in the middle, before and after the map. */
 static bool cut(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *point)
 {
     iccp_tets *m = &cone->mesh;
@@ -62,7 +65,7 @@ static bool cut(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *point)
     return true;
 }
 
-/* Of the image of a point, how far it is below that of the vertex. */
+/* How far the image of a point lies below that of the vertex. */
 static double depth_of(const iccp_cone *cone, uint32_t point, const double *from,
                        const double *direction)
 {
@@ -73,7 +76,7 @@ static double depth_of(const iccp_cone *cone, uint32_t point, const double *from
     return sum;
 }
 
-/* Cuts the edges to points, which become the new ones. */
+/* Cuts the edges to the points, which are replaced by the new points. */
 static bool cut_all(iccp_cone *cone, uint32_t vertex, iccp_list *inside)
 {
     for (size_t k = 0; k < inside->n; ++k)
@@ -97,7 +100,7 @@ static void lower_plane(iccp_cone *cone, const double *from, const double *direc
     }
 }
 
-/* All cells that raising changes. */
+/* Tests all cells that are changed by raising. */
 static bool is_good(iccp_cone *cone, uint32_t vertex, const iccp_list *inside)
 {
     bool good = iccp_cone_is_star_good(cone, vertex);
@@ -114,7 +117,7 @@ static bool normalize(double *d)
     return length > 0;
 }
 
-/* Takes what is along the axes out of a vector. */
+/* Removes from a vector its parts along the axes. */
 static void reject(double *d, size_t n, double axis[2][3])
 {
     for (size_t j = 0; j < n; ++j) {
@@ -124,9 +127,9 @@ static void reject(double *d, size_t n, double axis[2][3])
     }
 }
 
-/* A normal of the plane that contains the directions of those beside, two at most, and has the
- * points inside below: of one there are many, and this is the middle one. False where there is
- * none; the normal is next to the way up then. */
+/* Finds a normal of a plane that contains the directions in `beside`, two at most, and has the
+ * inner points below it. If there are many, it takes the middle one. Returns false if there is
+ * none; then the normal is the one closest to `up`. */
 static bool tilt(const iccp_cone *cone, const double *from, const double *up,
                  const iccp_list *inside, const iccp_list *beside, double *normal)
 {
@@ -165,7 +168,8 @@ static bool tilt(const iccp_cone *cone, const double *from, const double *up,
     return true;
 }
 
-/* With planes across a direction, one after the other. False: the vertex is where it was. */
+/* Tries planes across a direction, one after the other. If it returns false, the vertex has not
+ * moved. */
 static bool raise_from(iccp_cone *cone, uint32_t vertex, const double *direction,
                        const double place[3], const iccp_list *inside)
 {
@@ -185,8 +189,8 @@ static bool raise_from(iccp_cone *cone, uint32_t vertex, const double *direction
     return false;
 }
 
-/* Moves the images of those points inside down that a plane across `normal` would not have below
- * the vertex, as far as their stars allow. */
+/* Sinks the images of inner points that would not lie below a plane across `normal`, as far as
+ * their stars allow. */
 static void sink(iccp_cone *cone, const double *from, const double *normal, const iccp_list *inside)
 {
     for (size_t k = 0; k < inside->n; ++k) {
@@ -207,7 +211,7 @@ static void sink(iccp_cone *cone, const double *from, const double *normal, cons
     }
 }
 
-/* Straight up if that is possible, else with a tilted plane. */
+/* Raises the vertex with a plane straight across if possible, else with a tilted one. */
 static bool raise(iccp_cone *cone, uint32_t vertex, const double *apex, const double *place,
                   iccp_list *inside, const iccp_list *beside)
 {

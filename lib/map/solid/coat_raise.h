@@ -1,12 +1,12 @@
-/* Vertices that have no point below: their images are raised from the ball to the target. */
+/* Raises the images of vertices without a point below, from the ball to the target. */
 #ifndef ICCP_COAT_RAISE_H
 #define ICCP_COAT_RAISE_H
 
 #include "map/solid/coat.h"
 #include "map/solid/cone.h"
 
-/* Moves the image of a vertex of the boundary, away from the apex, to a place in its direction; all
- * tetrahedra have to be in place. False where that is not possible; the mesh may be finer then. */
+/* Moves the image of a boundary vertex away from the apex to a place in its direction. All
+ * tetrahedra must be in place. Returns false if this is impossible; the mesh may be finer then. */
 bool iccp_coat_raise(iccp_cone *cone, const uint32_t *below, uint32_t vertex, const double apex[3],
                      const double place[3]);
 

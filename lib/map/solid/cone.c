@@ -1,12 +1,12 @@
-/* Cells are asked by predicates alone, whatever they are: tetrahedra in place, and cones over faces
- * of the front. */
+/* Every question about a cell is answered by exact predicates. A cell is either a tetrahedron in
+ * place or a cone over a face of the front. */
 #include "map/solid/cone.h"
 
 #include "map/energy/simplicial_map.h"
 
 #include <string.h>
 
-/* In place of a corner: no side is the cone's. */
+/* Stands for a corner if no side belongs to a cone. */
 enum { NO_SIDE = 4 };
 
 bool iccp_cone_reserve(iccp_cone *cone)
@@ -157,7 +157,7 @@ void iccp_cone_take_out(iccp_cone *cone, uint32_t tet)
     ++cone->n_left;
 }
 
-/* ---- cells: a tetrahedron, of which corner `side` is the apex, or none ---- */
+/* ---- cells: a tetrahedron whose corner `side` is the apex, or none is ---- */
 
 static const double *corner_of(const iccp_cone *cone, uint32_t tet, int side, int k)
 {
@@ -181,10 +181,11 @@ bool iccp_cone_is_good(const iccp_cone *cone, uint32_t tet)
     return good;
 }
 
-/* What is asked of the cells at a point: `corner` is where it is in them. */
+/* A question about a cell at a point. `corner` is the point's place in the cell. */
 typedef bool (*cell_question)(iccp_cone *cone, uint32_t tet, int side, int corner);
 
-/* Whether it holds of all: of tetrahedra in place, and of cones over faces of the front. */
+/* Returns true if the answer is yes for all cells at a point: tetrahedra in place, and cones over
+ * faces of the front. */
 static bool ask_star(iccp_cone *cone, uint32_t point, cell_question question)
 {
     iccp_tets *m = &cone->mesh;
@@ -212,7 +213,7 @@ bool iccp_cone_is_star_good(iccp_cone *cone, uint32_t point)
     return ask_star(cone, point, ask_positive);
 }
 
-/* The side of the face opposite on which the point has to be. */
+/* Adds the half-space on the point's side of the opposite face. */
 static bool add_room(iccp_cone *cone, uint32_t tet, int side, int corner)
 {
     const uint8_t *f = iccp_tet_face[corner];

@@ -1,8 +1,9 @@
-/* docs/theory.md, the mesh map in space. V. Nigolian, M. Campen, D. Bommes, Expansion Cones: A
- * Progressive Volumetric Mapping Framework, 2023, begin with all inner vertices in one point, too,
- * and move one after the other out of it. Here it is tetrahedra that come out of it, one after the
- * other, in an order of M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations,
- * 2016, backwards: from the ends of limbs to the middle. */
+/* Maps a ball onto a star-shaped region by putting one tetrahedron after the other into place:
+ * docs/theory.md, the mesh map in space. V. Nigolian, M. Campen, D. Bommes, Expansion Cones: A
+ * Progressive Volumetric Mapping Framework, 2023, also begin with all inner vertices in one point,
+ * and move one vertex after the other out of it. Here tetrahedra come out of it one after the
+ * other. Their order reverses that of M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial
+ * Foliations, 2016: from the ends of limbs to the middle. */
 #include "map/solid/cone_map.h"
 
 #include "base/heap.h"
@@ -11,30 +12,31 @@
 
 #include <string.h>
 
-/* Of the number of tetrahedra; and of work, that is tetrahedra tried and images moved in passes,
- * for each of the first ones. Bodies with limbs onto spheres and cubes grew by up to a half, and
- * took 40 to 460, the larger the more. */
+/* MOST_GROWTH: limit on the number of tetrahedra, as a multiple of the first number. MOST_WORK:
+ * limit on the work for each tetrahedron at first, counted in tetrahedra tried and images moved.
+ * Solids with limbs grew by up to a half on spheres and cubes. They took 40 to 460 units of work,
+ * larger ones more. */
 enum { MOST_GROWTH = 4, MOST_WORK = 1000 };
 
-/* Sweeps over all images in the end; Newton's steps for the points that a tetrahedron in place has;
- * work between two reports. */
+/* LAST_SWEEPS: final sweeps over all images. STEPS: Newton steps for the points of a tetrahedron in
+ * place. REPORT: work between two progress reports. */
 enum { LAST_SWEEPS = 10, STEPS = 2, REPORT = 1024 };
 
 typedef struct job {
     iccp_cone cone;
     double *far; /* of each point: its distance from the middle, along edges */
     size_t room;
-    iccp_heap ready, next; /* tetrahedra to be tried in this pass, and in the next one: so that the
-                              front moves everywhere, not at the ends of limbs alone */
+    iccp_heap ready, next; /* tetrahedra to try in this pass and in the next one; so the front
+                              moves everywhere, not only at the ends of limbs */
     iccp_heap blocked;
-    size_t n_first, most;  /* tetrahedra at first, and at most */
-    size_t work, reported; /* so far, and when there was a report last */
+    size_t n_first, most;  /* tetrahedra at first, and the limit */
+    size_t work, reported; /* until now, and at the last report */
     size_t n_placed;       /* in this pass */
 } job;
 
 /* ---- order ---- */
 
-/* Distances along edges from the points whose distance is 0. O(n log n). */
+/* Finds the distances along edges from all points whose distance is 0. O(n log n). */
 static icc_status find_distances(iccp_tets *m, double *far, const iccp_memory *memory)
 {
     iccp_heap heap;
@@ -61,7 +63,7 @@ static icc_status find_distances(iccp_tets *m, double *far, const iccp_memory *m
     return status;
 }
 
-/* The point that is deepest inside is the middle. */
+/* Takes the point deepest inside as the middle. */
 static icc_status find_order(job *j, const iccp_memory *memory)
 {
     iccp_tets *m = &j->cone.mesh;
@@ -77,7 +79,7 @@ static icc_status find_order(job *j, const iccp_memory *memory)
     return status == ICC_OK ? find_distances(m, j->far, memory) : status;
 }
 
-/* Four times the mean distance of its corners. */
+/* Four times the mean distance of the corners. */
 static double distance_of(const job *j, uint32_t tet)
 {
     const uint32_t *v = j->cone.mesh.tet[tet].v;
@@ -92,7 +94,8 @@ static void put_next(job *j, uint32_t tet)
         iccp_heap_put(&j->next, tet, -distance_of(j, tet));
 }
 
-/* What may have become possible by a change at a point. */
+/* Queues the tetrahedra at a point for the next pass, because a change there may have made them
+ * possible. */
 static void put_star_next(job *j, uint32_t point)
 {
     iccp_tets *m = &j->cone.mesh;
@@ -101,9 +104,10 @@ static void put_star_next(job *j, uint32_t point)
             put_next(j, m->star.item[s]);
 }
 
-/* ---- one after the other ---- */
+/* ---- steps ---- */
 
-/* The first tetrahedron by the order is tried; what it changes makes others worth a try again. */
+/* Tries the first tetrahedron in the order. If it is placed, the tetrahedra that this affects are
+ * tried again. */
 static void try_next(job *j)
 {
     iccp_cone *cone = &j->cone;
@@ -120,7 +124,7 @@ static void try_next(job *j)
     }
 }
 
-/* For a point more. */
+/* Makes room for another point. */
 static bool reserve(job *j)
 {
     iccp_tets *m = &j->cone.mesh;
@@ -134,7 +138,7 @@ static bool reserve(job *j)
     return true;
 }
 
-/* Splits the first one that is blocked. */
+/* Splits the first blocked tetrahedron. */
 static void split_next(job *j)
 {
     iccp_cone *cone = &j->cone;
@@ -160,8 +164,8 @@ static void split_next(job *j)
         put_star_next(j, point);
 }
 
-/* All images are smoothed, and what waits is tried, and what is blocked again; after a pass in vain
- * the first of these is split. */
+/* Begins a pass: smooths all images and queues waiting and blocked tetrahedra. If the last pass
+ * placed nothing, the first blocked one is split. */
 static void begin_pass(job *j)
 {
     const iccp_heap done = j->ready;
@@ -176,7 +180,7 @@ static void begin_pass(job *j)
     j->n_placed = 0;
 }
 
-/* After some work; also where there was no memory for it. */
+/* Reports progress after some work, and returns an error if memory ran out. */
 static icc_status report(job *j, const iccp_env *env)
 {
     const iccp_cone *cone = &j->cone;
@@ -188,7 +192,7 @@ static icc_status report(job *j, const iccp_env *env)
     return iccp_progress(env, "repair", 1 - (double)cone->n_left / (double)cone->mesh.n_alive);
 }
 
-/* Until all are in place, there is none to try, or it has been enough. */
+/* Runs until all tetrahedra are in place, none can be tried, or a limit is reached. */
 static icc_status run(job *j, const iccp_env *env)
 {
     iccp_cone *cone = &j->cone;

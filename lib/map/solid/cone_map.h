@@ -1,20 +1,21 @@
-/* Maps of a mesh in space onto a region that can be seen from one point inside. */
+/* Maps a mesh in space onto a star-shaped region: one that a point inside sees all of. */
 #ifndef ICCP_CONE_MAP_H
 #define ICCP_CONE_MAP_H
 
 #include "geometry/simplices.h"
 
-/* Where a point sees all of the boundary's image, with some room; false for *sees where none was
- * found. The mesh knows its neighbours. */
+/* Finds a point that sees all of the boundary's image, with some room. *sees is false if none was
+ * found. The mesh must know its neighbours. */
 icc_status iccp_cone_apex(bool *sees, double apex[3], const iccp_simplices *mesh,
                           const double *boundary, const iccp_env *env);
 
-/* Images of a mesh that fills a ball, 3 coordinates each: of the points of its boundary they are
- * given, those of the others are found such that every tetrahedron is positive, exactly. That may
- * take a mesh with more points inside: *out, which does not know its neighbours nor the caller's
- * numbers. Both are NULL, with ICC_OK, where no point sees all of the boundary's image, or no such
- * map was found: the mesh may have become MOST_GROWTH times as large, or no tetrahedron be left
- * that can be taken from what is left of the ball without its ceasing to be one. */
+/* Finds images, 3 coordinates each, for a mesh that fills a ball, so that every tetrahedron is
+ * positive, exactly. The images of boundary points are given. The mesh may need more points inside.
+ * So *out is a new mesh, which knows neither its neighbours nor the caller's numbers.
+ *
+ * Both results are NULL, with ICC_OK, if no point sees all of the boundary's image or if no such
+ * map was found. The search ends when the mesh is MOST_GROWTH times as large, or when no
+ * tetrahedron can be taken from the rest of the ball. */
 icc_status iccp_cone_map(iccp_simplices **out, double **images, const iccp_simplices *mesh,
                          const double *boundary, const iccp_env *env);
 

@@ -1,5 +1,5 @@
-/* Images, and the apex, move one by one, each in the polyhedron from which all its cells are seen:
- * map/solid/halfspaces.h. */
+/* Moves images and the apex one by one. Each stays in the polyhedron of points that see all its
+ * cells: map/solid/halfspaces.h. */
 #include "map/solid/cone.h"
 
 #include "map/energy/simplicial_map.h"
@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* Times that each corner is moved to make room for a tetrahedron; Newton's steps for the apex in
- * the beginning. */
+/* ROUNDS: how often each corner is moved to make room for a tetrahedron. APEX_STEPS: Newton steps
+ * for the apex at the start. */
 enum { ROUNDS = 3, APEX_STEPS = 100 };
 
 void iccp_cone_smooth(iccp_cone *cone, uint32_t point, size_t steps)
@@ -107,7 +107,7 @@ static void find_centroid(iccp_cone *cone)
         cone->apex[k] = sum[k] / volume;
 }
 
-/* From the centroid. */
+/* The search begins at the centroid. */
 bool iccp_cone_find_apex(iccp_cone *cone)
 {
     find_centroid(cone);

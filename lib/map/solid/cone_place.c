@@ -1,9 +1,9 @@
-/* A tetrahedron with one, two or three faces on the front comes in place by a flip of cells: one to
- * four, two to three, three to two (U. Pachner, P.L. homeomorphic manifolds are equivalent by
- * elementary shellings, 1991); the last one by four to one. */
+/* Puts a tetrahedron with one, two or three faces on the front into place by a flip of cells: one
+ * to four, two to three, three to two (U. Pachner, P.L. homeomorphic manifolds are equivalent by
+ * elementary shellings, 1991). The last tetrahedron is placed by a flip of four to one. */
 #include "map/solid/cone.h"
 
-/* The new point of a flip of one cell to four, in the middle of it. */
+/* Puts the new point of a flip of one cell to four in the cell's middle. */
 static void put_new(iccp_cone *cone, uint32_t tet, int corner)
 {
     const uint32_t *v = cone->mesh.tet[tet].v;
@@ -17,7 +17,7 @@ static void put_new(iccp_cone *cone, uint32_t tet, int corner)
     iccp_cone_put(cone, v[corner], x);
 }
 
-/* Whether all tetrahedra round an edge that is not on the boundary are left. */
+/* Returns true if all tetrahedra around an edge are left and the edge is not on the boundary. */
 static bool is_behind(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t tet)
 {
     iccp_tets *m = &cone->mesh;

@@ -1,16 +1,16 @@
-/* A flip of two cells to three needs a convex pair, one of three to two a vertex that is not sunk
- * in. Where images cannot be moved to make it so, the edge or the face that would come to the front
- * is cut by a point, in the mesh; that has an image just behind the edge or the point that leaves
- * the front, as seen from the apex, and then the pieces can be put into their places whatever the
- * front is like. */
+/* A flip of two cells to three needs a convex pair, and a flip of three to two needs a vertex that
+ * is not a dent. If moving images does not achieve this, the edge or face that would come to the
+ * front is cut by a new point. Its image lies just behind the edge or point that leaves the front,
+ * as seen from the apex. Then the pieces can be placed whatever the front looks like. */
 #include "map/solid/cone.h"
 
 #include <string.h>
 
-/* How far back, and how far from the edge to one side, shares of what there is. */
+/* How far the new point is put back, and to one side of the edge, as shares of the available
+ * room. */
 static const double BACK = 0.5, ASIDE = 0.25;
 
-/* How often that is tried, ever less far from the edge: down to a billionth or so. */
+/* How often this is tried, each time closer to the edge, down to about 1e-9. */
 enum { MOST_TRIES = 14 };
 
 static void between(const double *a, const double *b, double share, double *x)
@@ -19,7 +19,8 @@ static void between(const double *a, const double *b, double share, double *x)
         x[i] = a[i] + share * (b[i] - a[i]);
 }
 
-/* Cuts what n points span, in n_old tetrahedra that are left. False: nothing has changed. */
+/* Cuts the edge or face of n points in n_old tetrahedra that are left. If it returns false, nothing
+ * has changed. */
 static bool cut(iccp_cone *cone, int n, const uint32_t *ends, size_t n_old, const uint32_t *old,
                 uint32_t *point)
 {
@@ -30,7 +31,7 @@ static bool cut(iccp_cone *cone, int n, const uint32_t *ends, size_t n_old, cons
     return true;
 }
 
-/* Puts pieces into their places one after the other; all of them or none. */
+/* Puts all pieces into place one after the other, or none. */
 static bool place_all(iccp_cone *cone, int n, const uint32_t *piece)
 {
     int k = 0;
@@ -45,7 +46,7 @@ static bool place_all(iccp_cone *cone, int n, const uint32_t *piece)
     return false;
 }
 
-/* Those of mesh.fresh that have both points. */
+/* Finds the pieces in mesh.fresh that have both points. */
 static void find_pieces(const iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *piece)
 {
     const iccp_tets *m = &cone->mesh;
@@ -56,7 +57,7 @@ static void find_pieces(const iccp_cone *cone, uint32_t a, uint32_t b, uint32_t 
     }
 }
 
-/* The edge cd of a tetrahedron whose sides opposite c and d are on the front. */
+/* Splits the edge cd of a tetrahedron whose sides opposite c and d are on the front. */
 static bool split_edge(iccp_cone *cone, uint32_t tet, const int *side, uint32_t *point)
 {
     iccp_tets *m = &cone->mesh;
@@ -90,7 +91,7 @@ static bool split_edge(iccp_cone *cone, uint32_t tet, const int *side, uint32_t 
     return false;
 }
 
-/* The face opposite the only corner that is on all three sides of the front. */
+/* Splits the face opposite the only corner that all three sides on the front have. */
 static bool split_face(iccp_cone *cone, uint32_t tet, int corner, uint32_t *point)
 {
     iccp_tets *m = &cone->mesh;

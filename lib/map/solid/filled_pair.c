@@ -1,3 +1,4 @@
+/* Fills the surfaces of a pair of domains with tetrahedra. */
 #include "map/solid/filled_pair.h"
 
 #include "base/error.h"

@@ -1,8 +1,8 @@
-/* Inside at all: the place whose least distance is greatest, by gradient projection: J. Rosen, The
- * gradient projection method for nonlinear programming, part I, 1960. In the middle: steps of
- * Newton's method for the product of distances, damped as in Y. Nesterov, A. Nemirovskii,
- * Interior-Point Polynomial Algorithms in Convex Programming, 1994, which never leave the
- * half-spaces. */
+/* Two searches. To come inside: the place whose least distance is greatest, by gradient projection
+ * (J. Rosen, The gradient projection method for nonlinear programming, part I, 1960). To come to
+ * the middle: Newton's method for the product of distances, damped as in Y. Nesterov, A.
+ * Nemirovskii, Interior-Point Polynomial Algorithms in Convex Programming, 1994, whose steps never
+ * leave the half-spaces. */
 #include "map/solid/halfspaces.h"
 
 #include "base/minmax.h"
@@ -11,10 +11,10 @@
 #include <math.h>
 #include <string.h>
 
-/* In units of the decrement: where Newton's method counts as at the centre. */
+/* Newton's method has reached the centre if the decrement is below this. */
 static const double AT_CENTRE = 0.1;
 
-/* Of unit vectors: what is left of one that depends on others, but for rounding. */
+/* If this or less is left of a unit vector, it depends on the others up to rounding. */
 static const double DEPENDENT = 1e-13;
 
 enum { MOST_TURNS = 100, LAST_STEPS = 3 };
@@ -60,7 +60,7 @@ static double distance(const iccp_halfspace *half, const double *x)
     return iccp_vec_dot(3, half->normal, x) - half->offset;
 }
 
-/* s = g / h for a symmetric matrix; false if it is not positive. */
+/* Solves h s = g for a symmetric matrix. Returns false if it is not positive. */
 static bool solve(double h[3][3], const double *g, double *s)
 {
     double row[3][3];
@@ -72,8 +72,8 @@ static bool solve(double h[3][3], const double *g, double *s)
     return det > 0;
 }
 
-/* One step towards the greatest product of distances. `decrement`: how far from there it was. False
- * when there is none. */
+/* Does one step towards the greatest product of distances. `decrement` tells how far away that was.
+ * Returns false if there is no step. */
 static bool step(const iccp_halfspaces *h, double *x, double *decrement)
 {
     double g[3] = {0}, hessian[3][3] = {{0}}, s[3];
@@ -106,11 +106,11 @@ void iccp_halfspaces_centre(const iccp_halfspaces *h, size_t steps, double x[3])
         continue;
 }
 
-/* ---- where the least distance is greatest: a linear program for the place and that distance t,
- * four numbers z, with normal x - t >= offset ---- */
+/* ---- coming inside: a linear program for the place and its least distance t, four numbers z, with
+ * normal . x - t >= offset ---- */
 
-/* The half-spaces that are as far off as the nearest, and an orthonormal basis of what their rows
- * (normal, -1) span. */
+/* The half-spaces that are as close as the closest one, and an orthonormal basis of the span of
+ * their rows (normal, -1). */
 typedef struct active_set {
     size_t n, index[4];
     double basis[4][4], product[4][4]; /* of the basis and the rows: row j is the sum of
@@ -123,7 +123,8 @@ static void row_of(const iccp_halfspace *half, double *row)
     row[3] = -1;
 }
 
-/* Takes what lies in the basis out of a vector; twice, which leaves nothing but rounding. */
+/* Removes from a vector its part in the span of the basis. Does it twice, so that only rounding
+ * errors are left. */
 static double reduce(const active_set *set, size_t n, double *v, double *product)
 {
     for (size_t k = 0; k < n; ++k)
@@ -138,7 +139,7 @@ static double reduce(const active_set *set, size_t n, double *v, double *product
     return iccp_vec_norm(4, v);
 }
 
-/* Row j belongs to set->index[j]; those before are there. */
+/* Adds row j, which belongs to set->index[j]. The rows before it must be present. */
 static bool add_row(active_set *set, const iccp_halfspaces *h, size_t j)
 {
     double product[4], *b = set->basis[j];
@@ -152,8 +153,8 @@ static bool add_row(active_set *set, const iccp_halfspaces *h, size_t j)
     return length > DEPENDENT;
 }
 
-/* Takes the one out that keeps t low; false if none does. up: products of the basis with that by
- * which t grows. */
+/* Removes the half-space that keeps t from growing. Returns false if none does. `up`: products of
+ * the basis with the direction in which t grows. */
 static bool drop_row(active_set *set, const iccp_halfspaces *h, const double *up)
 {
     double share[4];
@@ -175,7 +176,8 @@ static bool drop_row(active_set *set, const iccp_halfspaces *h, const double *up
     return true;
 }
 
-/* Goes as far as the half-spaces allow, and adds the one that ends the way; false if none does. */
+/* Goes as far as the half-spaces allow, and adds the one that ends the step. Returns false if none
+ * does. */
 static bool advance(active_set *set, const iccp_halfspaces *h, const double *way, double *z)
 {
     double least = HUGE_VAL;
@@ -196,8 +198,9 @@ static bool advance(active_set *set, const iccp_halfspaces *h, const double *way
     return add_row(set, h, set->n - 1);
 }
 
-/* Up along what the active half-spaces leave free, until another one ends the way; where they leave
- * nothing, the one that keeps t low is given up, or this is the greatest. */
+/* Goes up in the directions that the active half-spaces leave free, until another one ends the
+ * step. If they leave none, it removes the one that keeps t from growing. If there is no such
+ * half-space, t is greatest. */
 bool iccp_halfspaces_enter(const iccp_halfspaces *h, double x[3])
 {
     double z[4] = {x[0], x[1], x[2], HUGE_VAL};

@@ -1,4 +1,4 @@
-/* Half-spaces, and the middle of what they have in common: where a vertex of a mesh may be so that
+/* Intersections of half-spaces and their centres. They tell where a vertex of a mesh may be so that
  * all its tetrahedra are positive. */
 #ifndef ICCP_HALFSPACES_H
 #define ICCP_HALFSPACES_H
@@ -6,7 +6,7 @@
 #include "base/memory.h"
 
 typedef struct iccp_halfspace {
-    double normal[3], offset; /* the points x with normal x > offset; the normal has length 1 */
+    double normal[3], offset; /* the points x with normal . x > offset; the normal has length 1 */
 } iccp_halfspace;
 
 typedef struct iccp_halfspaces {
@@ -17,21 +17,21 @@ typedef struct iccp_halfspaces {
 
 void iccp_halfspaces_free(iccp_halfspaces *h);
 
-/* Room for so many in all. */
+/* Makes room for this many half-spaces in all. */
 bool iccp_halfspaces_reserve(iccp_halfspaces *h, size_t room);
 
-/* Adds the one from which the triangle a, b, c looks counter-clockwise; false where that is next to
- * nothing. There must be room. */
+/* Adds the half-space from which the triangle a, b, c is counter-clockwise. Returns false if the
+ * triangle has almost no area. There must be room. */
 bool iccp_halfspaces_add(iccp_halfspaces *h, const double *a, const double *b, const double *c);
 
-/* Moves a point that is in all of them to, or towards, where the product of its distances is
- * greatest; what they have in common is bounded. It may end outside by rounding. O(n). */
+/* Moves a point that is in all half-spaces towards the place where the product of its distances is
+ * greatest. The intersection must be bounded. Rounding may move the point outside. O(n). */
 void iccp_halfspaces_centre(const iccp_halfspaces *h, size_t steps, double x[3]);
 
-/* Moves a point that is not in all of them to where the least distance from one is greatest, and on
- * towards the centre if that is inside; what they have in common, or would if all were moved
- * outwards, is bounded. Whether it has come to be in all, but for rounding. O(n) a turn, of which
- * there are some ten. */
+/* Moves a point that is not in all half-spaces to where its least distance is greatest. If that is
+ * inside, it goes on towards the centre. The intersection must be bounded, or become bounded if all
+ * half-spaces are moved outwards. Returns true if the point is then in all half-spaces, up to
+ * rounding. O(n) for each of about ten steps. */
 bool iccp_halfspaces_enter(const iccp_halfspaces *h, double x[3]);
 
 #endif

@@ -1,3 +1,4 @@
+/* Finds the apex of the target and fills the ball of directions. */
 #include "map/solid/solid_ball.h"
 
 #include "base/minmax.h"
@@ -9,7 +10,8 @@
 
 #include <string.h>
 
-/* Longest by shortest distance from the apex: what is at least that round is a ball. */
+/* The target counts as a ball if its greatest distance from the apex is at most this multiple of
+ * the least one. */
 static const double ROUND = 1.02;
 
 static bool find_directions(size_t n, const double *vertices, const double *apex,

@@ -1,7 +1,6 @@
-/* Simplices are bisected at their chords, one after the other in the order of the chords' numbers
- * (J. M. Maubach, SIAM J. Sci. Comput. 16, 1995, orders the edges of a simplex for the same
- * reason): two simplices cut a facet that they share alike, since those chords that are not part of
- * it do not matter there. */
+/* Bisects simplices at their chords, one after the other in the order of the chords' numbers. J. M.
+ * Maubach, SIAM J. Sci. Comput. 16, 1995, orders the edges of a simplex for the same reason. Two
+ * simplices cut their common facet in the same way, because chords outside it do not affect it. */
 #include "map/solid/solid_chords.h"
 
 #include "geometry/tuples.h"
@@ -14,7 +13,7 @@ enum { CORNERS = ICC_MAX_DIM + 1, WAITING = CORNERS * (CORNERS - 1) / 2 + 1 };
 
 static const uint32_t NONE = UINT32_MAX;
 
-/* Of a simplex, or a piece of one: the numbers of the chords between its corners, or NONE. */
+/* A simplex or a piece of one: the numbers of the chords between its corners, or NONE. */
 typedef struct piece {
     uint32_t corner[CORNERS];
     uint32_t chord[CORNERS][CORNERS];
@@ -25,12 +24,12 @@ typedef struct cutter {
     const uint32_t *facets;
     size_t n; /* corners of a simplex */
     iccp_tuples
-        edges; /* those of the facets, then those of the simplices between points of the boundary */
+        edges; /* edges of the facets, then those of each simplex between points of the boundary */
     size_t n_facet_edges;
-    uint32_t *owner; /* of the latter: simplex, and the corners i < j as n i + j */
-    uint32_t *chord; /* of each edge in `edges`: its number, or NONE */
+    uint32_t *owner; /* of the latter: the simplex, and the corners i < j as n i + j */
+    uint32_t *chord; /* of each edge in `edges`: its chord's number, or NONE */
     size_t n_chords;
-    uint32_t *first; /* n_simplices + 1: where the edges of each begin */
+    uint32_t *first; /* n_simplices + 1: the first edge of each simplex */
     iccp_simplices *out;
 } cutter;
 
@@ -67,7 +66,7 @@ static void list_edges(cutter *c)
     }
 }
 
-/* Edges that no facet has are chords. */
+/* Numbers the edges that belong to no facet: these are the chords. */
 static void number_chords(cutter *c)
 {
     iccp_tuples_sort(&c->edges);
@@ -82,8 +81,8 @@ static void number_chords(cutter *c)
     }
 }
 
-/* Lists the edges of the facets, then those of each simplex between points of the boundary: alike
- * ones meet when they are sorted. */
+/* Lists the edges of the facets, then those of each simplex between points of the boundary. Sorting
+ * brings equal edges together. */
 static icc_status find_chords(cutter *c, const iccp_env *env)
 {
     const size_t dim = c->mesh->dim, n_simplices = c->mesh->n_simplices;
@@ -119,7 +118,7 @@ static void set_piece(const cutter *c, size_t s, piece *p)
     }
 }
 
-/* The first chord, or false. */
+/* Finds the first chord of a piece. Returns false if there is none. */
 static bool find_first(const cutter *c, const piece *p, size_t *a, size_t *b)
 {
     uint32_t least = NONE;
@@ -140,7 +139,7 @@ static void replace(const cutter *c, piece *p, size_t corner, uint32_t point)
         p->chord[corner][i] = p->chord[i][corner] = NONE;
 }
 
-/* The pieces of one simplex, to `corners` unless that is NULL; returns how many. */
+/* Writes the pieces of one simplex to `corners`, unless that is NULL. Returns their number. */
 static size_t cut(const cutter *c, size_t s, uint32_t *corners)
 {
     piece stack[WAITING];
@@ -188,7 +187,7 @@ static bool all_positive(const iccp_simplices *mesh)
     return true;
 }
 
-/* Cuts every simplex twice: to count the pieces, and to write them. */
+/* Cuts every simplex twice: first to count the pieces, then to write them. */
 static icc_status cut_simplices(cutter *c, const iccp_env *env)
 {
     const size_t dim = c->mesh->dim;

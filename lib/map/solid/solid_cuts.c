@@ -1,6 +1,6 @@
 /* Longest-edge bisection: M. C. Rivara, Algorithms for refining triangular grids suitable for
- * adaptive and multigrid techniques, 1984. A map is linear along an edge, so that cutting it in the
- * middle, before and after, changes nothing but what the images may do next. */
+ * adaptive and multigrid techniques, 1984. A map is linear along an edge. So a cut in the middle,
+ * before and after the map, changes only how the images may move afterwards. */
 #include "map/solid/solid_cuts.h"
 
 #include "base/sort.h"
@@ -9,12 +9,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the tetrahedra, whose longest edge is cut. */
+/* Share of the tetrahedra whose longest edge is cut. */
 static const double WORST = 0.2;
 
 static const uint8_t ENDS[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 
-/* The squares of both lengths together. */
+/* The sum of the squared lengths before and after the map. */
 static double length_of(const iccp_solid_edit *edit, uint32_t a, uint32_t b)
 {
     const double *points = edit->map->mesh->points, *images = edit->map->images;
@@ -31,15 +31,16 @@ static void set_middle(const double *points, uint32_t a, uint32_t b, double midd
     iccp_simplicial_round(3, middle);
 }
 
-/* Whether half of a tetrahedron is positive before and after, but for what was not. */
+/* Returns true if a half of a tetrahedron is positive before and after the map, except where the
+ * whole was not. */
 static bool is_kept(const iccp_solid_edit *edit, const uint32_t *half, const uint32_t *whole)
 {
     return iccp_solid_is_positive(edit, half) ||
            (iccp_solid_is_positive_before(edit, half) && !iccp_solid_is_positive(edit, whole));
 }
 
-/* Puts one half of each tetrahedron round an edge in its place, and adds the other. Takes it all
- * back when rounding has made one flat. */
+/* Puts one half of each tetrahedron around an edge in its place and adds the other. Undoes
+ * everything if rounding has made a half flat. */
 static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring *ring)
 {
     iccp_simplices *mesh = edit->map->own;
@@ -64,7 +65,7 @@ static bool halve(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring
     return good;
 }
 
-/* Where nothing round the edge has changed in this pass. */
+/* Cuts an edge if nothing around it has changed in this pass. */
 static icc_status cut(iccp_solid_edit *edit, uint32_t a, uint32_t b, size_t *n_cut)
 {
     iccp_ring ring;
@@ -76,14 +77,14 @@ static icc_status cut(iccp_solid_edit *edit, uint32_t a, uint32_t b, size_t *n_c
     return status;
 }
 
-/* ---- chords, and what is inverted ---- */
+/* ---- chords and inverted tetrahedra ---- */
 
 typedef struct listed {
     double length;
     uint32_t ends[2];
 } listed;
 
-/* The longest first; alike ones meet. */
+/* Sorts the longest edges first. Equal edges come together. */
 static int by_length(const void *a, const void *b)
 {
     const listed *p = a, *q = b;
@@ -96,8 +97,8 @@ static int by_length(const void *a, const void *b)
 
 typedef enum edge_kind { CHORDS, OF_INVERTED } edge_kind;
 
-/* Of each tetrahedron; edges of the surface among them, which have no ring. Only counted when
- * `edges` is NULL. */
+/* Lists the edges of each tetrahedron, including surface edges, which have no ring. Only counts
+ * them if `edges` is NULL. */
 static size_t list_edges(const iccp_solid_edit *edit, edge_kind kind, listed *edges)
 {
     const iccp_simplices *mesh = edit->map->mesh;
@@ -152,7 +153,7 @@ icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut)
     return halve_all(edit, OF_INVERTED, n_cut);
 }
 
-/* ---- the worst ---- */
+/* ---- the worst tetrahedra ---- */
 
 typedef struct ranked {
     double excess;
@@ -167,7 +168,7 @@ static int by_excess(const void *a, const void *b)
     return (p->simplex > q->simplex) - (p->simplex < q->simplex);
 }
 
-/* The longest edge inside; false if there is none. */
+/* Finds the longest inner edge. Returns false if there is none. */
 static bool find_longest(const iccp_solid_edit *edit, const uint32_t *v, uint32_t ends[2])
 {
     iccp_ring ring;

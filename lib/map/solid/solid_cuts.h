@@ -1,19 +1,19 @@
-/* Cutting edges inside the mesh of a map in space in the middle, before and after the map. */
+/* Cuts inner edges of the mesh of a map in space in the middle, before and after the map. */
 #ifndef ICCP_SOLID_CUTS_H
 #define ICCP_SOLID_CUTS_H
 
 #include "map/solid/solid_edit.h"
 
-/* The edges from boundary to boundary, the longest first, as far as they have no tetrahedron in
- * common. */
+/* Cuts the chords (edges from boundary to boundary), the longest first. Cuts in one pass have no
+ * tetrahedron in common. */
 icc_status iccp_solid_halve_chords(iccp_solid_edit *edit, size_t *n_cut);
 
-/* The edges inside of tetrahedra that are not positive after the map, as these cuts may leave them,
- * the longest first; likewise. */
+/* Cuts inner edges of tetrahedra that are not positive after the map, the longest first, if this
+ * may help. Cuts in one pass have no tetrahedron in common. */
 icc_status iccp_solid_halve_inverted(iccp_solid_edit *edit, size_t *n_cut);
 
-/* The longest edge of each of the tetrahedra with the most energy above an isometry's, a fifth of
- * all; likewise. */
+/* Cuts the longest edge of each of the worst 20 % of the tetrahedra, by energy above an isometry's.
+ * Cuts in one pass have no tetrahedron in common. */
 icc_status iccp_solid_halve_worst(iccp_solid_edit *edit, size_t *n_cut);
 
 #endif

@@ -1,3 +1,4 @@
+/* Finds the tetrahedra around edges and beside faces, and adds or removes tetrahedra. */
 #include "map/solid/solid_edit.h"
 
 #include "base/minmax.h"
@@ -9,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A tetrahedron with six times its volume less than this, where its longest edge is 1. */
+/* A tetrahedron is flat if six times its volume is less than this share of the cube of its longest
+ * edge. */
 static const double FLAT = 1e-6;
 
 static iccp_simplices *mesh_of(const iccp_solid_edit *edit)
@@ -75,9 +77,9 @@ void iccp_solid_edit_end(iccp_solid_edit *edit)
     free_pass(edit);
 }
 
-/* ---- what is round an edge ---- */
+/* ---- rings of edges ---- */
 
-/* Whether a, at corner i, and b, at corner j, come before the other two corners in an even
+/* Returns true if a, at corner i, and b, at corner j, come before the other two corners in an even
  * permutation. Sets these two, k < l. */
 static bool is_even(size_t i, size_t j, size_t *k, size_t *l)
 {
@@ -88,8 +90,8 @@ static bool is_even(size_t i, size_t j, size_t *k, size_t *l)
     return ((i > j) + (i > *k) + (i > *l) + (j > *k) + (j > *l)) % 2 == 0;
 }
 
-/* Whether a tetrahedron has both points; then it has *p and *q as well, and a, b, *p, *q is
- * positive. */
+/* Returns true if a tetrahedron has both points. Then *p and *q are its other points, and a, b, *p,
+ * *q is positive. */
 static bool find_edge(const uint32_t *v, uint32_t a, uint32_t b, uint32_t *p, uint32_t *q)
 {
     size_t i = 4, j = 4, k, l;
@@ -105,7 +107,8 @@ static bool find_edge(const uint32_t *v, uint32_t a, uint32_t b, uint32_t *p, ui
     return true;
 }
 
-/* Puts the tetrahedron that begins at `point` to place k; false if there is none from k on. */
+/* Brings the tetrahedron that begins at `point` to place k. Returns false if there is none from k
+ * on. */
 static bool bring(iccp_ring *ring, uint32_t *after, size_t k, uint32_t point)
 {
     size_t at = k;
@@ -123,7 +126,7 @@ static bool bring(iccp_ring *ring, uint32_t *after, size_t k, uint32_t point)
     return true;
 }
 
-/* Round an edge of the surface they do not close. */
+/* Around an edge of the surface the tetrahedra do not close up. */
 bool iccp_solid_ring(const iccp_solid_edit *edit, uint32_t a, uint32_t b, iccp_ring *ring)
 {
     const uint32_t *corners = mesh_of(edit)->corners;
@@ -176,7 +179,7 @@ bool iccp_solid_across(const iccp_solid_edit *edit, uint32_t t, size_t corner, u
     return false;
 }
 
-/* ---- what may come instead ---- */
+/* ---- replacements ---- */
 
 static int sign_of(const double *points, const uint32_t *v)
 {
@@ -194,7 +197,7 @@ bool iccp_solid_is_positive(const iccp_solid_edit *edit, const uint32_t *corners
     return iccp_solid_is_positive_before(edit, corners) && sign_of(edit->map->images, corners) > 0;
 }
 
-/* Whether six times the volume is next to nothing beside the cube of the longest edge. */
+/* Returns true if six times the volume is tiny beside the cube of the longest edge. */
 static bool is_flat(const double *points, const uint32_t *v, double six_volumes)
 {
     double most = 0;
@@ -227,7 +230,7 @@ double iccp_solid_value(const iccp_solid_edit *edit, const uint32_t *corners, do
     return iccp_dirichlet_energy(3, element, image);
 }
 
-/* At least half as many again, so that moving them costs O(1) each. */
+/* Room that is at least 1.5 times as large, so that moving an entry costs O(1) on average. */
 static size_t room_for(size_t n)
 {
     return n + n / 2 + 64;

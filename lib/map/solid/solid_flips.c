@@ -1,5 +1,5 @@
 /* L. A. Freitag, C. Ollivier-Gooch, Tetrahedral mesh improvement using swapping and smoothing,
- * 1997; which tetrahedra replace those round an edge is found by dynamic programming: G. T.
+ * 1997. Dynamic programming finds the best replacement of the tetrahedra around an edge: G. T.
  * Klincsek, Minimal triangulations of polygonal domains, 1980. Here quality is the energy of the
  * map. */
 #include "map/solid/solid_flips.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The longest ring. */
+/* The longest ring that is flipped. */
 enum { RING = 8 };
 
 enum { PASSES = 8 };
@@ -18,7 +18,7 @@ static const double FEW = 1e-4;
 /* A flip lowers the energy of its tetrahedra by this share at least. */
 static const double LEAST_FALL = 1e-3;
 
-/* A triangle of the ring makes a tetrahedron with each end of the edge. */
+/* The value of the two tetrahedra that a triangle of the ring makes with the ends of the edge. */
 static double pair_value(const iccp_solid_edit *edit, uint32_t a, uint32_t b, uint32_t x,
                          uint32_t y, uint32_t z)
 {
@@ -29,7 +29,7 @@ static double pair_value(const iccp_solid_edit *edit, uint32_t a, uint32_t b, ui
                : value;
 }
 
-/* best[x][y]: the least value of the part of the ring from x to y; split[x][y]: the third corner of
+/* best[x][y]: the least value of the part of the ring from x to y. split[x][y]: the third corner of
  * the triangle at its edge x-y. */
 typedef struct triangulation {
     double best[RING][RING];
@@ -60,7 +60,7 @@ static void triangulate(const iccp_solid_edit *edit, uint32_t a, uint32_t b, con
         }
 }
 
-/* Adds the tetrahedra of the part of the ring from x to y, from the largest triangle on. */
+/* Adds the tetrahedra for the part of the ring from x to y, from the largest triangle on. */
 static void fill(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring *ring,
                  const triangulation *t)
 {
@@ -80,8 +80,8 @@ static void fill(iccp_solid_edit *edit, uint32_t a, uint32_t b, const iccp_ring 
     }
 }
 
-/* The values of tetrahedra that are there. Returns whether less is possible at all: an isometry has
- * 6 times the volume. */
+/* Adds up the values of the present tetrahedra. Returns true if less is possible at all. The value
+ * of an isometry is 6 times the volume. */
 static bool add_values(const iccp_solid_edit *edit, size_t n, const uint32_t *simplices,
                        double *limit)
 {
@@ -94,7 +94,7 @@ static bool add_values(const iccp_solid_edit *edit, size_t n, const uint32_t *si
     return 6 * all < *limit;
 }
 
-/* Only the first of the new tetrahedra round an edge looks at it. */
+/* Returns true for the first new tetrahedron around an edge. Only that one tries the edge. */
 static bool is_first(const iccp_solid_edit *edit, const iccp_ring *ring, uint32_t simplex)
 {
     for (size_t k = 0; k < ring->n; ++k)
@@ -125,8 +125,8 @@ static icc_status try_edge(iccp_solid_edit *edit, uint32_t simplex, uint32_t a, 
     return ICC_OK;
 }
 
-/* The face opposite `corner`, with its other side d: three tetrahedra round the edge from the
- * corner to d. */
+/* Tries the face opposite `corner`, with d on its other side: three tetrahedra around the edge from
+ * the corner to d replace the two. */
 static icc_status try_face(iccp_solid_edit *edit, uint32_t simplex, size_t corner, size_t *n_flips)
 {
     const uint32_t *corners = edit->map->mesh->corners, *v = corners + 4 * (size_t)simplex;
@@ -158,7 +158,7 @@ static icc_status try_face(iccp_solid_edit *edit, uint32_t simplex, size_t corne
     return ICC_OK;
 }
 
-/* All edges come before all faces. */
+/* Tries all edges before all faces. */
 static icc_status flip_once(iccp_solid_edit *edit, size_t *n_flips)
 {
     icc_status status = ICC_OK;
@@ -174,7 +174,7 @@ static icc_status flip_once(iccp_solid_edit *edit, size_t *n_flips)
     return status;
 }
 
-/* Only what is new is looked at in the next pass. */
+/* The next pass only looks at new tetrahedra. */
 icc_status iccp_solid_flip(iccp_solid_edit *edit, size_t *n_flips, const iccp_env *env)
 {
     icc_status status = ICC_OK;

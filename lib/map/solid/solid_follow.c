@@ -1,6 +1,6 @@
-/* docs/theory.md, the mesh map in space: that to a target that has moved, from the one to where it
- * was. What all of the surface does in common, an affine map, the inside does as well; it answers
- * the rest as in map/compatible/carry.c. */
+/* Moves a map to a target that has moved: docs/theory.md, the mesh map in space. If the surface
+ * moves mostly by one affine map, the inside moves by the same map. The rest of the motion is
+ * answered as in map/compatible/carry.c. */
 #include "map/solid/solid_follow.h"
 
 #include "base/clock.h"
@@ -14,28 +14,28 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps for a target that has moved a little; with less to gain they end earlier. */
+/* Steps after a small motion of the target. They end earlier if there is less to gain. */
 enum { FOLLOW_ITERATIONS = 8 };
 static const double FOLLOW_TOLERANCE = 1e-3;
 
-/* Where the way is blocked: times that the mesh is mended before all goes there at once, and is
- * untangled; and after that. */
+/* If the way is blocked: how often the mesh is mended before all vertices jump to the target at
+ * once and are untangled, and how often after that. */
 enum { PATIENCE = 0, LAST_PATIENCE = 3 };
 
-/* Parts that get less far than this are blocked. After longer ones, steps alone make more room than
- * changes of the mesh. */
+/* A part of the way shorter than this counts as blocked. After longer parts, steps make more room
+ * than changes of the mesh. */
 static const double BLOCKED = 0.05;
 
-/* What carrying the map along and untangling may cost, in steps. */
+/* Limits on the cost of moving the map and of untangling, in steps. */
 static const double CARRY_STEPS = 60, UNTANGLE_STEPS = 12;
 
-/* More than this share of inverted tetrahedra is not untangled. */
+/* If the share of inverted tetrahedra is larger, they are not untangled. */
 static const double FEW = 0.01;
 
-/* A mesh that is mended is cut up to so many times the tetrahedra of the source's. */
+/* Limit on the tetrahedra of a mended mesh, as a multiple of the source's. */
 static const double MOST_GROWTH = 2;
 
-/* The affine map is used where it leaves no more than this share of the squared motion. */
+/* The affine map is used if it leaves at most this share of the squared motion. */
 static const double LEAST_LEFT = 0.25;
 
 typedef struct journey {
@@ -43,9 +43,9 @@ typedef struct journey {
     const icc_domain *source, *target;
 } journey;
 
-/* ---- what all of the surface does in common ---- */
+/* ---- the affine part of the motion ---- */
 
-/* Where that is most of the motion, and rounding lets it. */
+/* Applies the affine map if it is most of the motion and rounding permits it. */
 static icc_status move_in_common(journey *j, const iccp_env *env)
 {
     const iccp_simplices *mesh = j->map->mesh;
@@ -114,8 +114,8 @@ static icc_status carry(journey *j, size_t patience, bool *reached, const iccp_e
     return iccp_carry_by(&SPACE, j, j->target, patience, &work, reached, &room, env);
 }
 
-/* All of the surface at once: what few tetrahedra are inverted then is repaired. Else the images
- * are as they were. */
+/* Moves all of the surface at once, then repairs the inverted tetrahedra if they are few. If this
+ * fails, the images are as they were. */
 static icc_status jump(journey *j, size_t *n_left, const iccp_env *env)
 {
     const iccp_simplices *mesh = j->map->mesh;
@@ -148,7 +148,7 @@ static icc_status go_there(journey *j, size_t *n_left, const iccp_env *env)
     there.images = j->target->vertices;
     icc_status status = ICC_OK;
     if (iccp_simplicial_count_at_once(&here, env) > 0)
-        return jump(j, n_left, env); /* by rounding in the new frame */
+        return jump(j, n_left, env); /* inverted by rounding in the new frame */
     *n_left = 1;
     if (iccp_simplicial_is_hopeless(&there)) {
         size_t n;
@@ -169,7 +169,7 @@ static icc_status go_there(journey *j, size_t *n_left, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* The vertex that is farthest from where it should be. */
+/* Finds the vertex that is farthest from its target. */
 static size_t farthest(const iccp_solid_map *map, const icc_domain *target)
 {
     double most = -1;

@@ -1,5 +1,5 @@
-/* docs/theory.md, the mesh map in space. A refinement is made on a copy of the mesh, which takes
- * its place once it is certified. */
+/* Improves a map in levels: docs/theory.md, the mesh map in space. A refinement is made on a copy
+ * of the mesh. The copy replaces the mesh once it is certified. */
 #include "map/solid/solid_improve.h"
 
 #include "map/solid/solid_cuts.h"
@@ -7,8 +7,8 @@
 
 #include <string.h>
 
-/* A refinement is in vain when it gains less than this: what is left to gain in space is little,
- * the boundary being near everywhere. */
+/* A refinement that gains less than this does not count. Little can be gained in space, because the
+ * boundary is close everywhere. */
 static const double LEAST_GAIN = 2e-3;
 
 typedef struct improved {
@@ -49,7 +49,7 @@ icc_status iccp_solid_copy(iccp_solid_map *copy, const iccp_solid_map *map)
     return ICC_OK;
 }
 
-/* Flips before cuts, which would make them impossible, and after them. */
+/* Flips before the cuts, which would make these flips impossible, and again after them. */
 static icc_status change(iccp_solid_map *map, bool cuts, size_t *n_changes, const iccp_env *env)
 {
     iccp_solid_edit edit;

@@ -1,6 +1,6 @@
-/* A map that is linear in every simplex of a mesh is a homeomorphism when it keeps all orientations
- * and its restriction to the boundary is one onto the target's: Y. Lipman, Bijective Mappings of
- * Meshes with Boundary and the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
+/* A map that is linear in every simplex of a mesh is a homeomorphism if it keeps all orientations
+ * and maps the boundary one-to-one onto the target's: Y. Lipman, Bijective Mappings of Meshes with
+ * Boundary and the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
 #include "map/solid/solid_map.h"
 
 #include "base/clock.h"
@@ -14,11 +14,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Steps that make a new map fairer. */
+/* Steps that lower the energy of a new map. */
 enum { ITERATIONS_OF_NEW = 8 };
 
-/* How far outside its tetrahedron, in barycentric coordinates, a point may seem to be by
- * rounding. */
+/* How far outside its tetrahedron, in barycentric coordinates, rounding may put a point. */
 static const double ROUNDING = 1e-9;
 
 static size_t count_inverted(const iccp_solid_map *map)
@@ -37,7 +36,7 @@ static icc_status plant(iccp_solid_map *map, const iccp_env *env)
     return map->before.boxes != NULL && map->after.boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Without a mesh and images yet. */
+/* Makes a map without mesh and images. */
 static iccp_solid_map *new_map(const icc_domain *source, const icc_domain *target,
                                const iccp_memory *memory)
 {
@@ -70,8 +69,8 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
     return status;
 }
 
-/* The steps that every new map takes; once more on a finer mesh where it was unfolded, since that
- * leaves few points where there are the most folds. */
+/* Takes the steps of every new map. A map that was unfolded gets steps on a finer mesh as well,
+ * because unfolding leaves few points where the most folds are. */
 static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, bool unfolded,
                               int32_t iterations, icc_map_info *info, const iccp_env *env)
 {
@@ -119,9 +118,9 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     return ICC_OK;
 }
 
-/* ---- a better one ---- */
+/* ---- improving ---- */
 
-/* The mesh of the domain stays there. */
+/* The domain keeps its mesh. */
 static icc_status copy_map(iccp_solid_map *copy, const iccp_solid_map *map)
 {
     if (map->own != NULL)
@@ -182,9 +181,9 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
     return ICC_OK;
 }
 
-/* ---- as bytes ---- */
+/* ---- reading and writing ---- */
 
-/* Images of the boundary are the target's vertices. */
+/* The images of the boundary are the target's vertices. */
 static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *source,
                         const icc_domain *target)
 {
@@ -249,7 +248,7 @@ void iccp_solid_map_free(iccp_solid_map *map)
     iccp_free(&memory, map);
 }
 
-/* The corners of a simplex before or after. */
+/* The corners of a simplex before or after the map. */
 static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const double *corner[4])
 {
     const double *points = after ? map->images : map->mesh->points;
@@ -257,7 +256,7 @@ static void set_corners(const iccp_solid_map *map, bool after, uint32_t t, const
         corner[k] = points + 3 * map->mesh->corners[4 * (size_t)t + k];
 }
 
-/* Returns the least. */
+/* Computes barycentric coordinates. Returns the least one. */
 static double barycentric(const double *const corner[4], const double *point, double *bary)
 {
     double edge[3][3], normal[3], from[3], least = HUGE_VAL, det = 0;
@@ -278,7 +277,8 @@ static double barycentric(const double *const corner[4], const double *point, do
     return least;
 }
 
-/* The simplex that holds a point, or the one that it is least outside of by rounding. */
+/* Finds the simplex that contains a point, or, up to rounding, the one that it is least outside
+ * of. */
 static bool find(const iccp_solid_map *map, bool inverse, const double *point, uint32_t *simplex,
                  double *bary)
 {

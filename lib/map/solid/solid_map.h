@@ -1,5 +1,26 @@
 /* Map kind mesh in space: a piecewise linear map on the source's conforming mesh, started from the
- * charts. */
+ * charts.
+ *
+ * Words of this folder
+ * - inverted: a tetrahedron whose image is not positive. stuck: one that a repair has left
+ *   inverted.
+ * - chord: an inner edge that joins two boundary points.
+ * - pocket: a stuck tetrahedron with some rings of neighbours (a cavity).
+ * - star-shaped: a region that a point inside, the apex, sees all of.
+ * - cone: a star mesh, whose tetrahedra are put into place one after the other (cone.h).
+ * - coat: a collar, the layer of tetrahedra below the surface (coat.h).
+ *
+ * Invariants
+ * - Every tetrahedron of a finished map is positive before and after the map, by exact predicates.
+ * - The surface of the mesh never changes; only the inside may get points.
+ *
+ * Ways to a first map (solid_start.h, in this order)
+ * - solid_ways.h: the charts' images, repaired. solid_pockets.h: pockets are mapped anew.
+ * - solid_ball.h and coat_map.h: by way of a ball. cone_map.h: without charts, onto a star shape.
+ * - solid_mend.h: more points where tetrahedra stay inverted.
+ * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
+ *
+ * Begin with solid_map.c and solid_start.c. */
 #ifndef ICCP_SOLID_MAP_H
 #define ICCP_SOLID_MAP_H
 
@@ -8,9 +29,9 @@
 /* Immutable once made. */
 typedef struct iccp_solid_map {
     iccp_memory memory;
-    const iccp_simplices *mesh; /* the source's, which its domain keeps, or: */
-    iccp_simplices *own;        /* one with more points, or NULL */
-    double *images;             /* of its points, local in the target */
+    const iccp_simplices *mesh; /* the source domain's mesh, or: */
+    iccp_simplices *own;        /* a mesh with more points, or NULL */
+    double *images;             /* of the mesh's points, local in the target */
     double stretch;             /* as in iccp_simplicial_map */
     iccp_facet_tree before, after;
 } iccp_solid_map;
@@ -22,49 +43,50 @@ static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *ma
     return simplicial;
 }
 
-/* The images of the source's mesh by two charts on meshes in space, repaired until every
- * tetrahedron is positive, which is checked exactly; where that fails, of a mesh without chords.
- * Then made fairer by so many steps; 0: 8; -1: none. Fills in the mesh's members of `info`. When
- * the repair fails, too, info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. */
+/* Makes a map: the images of the source's mesh by two charts on meshes in space, repaired until
+ * every tetrahedron is positive, exactly. If this fails, it uses a mesh without chords and further
+ * strategies (solid_start.h). Then the given number of steps lowers the energy; 0 means 8 steps and
+ * -1 none. Fills in the mesh's members of `info`. If all repairs fail, info->n_unrepaired is not 0
+ * and *out is NULL, with ICC_OK. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
                                  const icc_chart *target, int32_t iterations, icc_map_info *info,
                                  const iccp_env *env);
 
-/* ---- a map piece by piece ---- */
+/* ---- making a map piece by piece ---- */
 
-/* A copy for domains that may be others; it shares a mesh that is the source's, and does not find
- * points yet. *out is NULL on failure. */
+/* Copies a map for domains that may be different. The copy shares a mesh that is the source's. It
+ * cannot find points yet. *out is NULL on failure. */
 icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
                                const icc_domain *source, const icc_domain *target,
                                const iccp_memory *memory);
 
-/* Steps that lower the energy on one mesh, as many as icc_map_options says. */
+/* Takes steps that lower the energy on one mesh, as many as icc_map_options says. */
 icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
                                 const icc_improve_options *options, icc_map_info *info,
                                 const iccp_env *env);
 
-/* The rest of a map that is there: what finds points. Fills in what `info` says of the size. */
+/* Finishes a map: makes its points findable and fills in the sizes in `info`. */
 icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env);
 
-/* Makes images findable again after they have changed. */
+/* Makes points findable again after images have changed. */
 icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env);
 
-/* ---- all of it ---- */
+/* ---- whole maps ---- */
 
-/* A better one from a copy; see icc_map_improve(). */
+/* Makes a better map from a copy; see icc_map_improve(). */
 icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *map,
                                   const icc_domain *source, const icc_domain *target,
                                   const icc_improve_options *options, icc_improve_report *report,
                                   const iccp_env *env);
 
-/* As part of the bytes of a map (docs/formats.md). What is read is certified anew: ICC_ERR_FORMAT
- * if that fails. Writing takes no info and no env. */
+/* Reads or writes a map as part of its bytes (docs/formats.md). A map that is read is certified
+ * again: ICC_ERR_FORMAT if that fails. Writing needs no info and no env. */
 icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
                                 const icc_domain *target, icc_map_info *info, const iccp_env *env);
 void iccp_solid_map_free(iccp_solid_map *map);
 
-/* One local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE when
- * no tetrahedron holds the point, which can only be within rounding of the boundary. */
+/* Maps one local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE
+ * if no tetrahedron contains the point, which can only happen within rounding of the boundary. */
 icc_status iccp_solid_map_point(const iccp_solid_map *map, bool inverse, const double *point,
                                 double *image, double *jacobian);
 

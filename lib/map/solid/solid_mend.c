@@ -1,8 +1,9 @@
-/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, with two changes. What the map
- * is compared with has the size that images have nearby: a limb that comes from next to nothing, or
- * becomes it, would else be asked for a thousand times its volume, and epsilon come down too late
- * for the small. And where images are stuck, since some would have to see more of the boundary than
- * there is to be seen from one place, they get company: docs/theory.md, the mesh map in space. */
+/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, with two changes. First, each
+ * tetrahedron is compared with one of the size that images have nearby. Otherwise a limb that
+ * starts or ends tiny would have to change its volume a thousandfold, and epsilon would fall too
+ * late for small tetrahedra. Second, points are added where images are stuck, because some would
+ * have to see more of the boundary than any single place sees: docs/theory.md, the mesh map in
+ * space. */
 #include "map/solid/solid_mend.h"
 
 #include "base/minmax.h"
@@ -15,20 +16,20 @@
 
 #include <string.h>
 
-/* Rounds of points, as long as no more than one tetrahedron in FEW is inverted and they have not
- * become MOST_GROWTH times as many. */
+/* ROUNDS: rounds of adding points. They end earlier if more than one tetrahedron in FEW is
+ * inverted, or if the number of tetrahedra has grown by MOST_GROWTH. */
 enum { ROUNDS = 8, FEW = 20, MOST_GROWTH = 2 };
 
-/* Of Newton's method, on as many tetrahedra as there are at first. */
+/* Limit on Newton steps, counted on the first mesh. */
 static const double MOST_STEPS = 240;
 
-/* Means over the neighbours that sizes are smoothed by. */
+/* How often sizes are averaged over neighbours. */
 enum { MEANS = 3 };
 
-/* Squares of lengths less than this share of others are as good as nothing. */
+/* A squared length below this share of others counts as 0. */
 static const double NOTHING = 1e-30;
 
-/* The sums over the tetrahedra at each point of something that they have, and their number. */
+/* For each point, a sum over its tetrahedra and their number. */
 typedef struct sums {
     double *of, *n;
 } sums;
@@ -46,7 +47,7 @@ static void add_lengths(const iccp_simplicial_map *map, const sums *sum)
         }
 }
 
-/* Logarithms, so that growing and shrinking weigh the same. */
+/* Averages logarithms, so that growing and shrinking weigh the same. */
 static void smooth(const iccp_simplicial_map *map, double *growth, const sums *sum)
 {
     memset(sum->of, 0, map->n_points * sizeof *sum->of);
@@ -63,7 +64,7 @@ static void smooth(const iccp_simplicial_map *map, double *growth, const sums *s
         growth[v] = sum->n[v] > 0 ? sum->of[v] / sum->n[v] : 0;
 }
 
-/* How much longer edges are after the map than before it, about each point. */
+/* Finds how much longer edges are after the map than before it, around each point. */
 static icc_status find_growth(const iccp_simplicial_map *map, double *growth,
                               const iccp_memory *memory)
 {

@@ -1,16 +1,17 @@
-/* Making a map in space positive where moving the images of its mesh is not enough. */
+/* Makes a map in space positive if moving the images of its mesh is not enough. */
 #ifndef ICCP_SOLID_MEND_H
 #define ICCP_SOLID_MEND_H
 
 #include "domain/domain.h"
 #include "map/solid/solid_map.h"
 
-/* For a map with a mesh of its own, positive before the map, which fills `source`, all of whose
- * points have images. Moves images until every tetrahedron is positive after the map, too, and cuts
- * the edges inside of those that stay inverted, round by round, as long as they are few, there are
- * no more than twice as many tetrahedra as at first, and 240 steps on as many of these have not
- * been taken. The surface stays as it is; the mesh is checked, exactly. `n_left`: how many
- * tetrahedra are not positive in the end. On failure the map is to be freed. */
+/* Moves images until every tetrahedron is positive after the map, too. Round by round, it cuts
+ * inner edges of tetrahedra that stay inverted. The map needs a mesh of its own that is positive,
+ * fills `source`, and has images of all points.
+ *
+ * It ends if too many tetrahedra are inverted, if their number has doubled, or after the cost of
+ * 240 steps on the first mesh. The surface does not change, and the mesh is checked, exactly.
+ * `n_left` counts the tetrahedra that are not positive at the end. On failure, free the map. */
 icc_status iccp_solid_mend(iccp_solid_map *map, const icc_domain *source, size_t *n_left,
                            const iccp_env *env);
 

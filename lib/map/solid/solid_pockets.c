@@ -1,7 +1,7 @@
-/* A pocket is a tetrahedron that is stuck with some rings of neighbours. Where what it fills before
- * the map and what its images fill are bounded by spheres that do not meet themselves, it is a pair
- * of surfaces like any other, only small: both are filled anew, and a map of the one onto the other
- * comes in place of what was there. */
+/* A pocket is a stuck tetrahedron with some rings of neighbours. Its region before the map and its
+ * region after the map must be bounded by spheres that do not intersect themselves. Then it is a
+ * small pair of surfaces like any other. Both are filled anew, and a map from one to the other
+ * replaces the old one. */
 #include "map/solid/solid_pockets.h"
 
 #include "fill/fill_domain.h"
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* Tetrahedra in a pocket; and that are stuck, for it to be worth it. */
+/* Limits: tetrahedra in a pocket, and stuck tetrahedra for which pockets are worth trying. */
 enum { FEWEST_TETS = 16, MOST_TETS = 4096, MOST_STUCK = 40 };
 
 static const uint32_t OUTSIDE = UINT32_MAX;
@@ -22,7 +22,7 @@ typedef struct pocket {
     uint32_t *tet;
     uint8_t *is_in;   /* of each tetrahedron of the mesh */
     uint32_t *number; /* of each point */
-    uint32_t *point;  /* those on the boundary */
+    uint32_t *point;  /* the points on the boundary */
     uint32_t *faces;
     double *before, *after; /* of the points on the boundary */
 } pocket;
@@ -60,7 +60,7 @@ static icc_status alloc_pocket(pocket *p, const iccp_solid_map *map)
                : ICC_ERR_MEMORY;
 }
 
-/* ---- which tetrahedra ---- */
+/* ---- choosing the tetrahedra ---- */
 
 static void add(pocket *p, size_t tet)
 {
@@ -87,8 +87,8 @@ static bool has_edge(const pocket *p, uint32_t a, uint32_t b)
     return false;
 }
 
-/* Whether the pocket stays a ball with a tetrahedron next to it: what the sides that both have do
- * not have, a point or an edge, is not in the pocket. */
+/* Returns true if the pocket stays a ball when a tetrahedron next to it is added. The part that
+ * their common sides do not contain, a point or an edge, must not be in the pocket. */
 static bool fits(const pocket *p, size_t tet)
 {
     const uint32_t *v = p->map->mesh->corners + 4 * tet, *across = p->map->mesh->across + 4 * tet;
@@ -101,8 +101,8 @@ static bool fits(const pocket *p, size_t tet)
                     : n == 3;
 }
 
-/* What is next to what is there, in the order of coming, until there are so many. Nothing fits any
- * more where a round is in vain. */
+/* Adds neighbours in the order of their discovery until there are n tetrahedra. It ends when a
+ * round adds nothing. */
 static void grow(pocket *p, size_t n)
 {
     const iccp_simplices *mesh = p->map->mesh;
@@ -145,8 +145,8 @@ static icc_status alloc_boundary(pocket *p)
     return p->faces != NULL && p->before != NULL && p->after != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Its faces, by numbers of its points in the order of coming, and where these are before the map
- * and after it. */
+/* Lists the faces by numbers of their points in the order of discovery, and the points' places
+ * before and after the map. */
 static void list_boundary(pocket *p)
 {
     const iccp_simplices *mesh = p->map->mesh;
@@ -173,9 +173,9 @@ static void list_boundary(pocket *p)
     }
 }
 
-/* ---- in place of what was there ---- */
+/* ---- replacing the pocket ---- */
 
-/* New numbers of the points: those inside the pocket go. */
+/* Renumbers the points without those inside the pocket. */
 static size_t renumber(pocket *p)
 {
     const iccp_simplices *mesh = p->map->mesh;
@@ -192,7 +192,7 @@ static size_t renumber(pocket *p)
     return n;
 }
 
-/* What is not in the pocket, and what comes in its place. */
+/* Joins the tetrahedra outside the pocket with their replacements inside. */
 static void join(const iccp_solid_map *map, const pocket *p, const icc_domain *before,
                  const icc_domain *after, const iccp_simplices *part, const double *part_images,
                  iccp_simplices *mesh, double *images)
@@ -220,9 +220,9 @@ static void join(const iccp_solid_map *map, const pocket *p, const icc_domain *b
     }
 }
 
-/* Whether fewer are inverted, and nothing is flat before the map. What was positive in the
- * coordinates of two other domains need not be so when it is rounded to those of the map; as the
- * number falls, there is an end to pockets. */
+/* Returns true if fewer tetrahedra are inverted and none is flat before the map. A tetrahedron that
+ * was positive in the coordinates of two other domains may not be so after rounding to the map's.
+ * The falling number ensures that the loop over pockets ends. */
 static bool is_better(const iccp_simplices *mesh, double *images, const iccp_solid_map *map)
 {
     const iccp_simplicial_map before = iccp_simplicial_map_of(mesh, mesh->points);
@@ -231,8 +231,8 @@ static bool is_better(const iccp_simplices *mesh, double *images, const iccp_sol
            iccp_simplicial_count_inverted(&after) < iccp_solid_count_inverted(map);
 }
 
-/* `part`: a mesh in place of the pocket, with its images, in the coordinates of two other domains.
- * Not done where that makes nothing better. */
+/* Replaces the pocket by `part`, a mesh with images in the coordinates of two other domains. Does
+ * nothing if this is no improvement. */
 static icc_status splice(iccp_solid_map *map, pocket *p, const icc_domain *before,
                          const icc_domain *after, const iccp_simplices *part,
                          const double *part_images, bool *done)
@@ -265,9 +265,9 @@ static icc_status splice(iccp_solid_map *map, pocket *p, const icc_domain *befor
     return has_memory ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* ---- one pocket after the other ---- */
+/* ---- the loop over pockets ---- */
 
-/* What is inside the boundary; NULL where there is nothing that doubles can fill. */
+/* Fills the region inside the boundary. NULL if doubles cannot fill it. */
 static icc_status fill(icc_domain **filled, const pocket *p, const double *vertices,
                        const iccp_env *env)
 {
@@ -282,7 +282,7 @@ static icc_status fill(icc_domain **filled, const pocket *p, const double *verti
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
-/* Whether what has been gathered has led to anything. */
+/* Maps the gathered pocket anew and puts it in place. *done tells if this succeeded. */
 static icc_status put_in_place(iccp_solid_map *map, pocket *p, const icc_domain *source,
                                iccp_solid_solve *solve, bool *done, const iccp_env *env)
 {
@@ -314,7 +314,7 @@ static icc_status put_in_place(iccp_solid_map *map, pocket *p, const icc_domain 
     return status;
 }
 
-/* With more and more of what is round about. */
+/* Tries pockets around a tetrahedron that grow more and more. */
 static icc_status mend(iccp_solid_map *map, size_t tet, const icc_domain *source,
                        iccp_solid_solve *solve, bool *done, const iccp_env *env)
 {

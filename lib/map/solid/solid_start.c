@@ -1,6 +1,7 @@
-/* docs/theory.md, the mesh map in space. What cannot be repaired on one of the two meshes often can
- * on the other: onto a convex body there is room for everything, and a ball's mesh has no points
- * where the limbs of an animal come from. The inverse of a map is one. */
+/* Tries strategies for a first map in turn: docs/theory.md, the mesh map in space. A map that
+ * cannot be repaired on one of the two meshes often can on the other. A convex target has room for
+ * everything, but the mesh of a ball has no points where the limbs of an animal must come from. The
+ * inverse of a map is a map. */
 #include "map/solid/solid_start.h"
 
 #include "base/clock.h"
@@ -14,7 +15,7 @@
 
 #include <math.h>
 
-/* Both meshes have the same boundary, by the same numbers. */
+/* Inverts a map. Both meshes have the same boundary, with the same numbers. */
 static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
 {
     const icc_status status = iccp_solid_own(other);
@@ -28,17 +29,17 @@ static icc_status invert(iccp_solid_map *map, iccp_solid_map *other)
     return ICC_OK;
 }
 
-/* ---- one stage after the other, by turns on the source's mesh and on the target's ---- */
+/* ---- one stage after the other, in turn on the source's mesh and on the target's ---- */
 
 typedef enum stage { FIT, POCKETS, BALL, UNFOLD, MEND, MEND_ANEW } stage;
 
 static iccp_solid_solve solve;
 
-/* A map, and one the other way round. */
+/* A map, and one in the other direction. */
 typedef struct both {
     iccp_solid_map *map[2];
     iccp_direction ways[2];
-    size_t fewest; /* that were left of one */
+    size_t fewest; /* the least number of inverted tetrahedra */
 } both;
 
 static both both_of(iccp_solid_map *map, iccp_solid_map *other, iccp_direction way)
@@ -50,7 +51,7 @@ static both both_of(iccp_solid_map *map, iccp_solid_map *other, iccp_direction w
     return b;
 }
 
-/* What one stage has left of one side; a map the other way round is turned. */
+/* Records the result of a stage on one side. A map in the other direction is inverted. */
 static icc_status conclude(both *b, size_t side, icc_map_info *info)
 {
     b->fewest = info->n_unrepaired < b->fewest ? info->n_unrepaired : b->fewest;
@@ -69,7 +70,7 @@ static icc_status mend_pockets(iccp_solid_map *map, const icc_domain *source, ic
     return status;
 }
 
-/* A stage that needs no other map, unless there is a map already. */
+/* Runs a stage on both sides, unless there is a map already. */
 static icc_status take_turns(both *b, stage now, icc_map_info *info, const iccp_env *env)
 {
     iccp_env part[2];
@@ -91,7 +92,7 @@ static icc_status take_turns(both *b, stage now, icc_map_info *info, const iccp_
     return status;
 }
 
-/* Of a pocket: what is quick. */
+/* Quick strategies, for pockets. */
 static icc_status solve(iccp_simplices **mesh, double **images, const icc_domain *from,
                         const icc_domain *to, const iccp_env *env)
 {
@@ -133,7 +134,7 @@ static icc_status solve(iccp_simplices **mesh, double **images, const icc_domain
 
 /* ---- by way of a ball ---- */
 
-/* From a map onto the ball, which it takes apart. */
+/* Makes a map from one onto the ball, which is used up. */
 static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direction way,
                          const double apex[3], icc_map_info *info, const iccp_env *env)
 {
@@ -154,8 +155,8 @@ static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direct
     return ICC_OK;
 }
 
-/* By a map onto a ball with the target's directions, if there is one. Else the map is none, and
- * what is told stays. */
+/* Makes a map by way of a ball with the target's directions, if there is one. Otherwise the map is
+ * empty and `info` does not change. */
 static icc_status go_round(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
                            const iccp_env *env)
 {
@@ -200,9 +201,9 @@ static icc_status take_turns_round(both *b, icc_map_info *info, const iccp_env *
     return status;
 }
 
-/* ---- all of it ---- */
+/* ---- all stages ---- */
 
-/* Until one stage leads to a map; what else is told is of the last one. */
+/* Runs the stages until one finds a map. Other members of `info` describe the last stage. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
                             bool *unfolded, icc_map_info *info, const iccp_env *env)
 {

@@ -1,3 +1,4 @@
+/* Images by charts, their repair, and the map onto a star-shaped solid. */
 #include "map/solid/solid_ways.h"
 
 #include "base/clock.h"
@@ -11,11 +12,11 @@
 
 #include <string.h>
 
-/* Vertices per task. */
+/* Vertices for each task. */
 enum { GRAIN = 64 };
 
-/* Of a repair, on all tetrahedra: on pairs of all kinds those that came to an end took no more than
- * 68; the others have better ways to go. */
+/* Limit of a repair, in steps on all tetrahedra. On pairs of all kinds, repairs that succeeded took
+ * at most 68 steps. Other strategies are better for the rest. */
 static const double MOST_STEPS = 80;
 
 typedef struct start {
@@ -25,7 +26,7 @@ typedef struct start {
     double *images;
 } start;
 
-/* NaN for a vertex without an image: the repair finds one. */
+/* Computes images. A vertex without an image gets NaN, and the repair then places it. */
 static icc_status find_images(void *argument, size_t begin, size_t end)
 {
     const start *s = argument;
@@ -99,7 +100,7 @@ static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env
     return ICC_OK;
 }
 
-/* With points between boundary vertices; *done says whether there is room for any. */
+/* Starts anew on a mesh with points in the middle of chords. *done tells if that was possible. */
 static icc_status begin_without_chords(iccp_solid_map *map, iccp_direction way, bool *done,
                                        const iccp_env *env)
 {
