@@ -1,3 +1,4 @@
+/* Critical points of a piecewise linear function on a grid. */
 #include "gradient/function/critical_points.h"
 
 #include "gradient/grid/critical_count.h"

@@ -1,9 +1,9 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * chapter 5 and section 6.4.
+/* Finds compression and expansion edges. Based on: L. Huynh, Bijective Deformations in R^n via
+ * Integral Curve Coordinates, thesis, 2013, chapter 5 and section 6.4.
  *
- * The gradient in a triangle points to one of its edges when the opposite corner, the apex, lies
+ * The gradient in a triangle points to one of its edges if the opposite corner, the apex, lies
  * lower than the foot of its perpendicular on the edge. In the triangles of the grid that foot is
- * an end of the edge, or the middle of a diagonal, so that signs of differences tell everything. */
+ * an end of the edge, or the middle of a diagonal. So signs of differences decide. */
 #include "gradient/function/edges.h"
 
 #include "math/expansion.h"
@@ -11,8 +11,8 @@
 #include <assert.h>
 #include <math.h>
 
-/* Corners relative to vertex (i, j): the ends of an edge, and for each of the triangles on its two
- * sides the apex and the foot. Steps along x and y; a foot is end 0, end 1 or the middle. */
+/* One kind of edge at vertex (i, j): its ends and, for the triangle on each side, the apex and the
+ * foot. Corners are steps along x and y. A foot is end 0, end 1 or the middle. */
 typedef struct edge_kind {
     int end[2][2];
     int apex[2][2];
@@ -25,14 +25,14 @@ static const edge_kind KINDS[3] = {
     {{{0, 0}, {1, 1}}, {{1, 0}, {0, 1}}, {MIDDLE, MIDDLE}},
 };
 
-/* An edge of the grid: its ends, then its apexes, and the function there. */
+/* An edge of the grid: its ends, then its apexes, and the function at these. */
 typedef struct edge {
     uint32_t vertex[4];
     double f[4];
-    const int *foot; /* of the perpendicular, on either side: as in edge_kind */
+    const int *foot; /* foot of the perpendicular on each side, as in edge_kind */
 } edge;
 
-/* False when a corner lies beyond the grid. */
+/* Returns false if a corner lies outside the grid. */
 static bool edge_at(edge *out, const icc_grid *grid, size_t i, size_t j, int kind)
 {
     const edge_kind *shape = &KINDS[kind];
@@ -67,8 +67,8 @@ static int compare(double a, double b)
     return (a > b) - (a < b);
 }
 
-/* The sign of (a + b) / 2 - c. A rounded sum never lies on the wrong side of a double; only when it
- * is that double does its error decide. */
+/* Returns the sign of (a + b) / 2 - c. A rounded sum never lies on the wrong side of a double. Only
+ * if it equals that double, its rounding error decides. */
 static int compare_mean(double a, double b, double c)
 {
     double error;
@@ -77,7 +77,7 @@ static int compare_mean(double a, double b, double c)
     return sign != 0 ? sign : compare(error, 0.0);
 }
 
-/* +1 when the gradient on that side points to the edge, -1 when it points away from it. */
+/* Returns +1 if the gradient on that side points to the edge, -1 if it points away. */
 static int towards(const edge *e, int side)
 {
     const double a = e->f[0], b = e->f[1], apex = e->f[2 + side];
@@ -86,7 +86,7 @@ static int towards(const edge *e, int side)
     return compare(e->foot[side] == 0 ? a : b, apex);
 }
 
-/* ICC_EDGE_* or 0. */
+/* Returns ICC_EDGE_* or 0. */
 static int32_t classify_edge(const edge *e)
 {
     const int first = towards(e, 0);

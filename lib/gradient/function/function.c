@@ -1,7 +1,8 @@
+/* The function object. */
 #include "gradient/function/function.h"
 
 #include "base/minmax.h"
-#include "gradient/function/beyond.h"
+#include "gradient/function/extrapolate.h"
 #include "math/elementary.h"
 
 #include <stdbool.h>
@@ -29,7 +30,8 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
     return ICC_OK;
 }
 
-/* From a fraction in [0.5, 1) and an exponent: the same bits whichever way the value is kept. */
+/* Computes the logarithm from a fraction in [0.5, 1) and an exponent. The bits are the same however
+ * the value is stored. */
 static double log_of(double fraction, int32_t exponent)
 {
     static const double LN_2 = 0.69314718055994530942;
@@ -66,7 +68,8 @@ const double *iccp_function_logs(const icc_function *function)
     return known;
 }
 
-/* Fractions in place of the values, which are kept for those who want plain numbers. */
+/* Stores fractions and exponents in place of the values. Keeps plain values for callers that want
+ * these. */
 static icc_status assign_exponents(icc_function *function, const iccp_unknowns *unknowns,
                                    const iccp_scaled *f)
 {
@@ -87,7 +90,7 @@ static icc_status assign_exponents(icc_function *function, const iccp_unknowns *
     return ICC_OK;
 }
 
-/* What an earlier assignment has left. */
+/* Frees what an earlier assignment has made. */
 static void forget(icc_function *function)
 {
     if (function->plain != NULL) {
@@ -123,7 +126,7 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
     icc_status status = ICC_OK;
     if (positive && least < LEAST_EXPONENT)
         status = assign_exponents(function, unknowns, f);
-    return status == ICC_OK ? iccp_function_go_beyond(function, unknowns) : status;
+    return status == ICC_OK ? iccp_function_extrapolate(function, unknowns) : status;
 }
 
 void iccp_function_release(icc_function *function)

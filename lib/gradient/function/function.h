@@ -1,4 +1,17 @@
-/* The function object: values on the vertices of a tree. */
+/* The function object: values on the vertices of a tree.
+ *
+ * Legend of lib/gradient/function. Begin with this file, then make_function.h.
+ * - function: f of the papers, highest at the root and falling along the tree.
+ * - unknowns: the inside vertices at which an equation is solved (gradient/solver/unknowns.h).
+ * - exponent, plain: f may exceed the range of doubles. Then it is values * 2^exponent, and `plain`
+ *   holds the part that fits.
+ * - critical point: a vertex at which f has a maximum, a minimum or a saddle (critical_points.h).
+ * - compression, expansion edge: an edge to, or from, which the gradient points on both sides
+ *   (edges.h).
+ * - load: the point at which a bi-Laplace equation is driven. Moving it is in summit.h.
+ *
+ * Invariants: values are NaN exactly where the tree does not reach. After make_function.h a
+ * function does not change; only the cached logarithms are made later. */
 #ifndef ICCP_FUNCTION_H
 #define ICCP_FUNCTION_H
 
@@ -10,35 +23,37 @@ struct icc_function {
     iccp_memory memory;
     icc_tree *tree;
     icc_function_info info;
-    double *values;    /* one per grid vertex; NaN where the tree does not reach */
-    int32_t *exponent; /* the function is values * 2^exponent; NULL: 0 everywhere, the usual case */
-    double *plain;     /* the function as far as doubles hold it; NULL when that is `values` */
-    bool has_logs;     /* it is positive inside */
-    iccp_once logs;    /* of the function, once somebody has asked for them */
+    double *values; /* one per grid vertex; NaN where the tree does not reach */
+    /* The function is values * 2^exponent; NULL: all exponents are 0, the usual case */
+    int32_t *exponent;
+    double *plain;  /* the function as far as doubles can hold it; NULL: same as `values` */
+    bool has_logs;  /* it is positive inside */
+    iccp_once logs; /* logarithms of the function, made on first use */
 };
 
-/* A function whose values are all NaN. */
+/* Makes a function whose values are all NaN. */
 icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env);
 
-/* Takes over the values of a function on the unknowns: 0 at the vertices outside next to them, and
- * beyond these minus the value two steps back, as if it went on. Logarithms are made when all are
- * positive, exponents when doubles would not hold them. May be called again. ICC_ERR_MEMORY leaves
- * the function usable only for iccp_function_release(). */
+/* Takes the values of a function at the unknowns. Outside vertices next to them get 0. The vertices
+ * beyond get minus the value two steps back, as if the function continued. Logarithms are available
+ * if all values are positive, and exponents if doubles would not hold the values. It may be called
+ * again. After ICC_ERR_MEMORY, the function is only good for iccp_function_release(). */
 icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
                                 const iccp_scaled *f);
 
-/* The logarithm of the function at a vertex, of one that has logarithms: -HUGE_VAL outside, NaN
- * where the tree does not reach. */
+/* Returns the logarithm at a vertex of a function that has logarithms: -HUGE_VAL outside, NaN where
+ * the tree does not reach. */
 double iccp_function_log(const icc_function *function, size_t v);
 
-/* All of them, made when they are first asked for. NULL where there are none, or no memory. */
+/* Returns all logarithms and makes them on first use. NULL if the function has none, or there is no
+ * memory. */
 const double *iccp_function_logs(const icc_function *function);
 
-/* NULL is a no-op. Nothing shares a function yet, so it has one owner. */
+/* NULL does nothing. At this stage a function is not shared, so it has one owner. */
 void iccp_function_release(icc_function *function);
 
-/* The function at a few vertices, all divided by the same power of 2 where a double would not hold
- * them; NaN stays NaN. Differences of the results have exact signs. */
+/* Copies the function at a few vertices. If a double would not hold the values, all are divided by
+ * the same power of 2. NaN stays NaN. Differences of the results have exact signs. */
 static inline void iccp_function_local(const icc_function *function, size_t n,
                                        const uint32_t *vertices, double *local)
 {
@@ -54,7 +69,7 @@ static inline void iccp_function_local(const icc_function *function, size_t n,
         local[i] = ldexp(local[i], function->exponent[vertices[i]] - highest);
 }
 
-/* -1, 0 or 1 as the function at u is smaller than, equal to or larger than at v. */
+/* Returns -1, 0 or 1 if the function at u is smaller than, equal to or larger than at v. */
 static inline int iccp_function_compare(const icc_function *function, uint32_t u, uint32_t v)
 {
     const uint32_t both[2] = {u, v};

@@ -1,6 +1,6 @@
-/* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 5.2: solutions to the Laplace and bi-Laplace equations, with and without the inequalities
- * of the cousin tree. */
+/* Solves the equations of functions. Based on: L. Huynh and Y. Gingold, Bijective Deformations in
+ * R^n via Integral Curve Coordinates, section 5.2: solutions to the Laplace and bi-Laplace
+ * equations, with and without the inequalities of the cousin tree. */
 #include "gradient/function/laplace.h"
 
 #include "base/clock.h"
@@ -13,24 +13,24 @@
 #include "gradient/solver/tied.h"
 #include "math/elementary.h"
 
-/* A function on its way: everything here is borrowed but for the arrays. */
+/* State of a solution. All members are borrowed except the arrays. */
 typedef struct job {
     icc_function *function;
     const icc_function_options *options;
     iccp_unknowns unknowns;
     iccp_scaled f;
-    uint32_t *top; /* per unknown, as in iccp_ties, as are the next two; ties nothing */
+    uint32_t *top; /* per unknown, as in iccp_ties, like the next two; ties nothing */
     double *share;
     uint32_t *order;
 } job;
 
-/* Most multiplications of a factorisation that are preferred to conjugate gradients. */
+/* Largest factorisation, in multiplications, that is preferred to conjugate gradients. */
 static const double MOST_WORK_IN_2D = 2e10, MOST_WORK_BEYOND = 2e9;
 
-/* About how many multiplications a factorisation takes whose separators are the generations of the
- * tree: along a limb of breadth w, blocks of w^dim vertices cost w^(3 (dim - 1)) each, which is
- * w^(3 dim - 4) per generation of w^(dim - 1) vertices. The factors were found from exact counts on
- * squares and boxes (tests/bench/bench_spd). */
+/* Estimates the multiplications of a factorisation whose separators are the generations of the
+ * tree. Along a limb of breadth w, blocks of w^dim vertices cost w^(3 (dim - 1)) each. That is w^(3
+ * dim - 4) per generation of w^(dim - 1) vertices. The factors come from exact counts on squares
+ * and boxes (tests/bench/bench_spd). */
 static double predict_work(const icc_tree *tree)
 {
     const double dim = tree->grid->dim;
@@ -59,8 +59,8 @@ static int32_t choose_solver(const job *j)
     return predict_work(tree) <= most ? ICC_SOLVER_DIRECT : ICC_SOLVER_ITERATIVE;
 }
 
-/* Numbers the unknowns and makes room. No unknown is tied to another one yet, and the guess is 1
- * everywhere. order[0] == ICCP_NONE says that no order of elimination is known. */
+/* Numbers the unknowns and allocates arrays. No unknown is tied to another one yet, and the guess
+ * is 1 everywhere. order[0] == ICCP_NONE says that no order of elimination is known. */
 static icc_status begin_job(job *j, const iccp_env *env)
 {
     icc_status status = iccp_unknowns_create(&j->unknowns, j->function->tree, env);
@@ -96,7 +96,7 @@ static void free_job(job *j, const iccp_env *env)
     iccp_free(&env->memory, j->order);
 }
 
-/* By factorisation where that works, else by iteration; `info` says which. */
+/* Solves by factorisation if possible, else by iteration. `info` tells which. */
 static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                  const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
 {
@@ -115,7 +115,7 @@ static iccp_tied_solver tied_solver(const job *j)
     return j->function->info.solver == ICC_SOLVER_DIRECT ? solve_directly : iccp_tied_iterative;
 }
 
-/* With zeros on the boundary itself it is the same equation with another diagonal. */
+/* With zeros on the boundary itself, the equation is the same with another diagonal. */
 static bool is_laplace(int32_t function)
 {
     return function == ICC_FUNCTION_LAPLACE || function == ICC_FUNCTION_HARMONIC;
@@ -164,8 +164,8 @@ static icc_status constrain(job *j, const iccp_env *env)
                                       info, env);
 }
 
-/* Solves without the inequalities first: that solution is the guess for the one with them, and with
- * ICC_CONSTRAINTS_NEEDED it may do. Its critical points on the grid decide. */
+/* Solves without the inequalities first. That solution is the guess for solving with them. With
+ * ICC_CONSTRAINTS_NEEDED it is the result if its critical points on the grid allow. */
 static icc_status find_function(job *j, const iccp_env *env)
 {
     icc_function *function = j->function;

@@ -4,7 +4,7 @@
 
 #include "gradient/function/function.h"
 
-/* Gives values to a new function: ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See
+/* Gives values to a new function of kind ICC_FUNCTION_LAPLACE, _BILAPLACE or _CLAMPED. See
  * icc_function_create(). */
 icc_status iccp_laplace(icc_function *function, const icc_function_options *options,
                         const iccp_env *env, icc_error *err);

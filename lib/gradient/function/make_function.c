@@ -1,6 +1,6 @@
-/* Based on, for functions of the generation alone: L. Huynh, Bijective Deformations in R^n via
- * Integral Curve Coordinates, thesis, 2013, section 4.2, equation 4.1; tree distance: Huynh and
- * Gingold, section 5.2. */
+/* Makes functions of all kinds. Functions of the generation alone are based on: L. Huynh, Bijective
+ * Deformations in R^n via Integral Curve Coordinates, thesis, 2013, section 4.2, equation 4.1; tree
+ * distance: Huynh and Gingold, section 5.2. */
 #include "gradient/function/make_function.h"
 
 #include "base/error.h"
@@ -23,8 +23,8 @@ static icc_function_options complete(const icc_function_options *options)
     return full;
 }
 
-/* The root, unless the function is greater elsewhere: the greatest vertex that the tree reaches
- * first. */
+/* Finds the highest vertex: the root, unless the function is greater elsewhere. Of several greatest
+ * vertices, it is the one that the tree reaches first. */
 static void find_highest(icc_function *function)
 {
     const icc_tree *tree = function->tree;
@@ -41,16 +41,16 @@ static void find_highest(icc_function *function)
     }
 }
 
-/* ---- by generation ---- */
+/* ---- functions of the generation ---- */
 
-/* The value one generation further from the root. */
+/* Returns the value one generation further from the root. */
 static double fall(int32_t function, double value)
 {
     const double next = 0.95 * value;
     return function == ICC_FUNCTION_DECAY && next >= DBL_MIN ? next : floor(value) - 1.0;
 }
 
-/* The value of each generation, so that equal generations have equal bits. */
+/* Computes the value of each generation once, so that equal generations have equal bits. */
 static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
                            const iccp_env *env)
 {
@@ -68,9 +68,9 @@ static icc_status tabulate(double **out, const icc_tree *tree, int32_t function,
     return ICC_OK;
 }
 
-/* Gives values to a new function: ICC_FUNCTION_DECAY or ICC_FUNCTION_DISTANCE. The decay would
- * underflow from some 13,850 generations on (cells = 16384 get there); from there on the values are
- * -1, -2, .., so that they always fall from one generation to the next. */
+/* Gives values to a new function of kind ICC_FUNCTION_DECAY or ICC_FUNCTION_DISTANCE. The decay
+ * would underflow from some 13,850 generations on, which cells = 16384 can reach. From there on the
+ * values are -1, -2, .., so that they always fall from one generation to the next. */
 static icc_status set_by_generation(icc_function *function, int32_t kind, const iccp_env *env)
 {
     const icc_tree *tree = function->tree;
@@ -86,7 +86,7 @@ static icc_status set_by_generation(icc_function *function, int32_t kind, const 
     return status;
 }
 
-/* ---- any ---- */
+/* ---- all functions ---- */
 
 icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
                                 const icc_function_options *options, const iccp_env *env,

@@ -1,8 +1,10 @@
-/* Bi-Laplace functions are the shapes of a plate under a load: f = c G e_root, with G the
- * inverse of a symmetric positive definite matrix, L L or A'A. A plate is highest beside a load
- * that is not in the middle. With G(t, r) > G(r, r) the inequality G(t, r)^2 <= G(t, t) G(r, r)
- * gives G(t, t) > G(r, r): a load that moves to the greatest value, or beyond it as long as G(r, r)
- * grows, never comes back to where it was. */
+/* Moves the maximum of a bi-Laplace function to where the load is. These functions are the shapes
+ * of a plate under a load: f = c G e_root, where G is the inverse of a symmetric positive definite
+ * matrix, L L or A'A. If the load is not in the middle, the plate is highest beside it.
+ *
+ * Suppose that G(t, r) > G(r, r). Then the inequality G(t, r)^2 <= G(t, t) G(r, r) gives G(t, t) >
+ * G(r, r). So a load that moves to the greatest value never returns to an earlier place. The same
+ * holds if it moves further, as long as G(r, r) grows. */
 #include "gradient/function/summit.h"
 
 #include "gradient/solver/bilaplace.h"
@@ -11,7 +13,7 @@
 
 #include <string.h>
 
-/* Far beyond what it takes: for rounding, which knows no proof. */
+/* Far more than necessary. The limit is for rounding, which the proof does not cover. */
 enum { MOST_LOADS = 1000 };
 
 typedef struct plate {
@@ -21,9 +23,9 @@ typedef struct plate {
     iccp_sparse a;                   /* A, A'A and its factor: clamped */
     iccp_gram gram;
     iccp_ldlt factor;
-    double *f, *residual, *work, *wide; /* a number per unknown; the last one per row of A */
+    double *f, *residual, *work, *wide; /* a number per unknown; the last one: per row of A */
     int32_t *exponent;                  /* per unknown */
-    icc_function_info info;             /* what the solvers report; not used here */
+    icc_function_info info;             /* the solvers' report; not used here */
 } plate;
 
 static icc_status prepare_clamped(plate *p, const iccp_env *env)
@@ -40,8 +42,8 @@ static icc_status prepare_clamped(plate *p, const iccp_env *env)
     return status == ICC_OK ? iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env) : status;
 }
 
-/* Does once what every load needs: a factor of L, or of A'A when clamped. The iterative solver sets
- * itself up for each load. On failure the plate is left for free_plate(). */
+/* Prepares what every load needs: a factor of L, or of A'A when clamped. The iterative solver
+ * prepares itself for each load. On failure, free_plate() still frees the plate. */
 static icc_status prepare_plate(plate *p, const icc_function *function, const iccp_env *env)
 {
     *p = (plate){.function = function->info.function,
@@ -80,7 +82,8 @@ static void free_plate(plate *p, const iccp_env *env)
     iccp_free(&env->memory, p->exponent);
 }
 
-/* The normal equations, corrected with the residual of the least squares problem as in energy.c. */
+/* Solves the normal equations, corrected with the residual of the least squares problem as in
+ * energy.c. */
 static void load_clamped(plate *p, size_t loaded)
 {
     enum { CORRECTIONS = 2 };
@@ -95,8 +98,8 @@ static void load_clamped(plate *p, size_t loaded)
     }
 }
 
-/* f under a load on one unknown, 1 there. What doubles do not hold is far below the greatest
- * value. */
+/* Computes f under a load on one unknown, where f is 1. Values too small for doubles are far below
+ * the greatest value. */
 static icc_status load_plate(plate *p, size_t loaded, const iccp_env *env)
 {
     const size_t n = p->unknowns.n;
@@ -120,7 +123,7 @@ static icc_status load_plate(plate *p, size_t loaded, const iccp_env *env)
     return ICC_OK;
 }
 
-/* Of several that are greatest, the first; `loaded` if that is one of them. */
+/* Returns the first greatest unknown, or `loaded` if that is one of them. */
 static size_t find_highest(const plate *p, size_t loaded)
 {
     size_t highest = loaded;
@@ -138,8 +141,8 @@ static size_t find_unknown(const plate *p, uint32_t vertex)
     return unknown;
 }
 
-/* The unknown `stride` times as far from `from` as `to` is, in its direction; `to` where there is
- * none. */
+/* Returns the unknown in the direction of `to`, `stride` times as far from `from`. Returns `to` if
+ * there is none. */
 static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride)
 {
     const icc_grid *grid = p->unknowns.tree->grid;
@@ -156,9 +159,9 @@ static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride
     return unknown < p->unknowns.n ? unknown : to;
 }
 
-/* Steps grow as long as G(r, r), of the unknown r that is loaded, does: in a limb that widens
- * slowly the greatest value is always near the load. With f = 1 at each load, G(s, s) / G(r, r) =
- * f_r(s) / f_s(r). */
+/* Moves the load. Steps grow as long as G(r, r) of the loaded unknown r does, because in a limb
+ * that widens slowly the greatest value is always near the load. With f = 1 at each load, G(s, s) /
+ * G(r, r) = f_r(s) / f_s(r). */
 static icc_status follow_loads(plate *p, size_t *unknown, const iccp_env *env)
 {
     size_t at = *unknown, next = at, top = at;

@@ -1,3 +1,4 @@
+/* Counts the critical vertices of an order, in parallel. */
 #include "gradient/grid/critical_count.h"
 
 #include <string.h>
@@ -21,7 +22,8 @@ icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t
     iccp_star_init(&count.star, grid, n_ranked);
     const icc_status status = iccp_for_chunks(env, "check", grid->n_vertices, GRAIN, chunk, &count);
     if (status == ICC_OK) {
-        memset(report, 0, sizeof *report); /* its padding too: equal reports have equal bytes */
+        /* Including its padding: equal reports have equal bytes */
+        memset(report, 0, sizeof *report);
         report->critical = ICCP_NONE;
         for (size_t c = n_chunks; c-- > 0;) {
             report->n_maxima += count.partial[c].n_maxima;

@@ -1,37 +1,38 @@
-/* Critical vertices of an order of the vertices of a grid, whatever it comes from.
+/* Counts the critical vertices of an order of a grid's vertices.
  *
  * Based on: T. Banchoff, Critical Points and Curvature for Embedded Polyhedra, Journal of
- * Differential Geometry 1, 1967: what a piecewise linear function does at a vertex can be read off
- * the neighbours that are higher and those that are lower. */
+ * Differential Geometry 1, 1967. What a piecewise linear function does at a vertex follows from
+ * which neighbours are higher and which are lower. */
 #ifndef ICCP_CRITICAL_COUNT_H
 #define ICCP_CRITICAL_COUNT_H
 
 #include "base/threads.h"
 #include "gradient/grid/star.h"
 
-/* A count on its way. */
+/* State of a count. */
 typedef struct iccp_critical {
     iccp_star star;
-    const void *context;          /* the order: for the two questions below */
-    uint32_t highest;             /* where a maximum is expected */
-    icc_function_report *partial; /* what each chunk found */
+    const void *context;          /* the order, for the two functions below */
+    uint32_t highest;             /* the expected maximum */
+    icc_function_report *partial; /* result of each chunk */
 } iccp_critical;
 
-/* Whether a vertex takes part in the order; those that do not are lower than all others. */
+/* Returns true if a vertex takes part in the order. Vertices that do not are lower than all
+ * others. */
 typedef bool (*iccp_is_ranked)(const void *context, uint32_t v);
 
-/* Of two that do. */
+/* Returns true if u is higher than v. Both take part. */
 typedef bool (*iccp_is_higher)(const void *context, uint32_t u, uint32_t v);
 
-/* Counts critical vertices; see icc_function_report, of which all but `size` is filled in. `chunk`
- * calls iccp_critical_chunk() with the two questions; it is asked from several threads at a time.
- * `n_ranked`: about how many take part. ICC_ERR_MEMORY or ICC_ERR_CANCELLED leave the report as it
- * was. */
+/* Counts critical vertices and fills in an icc_function_report except `size`. `chunk` calls
+ * iccp_critical_chunk() with the two functions above, from several threads at a time. `n_ranked` is
+ * about the number of vertices that take part. ICC_ERR_MEMORY and ICC_ERR_CANCELLED leave the
+ * report unchanged. */
 icc_status iccp_critical_count(const icc_grid *grid, const void *context, size_t n_ranked,
                                uint32_t highest, iccp_chunk chunk, icc_function_report *report,
                                const iccp_env *env);
 
-/* Files what a chunk that begins there has found. */
+/* Stores the result of the chunk that begins at `begin`. */
 void iccp_critical_put(const iccp_critical *count, size_t begin, const icc_function_report *found);
 
 static ICCP_INLINE iccp_link_set iccp_critical_higher(const iccp_critical *c, uint32_t v,
@@ -50,7 +51,7 @@ static ICCP_INLINE iccp_link_set iccp_critical_higher(const iccp_critical *c, ui
     return set;
 }
 
-/* Inlined, so that the two questions cost no calls. */
+/* Inlined, so that the two functions cost no calls. */
 static ICCP_INLINE icc_status iccp_critical_chunk(const iccp_critical *c, size_t begin, size_t end,
                                                   iccp_is_ranked ranked, iccp_is_higher higher)
 {

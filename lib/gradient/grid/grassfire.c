@@ -1,15 +1,15 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * section 4.1, Algorithm 1 (Huynh and Gingold, section 5.1).
+/* Finds the maximum by grassfire. Based on: L. Huynh, Bijective Deformations in R^n via Integral
+ * Curve Coordinates, thesis, 2013, section 4.1, Algorithm 1 (Huynh and Gingold, section 5.1).
  *
- * Round r of the algorithm burns the vertices at axis-by-axis (L1) distance r from the outside, so
- * the ones that stay longest are those of the largest distance. Two sweeps over the grid give that
- * distance: a shortest way from the outside to a vertex may take all its steps towards larger
- * indices first, which the first sweep follows, and then those towards smaller ones. */
+ * Round r of the algorithm burns the vertices at axis-by-axis (L1) distance r from the outside. So
+ * the vertices that stay longest have the largest distance. Two sweeps over the grid compute that
+ * distance, because a shortest path from the outside may take all its steps towards larger indices
+ * first. The first sweep follows these, and the second the steps towards smaller indices. */
 #include "gradient/grid/grassfire.h"
 
 #include "base/error.h"
 
-/* Lowers the distance of a vertex to one more than that of its neighbours on one side. */
+/* Lowers the distance of a vertex to one more than that of its neighbour on one side. */
 static void relax(const icc_grid *grid, uint32_t *distance, uint32_t vertex, int32_t step)
 {
     for (int32_t k = 0; k < grid->dim; ++k) {
@@ -36,8 +36,9 @@ static icc_status sweep(const icc_grid *grid, uint32_t *distance, int32_t step, 
     return ICC_OK;
 }
 
-/* How far a vertex lies from the mean of `count` vertices whose coordinates add up to `sum`,
- * squared and times count^2. Whole numbers, so that vertices on opposite sides of the mean tie. */
+/* Returns the squared distance of a vertex from the mean of `count` vertices, times count^2. Their
+ * coordinates have the sum `sum`. The result is an integer, so vertices on opposite sides of the
+ * mean tie. */
 static double from_mean(const icc_grid *grid, uint32_t vertex, uint64_t count, const uint64_t *sum)
 {
     double square = 0.0;
@@ -49,7 +50,7 @@ static double from_mean(const icc_grid *grid, uint32_t vertex, uint64_t count, c
     return square;
 }
 
-/* Of the vertices at a distance, the one nearest to their mean. */
+/* Returns, of the vertices at a distance, the one nearest to their mean. */
 static uint32_t central(const icc_grid *grid, const uint32_t *distance, uint32_t wanted)
 {
     uint64_t count = 0, sum[ICC_MAX_DIM] = {0};

@@ -1,15 +1,17 @@
-/* Based on: J. A. Barmak and E. G. Minian, Strong Homotopy Types, Nerves and Collapses, Discrete &
- * Computational Geometry 47, 2012.
+/* Tests whether sets of neighbours are contractible. Based on: J. A. Barmak and E. G. Minian,
+ * Strong Homotopy Types, Nerves and Collapses, Discrete & Computational Geometry 47, 2012.
  *
- * The simplices of the triangulation are the cliques of joined vertices. The link is a sphere of
- * one dimension less. Up to 3-D, where it is two points, a circle or a sphere, a set and the rest
- * are both contractible when each is connected and not empty (Alexander duality).
+ * The simplices of the triangulation are the cliques of joined vertices. The link of a vertex is a
+ * sphere of one dimension less. Up to 3-D it is two points, a circle or a sphere. There a set and
+ * the rest are both contractible if each is connected and not empty (Alexander duality).
  *
- * Beyond, strong collapses: a vertex is dominated by another one when everything joined to it,
- * itself included, is joined to the other; it can then be moved into the other one and dropped
- * without changing the homotopy type. What is left when no vertex is dominated does not depend on
- * the order, so a set that can be reduced to one vertex is reduced by dropping whatever will go. It
- * is enough that one of the two sets collapses: its neighbourhood is then a ball, and so is the
+ * In higher dimensions the test uses strong collapses. A vertex is dominated by another one if
+ * everything joined to it, including itself, is joined to the other. It can then be moved into the
+ * other one and dropped without changing the homotopy type. What remains when no vertex is
+ * dominated does not depend on the order. So if a set can be reduced to one vertex, any order of
+ * drops does it.
+ *
+ * It is enough that one of the two sets collapses. Its neighbourhood is then a ball, and so is the
  * rest of the sphere (C. P. Rourke and B. J. Sanderson, Introduction to Piecewise-Linear Topology,
  * chapter 3), which shrinks to the other set. */
 #include "gradient/grid/kuhn.h"
@@ -17,7 +19,7 @@
 #include <assert.h>
 #include <string.h>
 
-/* All the members of `part` that are also in `set` are in `whole`. */
+/* Returns true if all members of `part` that are also in `set` are in `whole`. */
 static bool covers(const iccp_link_set *whole, const iccp_link_set *part, const iccp_link_set *set)
 {
     return (part->word[0] & set->word[0] & ~whole->word[0]) == 0 &&
@@ -38,7 +40,7 @@ static bool dominated(const iccp_kuhn *kuhn, const iccp_link_set *set, int i)
     return false;
 }
 
-/* A dominated member, or -1. */
+/* Returns a dominated member, or -1. */
 static int find_dominated(const iccp_kuhn *kuhn, const iccp_link_set *set, int first)
 {
     for (int i = first; i < kuhn->n_neighbours; ++i)
@@ -70,7 +72,7 @@ static bool collapses(const iccp_kuhn *kuhn, iccp_link_set set)
     return true;
 }
 
-/* For sets within the first word. */
+/* Only for sets within the first word. */
 static bool is_connected(const iccp_kuhn *kuhn, uint64_t set)
 {
     uint64_t reached = set & (~set + 1), before = 0;
@@ -83,7 +85,7 @@ static bool is_connected(const iccp_kuhn *kuhn, uint64_t set)
     return reached == set && set != 0;
 }
 
-/* Differ by 0s and 1s only, or by 0s and -1s only. */
+/* Returns true if two neighbours differ by 0s and 1s only, or by 0s and -1s only. */
 static bool are_joined(const iccp_kuhn *kuhn, int i, int j)
 {
     int lowest = 0, highest = 0;
@@ -119,7 +121,7 @@ static void put(iccp_kuhn *kuhn, uint64_t set)
     kuhn->regular[set / 64] |= (uint64_t)1 << (set % 64);
 }
 
-/* The answer for a set is the answer for the rest. */
+/* A set and its complement have the same answer. */
 void iccp_kuhn_tabulate(iccp_kuhn *kuhn)
 {
     if (kuhn->dim > 3)

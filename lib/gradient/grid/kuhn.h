@@ -1,6 +1,6 @@
-/* Links of the Kuhn (Freudenthal) triangulation of a grid: every cell is cut along its diagonals
- * from lower to upper corners, and two vertices are joined when they differ by 0s and 1s only, or
- * by 0s and -1s only. Any dimension up to ICC_MAX_DIM. */
+/* Links of the Kuhn (Freudenthal) triangulation of a grid, in any dimension up to ICC_MAX_DIM.
+ * Every cell is cut along its diagonals from lower to upper corners. Two vertices are joined if
+ * they differ by 0s and 1s only, or by 0s and -1s only. */
 #ifndef ICCP_KUHN_H
 #define ICCP_KUHN_H
 
@@ -10,10 +10,10 @@
 
 enum {
     ICCP_LINK_SIZE = 126,     /* neighbours of a vertex in ICC_MAX_DIM dimensions: 2 (2^6 - 1) */
-    ICCP_LINK_TABLE = 1 << 14 /* sets of the 14 neighbours in 3-D */
+    ICCP_LINK_TABLE = 1 << 14 /* number of sets of the 14 neighbours in 3-D */
 };
 
-/* A set of neighbours: bit i of word[i / 64] stands for neighbour i. */
+/* A set of neighbours: bit i of word[i / 64] is for neighbour i. */
 typedef struct iccp_link_set {
     uint64_t word[2];
 } iccp_link_set;
@@ -23,15 +23,15 @@ typedef struct iccp_kuhn {
     int n_neighbours;                         /* 2 (2^dim - 1) */
     int8_t step[ICCP_LINK_SIZE][ICC_MAX_DIM]; /* to each neighbour */
     iccp_link_set all;
-    iccp_link_set joined[ICCP_LINK_SIZE]; /* neighbour i and those joined to it */
+    iccp_link_set joined[ICCP_LINK_SIZE]; /* neighbour i and the neighbours joined to it */
     bool tabulated;
-    uint64_t regular[ICCP_LINK_TABLE / 64]; /* the answers for all sets, when tabulated */
+    uint64_t regular[ICCP_LINK_TABLE / 64]; /* answers for all sets, after iccp_kuhn_tabulate() */
 } iccp_kuhn;
 
 void iccp_kuhn_init(iccp_kuhn *kuhn, int32_t dim);
 
-/* Finds the answers for all sets in advance, which pays when more than about 2^n_neighbours will be
- * asked for. Up to 3-D (1 ms); has no effect beyond. */
+/* Computes the answers for all sets in advance. This pays for more than about 2^n_neighbours
+ * queries. Takes 1 ms up to 3-D, and has no effect in higher dimensions. */
 void iccp_kuhn_tabulate(iccp_kuhn *kuhn);
 
 static inline void iccp_link_add(iccp_link_set *set, int i)
@@ -49,14 +49,15 @@ static inline bool iccp_link_is_empty(const iccp_link_set *set)
     return (set->word[0] | set->word[1]) == 0;
 }
 
-/* The neighbours that are not in a set. */
+/* Returns the neighbours that are not in a set. */
 static inline iccp_link_set iccp_link_rest(const iccp_kuhn *kuhn, const iccp_link_set *set)
 {
     return (iccp_link_set){{kuhn->all.word[0] & ~set->word[0], kuhn->all.word[1] & ~set->word[1]}};
 }
 
-/* Whether a set of neighbours and the rest of them each span a contractible part of the link. Exact
- * up to 3-D; beyond, true is exact and false may mean that it could not be shown. */
+/* Returns true if a set of neighbours and its complement each span a contractible part of the link.
+ * Exact up to 3-D. In higher dimensions true is exact, and false may mean that no proof was
+ * found. */
 bool iccp_kuhn_regular(const iccp_kuhn *kuhn, const iccp_link_set *set);
 
 #endif

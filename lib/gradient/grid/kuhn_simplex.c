@@ -1,6 +1,6 @@
-/* Based on: H. Freudenthal, Simplizialzerlegungen von beschraenkter Flachheit, Annals of
- * Mathematics 43, 1942; pivoting as in M. Todd, The Computation of Fixed Points and Applications,
- * 1976, chapter III. */
+/* Simplices of the Kuhn triangulation. Based on: H. Freudenthal, Simplizialzerlegungen von
+ * beschraenkter Flachheit, Annals of Mathematics 43, 1942; pivoting as in M. Todd, The Computation
+ * of Fixed Points and Applications, 1976, chapter III. */
 #include "gradient/grid/kuhn_simplex.h"
 
 #include "base/minmax.h"
@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* By descending local coordinate; insertion keeps equal ones in the order of the axes. */
+/* Sorts axes by descending local coordinate. Insertion sort keeps equal ones in the order of the
+ * axes. */
 static void sort_axes(int32_t dim, const double *u, int8_t *axis)
 {
     for (int32_t k = 0; k < dim; ++k) {

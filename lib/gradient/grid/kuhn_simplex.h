@@ -1,5 +1,5 @@
-/* One simplex of the Kuhn triangulation, and the way across its facets: a cell and the order of the
- * axes in which its diagonal is gone along. Any dimension. */
+/* One simplex of the Kuhn triangulation, and how to cross its facets. A simplex is a cell and an
+ * order of the axes: the steps from the cell's lowest corner to its highest. Any dimension. */
 #ifndef ICCP_KUHN_SIMPLEX_H
 #define ICCP_KUHN_SIMPLEX_H
 
@@ -11,24 +11,23 @@
 #include <string.h>
 
 typedef struct iccp_kuhn_simplex {
-    uint32_t corner[ICC_MAX_DIM + 1]; /* from the lowest to the highest: grid vertices */
+    uint32_t corner[ICC_MAX_DIM + 1]; /* grid vertices, from the lowest to the highest */
     int8_t axis[ICC_MAX_DIM];         /* corner k + 1 lies one step along axis[k] from corner k */
 } iccp_kuhn_simplex;
 
-/* The simplex that holds a point in lattice coordinates, and the point's barycentric coordinates
- * (dim + 1, not negative, sum 1 up to rounding; equal local coordinates in the order of the axes).
- * False when the point is not within the grid. */
+/* Finds the simplex that contains a point in lattice coordinates, and the point's dim + 1
+ * barycentric coordinates. They are not negative and have sum 1 up to rounding. Equal local
+ * coordinates keep the order of the axes. Returns false if the point is not within the grid. */
 bool iccp_kuhn_simplex_at(iccp_kuhn_simplex *simplex, const icc_grid *grid, const double *x,
                           double *lambda);
 
-/* Goes to the simplex across the facet opposite to corner i. The corners that stay keep their
- * order; the new one becomes corner number *fresh (i, dim or 0), and going across the facet
- * opposite to it leads back. False, and nothing changed, at the border of the grid. */
+/* Goes to the simplex across the facet opposite corner i. The remaining corners keep their order.
+ * The new one becomes corner number *fresh (i, dim or 0); crossing the facet opposite it leads
+ * back. Returns false and changes nothing at the border of the grid. */
 bool iccp_kuhn_simplex_cross(iccp_kuhn_simplex *simplex, const icc_grid *grid, int32_t i,
                              int32_t *fresh);
 
-/* The facet opposite to the lowest corner: on to the cell in which the old highest corner goes
- * on. */
+/* Crosses the facet opposite the lowest corner, into the cell beyond the old highest corner. */
 static ICCP_INLINE bool iccp_kuhn_simplex_up(iccp_kuhn_simplex *s, int32_t dim,
                                              const icc_grid *grid)
 {
@@ -57,7 +56,7 @@ static ICCP_INLINE bool iccp_kuhn_simplex_down(iccp_kuhn_simplex *s, int32_t dim
     return true;
 }
 
-/* The same with the dimension, so that it may be constant. */
+/* iccp_kuhn_simplex_cross() with the dimension as an argument, so that it may be constant. */
 static ICCP_INLINE bool iccp_kuhn_simplex_cross_in(iccp_kuhn_simplex *simplex, int32_t dim,
                                                    const icc_grid *grid, int32_t i, int32_t *fresh)
 {
@@ -73,10 +72,11 @@ static ICCP_INLINE bool iccp_kuhn_simplex_cross_in(iccp_kuhn_simplex *simplex, i
     return true;
 }
 
-/* Moves barycentric coordinates along: those of the corners that stay, 0 for the new one. */
+/* Updates barycentric coordinates for a crossing: the remaining corners keep theirs, and the new
+ * one gets 0. */
 void iccp_kuhn_simplex_carry(int32_t dim, int32_t i, double *lambda);
 
-/* The lattice coordinates of a point. */
+/* Computes the lattice coordinates of a point. */
 void iccp_kuhn_simplex_point(const iccp_kuhn_simplex *simplex, const icc_grid *grid,
                              const double *lambda, double *x);
 

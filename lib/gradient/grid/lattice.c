@@ -1,3 +1,4 @@
+/* The grid object. */
 #include "gradient/grid/lattice.h"
 
 #include "base/budget.h"
@@ -19,11 +20,11 @@ static size_t count_vertices(int32_t dim, const size_t *shape)
     return n;
 }
 
-/* Of a chart's tree, function and whatever else there is for each vertex while they are made, but
- * for the factors of matrices: 29 to 180 were measured, with the matrices. */
+/* Bytes per vertex of a chart's tree, function and other arrays while they are made, except factors
+ * of matrices. Measurements gave 29 to 180, including the matrices. */
 static const double BYTES_PER_VERTEX = 300;
 
-/* To scan a domain, grow a tree and verify a function, by the simplices at a vertex. */
+/* Work of scanning a domain, growing a tree and verifying a function, in simplices per vertex. */
 static double work_per_vertex(int32_t dim)
 {
     return 200 + 2 * iccp_simplices_at_vertex(dim);
@@ -126,7 +127,7 @@ void iccp_grid_release(icc_grid *grid)
 
 uint32_t iccp_grid_nearest(const icc_grid *grid, const double *point)
 {
-    /* In cells; a point so far away that squares would overflow is moved closer. */
+    /* In units of cells. A point so far away that squares would overflow is moved closer. */
     double at[ICC_MAX_DIM];
     for (int32_t k = 0; k < grid->dim; ++k)
         at[k] = iccp_max(-1e150, iccp_min(1e150, (point[k] - grid->origin[k]) / grid->spacing));

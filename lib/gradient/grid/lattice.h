@@ -1,5 +1,21 @@
-/* The grid object: a regular n-D lattice, each vertex inside or outside. Written once for any
- * dimension; only making one from a domain (rasterise.h) knows what the domain is. */
+/* The grid object: a regular n-D lattice whose vertices are inside or outside. Only the code that
+ * makes a grid from a domain (rasterise.h) knows what the domain is.
+ *
+ * Legend of lib/gradient/grid, stage 1 of the papers. Begin with this file.
+ * - vertex: a lattice point, numbered along the first axis first. Its neighbours along an axis
+ *   differ by one step.
+ * - inside: vertices strictly inside the domain. All others are outside.
+ * - cell: a cube between lattice points. The Kuhn triangulation cuts it into simplices (kuhn.h,
+ *   kuhn_simplex.h).
+ * - star, link: the simplices at a vertex, and the neighbours that they contain (star.h, kuhn.h).
+ * - regular: a set of neighbours is regular if it and its complement are contractible in the link.
+ * - critical vertex: a vertex whose higher neighbours are not regular (critical_count.h).
+ * - grassfire: the choice of the maximum farthest from the outside (grassfire.h).
+ * - piece: a set of inside vertices connected along the axes. Only the largest is kept (pieces.h).
+ *
+ * Invariants: a grid never changes after it is made, and objects share it by reference counts.
+ * `n_inside` counts `inside`. Positions are origin + spacing * i, rounded, and inside is exact for
+ * these. */
 #ifndef ICCP_LATTICE_H
 #define ICCP_LATTICE_H
 
@@ -9,13 +25,13 @@
 
 #include <stdatomic.h>
 
-/* No vertex. */
+/* Stands for no vertex. */
 #define ICCP_NONE UINT32_MAX
 
-/* Most vertices that a grid may have. */
+/* Most vertices of a grid. */
 #define ICCP_MAX_VERTICES ((size_t)1 << 28)
 
-/* Loops over vertices report progress once per so many of them. */
+/* Number of vertices between progress reports of a loop. */
 #define ICCP_VERTICES_PER_REPORT ((size_t)1 << 16)
 
 struct icc_grid {
@@ -25,17 +41,18 @@ struct icc_grid {
     size_t shape[ICC_MAX_DIM];
     size_t stride[ICC_MAX_DIM]; /* stride[0] = 1; index = sum of i_k * stride[k] */
     double origin[ICC_MAX_DIM]; /* local position of vertex 0 */
-    double spacing;             /* local */
+    double spacing;             /* in local coordinates */
     iccp_frame frame;           /* of the domain, or the identity for masks */
-    int32_t cells;              /* along the longest side of a domain; 0 for masks of vertices */
-    icc_domain *domain;         /* whose inside the vertices inside lie in, or NULL */
+    /* Cells along the longest side of a domain; 0 for masks of vertices */
+    int32_t cells;
+    icc_domain *domain; /* the domain whose inside is described, or NULL */
     size_t n_vertices, n_inside;
-    size_t n_stray;  /* vertices that were inside and have been taken out */
+    size_t n_stray;  /* number of vertices that were inside and have been removed */
     uint8_t *inside; /* 1 or 0 */
 };
 
-/* A lattice with every vertex outside, origin 0, spacing 1 and the identity frame. The shape has no
- * zeros. ICC_ERR_RESOLUTION beyond ICCP_MAX_VERTICES. */
+/* Makes a lattice whose vertices are all outside, with origin 0, spacing 1 and the identity frame.
+ * The shape has no zeros. Returns ICC_ERR_RESOLUTION beyond ICCP_MAX_VERTICES. */
 icc_status iccp_grid_new(icc_grid **out, int32_t dim, const size_t *shape, const iccp_env *env,
                          icc_error *err);
 
@@ -47,11 +64,12 @@ icc_status iccp_grid_create_mask(icc_grid **out, int32_t dim, const size_t *shap
 icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_t *keep,
                               const iccp_env *env, icc_error *err);
 
-/* Takes part in keeping a grid alive, which is logically const for the one who asks. */
+/* Adds a reference that keeps a grid alive. To its users the grid stays const. */
 icc_grid *iccp_grid_retain(const icc_grid *grid);
 void iccp_grid_release(icc_grid *grid);
 
-/* The inside vertex nearest to a local point; the smallest index of several. ICCP_NONE if none. */
+/* Returns the inside vertex nearest to a local point, the smallest index if there are several.
+ * ICCP_NONE if there is none. */
 uint32_t iccp_grid_nearest(const icc_grid *grid, const double *point);
 
 static inline uint32_t iccp_grid_coordinate(const icc_grid *grid, uint32_t vertex, int32_t k)
@@ -59,7 +77,8 @@ static inline uint32_t iccp_grid_coordinate(const icc_grid *grid, uint32_t verte
     return vertex / (uint32_t)grid->stride[k] % (uint32_t)grid->shape[k];
 }
 
-/* The neighbour of a vertex one step along axis k (step +1 or -1), or ICCP_NONE at the border. */
+/* Returns the neighbour of a vertex one step along axis k (step +1 or -1), or ICCP_NONE at the
+ * border. */
 static inline uint32_t iccp_grid_neighbour(const icc_grid *grid, uint32_t vertex, int32_t k,
                                            int32_t step)
 {
@@ -71,7 +90,7 @@ static inline uint32_t iccp_grid_neighbour(const icc_grid *grid, uint32_t vertex
     return within >= block - stride ? ICCP_NONE : vertex + stride;
 }
 
-/* Of the Kuhn triangulation: (dim + 1)!. */
+/* Number of simplices of the Kuhn triangulation at a vertex: (dim + 1)!. */
 static inline double iccp_simplices_at_vertex(int32_t dim)
 {
     double n = 1;

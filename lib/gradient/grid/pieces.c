@@ -1,10 +1,11 @@
+/* Connected pieces of the inside of a grid. */
 #include "gradient/grid/pieces.h"
 
 typedef struct flood {
     const icc_grid *grid;
     const iccp_env *env;
     uint8_t *reached; /* by grid vertex */
-    uint32_t *queue;  /* n_reached grid vertices, one piece after the other */
+    uint32_t *queue;  /* n_reached grid vertices, one piece after another */
     size_t n_reached;
 } flood;
 
@@ -33,7 +34,7 @@ static icc_status flood_from(flood *f, uint32_t vertex)
     return ICC_OK;
 }
 
-/* The part of the queue that holds the largest piece. */
+/* Finds the part of the queue with the largest piece. */
 static icc_status find_largest(flood *f, size_t *begin, size_t *end)
 {
     *begin = *end = 0;

@@ -1,3 +1,4 @@
+/* Makes a grid from a domain. */
 #include "gradient/grid/rasterise.h"
 
 #include "base/error.h"
@@ -11,15 +12,15 @@
 
 enum { MARGIN = 2 }; /* layers of vertices beyond the bounding box */
 
-/* How many vertices fit into a side of the bounding box, never closer than a quarter of a cell to
- * its ends unless there is only one. */
+/* Returns how many vertices fit into a side of the bounding box. Unless there is only one, they
+ * stay at least a quarter of a cell away from its ends. */
 static size_t vertices_within(double side, double spacing)
 {
     const double n = floor(side / spacing + 0.5);
     return n > 1.0 ? (size_t)n : 1;
 }
 
-/* No vertex inside yet. */
+/* Makes a grid over the bounding box with no vertex inside. */
 static icc_status cover_box(icc_grid **out, const icc_domain *domain, int32_t cells,
                             const iccp_env *env, icc_error *err)
 {
@@ -57,14 +58,14 @@ static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, i
 
 /* ---- masks ---- */
 
-/* The vertex of the lattice of halves in whose place a position counts: a wall, or the middle of a
+/* Returns the vertex of the cut lattice that a position belongs to: a wall, or the middle of a
  * cell. */
 static size_t halves(size_t position, size_t cuts)
 {
     return 2 * (position / cuts) + (position % cuts != 0);
 }
 
-/* The vertices along the first axis that lie in the mask or on its border. */
+/* Scans the vertices along the first axis that lie in the mask or on its border. */
 static void scan_row(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t first, size_t *at)
 {
     for (size_t i = 0; i <= cuts * mask->shape[0]; ++i) {
@@ -76,8 +77,8 @@ static void scan_row(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t 
     }
 }
 
-/* Which vertices of a grid lie inside a mask: those around which all cells do. The grid has `cuts`
- * vertices to a cell along each axis, the walls between cells among them, and `margin` layers
+/* Finds the vertices of a grid that lie inside a mask: all cells around them do. The grid has
+ * `cuts` vertices per cell along each axis, including the walls between cells, and `margin` layers
  * beyond the mask. */
 static icc_status scan_mask(icc_grid *grid, const iccp_mask *mask, size_t cuts, size_t margin,
                             const iccp_env *env)
@@ -103,8 +104,8 @@ static icc_status scan_mask(icc_grid *grid, const iccp_mask *mask, size_t cuts, 
     }
 }
 
-/* Vertices to a cell of the mask: the least even number for which there are `cells` along the
- * longest side. */
+/* Returns the number of vertices per cell of the mask: the least even number that gives `cells`
+ * along the longest side. */
 static size_t cuts_for(const iccp_mask *mask, int32_t cells)
 {
     size_t longest = 0;
@@ -114,9 +115,9 @@ static size_t cuts_for(const iccp_mask *mask, int32_t cells)
     return half > 1 ? 2 * half : 2;
 }
 
-/* Every cuts-th vertex along an axis is a corner of the mask's cells, so that the boundary runs
- * along edges of the grid and cuts none of its cells. The first vertex lies MARGIN layers before
- * the mask's corner. */
+/* Every cuts-th vertex along an axis is a corner of the mask's cells. So the boundary follows edges
+ * of the grid and cuts no grid cell. The first vertex lies MARGIN layers before the mask's
+ * corner. */
 static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32_t cells,
                                  const iccp_env *env, icc_error *err)
 {
@@ -140,7 +141,7 @@ static icc_status create_in_mask(icc_grid **out, const icc_domain *domain, int32
     return scan_mask(grid, mask, cuts, MARGIN, env);
 }
 
-/* ---- any ---- */
+/* ---- any domain ---- */
 
 icc_status iccp_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
                             const iccp_env *env, icc_error *err)

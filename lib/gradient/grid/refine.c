@@ -1,10 +1,11 @@
-/* Based on: H. Edelsbrunner and D. R. Grayson, Edgewise Subdivision of a Simplex, Discrete &
- * Computational Geometry 24, 2000. That of the Kuhn triangulation is the Kuhn triangulation of the
- * lattice of half the spacing: the new vertices are the middles of its edges. */
+/* Makes grids of half the spacing. Based on: H. Edelsbrunner and D. R. Grayson, Edgewise
+ * Subdivision of a Simplex, Discrete & Computational Geometry 24, 2000. The subdivision of a Kuhn
+ * triangulation is the Kuhn triangulation of the lattice of half the spacing. The new vertices are
+ * the middles of its edges. */
 #include "gradient/grid/refine.h"
 
-/* The ends of the edge that a vertex of the finer grid is the middle of; one vertex if it is
- * old. */
+/* Finds the ends of the edge whose middle a vertex of the finer grid is. Both are the same if the
+ * vertex is old. */
 static void find_ends(const icc_grid *coarse, const icc_grid *fine, uint32_t vertex, size_t *lower,
                       size_t *upper)
 {

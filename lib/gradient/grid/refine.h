@@ -1,4 +1,4 @@
-/* Grids of half the spacing. */
+/* Makes grids of half the spacing. */
 #ifndef ICCP_REFINE_H
 #define ICCP_REFINE_H
 

@@ -1,9 +1,9 @@
-/* Scan conversion of a polygon by the parity rule, all edges first, then all rows.
+/* Scan conversion of a polygon by the parity rule: all edges first, then all rows.
  *
- * Where an edge crosses a row, the first vertex beyond it toggles; summing the toggles up along the
- * row says what is inside. Edges are half open, so that a row through a polygon vertex counts its
- * two edges once or as a pair. Vertices of the grid on an edge are marked apart: they are
- * outside. */
+ * Where an edge crosses a row, it toggles the first vertex beyond it. Adding up the toggles along
+ * the row tells which vertices are inside. Edges are half open, so a row through a polygon vertex
+ * counts its two edges once or as a pair. Grid vertices on an edge are marked separately, because
+ * they are outside. */
 #include "gradient/grid/scan_polygon.h"
 
 #include "base/minmax.h"
@@ -18,7 +18,8 @@ static double position(const icc_grid *grid, int k, size_t i)
     return grid->origin[k] + grid->spacing * (double)i;
 }
 
-/* The first index whose position is at least x, given that rounding moves an estimate by few. */
+/* Returns the first index whose position is at least x. Rounding moves the estimate only by a
+ * few. */
 static size_t first_from(const icc_grid *grid, int k, double x)
 {
     const double estimate = floor((x - grid->origin[k]) / grid->spacing);
@@ -45,7 +46,7 @@ static void mark_horizontal(icc_grid *grid, const double *a, const double *b)
         row(grid, j)[i] |= ON_EDGE;
 }
 
-/* Finds the first vertex of row j to the right of the edge from a up to b. */
+/* Finds the first vertex of row j on the right of the edge that rises from a to b. */
 static void mark_crossing(icc_grid *grid, size_t j, const double *a, const double *b)
 {
     double p[2] = {0.0, position(grid, 1, j)};
@@ -70,9 +71,8 @@ static void mark_crossing(icc_grid *grid, size_t j, const double *a, const doubl
         row(grid, j)[i] ^= TOGGLE;
 }
 
-/* Each edge is followed upwards and meets the rows from its lower to its upper end, the upper one
- * excluded for toggles. The work is the number of crossings, so progress is reported by these, not
- * by edges. */
+/* Follows each edge upwards through the rows from its lower to its upper end, which is excluded for
+ * toggles. The work is the number of crossings, so progress counts these, not edges. */
 static icc_status mark_edges(icc_grid *grid, const icc_domain *domain, const iccp_env *env)
 {
     size_t n_crossings = 0, next_report = 0;

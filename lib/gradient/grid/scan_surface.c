@@ -1,9 +1,9 @@
-/* Parity along the rows of the grid, then a closer look at the vertices next to a facet.
+/* Finds the grid vertices inside a surface: parity along the rows of the grid, then a closer look
+ * at the vertices next to a facet.
  *
- * Where a row crosses the boundary is known to rounding, and a row that runs in a facet is moved
- * aside by an infinitesimal to begin with. So what parity says of a vertex that lies in a facet, or
- * so near to one that rounding matters, means nothing: these vertices are found facet by facet and
- * located. */
+ * The place where a row crosses the boundary is rounded, and a row that runs in a facet is moved
+ * aside by an infinitesimal. So parity means nothing for a vertex in a facet, or so near to one
+ * that rounding matters. These vertices are found facet by facet and located exactly. */
 #include "gradient/grid/scan_surface.h"
 
 #include "base/minmax.h"
@@ -15,13 +15,13 @@
 
 enum {
     MOST_CROSSINGS = 256
-}; /* of a row; if there are more, its vertices are located one by one */
+}; /* Crossings of a row. If there are more, its vertices are located one by one. */
 
 static const size_t ROWS_PER_CHUNK = 64, FACETS_PER_REPORT = 1 << 10;
 
-/* Distance from a facet, in longest sides of the bounding box, within which a vertex is located.
- * Crossings are accurate to a few units of rounding, 1e-16, in the distance from the facet's
- * plane. */
+/* Vertices within this distance of a facet are located, in units of the bounding box's longest
+ * side. The distance of a crossing from the facet's plane has an error of a few units of rounding,
+ * 1e-16. */
 static const double NEAR = 1e-12;
 
 typedef struct work {
@@ -67,8 +67,8 @@ static icc_status scan_rows(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The vertices in a facet's bounding box, widened by `near`: the first and the number along each
- * axis. False if there are none. */
+/* Finds the vertices in a facet's bounding box, enlarged by `near`: the first one, and the number
+ * along each axis. Returns false if there are none. */
 static bool find_range(const work *w, uint32_t facet, double near, size_t *first, size_t *n)
 {
     const icc_grid *grid = w->grid;
@@ -86,8 +86,8 @@ static bool find_range(const work *w, uint32_t facet, double near, size_t *first
     return true;
 }
 
-/* Decides anew about the vertices within `near` of a facet. The odometer at[] visits the vertices
- * of the facet's widened box; few of them are near enough to be located, which costs most. */
+/* Decides again about the vertices within `near` of a facet. The odometer at[] visits the vertices
+ * of the enlarged box. Few of them are near enough to be located, which costs most. */
 static void locate_near_facet(const work *w, uint32_t facet, double near)
 {
     const icc_grid *grid = w->grid;

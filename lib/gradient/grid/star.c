@@ -1,3 +1,4 @@
+/* Neighbours of a grid vertex in the Kuhn triangulation. */
 #include "gradient/grid/star.h"
 
 void iccp_star_init(iccp_star *star, const icc_grid *grid, size_t n_asked)

@@ -1,16 +1,17 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section 5.2.
+/* Grows cousin trees. Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve
+ * Coordinates, thesis, 2013, section 4.2, Algorithm 2; the paper's form: Huynh and Gingold, section
+ * 5.2.
  *
- * A generation expands along the first axis, all of it, then along the second, and so on. No vertex
- * outside has a child inside, so the tree inside does not depend on those outside. It is grown
- * first, then the vertices outside are added, again generation by generation; in the paper's form
- * they get no parent.
+ * All of a generation expands along the first axis, then all of it along the second, and so on. No
+ * outside vertex has a child inside, so the tree inside does not depend on the outside. It grows
+ * first. Then outside vertices are added, again generation by generation. In the paper's form they
+ * get no parent.
  *
- * One thing is not as in the thesis' pseudocode. There a vertex outside may reach the far side of a
- * gap two cells wide before the inside does, and what it reaches then lies higher than its
- * neighbours inside, against the purpose of this layer. Here a neighbour of the inside waits for
- * it. Where vertices inside and outside compete for one between them, the one inside becomes its
- * parent. */
+ * One step differs from the thesis' pseudocode. There an outside vertex may reach the far side of a
+ * gap two cells wide before the inside does. The vertex that it reaches then lies higher than its
+ * inside neighbours, against the purpose of this layer. Here a neighbour of the inside waits for
+ * the inside. If vertices inside and outside compete for one between them, the inside vertex
+ * becomes its parent. */
 #include "gradient/tree/cousin.h"
 
 #include "base/error.h"
@@ -25,7 +26,7 @@ static void visit(icc_tree *tree, uint32_t from, uint32_t vertex)
     tree->order[tree->n_reached++] = vertex;
 }
 
-/* The generation that a vertex outside is given by the inside, or INT32_MAX. */
+/* Returns the generation that the inside gives to an outside vertex, or INT32_MAX. */
 static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
 {
     int32_t due = INT32_MAX;
@@ -39,7 +40,7 @@ static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
     return due;
 }
 
-/* Expands order[begin..end), a generation, along one axis into the inside. */
+/* Expands the generation order[begin..end) along one axis into the inside. */
 static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
 {
     for (size_t i = begin; i < end; ++i)
@@ -51,14 +52,15 @@ static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis
         }
 }
 
-/* Whether a vertex outside may expand into another one: not ahead of the inside. */
+/* Returns true if an outside vertex may expand into another one: not ahead of the inside. */
 static bool may_reach(const icc_tree *tree, uint32_t from, uint32_t vertex)
 {
     const int32_t due = generation_due(tree, vertex);
     return due == INT32_MAX || due == tree->generation[from] + 1;
 }
 
-/* The same into the outside. Vertices outside expand only next to the inside. */
+/* Expands a generation along one axis into the outside. Outside vertices expand only next to the
+ * inside. */
 static void expand_outside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
 {
     for (size_t i = begin; i < end; ++i) {
@@ -75,7 +77,8 @@ static void expand_outside(icc_tree *tree, size_t begin, size_t end, int32_t axi
     }
 }
 
-/* The end of the vertices of one generation that begin at order[begin]; there may be none. */
+/* Returns the end of the vertices of one generation that begin at order[begin]. There may be
+ * none. */
 static size_t end_of(const icc_tree *tree, size_t begin, size_t limit, int32_t generation)
 {
     size_t end = begin;
@@ -84,7 +87,7 @@ static size_t end_of(const icc_tree *tree, size_t begin, size_t limit, int32_t g
     return end;
 }
 
-/* Reports progress when `done` has come to `*next`. */
+/* Reports progress when `done` reaches `*next`. */
 static icc_status report(const icc_tree *tree, size_t done, size_t *next, const iccp_env *env)
 {
     if (done < *next)
@@ -110,7 +113,7 @@ static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
     return ICC_OK;
 }
 
-/* Goes through the inside again, and through the vertices outside as they are found. */
+/* Goes through the inside again, and through outside vertices as they are found. */
 static icc_status grow_outside(icc_tree *tree, const iccp_env *env)
 {
     size_t next_report = 0, in = 0, out = tree->n_inside;
@@ -129,7 +132,7 @@ static icc_status grow_outside(icc_tree *tree, const iccp_env *env)
     return ICC_OK;
 }
 
-/* No vertex visited yet. */
+/* Makes a tree without visited vertices. */
 static icc_tree *new_tree(const icc_grid *grid, const iccp_memory *memory)
 {
     icc_tree *tree = iccp_alloc_zero(memory, 1, sizeof *tree);

@@ -1,4 +1,18 @@
-/* The tree object and Algorithm 2 in both published forms. */
+/* The tree object, and Algorithm 2 in both published forms.
+ *
+ * Legend of lib/gradient/tree, stage 2 of the papers. Begin with this file.
+ * - root: the vertex of the maximum, where the tree begins.
+ * - generation: the number of steps from the root along the tree.
+ * - cousins: vertices whose parents are neighbours. By the cousin rule, neighbours are parent and
+ *   child or cousins (verify.h).
+ * - form: ICC_TREE_*, which tells whether outside vertices get parents.
+ * - rank: the place of a vertex in an order from the highest to the lowest (ranks.h).
+ * - grow, thin: to find an order with one critical vertex, by adding vertices from the root or by
+ *   removing them from the end (grow.h).
+ *
+ * Invariants: parents come before children in `order`, and inside vertices before outside ones.
+ * Only verify.h and ranks.h tell whether the rules hold; a tree that breaks them is still a
+ * tree. */
 #ifndef ICCP_COUSIN_H
 #define ICCP_COUSIN_H
 
@@ -13,21 +27,22 @@ struct icc_tree {
     uint32_t root;
     uint32_t *parent;    /* ICCP_NONE for the root and for vertices without one */
     int32_t *generation; /* -1: not reached */
-    uint32_t *order;     /* the n_reached vertices, parents before children: first the
-                            n_inside inside, then those outside, both by generation */
-    size_t n_reached;    /* vertices with a generation */
-    size_t n_inside;     /* those of them that are inside */
+    /* The n_reached vertices, parents before children: first the n_inside inside, then the outside
+     * ones, both by generation */
+    uint32_t *order;
+    size_t n_reached; /* vertices with a generation */
+    size_t n_inside;  /* number of those that are inside */
 };
 
-/* See icc_tree_create(); the root is inside. `axis_order` may be NULL.
+/* See icc_tree_create(). The root is inside. `axis_order` may be NULL.
  *
- * Two layers outside get a generation: the neighbours of vertices inside that are reached, and
- * their neighbours. In 2-D a grid cell with one corner inside and reached so has values at all
- * corners, except at those that are inside themselves and not reached. */
+ * Two layers outside get a generation: the neighbours of inside vertices that are reached, and
+ * their neighbours. Consider a 2-D grid cell with an inside corner that is reached. It has values
+ * at all corners except inside ones that are not reached. */
 icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
                             const int32_t *axis_order, const iccp_env *env, icc_error *err);
 
-/* Takes part in keeping a tree alive, which is logically const for the one who asks. */
+/* Adds a reference that keeps a tree alive. To its users the tree stays const. */
 icc_tree *iccp_tree_retain(const icc_tree *tree);
 void iccp_tree_release(icc_tree *tree);
 

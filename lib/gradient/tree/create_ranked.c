@@ -1,10 +1,11 @@
+/* Makes a tree and an order of its vertices, if necessary on a restricted grid. */
 #include "gradient/tree/create_ranked.h"
 
 #include "gradient/tree/grow.h"
 
-enum { MOST_ROUNDS = 8 }; /* two have been enough on all surfaces tried */
+enum { MOST_ROUNDS = 8 }; /* two were enough for all surfaces tried */
 
-/* The grid with those vertices inside only that have a rank. */
+/* Makes a copy of the grid in which only vertices with a rank are inside. */
 static icc_status keep_ranked(icc_grid **out, const icc_grid *grid, const uint32_t *rank,
                               const iccp_env *env, icc_error *err)
 {

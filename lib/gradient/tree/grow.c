@@ -1,17 +1,18 @@
-/* Based on: Huynh and Gingold, section 5.2, for what is to be reached; J. H. C. Whitehead,
- * Simplicial Spaces, Nuclei and m-Groups, 1939, for how: a vertex whose neighbours in a set form a
- * contractible part of its link may be added to the set, or taken from it, without a change of the
- * homotopy type.
+/* Finds orders with one critical vertex. Based on: Huynh and Gingold, section 5.2, for the aim; J.
+ * H. C. Whitehead, Simplicial Spaces, Nuclei and m-Groups, 1939, for the method. Suppose that the
+ * neighbours of a vertex in a set form a contractible part of its link. Then the vertex may be
+ * added to the set, or removed from it, without changing the homotopy type.
  *
- * The tree's order (Algorithm 2) makes critical vertices beyond the plane. Here it only sets the
- * priority. A set grows from the root: of the vertices that touch it, it takes the first one in
- * that order whose neighbours in it are contractible, as are then the others
- * (gradient/grid/kuhn.h). A vertex that is not has to wait until the set has taken another
- * neighbour of it. When all are taken, no vertex but the root is critical, whatever the shape.
+ * In dimensions above 2, the tree's order (Algorithm 2) has critical vertices. Here it only sets
+ * the priority. A set grows from the root. Among the vertices that touch it, it takes the first one
+ * in that order whose neighbours in the set, and so also the others, are contractible
+ * (gradient/grid/kuhn.h). Any other vertex has to wait until the set has taken another neighbour of
+ * it. When all vertices are taken, only the root is critical, whatever the shape.
  *
- * Should it get stuck, the set of all vertices is thinned in the same way: the last one whose
- * neighbours in the set are contractible goes, but for the root, and the order is read backwards.
- * There are shapes, even balls, where both fail: Bing's house with two rooms. */
+ * If growth gets stuck, the set of all vertices is thinned in the same way. The last vertex whose
+ * neighbours in the set are contractible is removed, except the root, and the order is read
+ * backwards. There are shapes, even balls, for which both fail, such as Bing's house with two
+ * rooms. */
 #include "gradient/tree/grow.h"
 
 #include "base/error.h"
@@ -25,29 +26,30 @@
 #include <string.h>
 
 enum {
-    MEMBER = 1, /* is to be taken: inside and reached by the tree; not the root */
-    IN_SET = 2, /* belongs to the set at the moment */
+    MEMBER = 1, /* will be taken: inside and reached by the tree; not the root */
+    IN_SET = 2, /* belongs to the set at present */
     CUT = 4,    /* has neighbours beyond the grid */
-    WAITED = 8  /* has been refused */
+    WAITED = 8  /* was refused at least once */
 };
 
-static const size_t TESTS_PER_REPORT = 1 << 12; /* of links: at most 0.1 s, in 6-D */
+static const size_t TESTS_PER_REPORT = 1 << 12; /* tests of links: at most 0.1 s, in 6-D */
 
 typedef struct growth {
     const icc_tree *tree;
     const iccp_env *env;
-    const uint32_t *priority; /* the n vertices, the root among them, in the order preferred */
-    uint32_t *sorted;         /* memory of `priority` where it is not the tree's */
+    const uint32_t *priority; /* the n vertices, including the root, in order of priority */
+    uint32_t *sorted;         /* memory of `priority` if the tree does not own it */
     uint32_t *place;          /* by grid vertex: its index in `priority` */
     uint8_t *state;           /* by grid vertex: MEMBER | IN_SET | .. */
     uint32_t *rank;           /* by grid vertex: the result */
-    iccp_queue queue;         /* places, or places from the end, of vertices to be tried */
+    /* Places of vertices to be tried, counted from the front or from the end */
+    iccp_queue queue;
     iccp_star star;
     bool thinning;
     size_t n, n_taken, n_tests, n_waited;
 } growth;
 
-/* ------------------------------------------------------------ the two ways */
+/* ---------------------------------------------------- growing and thinning */
 
 static uint8_t in_set(const growth *g, uint32_t v, int i)
 {
@@ -86,7 +88,7 @@ static void queue_neighbours(growth *g, uint32_t v)
     }
 }
 
-/* Into the set, or out of it. */
+/* Moves a vertex into the set, or out of it. */
 static void take_vertex(growth *g, uint32_t v)
 {
     g->state[v] ^= IN_SET;
@@ -95,8 +97,8 @@ static void take_vertex(growth *g, uint32_t v)
     queue_neighbours(g, v);
 }
 
-/* Takes vertices until there are none left to try. A vertex is tried once for each of its
- * neighbours that is taken, at most. */
+/* Takes vertices until there are none left to try. A vertex is tried at most once for each of its
+ * neighbours that is taken. */
 static icc_status take_vertices(growth *g)
 {
     for (;;) {
@@ -117,7 +119,7 @@ static icc_status take_vertices(growth *g)
     }
 }
 
-/* The root counts as taken either way, and is never tried. */
+/* The root counts as taken in both directions, and is never tried. */
 static icc_status grow(growth *g)
 {
     const uint32_t root = g->tree->root;
@@ -170,8 +172,8 @@ static icc_status set_priority(growth *g, const double *values)
     return done ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Makes place[] the inverse of priority[], marks who is to be taken, and gives nobody a rank. The
- * root is no MEMBER: it is in the set from the start. */
+/* Makes place[] the inverse of priority[], marks the vertices to be taken, and clears all ranks.
+ * The root is no MEMBER, because it is in the set from the start. */
 static icc_status begin_growth(growth *g, const double *values)
 {
     const iccp_memory *memory = &g->env->memory;
@@ -205,9 +207,9 @@ static void free_growth(growth *g)
     iccp_free(memory, g->state);
 }
 
-/* ------------------------------------------------------------- the outcome */
+/* ------------------------------------------------------------- the result */
 
-/* Edges on which the order found is not that of priority[]. */
+/* Counts the edges whose direction in the order found differs from priority[]. */
 static size_t count_reversed(const growth *g)
 {
     size_t n_reversed = 0;
@@ -244,8 +246,8 @@ static icc_status fail_stuck(const growth *g, const icc_grow_report *report, icc
                         report->vertex, at, report->n_unplaced, g->n, report->n_remaining);
 }
 
-/* Grows and, if that is not enough, thins. When both get stuck it grows once more, since the ranks
- * that growth gives are worth having. */
+/* Grows and, if that gets stuck, thins. If both get stuck, grows once more, because the ranks of
+ * growth are more useful. */
 static icc_status find_order(growth *g, icc_grow_report *report, icc_error *err)
 {
     icc_status status = grow(g);

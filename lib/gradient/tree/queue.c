@@ -1,5 +1,5 @@
-/* Based on: P. van Emde Boas, Preserving Order in a Forest in Less than Logarithmic Time, 1975, in
- * the form of a tree of machine words, each of 64 children. */
+/* A set of small numbers. Based on: P. van Emde Boas, Preserving Order in a Forest in Less than
+ * Logarithmic Time, 1975, as a tree of machine words with 64 children each. */
 #include "gradient/tree/queue.h"
 
 void iccp_queue_create(iccp_queue *queue, size_t n, const iccp_memory *memory)
@@ -25,7 +25,7 @@ void iccp_queue_free(iccp_queue *queue, const iccp_memory *memory)
     queue->level[0] = NULL;
 }
 
-/* The number of the lowest bit of a word that is not 0. */
+/* Returns the number of the lowest bit that is set in a word other than 0. */
 static uint32_t lowest_bit(uint64_t word)
 {
     uint32_t at = 0;

@@ -1,4 +1,4 @@
-/* A set of small numbers that gives out the smallest one. */
+/* A set of small numbers from which the smallest can be taken. */
 #ifndef ICCP_QUEUE_H
 #define ICCP_QUEUE_H
 
@@ -8,18 +8,18 @@
 
 enum { ICCP_QUEUE_LEVELS = 6 }; /* 64^6 > 2^32 */
 
-/* Bit i of level 0 stands for the number i, bit i of the next level for word i of the one below: a
- * word with some bit. */
+/* Bit i of level 0 stands for the number i. Bit i of any other level tells whether word i of the
+ * level below has a bit set. */
 typedef struct iccp_queue {
     uint64_t *level[ICCP_QUEUE_LEVELS];
     int n_levels;
 } iccp_queue;
 
-/* For numbers below n; empty. level[0] is NULL if there is no memory. */
+/* Makes an empty set for numbers below n. level[0] is NULL if there is no memory. */
 void iccp_queue_create(iccp_queue *queue, size_t n, const iccp_memory *memory);
 void iccp_queue_free(iccp_queue *queue, const iccp_memory *memory);
 
-/* Takes in a number, which may be there already. */
+/* Adds a number, which may be there already. */
 static inline void iccp_queue_push(iccp_queue *queue, uint32_t number)
 {
     for (int k = 0; k < queue->n_levels; ++k) {
@@ -32,7 +32,7 @@ static inline void iccp_queue_push(iccp_queue *queue, uint32_t number)
     }
 }
 
-/* Takes out the smallest number; UINT32_MAX when there is none. */
+/* Removes and returns the smallest number, or UINT32_MAX if there is none. */
 uint32_t iccp_queue_pop(iccp_queue *queue);
 
 #endif

@@ -1,3 +1,4 @@
+/* Checks orders that are given by ranks, and lowers functions to fall with them. */
 #include "gradient/tree/ranks.h"
 
 #include "gradient/grid/critical_count.h"

@@ -1,12 +1,13 @@
-/* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * Definition 2: neighbours are parent and child, or their parents are neighbours. */
+/* Checks the cousin rule. Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via
+ * Integral Curve Coordinates, Definition 2: neighbours are parent and child, or their parents are
+ * neighbours. */
 #include "gradient/tree/verify.h"
 
 #include "base/threads.h"
 
 static const size_t GRAIN = 1 << 15; /* vertices per chunk */
 
-/* What the pairs counted from the vertices of each chunk come to. */
+/* The results of all chunks. */
 typedef struct work {
     const icc_tree *tree;
     icc_tree_report *partial;
@@ -34,8 +35,8 @@ static bool in_tree(const icc_tree *tree, uint32_t v)
     return tree->grid->inside[v] && tree->generation[v] >= 0;
 }
 
-/* Counts each pair of neighbours from the vertex with the smaller coordinate, so that every pair
- * belongs to one chunk. Of the violations a chunk finds, it keeps the first. */
+/* Counts each pair of neighbours from the vertex with the smaller coordinate, so every pair belongs
+ * to one chunk. A chunk keeps the first of its violations. */
 static icc_status check_pairs(void *argument, size_t begin, size_t end)
 {
     const work *w = argument;

@@ -1,11 +1,11 @@
-/* Zeros on the boundary itself: values outside go on along lines through them, as the equation has
- * it (gradient/solver/unknowns.h): F. Gibou, R. P. Fedkiw, L.-T. Cheng, M. Kang, A
- * second-order-accurate symmetric discretization of the Poisson equation on irregular domains, J.
- * Comput. Phys. 176, 2002. */
-#include "gradient/function/beyond.h"
+/* Values outside, for functions whose zeros lie on the boundary itself. They continue along lines
+ * through the zeros, as the equation assumes (gradient/solver/unknowns.h): F. Gibou, R. P. Fedkiw,
+ * L.-T. Cheng, M. Kang, A second-order-accurate symmetric discretization of the Poisson equation on
+ * irregular domains, J. Comput. Phys. 176, 2002. */
+#include "gradient/function/extrapolate.h"
 
-/* Calls an action for each unknown beside a vertex outside: with that vertex, the unknown and the
- * share of the way from it at which the function is 0. */
+/* Calls an action for each pair of an outside vertex and an unknown beside it, with the share of
+ * the way from the unknown at which the function is 0. */
 static void for_ends(icc_function *function, const iccp_unknowns *unknowns, double *weight,
                      void (*act)(icc_function *, double *, uint32_t, uint32_t, double))
 {
@@ -37,8 +37,8 @@ static void add_end(icc_function *function, double *weight, uint32_t u, uint32_t
     weight[v] += reach;
 }
 
-/* Values beyond zeros on the boundary itself: on lines through the function at a vertex inside and
- * 0 at the boundary; where several lead to a vertex, the longer the way inside the better. */
+/* Extrapolates values beyond zeros on the boundary itself: linearly, from an inside vertex through
+ * 0 at the boundary. If several lines lead to a vertex, longer distances inside count more. */
 static icc_status go_on(icc_function *function, const iccp_unknowns *unknowns)
 {
     const icc_tree *tree = function->tree;
@@ -68,8 +68,8 @@ static int32_t highest_exponent(const icc_function *function, size_t n, const ui
     return highest;
 }
 
-/* The highest inside vertex two steps from an outside vertex, or ICCP_NONE if that is next to the
- * inside; and the vertex between them. */
+/* Returns the highest inside vertex two steps from an outside vertex, and the vertex between them.
+ * Returns ICCP_NONE if the outside vertex is next to the inside. */
 static uint32_t highest_behind(const icc_function *function, uint32_t v, uint32_t *between)
 {
     const icc_grid *grid = function->tree->grid;
@@ -92,10 +92,11 @@ static uint32_t highest_behind(const icc_function *function, uint32_t v, uint32_
     return best;
 }
 
-/* The layer beyond the zeros mirrors the one before them: with zeros there too, a boundary that
- * cuts the corner of a cell would see a level triangle (tests/bench/bench_collapse: a third less
- * area uncovered, fewer boundary points where the gradient does not point inward). Where the layer
- * between is not 0, the three are on a line, or on a plane with the fourth corner of a square. */
+/* Gives the layer beyond the zeros the negative values of the layer before them. With zeros there
+ * too, a boundary that cuts the corner of a cell would meet a level triangle. Mirroring leaves a
+ * third less area uncovered, and the gradient fails to point inward at fewer boundary points
+ * (tests/bench/bench_collapse). If the layer between is not 0, the three values lie on a line, or
+ * on a plane with the fourth corner of a square. */
 static void mirror(icc_function *function, bool has_zeros)
 {
     const icc_tree *tree = function->tree;
@@ -116,7 +117,7 @@ static void mirror(icc_function *function, bool has_zeros)
     }
 }
 
-icc_status iccp_function_go_beyond(icc_function *function, const iccp_unknowns *unknowns)
+icc_status iccp_function_extrapolate(icc_function *function, const iccp_unknowns *unknowns)
 {
     const icc_status status = unknowns->reach != NULL ? go_on(function, unknowns) : ICC_OK;
     if (status == ICC_OK)
