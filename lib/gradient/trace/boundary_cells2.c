@@ -1,3 +1,4 @@
+/* The edges of a polygon in each cell of a grid. */
 #include "gradient/trace/boundary_cells2.h"
 
 #include "base/minmax.h"
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells that an edge misses by less than this, in cells, are entered too: far more than the
- * rounding of the slab arithmetic below, and almost free. */
+/* Edges are also entered into cells that they miss by less than this, in cells. It exceeds the
+ * rounding of the slab arithmetic below by far, and costs almost nothing. */
 static const double SLACK = 1e-9;
 
 static size_t cell_of(double x, size_t n)
@@ -18,7 +19,7 @@ static size_t cell_of(double x, size_t n)
     return x < (double)n ? (size_t)x : n - 1;
 }
 
-/* Visits the cells of one edge: row by row, the part of the edge within the row. */
+/* Visits the cells of one edge row by row: the part of the edge within each row. */
 static void visit_edge(iccp_boundary_cells2 *cells, uint32_t edge, bool fill)
 {
     const double *a = cells->vertices + 2 * (size_t)cells->ends[2 * (size_t)edge];
@@ -102,13 +103,13 @@ static double clamp01(double x)
     return x > 0 ? (x < 1 ? x : 1) : 0;
 }
 
-/* Whether b lies between a and c, all three on one line. */
+/* Returns true if b lies between a and c, all three on one line. */
 static bool between(const double a[2], const double b[2], const double c[2])
 {
     return (a[0] - b[0]) * (c[0] - b[0]) <= 0 && (a[1] - b[1]) * (c[1] - b[1]) <= 0;
 }
 
-/* An edge on the line of the step: the step begins on it or meets the end that comes first. */
+/* Handles an edge on the line of the step: the step begins on it, or meets its nearer end. */
 static bool hit_collinear(const double p[2], const double q[2], const double a[2],
                           const double b[2], iccp_boundary_hit2 *hit)
 {

@@ -1,5 +1,5 @@
-/* Facets are cut in half across their longest edge until the box of each piece is no wider than a
- * cell. */
+/* Finds the cells that a boundary passes through. Facets are cut in half across their longest edge
+ * until the box of each piece is no wider than a cell. */
 #include "gradient/trace/boundary_cellsn.h"
 
 #include "base/minmax.h"
@@ -7,14 +7,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Cells that a facet misses by less than this, in cells, are entered too: far more than the
- * rounding of lattice coordinates, and almost free. Also the cells on both sides of a boundary
- * along the grid. */
+/* Facets are also entered into cells that they miss by less than this, in cells. It exceeds the
+ * rounding of lattice coordinates by far, and costs almost nothing. So a boundary along the grid is
+ * in the cells on both of its sides. */
 static const double SLACK = 1e-9;
 
 enum {
     FACETS_PER_REPORT = 1 << 12,
-    /* Every dim halvings or so a piece is half as long; facets are at most 2^14 cells long. */
+    /* About every dim halvings a piece becomes half as long. Facets are at most 2^14 cells long. */
     MOST_PIECES = 16 * ICC_MAX_DIM
 };
 
@@ -39,7 +39,7 @@ static bool has(const iccp_boundary_cellsn *cells, uint32_t cell)
     return cells->bits[cell / 64] >> (cell % 64) & 1;
 }
 
-/* All cells that the box of a piece meets. */
+/* Marks all cells that the box of a piece meets. */
 static void mark_box(iccp_boundary_cellsn *cells, const double *lower, const double *upper)
 {
     const icc_grid *grid = cells->grid;
@@ -62,7 +62,7 @@ static void mark_box(iccp_boundary_cellsn *cells, const double *lower, const dou
     }
 }
 
-/* The longest edge of a piece, from corner i to corner j. */
+/* Finds the longest edge of a piece, from corner i to corner j. */
 static void longest_edge(int dim, const piece *p, int *i, int *j)
 {
     double longest = -1;
@@ -79,7 +79,7 @@ static void longest_edge(int dim, const piece *p, int *i, int *j)
         }
 }
 
-/* The bounding box; returns its longest side. */
+/* Computes the bounding box and returns its longest side. */
 static double find_box(int dim, const piece *p, double *lower, double *upper)
 {
     double longest = 0;
@@ -94,9 +94,10 @@ static double find_box(int dim, const piece *p, double *lower, double *upper)
     return longest;
 }
 
-/* Halves pieces depth first: the top of the stack is either small enough, and marked, or cut in
- * two, of which one replaces it. So the stack is as high as a piece has been halved, and when it is
- * full the box of a piece that is too large is marked, which is safe. */
+/* Halves pieces depth first. If the piece on top of the stack is small enough, its cells are
+ * marked. Otherwise it is cut in two, and one half replaces it. So the height of the stack is the
+ * number of times a piece was halved. If the stack is full, the box of a piece that is too large is
+ * marked, which is safe. */
 static void mark_facet(iccp_boundary_cellsn *cells, uint32_t facet)
 {
     const int dim = cells->grid->dim;
@@ -170,7 +171,7 @@ bool iccp_boundary_cellsn_touch(const iccp_boundary_cellsn *cells, const double 
     return iccp_domain_locate(cells->domain, local, true, &hit->facet, hit->bary) == ICC_BOUNDARY;
 }
 
-/* By elimination; overwrites the matrix. */
+/* Computes the determinant by elimination, and overwrites the matrix. */
 static double determinant(int n, double a[ICC_MAX_DIM][ICC_MAX_DIM])
 {
     double det = 1;
@@ -193,8 +194,9 @@ static double determinant(int n, double a[ICC_MAX_DIM][ICC_MAX_DIM])
     return det;
 }
 
-/* The determinant of a vector out of the domain and the facet's edges has the orientation's sign:
- * component k of the outward normal is the cofactor of that vector's component k. */
+/* The determinant of a vector that leads out of the domain and the facet's edges has the sign of
+ * the orientation. So component k of the outward normal is the cofactor of that vector's component
+ * k. */
 void iccp_facet_inward(const icc_domain *domain, uint32_t facet, double *inward)
 {
     const int dim = domain->dim;

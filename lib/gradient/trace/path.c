@@ -1,9 +1,10 @@
+/* A polyline with its arc length. */
 #include "gradient/trace/path.h"
 
 #include <assert.h>
 #include <string.h>
 
-/* Doubles: a few hundred points in the plane or in space. */
+/* Doubles: enough for a few hundred points in the plane or in space. */
 enum { FIRST_CAPACITY = 1024 };
 
 void iccp_path_init(iccp_path *path, const iccp_memory *memory)

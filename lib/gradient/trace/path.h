@@ -1,5 +1,21 @@
-/* A polyline with its arc length. Grows as needed; one path serves many curves, so that a loop over
- * points does not allocate. */
+/* A polyline with its arc length, which grows as needed. One path serves many curves, so a loop
+ * over points does not allocate.
+ *
+ * Legend of lib/gradient/trace, stage 4 of the papers. Begin with walk2.h, which has the plane;
+ * walkn.h is the same in any dimension.
+ * - line: an integral line of the function's gradient. A walk follows it uphill to the maximum or
+ *   downhill to the boundary.
+ * - step: the part of a line within one simplex or face.
+ * - cell: a cube of the grid, which the Kuhn triangulation cuts into simplices.
+ * - merged: a walk that has met a vertex or followed an edge, which other lines share.
+ * - jet: derivatives of the walk's position and arc length with respect to its start.
+ * - hit: where a step meets the boundary (boundary_cells2.h, boundary_cellsn.h).
+ * - place, motion, slope: where a walk stands, how it moves on a face, and the values that it
+ *   climbs (walkn_star.h, walkn_motion.h).
+ *
+ * Invariants: exact signs decide which simplex or face comes next, and doubles give the place where
+ * the line meets it. f rises strictly along a walk (equal values by vertex index), so no walk
+ * loops. Positions are in lattice coordinates. */
 #ifndef ICCP_PATH_H
 #define ICCP_PATH_H
 
@@ -11,18 +27,18 @@
 typedef struct iccp_path {
     const iccp_memory *memory;
     size_t dim;
-    size_t n;        /* points */
-    size_t capacity; /* doubles */
-    double *points;  /* dim + 1 each: the position, and the arc length from the start */
-    struct iccp_flow_mark *marks; /* for walks along a vector field: see field/flow.h */
+    size_t n;        /* number of points */
+    size_t capacity; /* in doubles */
+    double *points;  /* dim + 1 numbers each: the position, and the arc length from the start */
+    struct iccp_flow_mark *marks; /* used by walks along a vector field: see field/flow.h */
     size_t n_marks, mark_capacity;
 } iccp_path;
 
-/* An empty path that allocates nothing yet. `memory` must outlive it. */
+/* Makes an empty path, which allocates nothing yet. `memory` must outlive it. */
 void iccp_path_init(iccp_path *path, const iccp_memory *memory);
 void iccp_path_clear(iccp_path *path);
 
-/* Begins a curve in place of the last one. */
+/* Begins a new curve, which replaces the last one. */
 static inline void iccp_path_start(iccp_path *path, size_t dim)
 {
     path->dim = dim;
@@ -31,10 +47,11 @@ static inline void iccp_path_start(iccp_path *path, size_t dim)
 
 icc_status iccp_path_append(iccp_path *path, const double *point, double s);
 
-/* Makes room for more points; false if there is no memory. */
+/* Makes room for more points. Returns false if there is no memory. */
 bool iccp_path_grow(iccp_path *path);
 
-/* Appends a point that the caller fills in, dim + 1 numbers; NULL if there is no memory. */
+/* Appends a point of dim + 1 numbers, which the caller fills in. Returns NULL if there is no
+ * memory. */
 static inline double *iccp_path_extend(iccp_path *path)
 {
     const size_t at = (path->dim + 1) * path->n;
@@ -44,7 +61,7 @@ static inline double *iccp_path_extend(iccp_path *path)
     return path->points + at;
 }
 
-/* The position of point k; its arc length stands behind. */
+/* Returns the position of point k, followed by its arc length. */
 static inline const double *iccp_path_at(const iccp_path *path, size_t k)
 {
     return path->points + (path->dim + 1) * k;
@@ -55,17 +72,17 @@ static inline double iccp_path_length_at(const iccp_path *path, size_t k)
     return iccp_path_at(path, k)[path->dim];
 }
 
-/* Of a path that is not empty. */
+/* The length of a path, which must not be empty. */
 static inline double iccp_path_length(const iccp_path *path)
 {
     return iccp_path_length_at(path, path->n - 1);
 }
 
-/* The index k of the piece [k, k + 1] that holds arc length s, and how far along it that is, for a
- * path of at least two points. */
+/* Returns the index k of the piece [k, k + 1] that contains arc length s, and the position in the
+ * piece as a share. The path has at least two points. */
 size_t iccp_path_find(const iccp_path *path, double s, double *share);
 
-/* The position that far along a piece. */
+/* Computes the point at a share of a piece. */
 void iccp_path_point(const iccp_path *path, size_t piece, double share, double *point);
 
 #endif

@@ -1,9 +1,10 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * chapter 5, Algorithms 3-5 and Table 5.1 (Huynh and Gingold, section 6, Table 1).
+/* Walks along integral lines in the plane. Based on: L. Huynh, Bijective Deformations in R^n via
+ * Integral Curve Coordinates, thesis, 2013, chapter 5, Algorithms 3-5 and Table 5.1 (Huynh and
+ * Gingold, section 6, Table 1).
  *
- * Two points where the sources leave room: at a grid vertex the line of steepest ascent among the
- * surrounding triangles and edges is taken, and equal values are ordered by vertex index, as if f
- * were perturbed. With both, f rises strictly along a walk, so that it cannot loop. */
+ * Two decisions that the sources leave open: at a grid vertex, the line of steepest ascent among
+ * the surrounding triangles and edges is taken. Equal values are ordered by vertex index, as if f
+ * were perturbed. With both, f rises strictly along a walk, so it cannot loop. */
 #include "gradient/trace/walk2.h"
 
 #include "base/minmax.h"
@@ -13,11 +14,11 @@
 #include <assert.h>
 #include <math.h>
 
-/* Corners of the two triangles of a cell, counter-clockwise; edge k lies opposite to corner k. */
+/* Corners of the two triangles of a cell, counter-clockwise. Edge k lies opposite corner k. */
 static const int CORNER[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
 
-/* Across edge k of a triangle lie: a step to another cell, the edge's number there, and whether u
- * or v starts anew at 0 or 1 in the new cell (-1: stays). */
+/* What lies across edge k of a triangle: a step to another cell, the edge's number there, and
+ * whether u or v starts again at 0 or 1 in the new cell (-1: unchanged). */
 typedef struct crossing {
     int di, dj, edge, u, v;
 } crossing;
@@ -26,28 +27,28 @@ static const crossing ACROSS[2][3] = {
     {{0, 1, 2, -1, 0}, {-1, 0, 0, 1, -1}, {0, 0, 1, -1, -1}},
 };
 
-/* Directions to the six neighbours of a vertex, counter-clockwise, and the triangle between each
- * and the next: its cell relative to the vertex, its side of the diagonal, the vertex' corner in
- * it. */
+/* Directions to the six neighbours of a vertex, counter-clockwise. For each, the triangle between
+ * it and the next: its cell relative to the vertex, its side of the diagonal, and the vertex'
+ * corner in it. */
 static const int AROUND[6][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 0}, {-1, -1}, {0, -1}};
 static const struct {
     int di, dj, upper, corner;
 } SECTOR[6] = {{0, 0, 0, 0},   {0, 0, 1, 0},   {-1, 0, 0, 1},
                {-1, -1, 1, 1}, {-1, -1, 0, 2}, {0, -1, 1, 2}};
 
-/* The gradient of f in a triangle, times the direction of the walk. The components are differences
- * of values, kept for exact signs: gu = f[ua] - f[ub], gv = f[va] - f[vb]. */
+/* The gradient of f in a triangle, times the direction of the walk. Its components are differences
+ * of values, which are kept for exact signs: gu = f[ua] - f[ub], gv = f[va] - f[vb]. */
 typedef struct gradient {
     double ua, ub, va, vb;
     double gu, gv;
 } gradient;
 
-/* In units of f: far above the square root of the smallest normal double, so that the squares of
- * rises that matter beside one of this size are normal. */
+/* In units of f. It is far above the square root of the smallest normal double. So rises that
+ * matter beside one of this size have normal squares. */
 static const double TINY_RISE = 1e-100;
 
-/* The sine of an angle below which a step runs along an edge of the boundary that it meets:
- * rounding of both. */
+/* If the sine of the angle is below this, a step runs along the boundary edge that it meets. Covers
+ * the rounding of both. */
 static const double PARALLEL = 1e-12;
 
 static int sign(double x)
@@ -65,7 +66,8 @@ static uint32_t vertex_at(const iccp_walk2 *w, size_t i, size_t j)
     return (uint32_t)(i + w->nx * j);
 }
 
-/* False when a corner has no value. A flat triangle gets the gradient of the vertex order. */
+/* Computes the gradient. Returns false if a corner has no value. A flat triangle gets the gradient
+ * of the vertex order. */
 static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper, gradient *g)
 {
     const uint32_t v = vertex_at(w, i, j), up = (uint32_t)w->nx;
@@ -86,10 +88,12 @@ static bool triangle_gradient(const iccp_walk2 *w, size_t i, size_t j, int upper
     return true;
 }
 
-/* Exact sign of (cu - u) gv - (cv - v) gu: the side of the line from (u, v) to the corner (cu, cv)
- * to which the gradient points; + is left. The filter's bound: each difference and product is off
- * by at most 2^-53 of itself, so the result by less than 4 * 2^-53 times the sum of magnitudes. The
- * values are brought near 1 for the exact sign: far from the maximum decay makes them tiny. */
+/* Returns the exact sign of (cu - u) gv - (cv - v) gu. It tells on which side of the line from (u,
+ * v) to the corner (cu, cv) the gradient points; + is left.
+ *
+ * The filter's bound: the error of each difference and product is at most 2^-53 of itself. So the
+ * error of the result is less than 4 * 2^-53 times the sum of magnitudes. The values are scaled to
+ * near 1 for the exact sign, because decay makes them tiny far from the maximum. */
 static int turn_sign(const gradient *g, double cu, double cv, double u, double v)
 {
     const double left = (cu - u) * g->gv, right = (cv - v) * g->gu;
@@ -103,7 +107,7 @@ static int turn_sign(const gradient *g, double cu, double cv, double u, double v
                            ldexp(g->ub, -e));
 }
 
-/* Exact sign of the gradient's component into the triangle across its edge k. */
+/* Returns the exact sign of the gradient's component into the triangle across its edge k. */
 static int inward_sign(const gradient *g, int upper, int k)
 {
     if (!upper)
@@ -116,7 +120,7 @@ static double ratio(double a, double b)
     return fabs(b) > 0 ? a / b : 0;
 }
 
-/* The line from (u, v) along the gradient meets the line of edge k here. */
+/* Computes where the line from (u, v) along the gradient meets the line of edge k. */
 static void meet_edge(const gradient *g, int upper, int k, double *u, double *v)
 {
     const crossing *across = &ACROSS[upper][k];
@@ -133,8 +137,9 @@ static void meet_edge(const gradient *g, int upper, int k, double *u, double *v)
     }
 }
 
-/* Moving along the gradient to edge k moves the end by the start's motion, projected along the
- * gradient onto the edge: dq = dp - g (n . dp) / (n . g) with the edge's normal n. */
+/* Updates the derivatives for a move along the gradient to edge k. The end moves by the start's
+ * motion, projected along the gradient onto the edge: dq = dp - g (n . dp) / (n . g), with the
+ * edge's normal n. */
 static void carry_jet(iccp_walk2 *w, const gradient *g, int k)
 {
     const crossing *across = &ACROSS[w->upper][k];
@@ -149,7 +154,7 @@ static void carry_jet(iccp_walk2 *w, const gradient *g, int k)
     }
 }
 
-/* A move that ends at a fixed point, whatever the start. */
+/* Updates the derivatives for a move that ends at a fixed point, whatever the start. */
 static void fix_jet(iccp_walk2 *w, double du, double dv)
 {
     const double length = sqrt(du * du + dv * dv);
@@ -159,7 +164,7 @@ static void fix_jet(iccp_walk2 *w, double du, double dv)
     }
 }
 
-/* Records a step within cell (i, j) from the current position to (u, v) of that cell. */
+/* Records a step within cell (i, j) from the current position to (u, v) in that cell. */
 static void record(iccp_walk2 *w, size_t i, size_t j, double u0, double v0, double u, double v)
 {
     const double du = u - u0, dv = v - v0;
@@ -181,7 +186,7 @@ static void arrive_at_vertex(iccp_walk2 *w, size_t i, size_t j)
     w->u = w->v = 0;
 }
 
-/* From the current position straight to corner (cu, cv) of the current cell. */
+/* Goes from the current position straight to corner (cu, cv) of the current cell. */
 static void go_to_corner(iccp_walk2 *w, int cu, int cv)
 {
     if (w->jet != NULL)
@@ -190,7 +195,8 @@ static void go_to_corner(iccp_walk2 *w, int cu, int cv)
     arrive_at_vertex(w, w->i + (size_t)cu, w->j + (size_t)cv);
 }
 
-/* From the current position along the gradient to edge k, and across into the next triangle. */
+/* Goes from the current position along the gradient to edge k, and across it into the next
+ * triangle. */
 static icc_status go_to_edge(iccp_walk2 *w, const gradient *g, int k)
 {
     double u = w->u, v = w->v;
@@ -214,7 +220,7 @@ static icc_status go_to_edge(iccp_walk2 *w, const gradient *g, int k)
     return w->i < w->nx - 1 && w->j < w->ny - 1 ? ICC_OK : ICC_ERR_TRACE;
 }
 
-/* Along edge k to its end where f is higher (in the direction of the walk), ties by vertex
+/* Follows edge k to its end where f is higher in the direction of the walk; ties by vertex
  * index. */
 static icc_status follow_edge(iccp_walk2 *w, int k)
 {
@@ -228,7 +234,7 @@ static icc_status follow_edge(iccp_walk2 *w, int k)
     return ICC_OK;
 }
 
-/* Table 5.1: the walk stands on edge k; the side of the opposite corner to which the gradient
+/* Table 5.1: the walk stands on edge k. The side of the opposite corner to which the gradient
  * points decides between the two other edges. */
 static icc_status step_from_edge(iccp_walk2 *w)
 {
@@ -247,8 +253,8 @@ static icc_status step_from_edge(iccp_walk2 *w)
     return go_to_edge(w, &g, side > 0 ? (k + 2) % 3 : (k + 1) % 3);
 }
 
-/* The special, initial case: anywhere in the triangle. The line leaves through the edge between the
- * two corners that it passes on different sides. */
+/* The special case at the start: the walk stands anywhere in the triangle. The line leaves through
+ * the edge between the two corners that it passes on different sides. */
 static icc_status step_from_inside(iccp_walk2 *w)
 {
     gradient g;
@@ -266,8 +272,9 @@ static icc_status step_from_inside(iccp_walk2 *w)
     return ICC_ERR_TRACE;
 }
 
-/* How much f rises from the vertex to its six neighbours, in the direction of the walk; NaN: no
- * value. In units of the largest when that is tiny, so that its square does not vanish. */
+/* Computes how much f rises from the vertex to its six neighbours, in the direction of the walk;
+ * NaN: no value. If the largest rise is tiny, rises are in units of it, so that its square does not
+ * vanish. */
 static void find_rises(const iccp_walk2 *w, double rise[6])
 {
     uint32_t star[7];
@@ -287,9 +294,9 @@ static void find_rises(const iccp_walk2 *w, double rise[6])
         rise[m] /= largest;
 }
 
-/* The square of the slope inside the sector between neighbours m and m + 1 when its gradient points
- * into the open sector, else -1. One of the two is an axis and the other a diagonal, or both are
- * axes. */
+/* Returns the square of the slope in the sector between neighbours m and m + 1 if its gradient
+ * points into the open sector, else -1. One of the two is an axis and the other a diagonal, or both
+ * are axes. */
 static double sector_slope(const double rise[6], int m)
 {
     const double a = rise[m], b = rise[(m + 1) % 6];
@@ -325,8 +332,8 @@ static void leave_along_edge(iccp_walk2 *w, int m)
     go_to_corner(w, du > 0 || (du == 0 && w->u > 0), dv > 0 || (dv == 0 && w->v > 0));
 }
 
-/* Steepest ascent from a vertex. Neighbours as high as the vertex are a last resort, in vertex
- * order. */
+/* Takes the steepest ascent from a vertex. Neighbours as high as the vertex are a last resort, in
+ * vertex order. */
 static icc_status step_from_vertex(iccp_walk2 *w)
 {
     double rise[6], best = 0;
@@ -359,8 +366,8 @@ static icc_status step_from_vertex(iccp_walk2 *w)
     return ICC_OK;
 }
 
-/* Direction from a walk that stands on an edge of its triangle, as far as that can be at a start,
- * to the triangle on the other side; false when it stands on none. */
+/* For a walk that stands on an edge of its triangle, as is possible at a start, finds the direction
+ * to the triangle on the other side. Returns false if it stands on none. */
 static bool across_edge(const iccp_walk2 *w, int side[2])
 {
     side[0] = w->upper ? -(w->u <= 0 && w->i > 0) : -(w->v > 0 && w->v >= w->u);
@@ -368,7 +375,7 @@ static bool across_edge(const iccp_walk2 *w, int side[2])
     return side[0] != 0 || side[1] != 0;
 }
 
-/* To that triangle, if it has values. */
+/* Crosses to that triangle, if it has values. */
 static bool cross_edge(iccp_walk2 *w, const int side[2])
 {
     iccp_walk2 there = *w;
@@ -396,7 +403,7 @@ icc_status iccp_walk2_start(iccp_walk2 *walk, const icc_function *function, int 
     walk->nx = grid->shape[0];
     walk->ny = grid->shape[1];
     walk->root = function->tree->root;
-    /* A line meets each triangle's edges and corners at most once. */
+    /* A line meets the edges and corners of each triangle at most once. */
     walk->steps_left = 8 * grid->n_vertices + 64;
     if (!(x >= 0 && y >= 0 && x < (double)(walk->nx - 1) && y < (double)(walk->ny - 1)))
         return ICC_ERR_TRACE;

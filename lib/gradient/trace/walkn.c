@@ -1,10 +1,11 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * chapter 5, Algorithms 3-5 (Huynh and Gingold, section 6, where n dimensions are sketched).
+/* Walks along integral lines in any dimension. Based on: L. Huynh, Bijective Deformations in R^n
+ * via Integral Curve Coordinates, thesis, 2013, chapter 5, Algorithms 3-5 (Huynh and Gingold,
+ * section 6, where n dimensions are sketched).
  *
  * In a simplex the line follows the gradient to a facet. If the gradient of the simplex behind
- * points away from there, the line crosses; if not, it stays in the facet, or goes wherever is
- * steepest among the faces around it (walkn_star.c), and so on in lower and lower faces down to the
- * vertices. f rises strictly, or where it is level the vertex index does, so that a walk cannot
+ * points away from the facet, the line crosses it. Otherwise the line stays in the facet, or takes
+ * the steepest of the faces around it (walkn_star.c). This continues in lower and lower faces down
+ * to the vertices. f rises strictly, or the vertex index does where f is level, so a walk cannot
  * loop. */
 #include "gradient/trace/walkn.h"
 
@@ -16,7 +17,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The sine of an angle below which a step runs within a facet that it meets: rounding of both. */
+/* If the sine of the angle is below this, a step runs within the facet that it meets. Covers the
+ * rounding of both. */
 static const double PARALLEL = 1e-12;
 
 static const icc_grid *grid_of(const iccp_walkn *w)
@@ -37,10 +39,10 @@ static void find_position(const iccp_walkn *w, double *x)
     }
 }
 
-/* ---- which face ---- */
+/* ---- choosing a face ---- */
 
-/* The sign of the speed at which the gradient of a simplex with these values leads away from the
- * facet opposite to corner i; exact. */
+/* Returns the exact sign of the speed at which the gradient of a simplex with these values leads
+ * away from the facet opposite corner i. */
 static int corner_sign(int dim, const double *f, int i)
 {
     const double below = i > 0 ? f[i - 1] : f[i], above = i < dim ? f[i + 1] : f[i];
@@ -57,8 +59,8 @@ static bool has_values(const iccp_walkn *w, double *f)
     return true;
 }
 
-/* Whether the gradient of the place's simplex leads from its face into the simplex, or into the one
- * of its faces with the corners found. */
+/* Returns true if the gradient of the place's simplex leads from its face into the simplex, or into
+ * one of its faces, whose corners it then returns. */
 static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
 {
     const int dim = grid_of(w)->dim;
@@ -75,7 +77,7 @@ static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
     return leads;
 }
 
-/* The corners of the face in which the line continues. */
+/* Finds the corners of the face in which the line continues. */
 static icc_status choose_face(iccp_walkn *w, unsigned *corners)
 {
     double f[ICC_MAX_DIM + 1];
@@ -91,7 +93,7 @@ static icc_status choose_face(iccp_walkn *w, unsigned *corners)
 
 /* ---- steps ---- */
 
-/* Across the facet opposite to corner i, where the walk stands. */
+/* Crosses the facet opposite corner i, on which the walk stands. */
 static icc_status cross_facet(iccp_walkn *w, int i)
 {
     iccp_place *p = &w->place;
@@ -160,7 +162,8 @@ bool iccp_walkn_at_root(const iccp_walkn *walk)
 
 /* ---- the start ---- */
 
-/* The simplex that holds a point, or of several the one to which `ahead` points. */
+/* Finds the simplex that contains a point. If there are several, takes the one to which `ahead`
+ * points. */
 static bool find_simplex(iccp_walkn *w, const double *x, const double *ahead)
 {
     const icc_grid *grid = grid_of(w);
@@ -259,8 +262,9 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
     return status;
 }
 
-/* What does not change along the boundary where a step meets it: the distance from the facet's
- * plane; of a step in that plane, which ends at the facet's border, how far it goes. */
+/* Finds what stays constant along the boundary where a step meets it. Usually that is the distance
+ * from the facet's plane. A step in that plane ends at the facet's border, and the constant is how
+ * far it goes. */
 static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint32_t facet,
                             double *normal)
 {
@@ -277,7 +281,7 @@ static void find_constraint(const iccp_walkn *w, const icc_domain *domain, uint3
         memcpy(normal, step, (size_t)dim * sizeof *step);
 }
 
-/* Cuts the last step short at the boundary, from what the arc length and the jet were before it. */
+/* Cuts the last step short at the boundary. Needs the arc length and the jet before that step. */
 static void end_at_boundary(iccp_walkn *w, double s_before, const iccp_jetn *jet_before,
                             const iccp_boundary_cellsn *cells, const iccp_boundary_hitn *hit)
 {

@@ -1,13 +1,13 @@
-/* On any face the gradient needs no solving: a block of k axes between two corners moves at the
- * difference of their values over k, and the barycentric coordinate of a corner at the difference
- * of the speeds on its two sides. */
+/* Steps along the gradient of a face. On any face the gradient needs no equations. A block of k
+ * axes between two corners moves at the difference of their values over k. The barycentric
+ * coordinate of a corner moves at the difference of the speeds on its two sides. */
 #include "gradient/trace/walkn_motion.h"
 
 #include <float.h>
 #include <math.h>
 
-/* Facets that are met this close together, relative to the time it takes, are met together: what
- * two quotients may be off by rounding. */
+/* Facets whose times differ by less than this share are met together. It bounds the rounding of two
+ * quotients. */
 static const double SAME_TIME = 8 * DBL_EPSILON;
 
 void iccp_motion_find(iccp_motion *m, const iccp_place *place, const iccp_slope *slope,
@@ -31,7 +31,8 @@ void iccp_motion_find(iccp_motion *m, const iccp_place *place, const iccp_slope 
     m->y[m->n] = 0;
 }
 
-/* When the barycentric coordinate of a corner becomes 0; never (HUGE_VAL) if it does not fall. */
+/* Returns when the barycentric coordinate of a corner becomes 0, or HUGE_VAL if it does not
+ * fall. */
 static double time_of(const iccp_motion *m, int a)
 {
     const double speed = m->speed[a + 1] - m->speed[a];
@@ -59,15 +60,15 @@ unsigned iccp_motion_run(iccp_motion *m, unsigned face)
         else if (a + 1 < m->n)
             m->y[a + 1] = m->y[a];
     }
-    /* Those that have met the lower end. */
+    /* Corners that have reached the lower end. */
     for (int a = m->n - 1; a > 0 && !(left >> m->corner[a] & 1); --a)
         m->y[a] = 0;
     return left;
 }
 
-/* What the face that carries a step leaves of a derivative, by the coordinates between its corners:
- * where the walk has got to the face by steps, they are the same along all axes of a block; at a
- * start, their mean. */
+/* Projects a derivative to the face that carries a step, in the coordinates between its corners. If
+ * the walk has reached the face by steps, these are the same along all axes of a block. At a start,
+ * it takes their mean. */
 static void project_jet(const iccp_motion *m, const iccp_place *place, const iccp_jetn *jet,
                         int parameter, double *y)
 {
@@ -90,8 +91,8 @@ static void write_jet(const iccp_motion *m, const iccp_place *place, int paramet
             jet->x[place->simplex.axis[k]][parameter] = y[a];
 }
 
-/* The facet is met where y[exit] - y[exit + 1] = 0. If others are met there, too, what they fix
- * does not move any more. */
+/* The facet is met where y[exit] - y[exit + 1] = 0. If other facets are met there, too, the
+ * coordinates that they fix stop moving. */
 void iccp_motion_carry(const iccp_motion *m, const iccp_place *place, unsigned left, iccp_jetn *jet)
 {
     const int e = m->exit, last = m->n - 1;

@@ -1,15 +1,17 @@
-/* Based on: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, 2013,
- * section 5.1 (Table 5.1), for faces of any dimension.
+/* Finds the steepest face around a face. Based on: L. Huynh, Bijective Deformations in R^n via
+ * Integral Curve Coordinates, thesis, 2013, section 5.1 (Table 5.1), for faces of any dimension.
  *
- * A face that holds the given one has more corners: some below its lowest, some above its highest,
- * some between two that follow each other. Along its blocks of axes, from corner to corner, f rises
- * by g per axis, and that is the speed of their coordinates along the gradient, so that the
- * barycentric coordinate of the corner between two blocks moves at the difference of their speeds.
- * The gradient points into the face when those of the new corners all grow: going away from the
- * given face, and between two of its corners from the lower to the upper one, each block is less
- * steep than the one before; and outside, all rise. The square of the slope is the sum of (rise)^2
- * / (axes) over the blocks. So what is between two corners is a problem of its own, and what is
- * below and above share the axes only. */
+ * A face that contains the given one has additional corners: below its lowest, above its highest,
+ * or between two consecutive ones. Along the block of axes between two corners, f rises by g per
+ * axis. That is the speed of these coordinates along the gradient. So the barycentric coordinate of
+ * the corner between two blocks moves at the difference of their speeds.
+ *
+ * The gradient points into the face if the barycentric coordinates of all new corners grow. That is
+ * so if two conditions hold. Away from the given face, and between two of its corners from the
+ * lower to the upper one, each block must be less steep than the one before. Outside, all blocks
+ * must rise. The square of the slope is the sum of (rise)^2 / (axes) over the blocks. So each gap
+ * between two corners is a problem of its own, while the parts below and above only share the
+ * axes. */
 #include "gradient/trace/walkn_star.h"
 
 #include "base/minmax.h"
@@ -20,36 +22,37 @@
 
 enum { SETS = 1 << ICC_MAX_DIM };
 
-/* In units of f: far above the square root of the smallest normal double, so that the squares of
- * rises that matter beside one of this size are normal. */
+/* In units of f. It is far above the square root of the smallest normal double. So rises that
+ * matter beside one of this size have normal squares. */
 static const double TINY_RISE = 1e-100;
 
-/* Blocks of axes that follow each other. */
+/* Consecutive blocks of axes. */
 typedef struct chain {
-    double slope2; /* the sum of their shares */
+    double slope2; /* sum of the blocks' squared slopes */
     int n;
-    uint8_t set[ICC_MAX_DIM]; /* axes gone along after each block */
+    uint8_t set[ICC_MAX_DIM]; /* the set of axes used after each block */
 } chain;
 
-/* The vertices that are reached from a corner along sets of some axes, all up or all down. A set is
- * a number with a bit for each entry of axis[]. */
+/* The vertices that can be reached from a corner along sets of some axes, all up or all down. A set
+ * is a number with a bit for each entry of axis[]. */
 typedef struct fan {
     int n;
     int8_t axis[ICC_MAX_DIM];
-    bool rising;          /* every block has to rise */
+    bool rising;          /* true: every block has to rise */
     const double *f;      /* by set; NaN where there is no value */
-    double unit;          /* of rises when they are squared */
-    chain steepest[SETS]; /* that ends at each set; slope2 < 0: none */
+    double unit;          /* unit of rises when they are squared */
+    chain steepest[SETS]; /* the steepest chain that ends at each set; slope2 < 0: none */
 } fan;
 
-/* A face, taken apart. */
+/* A face and its surroundings. */
 typedef struct hinge {
     const icc_grid *grid;
-    int n;                            /* corners */
-    uint32_t corner[ICC_MAX_DIM + 1]; /* from the lowest */
-    fan between[ICC_MAX_DIM];         /* from each to the next */
-    fan up, down;                     /* from the highest and from the lowest */
-    uint32_t at[ICC_MAX_DIM];         /* coordinates along the axes of `up` and `down`, by axis */
+    int n;                            /* number of corners */
+    uint32_t corner[ICC_MAX_DIM + 1]; /* grid vertices, lowest first */
+    fan between[ICC_MAX_DIM];         /* from each corner to the next */
+    fan up, down;                     /* from the highest corner, and from the lowest */
+    /* By axis: coordinates of the face along the axes of `up` and `down` */
+    uint32_t at[ICC_MAX_DIM];
     const chain *way_up, *way_down;
 } hinge;
 
@@ -79,14 +82,14 @@ void iccp_slope_values(const iccp_slope *slope, size_t n, const uint32_t *vertic
 
 /* ---- chains ---- */
 
-/* Whether f rises less per axis from `b` to `c` than from `a` to `b`; exact. */
+/* Returns true if f rises less per axis from `b` to `c` than from `a` to `b`. Exact. */
 static bool gentler(const fan *way, unsigned a, unsigned b, unsigned c)
 {
     const double *f = way->f;
     return iccp_cross_sign(f[c], f[b], count_axes(b ^ a), 0, f[b], f[a], count_axes(c ^ b), 0) < 0;
 }
 
-/* All longer chains; no deeper than there are axes. */
+/* Extends a chain to all longer ones. The recursion is no deeper than the number of axes. */
 static void extend_chain(fan *way, const chain *c)
 {
     const unsigned at = c->n > 0 ? c->set[c->n - 1] : 0;
@@ -115,7 +118,8 @@ static void find_chains(fan *way, double unit)
     extend_chain(way, &(chain){.n = 0});
 }
 
-/* For rises up to the highest of n values from `base`, below which no chain gets. */
+/* Returns a unit for rises up to the highest of n values from `base`. No chain goes below
+ * `base`. */
 static double unit_for(size_t n, const double *f, double base)
 {
     double most = 0;
@@ -127,9 +131,9 @@ static double unit_for(size_t n, const double *f, double base)
 
 /* ---- the star of a face ---- */
 
-/* Splits the axes of the place's simplex by the corners of the face: those between two corners make
- * up a fan of their own, those before the first and after the last can be gone along upwards from
- * the last corner or downwards from the first. at[] is the coordinate of the face along these. */
+/* Splits the axes of the place's simplex by the corners of the face. Axes between two corners form
+ * a fan. The remaining axes lead up from the last corner or down from the first. at[] has the
+ * face's coordinates along these. */
 static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
 {
     h->grid = grid;
@@ -152,8 +156,8 @@ static void take_apart(hinge *h, const iccp_place *place, const icc_grid *grid)
     memcpy(h->down.axis, h->up.axis, sizeof h->up.axis);
 }
 
-/* The vertices of a fan. Those beyond the grid are replaced by the corner; returns the sets that
- * lead to the others, a bit for each. */
+/* Lists the vertices of a fan. Vertices outside the grid are replaced by the corner. Returns the
+ * sets that lead to the others, one bit for each. */
 static uint64_t list_vertices(const hinge *h, const fan *way, bool down, uint32_t corner,
                               uint32_t *vertices)
 {
@@ -173,8 +177,8 @@ static uint64_t list_vertices(const hinge *h, const fan *way, bool down, uint32_
     return there;
 }
 
-/* The values of n vertices, the first of which is a corner. Around a level face, only what is as
- * high counts. */
+/* Reads the values of n vertices, the first of which is a corner. Around a level face, only
+ * vertices at the same height count. */
 static void load_values(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *f)
 {
     const iccp_slope plain = {slope->function, slope->direction, false};
@@ -191,7 +195,7 @@ static void hide_missing(size_t n, uint64_t there, double *f)
             f[i] = NAN;
 }
 
-/* Above and below the face: the steepest pair of chains that do not share an axis. */
+/* Finds the steepest pair of chains above and below the face that do not share an axis. */
 static void find_outer_chains(hinge *h, const iccp_slope *slope)
 {
     const size_t n = (size_t)1 << h->up.n;
@@ -219,7 +223,7 @@ static void find_outer_chains(hinge *h, const iccp_slope *slope)
         }
 }
 
-/* From a corner of the face to the next. */
+/* Finds the steepest chain from a corner of the face to the next. */
 static void find_inner_chain(hinge *h, int i, const iccp_slope *slope)
 {
     fan *way = &h->between[i];
@@ -237,7 +241,7 @@ static void find_inner_chain(hinge *h, int i, const iccp_slope *slope)
     find_chains(way, unit_for(n, f, iccp_min(f[0], f[n - 1])));
 }
 
-/* Whether f rises on the face or into one that holds it. */
+/* Returns true if f rises on the face, or into one that contains it. */
 static bool finds_a_rise(const hinge *h, const iccp_slope *slope)
 {
     double f[ICC_MAX_DIM + 1];
@@ -253,14 +257,14 @@ static bool finds_a_rise(const hinge *h, const iccp_slope *slope)
 
 /* ---- the simplex ---- */
 
-/* A simplex on the way from its lowest corner to its highest. */
+/* A simplex, assembled from its lowest corner to its highest. */
 typedef struct assembly {
     iccp_place *place;
-    int n; /* axes so far */
+    int n; /* number of axes so far */
     unsigned corners;
 } assembly;
 
-/* The axes of the last block of a chain, or of the one numbered k. */
+/* Adds the axes of the last block of a chain, or of block k. */
 static void add_block(assembly *a, const fan *way, const chain *c, int k)
 {
     const unsigned block = c->set[k] & ~(k > 0 ? (unsigned)c->set[k - 1] : 0);
@@ -284,7 +288,8 @@ static void add_chain(assembly *a, const fan *way, const chain *c, bool between)
     }
 }
 
-/* Axes that neither chain needs: the cell lies above the face if the grid continues there. */
+/* Adds the axes that neither chain needs. The cell lies above the face if the grid continues
+ * there. */
 static void add_others(assembly *a, const hinge *h, bool below)
 {
     const unsigned up = h->way_up->n > 0 ? h->way_up->set[h->way_up->n - 1] : 0;
@@ -297,10 +302,10 @@ static void add_others(assembly *a, const hinge *h, bool below)
     }
 }
 
-/* Lays the axes of the new simplex in their order: those that lie below for want of room above, the
- * chain down from its far end, the chains between the corners of the face, the chain up, the rest.
- * The point stays where it is: y is 1 on axes below the face, 0 on those above and as it was
- * between. */
+/* Puts the axes of the new simplex in order. First come unused axes that lie below because there is
+ * no room above, then the chain down from its far end, the chains between the corners of the face,
+ * the chain up, and the remaining axes. The point stays where it is: y is 1 on axes below the face,
+ * 0 on those above, and unchanged between. */
 static void assemble(assembly *a, const hinge *h)
 {
     iccp_place *place = a->place;

@@ -5,18 +5,17 @@
 #include "gradient/function/function.h"
 #include "gradient/grid/kuhn_simplex.h"
 
-/* A point of the grid: in a simplex, and in the interior of one of its faces.
+/* A point of the grid, in a simplex and in the interior of one of its faces.
  *
  * The simplex lies in the cell whose lowest corner is simplex.corner[0], and runs along axis[0],
- * axis[1], .. from there. The point's coordinate along axis[k - 1] is low + y[k], and 1 = y[0]
- * >= y[1] >= .. >= y[dim + 1] = 0. Its barycentric coordinate of corner i is y[i] - y[i + 1], so
- * that corner i does not belong to the face when the two are equal, and then they are so to the
- * bit. */
+ * axis[1], .. from there. The point's coordinate along axis[k - 1] is low + y[k], and 1 = y[0] >=
+ * y[1] >= .. >= y[dim + 1] = 0. Its barycentric coordinate of corner i is y[i] - y[i + 1]. So
+ * corner i does not belong to the face if the two are equal, and then they are equal to the bit. */
 typedef struct iccp_place {
     iccp_kuhn_simplex simplex;
-    uint32_t low[ICC_MAX_DIM]; /* coordinates of the lowest corner, by axis */
+    uint32_t low[ICC_MAX_DIM]; /* by axis: coordinates of the lowest corner */
     double y[ICC_MAX_DIM + 2];
-    unsigned face; /* bit i: corner i */
+    unsigned face; /* bit i is set if the face contains corner i */
 } iccp_place;
 
 /* The values that a walk climbs: f, or -f downhill. Where f is level, the vertex index takes its
@@ -27,13 +26,14 @@ typedef struct iccp_slope {
     bool level;
 } iccp_slope;
 
-/* At a few vertices, all times the same power of 2; differences have exact signs. */
+/* Computes the values at a few vertices, all times the same power of 2. Differences have exact
+ * signs. */
 void iccp_slope_values(const iccp_slope *slope, size_t n, const uint32_t *vertices, double *values);
 
-/* Among the faces whose closure holds the place's face and whose own gradient points into them,
- * itself included, the steepest: moves the place to a simplex of it and writes its corners there.
- * slope->level is set when f does not rise into any of them. ICC_ERR_TRACE when the place is a
- * vertex from which nothing rises, whose corner then is all there is. */
+/* Finds the steepest face around a place. Candidates are the place's face and all larger faces
+ * whose gradient points into them. Moves the place to a simplex of that face and writes its
+ * corners. Sets slope->level if f rises into none of them. Returns ICC_ERR_TRACE if the place is a
+ * vertex from which nothing rises; then that corner is all there is. */
 icc_status iccp_place_find_steepest(iccp_place *place, iccp_slope *slope, unsigned *corners);
 
 #endif
