@@ -16,7 +16,7 @@ static bool is_blank(char c)
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-/* Returns where the character at p ends, or the quoted text that begins there. */
+/* Returns the end of the character at p, or of the quoted text that begins there. */
 static const char *pass(const char *p, const char *end)
 {
     const char *close = *p == '"' ? memchr(p + 1, '"', (size_t)(end - p - 1)) : NULL;
@@ -57,7 +57,7 @@ static bool is_name(const cell *c, const char *name)
     return same;
 }
 
-/* The axis that a cell names; N_AXES: none. */
+/* Returns the axis that a cell names, or N_AXES. */
 static size_t axis_of(const cell *c)
 {
     for (size_t axis = 0; axis < N_AXES; axis++)
@@ -67,7 +67,8 @@ static size_t axis_of(const cell *c)
     return N_AXES;
 }
 
-/* Takes columns by the names in a heading, or in their order if no name is that of an axis. */
+/* Takes columns by the names in a heading. If no name is that of an axis, it takes them in their
+ * order. */
 static bool take_heading(columns *out, const char *p, const char *end, const table_form *form,
                          problem *wrong)
 {

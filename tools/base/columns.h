@@ -1,5 +1,5 @@
-/* How the lines of a table are divided: by white space, or by commas or semicolons, as spreadsheets
- * write them, with a heading or without. */
+/* How the lines of a table are divided: by white space, or by commas or semicolons as spreadsheets
+ * write them, with or without a heading. */
 #ifndef COLUMNS_H
 #define COLUMNS_H
 
@@ -8,9 +8,9 @@
 enum { MAX_NUMBERS = 16 };
 
 typedef struct columns {
-    char separator;           /* '\0': white space */
+    char separator;           /* '\0' stands for white space */
     size_t n_cells;           /* that each separated row must have */
-    size_t cell[MAX_NUMBERS]; /* where each number of a separated row stands */
+    size_t cell[MAX_NUMBERS]; /* the column of each number in a separated row */
 } columns;
 
 /* A cell without the blanks and the quotes around it. */
@@ -18,13 +18,13 @@ typedef struct cell {
     const char *begin, *end;
 } cell;
 
-/* The cell at p of a row that ends at `end`. Returns where the next one begins; NULL: this was the
- * last. */
+/* Finds the cell at p of a row that ends at `end`. Returns where the next cell begins, or NULL
+ * after the last one. */
 const char *columns_cell(cell *out, const char *p, const char *end, char separator);
 
 /* Learns from the first line that is not empty how all lines are divided, and whether it is a
- * heading. Columns that a heading calls x, y and z, or the like, are taken in this order, and others
- * are left out. False: see `wrong`. */
+ * heading. If a heading names columns x, y and z, or the like, they are taken in this order and
+ * other columns are ignored. False: see `wrong`. */
 bool columns_learn(columns *out, bool *is_heading, const char *line, const table_form *form,
                    problem *wrong);
 

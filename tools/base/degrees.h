@@ -14,8 +14,8 @@ static inline bool are_degrees(size_t n, const double *points)
     return good;
 }
 
-/* True if the way between two longitudes may be meant to go over the antimeridian. A way from -180
- * to 180, right round the earth, is not meant so. */
+/* True if an edge between two longitudes may be meant to cross the antimeridian. An edge from -180
+ * to 180, around the whole earth, is not. */
 static inline bool longitudes_jump(double x, double y)
 {
     return fabs(y - x) > 180 && fabs(y - x) < 360;

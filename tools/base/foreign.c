@@ -16,7 +16,8 @@ static bool told(problem *wrong, const char *what, foreign_remedy how)
     return true;
 }
 
-/* Looks for the first row with this mark whose bytes `word` begins with, or with `whole` is. */
+/* Searches the first row with this mark whose bytes begin `word`. With `whole` the bytes must be
+ * the whole word. */
 static bool told_by(foreign_mark by, const char *word, size_t n, bool whole, problem *wrong)
 {
     for (const foreign_format *f = foreign_formats; f < foreign_formats + n_foreign_formats; f++)
@@ -53,7 +54,7 @@ static bool is_database(const char *text, size_t n, problem *wrong)
     return told(wrong, package ? "a GeoPackage" : "an SQLite database", MAKE_GEOJSON);
 }
 
-/* The name of its first file says what an archive is for. */
+/* An archive is recognised by the name of its first file. */
 static bool is_zip(const char *text, size_t n, problem *wrong)
 {
     static const struct {
@@ -158,7 +159,7 @@ static bool is_text_table(const char *p)
            (size_t)(shape - second) < strcspn(second, "\r\n");
 }
 
-/* The name behind the '<' of the first element, without its prefix; NULL if there is none. */
+/* The name after the '<' of the first element, without its prefix, or NULL. */
 static const char *root_element(const char *p)
 {
     while (*p == '<' && (p[1] == '?' || p[1] == '!')) {

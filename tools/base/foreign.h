@@ -1,5 +1,5 @@
-/* Recognises files of formats that are not read here, and says which command makes a readable file.
- * Every reader asks this before it reads. */
+/* Recognises files of formats that this program cannot read, and names a command that makes a
+ * readable file. Every reader asks this before it reads. */
 #ifndef FOREIGN_H
 #define FOREIGN_H
 
@@ -7,12 +7,12 @@
 
 #include <stdbool.h>
 
-/* Whether text[0..n), with text[n] == '\0', begins like a file of a known format that no reader of
- * this program takes, or that only the reader of pictures or of masks takes; `wrong` then says so,
- * with the remedy. */
+/* True if text[0..n), with text[n] == '\0', begins like a file of a known format that no reader
+ * here takes, or that only the reader of pictures or of masks takes. Then `wrong` says so and names
+ * the remedy. */
 bool foreign_told(const char *text, size_t n, problem *wrong);
 
-/* The same where JSON is expected and the file is a table. */
+/* Does the same where JSON is expected but the file is a table. */
 bool foreign_table_told(const char *text, problem *wrong);
 
 /* Fills in `wrong` with what a file is, beginning with its article, and the remedy for vector data.

@@ -1,4 +1,4 @@
-/* The table of foreign formats, and of the remedies that turn them into readable files. */
+/* The table of foreign formats and of remedies that turn them into readable files. */
 #ifndef FOREIGN_TABLE_H
 #define FOREIGN_TABLE_H
 
@@ -37,7 +37,7 @@ typedef enum foreign_remedy {
 /* The part of a file by which a format is recognised. */
 typedef enum foreign_mark {
     BYTES,  /* bytes at a place */
-    WORD,   /* the beginning of a text, after a mark of UTF-8 and white space */
+    WORD,   /* the beginning of a text, after a UTF-8 byte order mark and white space */
     ROOT,   /* the root element of XML, without its prefix */
     MEMBER, /* the name of a member of a JSON object */
     TYPE    /* the value of its member "type" */
@@ -45,13 +45,13 @@ typedef enum foreign_mark {
 
 typedef struct foreign_format {
     foreign_mark mark;
-    size_t at, n; /* where the bytes stand, and how many they are */
+    size_t at, n; /* the place and number of the bytes */
     const char *bytes;
     const char *what; /* the format, with its article */
     foreign_remedy remedy;
 } foreign_format;
 
-/* Longer marks come before those that they begin with. */
+/* Longer marks come before shorter ones that begin in the same way. */
 extern const foreign_format foreign_formats[];
 extern const size_t n_foreign_formats;
 

@@ -6,11 +6,11 @@
 
 typedef struct guess {
     const char *name; /* NULL: none is near */
-    size_t distance;  /* how many letters are changed, left out, added, or swapped with the next */
+    size_t distance;  /* number of letters changed, left out, added, or swapped with the next */
 } guess;
 
-/* Takes `name` if it is nearer to word[0..n) than the name taken before, and near enough. A third of
- * the word's letters may be wrong, or letters may be missing at its end. */
+/* Takes `name` if it is closer to word[0..n) than the best name before, and close enough. A third
+ * of the word's letters may be wrong, or letters may be missing at its end. */
 void guess_try(guess *g, const char *word, size_t n, const char *name);
 
 /* "; did you mean PREFIXNAME?", or nothing. Returns `out`. */

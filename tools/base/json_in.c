@@ -32,7 +32,7 @@ cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
                *end = text + n;
     bool apart;
     p += json_scan_gap(p, &apart);
-    apart = true; /* the first text needs nothing before it */
+    apart = true; /* the first text needs no separator before it */
     while (p < end || cJSON_GetArraySize(list) == 0) {
         const char *stop = p;
         cJSON *item = apart ? cJSON_ParseWithLengthOpts(p, (size_t)(end - p) + 1, &stop, 0) : NULL;

@@ -62,7 +62,7 @@ static int hex_digit(char c)
     return c >= '0' && c <= '9' ? c - '0' : lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-/* Over a string, with `at` on its first quote; on failure `at` is at the fault. */
+/* Scans a string, with `at` on its first quote. On failure `at` is at the fault. */
 static bool scan_string(json_scan *s)
 {
     const char *p = s->text + s->at + 1;
@@ -146,7 +146,8 @@ static json_kind scan_name(json_scan *s)
     return JSON_NAME;
 }
 
-/* One piece: commas are passed over where they belong. Behind the outermost value there is none. */
+/* Scans one piece, and skips commas where they belong. There is no piece after the outermost
+ * value. */
 json_kind json_scan_next(json_scan *s)
 {
     skip_blanks(s);
@@ -208,7 +209,7 @@ json_kind json_scan_skip(json_scan *s, json_kind kind)
     return kind;
 }
 
-/* The next character of a string as an ASCII one, or 0 for any other. */
+/* Returns the next character of a string if it is ASCII, else 0. */
 static char next_char(const char **cursor)
 {
     const char *p = *cursor;

@@ -1,5 +1,5 @@
-/* JSON text, piece by piece, checked against the whole grammar of RFC 8259. Nothing is converted: a
- * piece is where it stands in the text. The depth is limited by memory only. */
+/* Scans JSON text piece by piece and checks it against the whole grammar of RFC 8259. Nothing is
+ * converted: a piece is a place in the text. Only memory limits the depth. */
 #ifndef JSON_SCAN_H
 #define JSON_SCAN_H
 
@@ -10,12 +10,12 @@ typedef enum json_kind {
     JSON_OBJECT, /* { */
     JSON_LIST,   /* [ */
     JSON_CLOSE,  /* } or ] */
-    JSON_NAME,   /* of a member; the colon behind it has been read */
+    JSON_NAME,   /* of a member; the colon after it has been read */
     JSON_STRING,
     JSON_NUMBER,
     JSON_WORD, /* true, false, null */
-    JSON_END,  /* of the text, behind one value */
-    JSON_BAD   /* see `why`; `begin` is where */
+    JSON_END,  /* of the text, after one value */
+    JSON_BAD   /* see `why`; `begin` is the place */
 } json_kind;
 
 typedef struct json_scan {
@@ -28,22 +28,22 @@ typedef struct json_scan {
     int expected;
 } json_scan;
 
-/* Scans text[0..n), with text[n] == '\0'; a byte order mark in front is passed over. */
+/* Begins to scan text[0..n), with text[n] == '\0'. A byte order mark in front is skipped. */
 void json_scan_start(json_scan *s, const char *text, size_t n);
 json_kind json_scan_next(json_scan *s);
 
-/* The blanks and record separators between two texts of a sequence: how many there are. *apart:
- * whether another text may follow, on a line of its own or behind a record separator (RFC 8142). */
+/* Counts the blanks and record separators between two texts of a sequence. *apart tells if another
+ * text may follow: on its own line or after a record separator (RFC 8142). */
 size_t json_scan_gap(const char *p, bool *apart);
 
-/* Behind a value that stands in no other: whether another object follows in such a sequence. */
+/* After an outermost value: true if another object follows in such a sequence. */
 bool json_scan_more(json_scan *s);
 
-/* Passes over the rest of a value that began with a piece of this kind; JSON_BAD, or the kind. */
+/* Skips the rest of a value that began with a piece of this kind. Returns the kind, or JSON_BAD. */
 json_kind json_scan_skip(json_scan *s, json_kind kind);
 void json_scan_end(json_scan *s);
 
-/* Whether a string, with its quotes, is this word of ASCII letters, also with escapes. */
+/* True if a string, with its quotes, is this word of ASCII letters. The letters may be escaped. */
 bool json_string_is(const char *begin, const char *end, const char *word);
 
 #endif

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/* Where the reader is, and what the header has said. */
+/* The reader's place, and the values of the header. */
 typedef struct header {
     bool has_type, has_order, has_shape;
     const char *at, *end;
@@ -38,7 +38,7 @@ static bool expect(header *h, char c)
     return take(h, c) || spoilt(h->wrong, 0, "the header of the .npy file lacks a '%c'", c);
 }
 
-/* A word in quotes. */
+/* Reads a word in quotes. */
 static bool read_string(header *h, char out[NPY_WORD])
 {
     size_t n = 0;
@@ -86,8 +86,8 @@ static bool read_length(header *h, size_t *length)
     return n_digits > 0 || spoilt(h->wrong, 0, "the shape of the .npy file is no list of numbers");
 }
 
-/* The tuple of Python's syntax, as numpy writes it: a number of cells for each axis, and a comma
- * even after the only one. */
+/* Reads a tuple in Python's syntax as numpy writes it: a number of cells for each axis, and a comma
+ * even after a single one. */
 static bool read_shape(header *h)
 {
     npy *a = h->out;
@@ -127,7 +127,7 @@ static bool read_entry(header *h)
                                    : read_shape(h);
 }
 
-/* A dictionary as Python writes it. */
+/* Reads a dictionary as Python writes it. */
 static bool read_header(header *h)
 {
     if (!expect(h, '{'))
@@ -142,7 +142,7 @@ static bool read_header(header *h)
     return true;
 }
 
-/* The header's place in the file; the data begin at its end. */
+/* Finds the header. The data begin at its end. */
 static bool find_header(header *h, const char *text, size_t n)
 {
     const unsigned char *bytes = (const unsigned char *)text;

@@ -17,7 +17,8 @@ static const char *skip_digits(const char *p)
     return p;
 }
 
-/* The end of the decimal number at p, or NULL. strtod() alone takes more: blanks, 0x1p3, nan(7). */
+/* Returns the end of the decimal number at p, or NULL. strtod() alone accepts more: blanks, 0x1p3,
+ * nan(7). */
 static const char *decimal_end(const char *p)
 {
     if (*p == '+' || *p == '-')
@@ -42,7 +43,7 @@ static const char *decimal_end(const char *p)
     return p;
 }
 
-/* Length of a word for a number that is not finite, sign included, or 0. */
+/* The length of a word for a number that is not finite, including its sign, or 0. */
 static size_t special_length(const char *p)
 {
     static const char *const words[] = {"infinity", "inf", "nan"};

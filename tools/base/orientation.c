@@ -1,8 +1,8 @@
 /* Based on: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
  * Predicates, 1997: a filter, then the determinant as a sum of exact products.
  *
- * The library has its own, but does not export it, and the command shall also run with the shared
- * library. Speed does not matter here, so one filter and one exact stage do. */
+ * The library has predicates but does not export them, and the command must also run with the
+ * shared library. Speed does not matter here, so one filter and one exact stage are enough. */
 #include "base/orientation.h"
 
 #include <float.h>
@@ -10,11 +10,11 @@
 
 /* A sum of doubles that do not overlap, smallest first. */
 typedef struct expansion {
-    double parts[96]; /* each number that is added makes it longer by at most one */
+    double parts[96]; /* each number added makes the sum longer by at most one part */
     int n;
 } expansion;
 
-/* Adds a number exactly (GROW-EXPANSION with Knuth's two-sum), leaving zeros out. */
+/* Adds a number exactly (GROW-EXPANSION with Knuth's two-sum) and drops zeros. */
 static void add(expansion *e, double x)
 {
     int n = 0;
@@ -99,7 +99,7 @@ static void add_determinant(expansion *e, double sign_of, const double *p, const
     }
 }
 
-/* The determinant of the rows (1, a) to (1, d), which needs no differences. */
+/* The determinant of the rows (1, a) to (1, d). It needs no differences. */
 static int exact_3d(const double *points[4])
 {
     double s[12];

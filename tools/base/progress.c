@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Of what is left, for a call that was not announced: those that check cages and masks. */
+/* The share of the rest for a call that was not announced. These calls check cages and masks. */
 static const double SMALL = 0.04;
 
 void progress_start(progress *p, bool quiet)
@@ -18,8 +18,9 @@ void progress_expect(progress *p, double share)
     p->next = share;
 }
 
-/* "[#####     ]  50 % improve", in fewer columns than the terminal has: the last one may make it go
- * to the next line. Where it is narrow the bar shrinks, then goes, then the stage. */
+/* Draws "[#####     ]  50 % improve", narrower than the terminal, because a character in the last
+ * column may start a new line. On a narrow terminal the bar shrinks, then disappears, then the
+ * stage. */
 static void draw(const char *stage, double share)
 {
     static const char full[] = "##############################";
@@ -38,14 +39,14 @@ static void draw(const char *stage, double share)
 int32_t progress_show(void *user, const char *stage, double share)
 {
     progress *p = user;
-    /* A share that falls is the first of another call. */
+    /* A share that falls means that another call has begun. */
     if (share < p->share || p->width <= 0) {
         p->before += p->width;
         p->width = (1 - p->before) * (p->next > 0 ? p->next : SMALL);
         p->next = 0;
     }
     p->share = share;
-    /* Ten pictures a second, the first after a tenth: short jobs show no bar at all. */
+    /* Draws ten times a second, first after 0.1 s, so short jobs show no bar. */
     if (!p->wanted || seconds_now() - p->drawn < 0.1)
         return 0;
     draw(stage, p->before + share * p->width);

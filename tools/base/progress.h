@@ -1,5 +1,5 @@
-/* A progress bar on stderr, when that is a terminal. One bar stands for all calls of the library
- * that a command makes: each takes a share of what the calls before it have left. */
+/* A progress bar on stderr, if that is a terminal. One bar covers all library calls of a command.
+ * Each call takes a share of the part that the calls before it have left. */
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
@@ -8,17 +8,17 @@
 
 typedef struct progress {
     bool wanted;   /* stderr is a terminal, without --quiet */
-    bool visible;  /* there is a bar to wipe away */
+    bool visible;  /* a bar is visible and must be erased */
     double drawn;  /* when it was last drawn, in seconds */
-    double before; /* what the calls before the present one were worth */
-    double width;  /* what that one is worth */
-    double share;  /* how much of it is done */
-    double next;   /* share that the next call takes of what is left then; 0: a small one */
+    double before; /* the part taken by earlier calls */
+    double width;  /* the part of the present call */
+    double share;  /* the share of the present call that is done */
+    double next;   /* the share of the rest that the next call takes; 0: a small one */
 } progress;
 
 void progress_start(progress *p, bool quiet);
 
-/* The next call of the library takes the given share of what is left. */
+/* Gives the next call of the library this share of the rest. */
 void progress_expect(progress *p, double share);
 
 /* An icc_env::progress callback whose user is a progress. Never cancels. */

@@ -13,7 +13,7 @@ int spoilt(problem *out, size_t line, const char *format, ...)
     return 0;
 }
 
-/* A message is one line, whatever names of files it holds. */
+/* Prints a message as one line, whatever characters are in file names. */
 static void print_line(const char *text)
 {
     fputs("libicc: ", stderr);

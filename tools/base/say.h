@@ -20,10 +20,10 @@ enum {
     DONE = 0,    /* all is well */
     FAILED = 1,  /* the input or the computation failed */
     MISUSED = 2, /* wrong usage */
-    PARTIAL = 4  /* done, but points have no image or elements are inverted */
+    PARTIAL = 4  /* done, but some points have no image or some elements are inverted */
 };
 
-/* What is wrong with an input, and where. `line` counts from 1; 0: no particular line. */
+/* What is wrong with an input, and where. `line` counts from 1; 0 means no particular line. */
 typedef struct problem {
     size_t line;
     char text[240];
@@ -32,7 +32,7 @@ typedef struct problem {
 /* Fills in a problem and returns false, so that a reader can `return spoilt(...)`. */
 int spoilt(problem *out, size_t line, const char *format, ...) SAY_FORMAT(3, 4);
 
-/* Prints `libicc: FILE:LINE: message` and returns FAILED. No file: NULL; no line: 0. */
+/* Prints `libicc: FILE:LINE: message` and returns FAILED. `file` may be NULL and `line` 0. */
 int failed(const char *file, size_t line, const char *format, ...) SAY_FORMAT(3, 4);
 
 /* Prints `libicc: message (see 'libicc COMMAND --help')` and returns MISUSED. */
@@ -48,7 +48,8 @@ const char *quoted(char out[32], const char *word);
 /* The line that `at` stands on, from 1. */
 size_t line_of(const char *text, const char *at);
 
-/* What the elements of a mesh are called: "triangles", "tetrahedra", beyond space "simplices". */
+/* The name of the elements of a mesh: "triangles", "tetrahedra", or in more than 3 dimensions
+ * "simplices". */
 const char *elements_name(int32_t dim);
 
 #endif

@@ -130,7 +130,7 @@ int system_columns(void)
     return 80;
 }
 
-/* The current folder; NULL if the system does not tell it. free() it. */
+/* The current folder, or NULL if it is unknown. free() it. */
 static char *current_folder(void)
 {
     for (size_t room = 256;; room *= 2) {

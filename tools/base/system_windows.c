@@ -31,7 +31,7 @@ const char *system_last_part(const char *name)
     return part;
 }
 
-/* errno of the last failure of Windows' own functions. */
+/* Sets errno from the last failure of a Windows function. */
 static void set_errno(void)
 {
     switch (GetLastError()) {
@@ -60,7 +60,7 @@ bool system_exists(const char *name)
     return GetFileAttributesA(name) != INVALID_FILE_ATTRIBUTES;
 }
 
-/* Opened to be asked about, not to be read. */
+/* Opens a file only to query it. */
 static HANDLE look_at(const char *name)
 {
     return CreateFileA(name, 0, FILE_SHARE_READ | FILE_SHARE_WRITE | FILE_SHARE_DELETE, NULL,
@@ -163,7 +163,7 @@ void system_remove_folder(const char *name)
     RemoveDirectoryA(name);
 }
 
-/* A file that goes when it is closed: T, kept in memory if there is room; D, deleted. */
+/* The file disappears when it is closed. T keeps it in memory if there is room; D deletes it. */
 bool collector_begin(collector *c)
 {
     char folder[MAX_PATH + 1], name[MAX_PATH + 1];
@@ -201,7 +201,7 @@ size_t system_processors(void)
     return info.dwNumberOfProcessors > 0 ? info.dwNumberOfProcessors : 1;
 }
 
-/* A console that does not take the sequence for "erase the line" is none to draw on. */
+/* A console that does not support the sequence for "erase the line" gets no bar. */
 int system_columns(void)
 {
     HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
@@ -230,7 +230,7 @@ bool system_has_program(const char *name)
     return SearchPathA(NULL, name, ".exe", 0, NULL, NULL) > 0;
 }
 
-/* The program's command line; quotes keep an argument whole that has spaces. */
+/* Joins the arguments to a command line. Arguments with spaces are quoted. */
 static char *join_quoted(char *const *arguments)
 {
     size_t room = 1;

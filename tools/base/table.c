@@ -87,7 +87,7 @@ static bool read_cells(const char *p, const char *end, size_t line, const column
     return bad_cell(&bad, line, form, wrong);
 }
 
-/* One row between p and the line's end. *filled: whether there was one. */
+/* Reads one row between p and the line's end. *filled tells if there was one. */
 static bool read_row(const char *p, const char *end, size_t line, const table_form *form,
                      double *row, bool *filled, problem *wrong)
 {
@@ -121,7 +121,7 @@ double *table_add_row(table *t, size_t line)
     return t->values + t->n * t->columns;
 }
 
-/* The first line from p on that is neither empty nor a comment; NULL: there is none. */
+/* The first line from p on that is neither empty nor a comment, or NULL. */
 static const char *first_row(const char *p, const char *end)
 {
     while (p < end &&

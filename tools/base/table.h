@@ -1,4 +1,4 @@
-/* Lines of numbers: text cages, points, coordinates. */
+/* Reads lines of numbers: text cages, points, coordinates. */
 #ifndef TABLE_H
 #define TABLE_H
 
@@ -14,22 +14,21 @@ typedef struct table {
     size_t room_values, room_lines;
 } table;
 
-/* What the rows must be. */
+/* The form that the rows must have. */
 typedef struct table_form {
     size_t columns;
-    size_t
-        axes; /* how many of them, from the first on, are coordinates, which a heading may name */
-    bool special;     /* nan and inf are legal (a point that has no image already) */
+    size_t axes;      /* how many of the first numbers are coordinates, which a heading may name */
+    bool special;     /* nan and inf are allowed (a point that already has no image) */
     const char *what; /* for messages: "a point is `x y`" */
 } table_form;
 
-/* Reads rows of numbers from text[0..n), with text[n] == '\0'. White space separates numbers, or
- * commas or semicolons do in all rows, and such a table may have a heading (columns.h). A byte order
- * mark, CR LF, blank lines and lines that begin with '#' are fine. False: see `wrong`. Free the table
- * in either case. */
+/* Reads rows of numbers from text[0..n), with text[n] == '\0'. Numbers are separated by white
+ * space, or in all rows by commas or semicolons. A table of the latter kind may have a heading
+ * (columns.h). A byte order mark, CR LF, blank lines and lines that begin with '#' are accepted.
+ * False: see `wrong`. Free the table in either case. */
 bool table_read(table *out, const char *text, size_t n, const table_form *form, problem *wrong);
 
-/* Room for one more row, which counts only once `n` says so. */
+/* Returns room for one more row. The caller increases `n` to keep it. */
 double *table_add_row(table *t, size_t line);
 
 void table_free(table *t);

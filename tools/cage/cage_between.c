@@ -2,7 +2,7 @@
 
 #include "base/allocate.h"
 
-/* n numbers, each at a share of its own way; free() them. */
+/* n numbers, each at a share of its way; free() them. */
 static double *between(size_t n, const double *a, const double *b, double share)
 {
     double *result = need(n, sizeof *result);

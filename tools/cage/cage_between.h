@@ -1,11 +1,11 @@
-/* Cages on the way from one to another. */
+/* Makes cages between two others. */
 #ifndef CAGE_BETWEEN_H
 #define CAGE_BETWEEN_H
 
 #include "cage/cage.h"
 
-/* The polygon at a share, between 0 and 1, of the straight way from `a` to `b`, with what lies inside; without lines and
- * ties. Both correspond to one source. To be freed. */
+/* Returns the polygon at a share, between 0 and 1, of the straight way from `a` to `b`. It includes
+ * holes and points, but no lines and ties. Both correspond to one source. Free it. */
 cage cage_between(const cage *a, const cage *b, double share);
 
 #endif

@@ -1,4 +1,4 @@
-/* What is wrong with a cage, in words that point into its file. */
+/* Describes what is wrong with a cage, and where in its file. */
 #ifndef CAGE_DEFECTS_H
 #define CAGE_DEFECTS_H
 
@@ -12,7 +12,7 @@ typedef struct defect_list {
     uint32_t *items; /* n pairs */
 } defect_list;
 
-/* Lists at most `limit` defects (0: all); `n_all`: how many there are, or NULL. */
+/* Lists at most `limit` defects (0: all). `n_all` receives their number, and may be NULL. */
 icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n_all,
                         const icc_env *env, icc_error *err);
 
@@ -20,7 +20,7 @@ icc_status defects_find(defect_list *out, const cage *c, size_t limit, size_t *n
 bool defects_may_be_more(const defect_list *list, const cage *c);
 void defects_free(defect_list *list);
 
-/* Says what defect i is; its place is vertex items[2 i]. Returns `out`. */
+/* Describes defect i. Its place is vertex items[2 i]. Returns `out`. */
 const char *defect_text(char out[200], const defect_list *list, size_t i, const cage *c);
 
 #endif

@@ -1,4 +1,4 @@
-/* Checks cages in degrees, whose longitudes begin anew at the antimeridian. */
+/* Checks cages in degrees, whose longitudes wrap around at the antimeridian. */
 #ifndef CAGE_DEGREES_H
 #define CAGE_DEGREES_H
 

@@ -152,7 +152,7 @@ static bool pair(const cage_feature *source, const cage_feature *target, problem
     return true;
 }
 
-/* Two lists in order: the first that has no partner, or another one. */
+/* Compares two sorted lists. Reports the first feature without a partner, or with a wrong one. */
 static bool pair_all(size_t n, const cage_feature *source, size_t m, const cage_feature *target,
                      problem *wrong)
 {
@@ -184,7 +184,7 @@ bool features_correspond(const cage *source, const cage *target, problem *wrong)
 
 /* ---------------------------------------------------------------- messages */
 
-/* The name says what "(a line)" behind the number does. */
+/* The name repeats "(a line)" after the number, so that is skipped. */
 static const char *skip_kind(const char *p)
 {
     for (int32_t kind = ICC_FEATURE_HOLE; kind <= ICC_FEATURE_POINT; kind++) {
@@ -196,8 +196,8 @@ static const char *skip_kind(const char *p)
     return p;
 }
 
-/* Takes "feature 3" or "tie 3" at the beginning of a text, and names it; false: it is something
- * else. */
+/* Reads "feature 3" or "tie 3" at the beginning of a text, and names it. False if there is
+ * something else. */
 static bool take_name(feature_text name, const char **text, const cage *c)
 {
     const char *const words[] = {"feature ", "tie "};

@@ -1,10 +1,11 @@
-/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection, or the Features of one as
- * a sequence (RFC 8142). Rings behind the first are holes. In a FeatureCollection the property
- * `role` says what belongs to which cage: "source" and "target" Polygons, Points and LineStrings,
- * these paired by an integer property `feature`, and LineStrings "source-tie" and "target-tie" with
- * numbers of their own.
+/* Cages as GeoJSON (RFC 7946): a Polygon, a Feature or a FeatureCollection, or the Features of a
+ * collection as a sequence (RFC 8142). Rings after the first are holes.
  *
- * A ring that is not closed is taken as it is, like one in text. */
+ * In a FeatureCollection the property `role` tells the cage of a feature. "source" and "target" are
+ * Polygons, Points and LineStrings. An integer property `feature` pairs the latter two.
+ * "source-tie" and "target-tie" are LineStrings with numbers of their own.
+ *
+ * A ring that is not closed is accepted, as in text. */
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"
@@ -23,7 +24,7 @@ static const char *type_of(const cJSON *object)
     return type != NULL ? type : "";
 }
 
-/* What is being read, for messages: "", or like " of line 7". */
+/* The place being read, for messages: "", or a text like " of line 7". */
 typedef const char *place;
 
 static bool read_position(cage *out, const cJSON *position, size_t number, place of, problem *wrong)
@@ -50,7 +51,7 @@ static bool read_positions(cage *out, const cJSON *list, place of, problem *wron
     return true;
 }
 
-/* The outer ring, then the holes. */
+/* Reads the outer ring, then the holes. */
 static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
 {
     if (!cJSON_IsArray(rings) || cJSON_GetArraySize(rings) == 0)
@@ -70,7 +71,7 @@ static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
     return true;
 }
 
-/* The first polygon is the cage, the others are more of it. */
+/* Reads polygons. The first one is the cage, and the others are its further polygons. */
 static bool read_polygons(cage *out, const cJSON *polygons, problem *wrong)
 {
     int n = cJSON_GetArraySize(polygons);
@@ -112,7 +113,8 @@ static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
                   quoted(shown, type));
 }
 
-/* Whether a feature has the role "source" or "target", or with `behind` "-tie" that of a tie. */
+/* True if a feature has the role "source" or "target", or, if `behind` is "-tie", the role of a
+ * tie. */
 static bool has_role(const cJSON *feature, cage_role role, const char *behind)
 {
     const cJSON *properties = json_get(feature, "properties");
@@ -129,7 +131,8 @@ static const cJSON *number_of(const cJSON *feature)
     return json_get(json_get(feature, "properties"), "feature");
 }
 
-/* What a feature with a role is: an ICC_FEATURE_*, or the cage. What has a number is no cage. */
+/* The kind of a feature with a role: an ICC_FEATURE_*, or the cage. A feature with a number is not
+ * the cage. */
 static int32_t kind_of(const cJSON *feature)
 {
     const char *type = type_of(json_get(feature, "geometry"));
@@ -140,7 +143,7 @@ static int32_t kind_of(const cJSON *feature)
                                            : IS_CAGE;
 }
 
-/* How large a Point is, if it says so. */
+/* Reads the radius of a Point, if it has one. */
 static bool read_radius(double *out, const cJSON *feature, const char *name, problem *wrong)
 {
     const cJSON *radius = json_get(json_get(feature, "properties"), "radius");
@@ -151,7 +154,7 @@ static bool read_radius(double *out, const cJSON *feature, const char *name, pro
            spoilt(wrong, 0, "the radius of %s is no number from 0 up", name);
 }
 
-/* A Point, a LineString or a tie, with the number that pairs it. */
+/* Reads a Point, a LineString or a tie, with the number that pairs it. */
 static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem *wrong)
 {
     const double most = 9007199254740992; /* 2^53 */
@@ -187,7 +190,7 @@ static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem 
     return true;
 }
 
-/* The features inside the cage, and the ties. */
+/* Reads the features inside the cage, and the ties. */
 static bool read_features(cage *out, cage_role role, const cJSON *collection, problem *wrong)
 {
     const cJSON *feature;
@@ -201,7 +204,7 @@ static bool read_features(cage *out, cage_role role, const cJSON *collection, pr
     return true;
 }
 
-/* Whether a string is `wanted`, or a number or a word means it. */
+/* True if a string equals `wanted`, or a number or a word means it. */
 static bool is_value(const cJSON *item, const char *wanted)
 {
     const char *string = cJSON_GetStringValue(item);
@@ -213,7 +216,7 @@ static bool is_value(const cJSON *item, const char *wanted)
                                 : false;
 }
 
-/* Whether a feature has what was named: a property with its value, or the id. */
+/* True if a feature has the name: a property with the value, or the id. */
 static bool has_name(const cJSON *feature, const char *named)
 {
     size_t n = strcspn(named, "=");
@@ -262,8 +265,8 @@ static bool are_links(const cJSON *features)
     return are;
 }
 
-/* The feature that is the cage: of those with the role the one that is no line or point, else the
- * only one of all. */
+/* Chooses the feature that is the cage. It is the feature with the role that is no line or point,
+ * or else the only feature. */
 static const cJSON *choose_feature(const cJSON *collection, cage_role role, problem *wrong)
 {
     const cJSON *features = json_get(collection, "features");
@@ -318,7 +321,7 @@ static bool read_object(cage *out, const cage_choice *choice, const cJSON *objec
     return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
 }
 
-/* Files from before 2016 name their reference system if they are not in degrees. */
+/* Files from before 2016 name their reference system if their coordinates are not degrees. */
 static bool is_in_degrees(const cJSON *object)
 {
     const cJSON *crs = json_get(json_get(json_get(object, "crs"), "properties"), "name");
@@ -326,7 +329,7 @@ static bool is_in_degrees(const cJSON *object)
     return name == NULL || strstr(name, "CRS84") != NULL || strstr(name, "4326") != NULL;
 }
 
-/* The file's one text, or its sequence of Features as a collection that says so. */
+/* Parses the file's one text, or its sequence of Features, which becomes a collection. */
 static cJSON *parse(const char *text, size_t n, problem *wrong)
 {
     cJSON *texts = json_parse_sequence(text, n, wrong), *all = NULL;

@@ -95,7 +95,7 @@ static void take_facets(cage *c, const mesh_file *m, const mesh_boundary *b)
 
 /* ------------------------------------------------------------------------- plane */
 
-/* Fills in the next vertex along the boundary for each, with the mesh on the left; NONE elsewhere. */
+/* Links the vertices along the boundary, with the mesh on the left. Others get NONE. */
 static bool link_edges(const mesh_file *m, const mesh_boundary *b, uint32_t *next, problem *wrong)
 {
     for (size_t v = 0; v < m->n_vertices; v++)
@@ -114,13 +114,13 @@ static bool link_edges(const mesh_file *m, const mesh_boundary *b, uint32_t *nex
     return true;
 }
 
-/* True if a is left of b, or straight below it, or in the same place. */
+/* True if a is left of b, or straight below it, or at the same place. */
 static bool is_before(const double *a, const double *b)
 {
     return a[0] < b[0] || (!(a[0] > b[0]) && a[1] <= b[1]);
 }
 
-/* The sense of a ring: it turns so at the lowest of its leftmost vertices. */
+/* The orientation of a ring: the turn at the lowest of its leftmost vertices. */
 static int ring_sign(const mesh_file *m, const uint32_t *next, uint32_t first)
 {
     const double *x = m->points;

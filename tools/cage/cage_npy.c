@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Bytes of a cell: of whole numbers and truth values, whatever their size and order of bytes; of
- * others 0. */
+/* Bytes of a cell for integers and truth values of any size and byte order, or 0 for other
+ * types. */
 static size_t cell_size(const char *type)
 {
     const char *p = type + (*type != '\0' && strchr("|<>=", *type) != NULL);
@@ -17,7 +17,7 @@ static size_t cell_size(const char *type)
     return known ? (size_t)(p[1] - '0') : 0;
 }
 
-/* The cells are visited in the order of the file; `at` are the indices of the current one. */
+/* Visits the cells in the order of the file. `at` are the indices of the current cell. */
 static void take_cells(cage *c, const npy *a, size_t n, size_t size)
 {
     size_t at[ICC_MAX_DIM] = {0}, dim = c->dim;

@@ -1,10 +1,11 @@
-/* The data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative. Each is a contour, an
- * outline or a hole in one; those of a single place draw nothing and are left out.
+/* Reads the data of an SVG path: subpaths of M L H V C S Q T A Z, absolute or relative. Each is a
+ * contour, that is an outline or a hole in one. Subpaths at a single place draw nothing and are
+ * ignored.
  *
- * Each curve becomes edges at equal steps of its parameter, each arc such of its angle. Without a
- * tolerance there are CURVE_EDGES and ARC_EDGES, whatever the size: so the same path with moved points
- * gives the same number of vertices, and they correspond. With one they correspond if each of two paths
- * has been read with the other's counts as the least. */
+ * Each curve becomes edges at equal steps of its parameter, and each arc at equal steps of its
+ * angle. Without a tolerance there are CURVE_EDGES and ARC_EDGES, whatever the size. So the same
+ * path with moved points gives the same number of vertices, and they correspond. With a tolerance
+ * they correspond if each of two paths is read with the other's counts as its least. */
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"
@@ -28,7 +29,7 @@ typedef struct pen {
     bool closed;               /* nothing has been drawn since Z */
     double x, y;               /* where the pen is */
     double start_x, start_y;   /* of the subpath */
-    double handle_x, handle_y; /* the last control point of a curve, else where the pen is */
+    double handle_x, handle_y; /* the last control point of a curve, or else the pen */
     const flattening *flat;
     problem *wrong;
 } pen;
@@ -41,7 +42,7 @@ static void skip_separators(pen *p)
     }
 }
 
-/* A digit, which the next number may follow at once. */
+/* Reads a digit, which the next number may follow without a space. */
 static bool read_flag(pen *p, double *value)
 {
     char shown[32];
@@ -92,8 +93,8 @@ static bool choose_edges(pen *p, double needed, int fixed, int *n)
     return true;
 }
 
-/* An edge is off by an eighth of the second derivative, at most, times the square of its step; and
- * the derivative is largest at an end. */
+/* The distance of an edge from the curve is at most an eighth of the second derivative times the
+ * squared step. The derivative is greatest at an end. */
 static double edges_of_cubic(const pen *p, const double *abcdxy)
 {
     double first = hypot(p->x - 2 * abcdxy[0] + abcdxy[2], p->y - 2 * abcdxy[1] + abcdxy[3]);
@@ -102,7 +103,7 @@ static double edges_of_cubic(const pen *p, const double *abcdxy)
     return sqrt(6 * fmax(first, last) / (8 * p->flat->length));
 }
 
-/* A cubic from the pen over (a, b), (c, d) to (x, y). */
+/* Draws a cubic from the pen over (a, b), (c, d) to (x, y). */
 static bool curve_to(pen *p, const double *abcdxy)
 {
     double x0 = p->x, y0 = p->y;
@@ -121,7 +122,7 @@ static bool curve_to(pen *p, const double *abcdxy)
     return true;
 }
 
-/* A quadratic over (a, b), raised to a cubic. */
+/* Draws a quadratic over (a, b), raised to a cubic. */
 static bool quadratic_to(pen *p, double a, double b, double x, double y)
 {
     bool good = curve_to(p, (double[]){p->x + (a - p->x) * 2 / 3, p->y + (b - p->y) * 2 / 3,
@@ -168,7 +169,7 @@ static size_t numbers_of(char command)
     }
 }
 
-/* Draws one step. `previous`: whether the mirrored handle of S and T counts. */
+/* Draws one step. `previous` decides if the mirrored handle counts for S and T. */
 static bool draw(pen *p, char command, char previous, const double *v)
 {
     bool after_cubic = previous == 'C' || previous == 'S';
@@ -205,10 +206,10 @@ static bool draw(pen *p, char command, char previous, const double *v)
     return true;
 }
 
-/* Lower-case commands count from the pen. */
+/* Coordinates of lower-case commands are relative to the pen. */
 static void make_absolute(const pen *p, char command, size_t n, double *v)
 {
-    if (command == 'A') { /* only where it ends */
+    if (command == 'A') { /* only its end point */
         v[5] += p->x;
         v[6] += p->y;
         return;
@@ -231,8 +232,8 @@ static size_t count_drawn(const pen *p)
     return same == n ? 0 : last;
 }
 
-/* The next subpath begins behind the vertices that the cage has then; relative commands go on from
- * where this one began. */
+/* The next subpath begins after the vertices that the cage has then. Relative commands continue
+ * from the start of this subpath. */
 static void end_subpath(pen *p)
 {
     size_t n = count_drawn(p);
@@ -246,7 +247,7 @@ static void end_subpath(pen *p)
     p->y = p->handle_y = p->start_y;
 }
 
-/* One command with all the groups of numbers that follow it. */
+/* Reads one command with all groups of numbers that follow it. */
 static bool read_command(pen *p, char letter, char *previous)
 {
     char command = (char)(letter & ~0x20);
@@ -296,7 +297,8 @@ static bool read_commands(pen *p)
     return true;
 }
 
-/* Each of several contours must have three vertices. A single one is checked as a cage. */
+/* If there are several contours, each must have three vertices. A single one is checked as a
+ * cage. */
 static bool check_contours(const pen *p)
 {
     for (size_t k = 0; p->n_contours > 1 && k < p->n_contours; k++) {

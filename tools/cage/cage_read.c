@@ -24,11 +24,12 @@ static bool is_wkt(const char *text)
     for (size_t i = 0; i < sizeof words / sizeof *words; i++)
         if (begins_with(text, words[i]))
             return i == 0 ||
-                   strcspn(text, ",;") >= strcspn(text, "("); /* else a heading: POINT_X,.. */
+                   /* else a heading such as POINT_X,.. */
+                   strcspn(text, ",;") >= strcspn(text, "(");
     return false;
 }
 
-/* OBJ has no mark of its own, but its lines begin with words. */
+/* OBJ has no mark at its beginning, but its lines begin with words. */
 static bool is_obj(const char *text)
 {
     static const char *const words[] = {"v", "vt", "vn", "vp", "f",      "o",
@@ -55,7 +56,7 @@ static bool is_word(const char *text, const char *word)
     return strncmp(text, word, n) == 0 && strchr(" \t\r\n#", text[n]) != NULL;
 }
 
-/* Behind a mark of UTF-8 and white space. */
+/* After a UTF-8 byte order mark and white space. */
 static const char *first_word(const char *text, size_t n)
 {
     const char *p = text;
@@ -69,9 +70,9 @@ static bool is_json(const char *p)
     return *p == '{' || *p == '[' || *p == '\x1e';
 }
 
-/* The first bytes decide the kind of a cage, never the file's name: standard input has
- * none. Known formats that cannot be read are named first; plain coordinates, which begin with
- * anything, come last. */
+/* The first bytes decide the format of a cage, not the file's name, because standard input has
+ * none. Known formats that cannot be read are tested first. Plain coordinates can begin with
+ * anything, so they are tested last. */
 static bool read_any(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
                      problem *wrong)
 {

@@ -11,15 +11,15 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);
 bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_t n,
                    problem *wrong);
 
-/* Whether something in the file has the role. */
+/* True if some part of the file has the role. */
 bool cage_geojson_has(cage_role role, const char *text, size_t n);
 bool cage_svg_has(cage_role role, const char *text);
 
 bool cage_read_npy(cage *out, const char *text, size_t n, problem *wrong);
 
-/* Reads OBJ, OFF, PLY, STL, glTF, Medit and VTK: a surface in space, whose larger faces become fans of
- * triangles, or the boundary of tetrahedra, or the boundary of faces in the plane. For a target `dim`
- * is the dimension of the source. */
+/* Reads OBJ, OFF, PLY, STL, glTF, Medit and VTK. The result is a surface in space, whose larger
+ * faces become fans of triangles, or the boundary of tetrahedra, or the boundary of faces in the
+ * plane. For a target, `dim` is the dimension of the source. */
 bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,
                        problem *wrong);
 
@@ -27,7 +27,7 @@ bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const c
 struct mesh_file;
 bool cage_take_mesh(cage *out, const struct mesh_file *m, const cage *like, problem *wrong);
 
-/* The data of an SVG path that stands at `line` of its file, ended by `end` or '\0'. */
+/* Reads the data of an SVG path, which is on line `line` of its file and ends at `end` or '\0'. */
 bool cage_read_path(cage *out, const char *data, const char *end, size_t line,
                     const flattening *flat, problem *wrong);
 

@@ -1,4 +1,4 @@
-/* Surfaces from the files that meshes come in, too. */
+/* Reads surfaces from the file formats of meshes. */
 #include "base/allocate.h"
 #include "cage/cage_readers.h"
 #include "mesh/element_kinds.h"
@@ -8,7 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The spans are in the order of the text, so one pass finds all lines. Binary files have none. */
+/* One pass finds all lines, because the spans are in the order of the text. Binary files have no
+ * lines. */
 static size_t *vertex_lines(const mesh_file *m)
 {
     size_t *lines = need(m->n_vertices, sizeof *lines), line = 1, at = 0;

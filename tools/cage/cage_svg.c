@@ -1,9 +1,9 @@
 /* Cages as SVG: the outline of a <path>, a <polygon> or another basic shape, in the units of the
- * outermost <svg>, y downwards as in every picture.
+ * outermost <svg>. y points downwards, as in every picture.
  *
- * An element with the id, or the inkscape:label, "source" or "target" is chosen by the role of the
- * cage, or any by what was named, which may be its number, from 1 in the order of the file; else the
- * file must have one path or polygon only, or without such one other shape. */
+ * The element with the id or the inkscape:label "source" or "target" is chosen by the role of the
+ * cage. A name chooses any element, also by its number, from 1 in the order of the file. Without
+ * either, the file must have only one path or polygon, or without these only one other shape. */
 #include "cage/cage_readers.h"
 
 #include "base/allocate.h"
@@ -17,7 +17,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What a group does to all inside it. */
+/* The transform of a group, for everything inside it. */
 typedef struct frame {
     transform all;
     bool unclear; /* a transform that cannot be read */
@@ -36,7 +36,8 @@ typedef struct shapes {
     size_t n;
 } shapes;
 
-/* By its id, or by what Inkscape's panel of objects shows; or as it was named. */
+/* True if the element is chosen: by its id or the label that Inkscape's list of objects shows, or
+ * by the given name. */
 static bool is_chosen(const tag *t, const cage_choice *choice)
 {
     const char *key = choice->named, *value = cage_role_name(choice->role);
@@ -86,7 +87,7 @@ static frame frame_of(const tag *t, const frame *around)
     return inner;
 }
 
-/* Tags nest; the frames of those that are open are on a stack. */
+/* Tags are nested. A stack has the frames of the open ones. */
 static shapes find_shapes(const char *text, const cage_choice *choice)
 {
     shapes found = {.chosen = {.n = 0}};
@@ -135,7 +136,7 @@ static bool read_points(cage *out, const char *p, const char *end, size_t line, 
     return cage_end_ring(out, 0, wrong);
 }
 
-/* A length, in the units of the drawing; `missing` where there is none. */
+/* Reads a length in the units of the drawing, or `missing` if there is none. */
 static bool read_length(const tag *t, const char *name, double missing, double *out, size_t line,
                         problem *wrong)
 {
@@ -152,7 +153,7 @@ static bool read_length(const tag *t, const char *name, double missing, double *
                                         name, quoted(shown, value));
 }
 
-/* An ellipse as its four quarters, clockwise as it is seen. */
+/* Reads an ellipse as its four quarters, clockwise on the screen. */
 static bool read_ellipse(cage *out, const tag *t, size_t line, const flattening *flat,
                          problem *wrong)
 {
@@ -172,7 +173,7 @@ static bool read_ellipse(cage *out, const tag *t, size_t line, const flattening 
     return cage_read_path(out, path, path + strlen(path), line, flat, wrong);
 }
 
-/* Corners are rounded by one radius if only one is given, and by half the sides at most. */
+/* If only one radius is given, it is used for both. Radii are at most half the sides. */
 static bool read_rectangle(cage *out, const tag *t, size_t line, const flattening *flat,
                            problem *wrong)
 {

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-/* The vertex of a list at a place; n: none. */
+/* The vertex of a list at a place, or n. */
 static size_t find(size_t n, const double *points, const double *at)
 {
     size_t i = 0;

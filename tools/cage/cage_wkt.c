@@ -1,6 +1,6 @@
-/* Cages as well-known text: POLYGON ((x y, x y, ...), (..), ..), the holes behind the outer ring, or
- * a MULTIPOLYGON of one part, with or without SRID=...; in front. Heights and measures (Z, M, ZM, or just more numbers) are left out.
- */
+/* Cages as well-known text: POLYGON ((x y, x y, ...), (..), ..), where holes follow the outer ring,
+ * or a MULTIPOLYGON of one part. SRID=...; may come first. Heights and measures (Z, M, ZM, or
+ * further numbers) are ignored. */
 #include "cage/cage_readers.h"
 
 #include "base/number.h"
@@ -12,7 +12,7 @@ typedef struct reader {
     const char *text; /* the whole file, for line numbers */
     const char *at;
     problem *wrong;
-    size_t n_numbers; /* of each vertex; 0: as many as the first has */
+    size_t n_numbers; /* of each vertex; 0: as many as the first vertex has */
     bool several;     /* a MULTIPOLYGON */
     size_t line;      /* of `counted` */
     const char *counted;
@@ -29,7 +29,7 @@ static bool next_is(reader *r, char c)
     return true;
 }
 
-/* Takes a word in capitals or not, if it comes next and ends there. */
+/* Takes a word, in capitals or not, if it comes next and ends there. */
 static bool next_word(reader *r, const char *word)
 {
     r->at += strspn(r->at, blanks);
@@ -66,7 +66,7 @@ static bool read_number(reader *r, double *value)
                   kind == NUMBER_NOT_FINITE ? "finite number" : "number");
 }
 
-/* x and y, and what else the vertex has, up to four numbers in all. */
+/* Reads x and y, and the vertex's other numbers, up to four in all. */
 static bool read_vertex(reader *r, double xy[2])
 {
     double number;
@@ -104,8 +104,9 @@ static bool read_ring(reader *r, cage *out)
     return expect(r, ')') && cage_end_ring(out, first, r->wrong);
 }
 
-/* Up to the first bracket: PostGIS' SRID, which is passed over, [MULTI]POLYGON, and Z, M or ZM,
- * which some programs write together with the word and which says how many numbers a vertex has. */
+/* Reads up to the first bracket: PostGIS' SRID, which is ignored, [MULTI]POLYGON, and Z, M or ZM.
+ * These tell how many numbers a vertex has. Some programs write them without a space after the
+ * word. */
 static bool read_type(reader *r)
 {
     static const struct {
@@ -134,7 +135,7 @@ static bool read_type(reader *r)
     return true;
 }
 
-/* Where several parts are open: how many there are, from the first on. */
+/* Counts the parts from the first one on, where several are open. */
 static size_t count_parts(const char *p)
 {
     size_t n = 1, depth = 1;

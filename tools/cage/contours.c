@@ -1,10 +1,11 @@
-/* Finds out which contours of a path lie in which. The nearest edge to the left of a contour's leftmost
- * vertex belongs to the contour around it, or to a contour beside it that has the same one around it.
+/* Finds which contours of a path lie inside which others. The nearest edge to the left of a
+ * contour's leftmost vertex belongs to the contour around it, or to a contour beside it that has
+ * the same one around it.
  *
- * The leftmost vertices, by rising y, are the leaves of a segment tree. Each edge stands at the few
- * nodes whose ranges together are the vertices between its ends. Edges that do not cross are in order
- * from left to right at a node, so a binary search finds the nearest. The tree is built and searched
- * level by level. Exact for contours that do not cross. Costs n log^2 n for n edges. */
+ * The leftmost vertices, by rising y, are the leaves of a segment tree. Each edge is stored at the
+ * few nodes whose ranges together are the vertices between its ends. Edges that do not cross are in
+ * order from left to right at a node, so a binary search finds the nearest. The tree is built and
+ * searched level by level. Exact for contours that do not cross. Takes n log^2 n for n edges. */
 #include "cage/contours.h"
 
 #include "base/allocate.h"
@@ -32,7 +33,7 @@ typedef struct edge {
     const double *low, *high;
     size_t of;         /* its contour */
     bool down;         /* its contour runs from the upper end to the lower */
-    size_t begin, end; /* the nodes of the present level where it may have to stand */
+    size_t begin, end; /* the nodes of the present level where it may have to be stored */
 } edge;
 
 /* An edge at a node. */
@@ -45,7 +46,7 @@ typedef struct nest {
     size_t n;
     contour *contours;
     contour **by_height; /* by the y of their leftmost vertices */
-    const edge **near;   /* of each of by_height: the nearest edge to its left so far, or NULL */
+    const edge **near;   /* of each of by_height: the nearest edge to its left until now, or NULL */
     size_t n_edges, n_items;
     edge *edges;
     item *items; /* 2 n_edges */
@@ -122,7 +123,8 @@ static void find_leftmost(contour *c)
     c->turns_left = orientation(p + 2 * ((k + n - 1) % n), c->left, p + 2 * ((k + 1) % n)) > 0;
 }
 
-/* Lists the edges of all contours, each with the leaves at its height. Level edges have none. */
+/* Lists the edges of all contours, each with the leaves at its height. Horizontal edges have
+ * none. */
 static void list_edges(nest *t, size_t n_leaves)
 {
     for (size_t k = 0; k < t->n; k++)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How far a vertex of the mesh may be from that of the cage, in diagonals of the cage: files are
+/* How far a vertex of the mesh may be from that of the cage, in diagonals of the cage. Files are
  * often written with ten digits. */
 static const double NEAR = 1e-9;
 
@@ -32,7 +32,7 @@ void filling_take_facets(filling *out, const cage *c)
         memcpy(out->facets, c->facets, c->n_facets * c->dim * sizeof *out->facets);
 }
 
-/* With the cage's vertices first: vertex order[i] of the mesh becomes vertex i. */
+/* Puts the cage's vertices first: vertex order[i] of the mesh becomes vertex i. */
 static void arrange(filling *out, const cage *c, size_t n_points, const double *points,
                     const uint32_t *order, size_t n, const uint32_t *corners)
 {
@@ -86,7 +86,7 @@ static double distance(size_t dim, const double *a, const double *b)
     return sum;
 }
 
-/* The mesh vertex at a place that is not taken, or UINT32_MAX. */
+/* Finds a mesh vertex at a place that is not taken yet, or UINT32_MAX. */
 static uint32_t find(const mesh_file *m, const entry *sorted, const bool *taken, const double *at,
                      double near)
 {
@@ -110,7 +110,7 @@ static uint32_t find(const mesh_file *m, const entry *sorted, const bool *taken,
     return best;
 }
 
-/* Fills in `order`; false when a vertex of the cage is not there. */
+/* Fills in `order`. False if a vertex of the cage is missing. */
 static bool match(const mesh_file *m, const cage *c, uint32_t *order, problem *wrong)
 {
     entry *sorted = need(m->n_vertices, sizeof *sorted);

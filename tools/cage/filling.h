@@ -1,5 +1,5 @@
-/* The inside of a cage as a conforming mesh: triangles in the plane, tetrahedra in space. It is the
- * caller's, or, where that is asked for, what the program tetgen makes of it in space. */
+/* The inside of a cage as a conforming mesh: triangles in the plane, tetrahedra in space. The mesh
+ * is the caller's. In space the program tetgen can make it on request. */
 #ifndef FILLING_H
 #define FILLING_H
 
@@ -14,18 +14,20 @@ typedef struct filling {
 } filling;
 
 /* Reads a mesh (Medit, VTK, OBJ, OFF) whose boundary is the cage. Its vertices may come in any
- * order: those of the cage are found by their places. False: see `wrong`, and `out` is empty. */
+ * order, because the cage's vertices are found by their places. False: see `wrong`, and `out` is
+ * empty. */
 bool filling_read(filling *out, const cage *c, const char *text, size_t n, problem *wrong);
 
-/* Whether the program tetgen can be run. */
+/* True if the program tetgen can be run. */
 bool filling_can_make(void);
 
-/* Has tetgen fill a closed surface without touching it. False: see `wrong`, and `out` is empty. */
+/* Lets tetgen fill a closed surface, which stays unchanged. False: see `wrong`, and `out` is
+ * empty. */
 bool filling_make(filling *out, const cage *c, problem *wrong);
 
 void filling_free(filling *f);
 
-/* For the two of them: copies the facets of the cage. */
+/* Copies the facets of the cage. Used by both functions. */
 void filling_take_facets(filling *out, const cage *c);
 
 #endif

@@ -35,7 +35,7 @@ static void write_off(FILE *stream, const cage *c)
     write_faces(stream, c, "3 ", 0);
 }
 
-/* Normals of 0 leave it to the reader to compute them. */
+/* Normals of 0 tell the reader to compute them. */
 static void write_stl(FILE *stream, const cage *c)
 {
     fputs("solid libicc\n", stream);

@@ -1,4 +1,4 @@
-/* Surfaces as files that hold their doubles: OBJ, OFF, STL as text, PLY as binary. */
+/* Writes surfaces to files with their exact doubles: OBJ, OFF, STL as text, PLY as binary. */
 #ifndef SURFACE_WRITE_H
 #define SURFACE_WRITE_H
 

@@ -1,12 +1,12 @@
-/* Scalable Vector Graphics 1.1, second edition, 2011, appendix F.6: from both ends to the centre,
- * where the ellipse is a unit circle, and radii that are too small made larger. Angles are halved by
- * chords instead of computed, so that nothing but square roots is needed. */
+/* Scalable Vector Graphics 1.1, second edition, 2011, appendix F.6: goes from both ends to the
+ * centre, where the ellipse is a unit circle, and enlarges radii that are too small. Angles are
+ * halved by chords, so only square roots are needed. */
 #include "cage/svg_arc.h"
 
 #include <math.h>
 #include <string.h>
 
-/* By Taylor's series within 45 degrees, where 9 terms are as exact as doubles. */
+/* Uses Taylor's series within 45 degrees, where 9 terms are as exact as doubles. */
 void turn_by(double degrees, double *cosine, double *sine)
 {
     const double degree = 0.017453292519943295;
@@ -22,7 +22,7 @@ void turn_by(double degrees, double *cosine, double *sine)
     *sine = n == 0 ? s : n == 1 ? c : n == 2 ? -s : -c;
 }
 
-/* The middle of an arc of the unit circle: to the right of its chord if it is positive, else to the
+/* The middle of an arc of the unit circle: to the right of its chord if `positive`, else to the
  * left. */
 static void halve(double out[2], const double from[2], const double to[2], bool positive)
 {
@@ -32,13 +32,13 @@ static void halve(double out[2], const double from[2], const double to[2], bool 
     out[1] = -side * x / length;
 }
 
-/* An arc of the unit circle that a turn by (c, s) and two scales make of it. */
+/* An arc of the unit circle. A turn by (c, s) and two scales map the arc to it. */
 typedef struct unit_arc {
     double c, s, rx, ry;
     double u, v, square; /* half the chord, and its square */
 } unit_arc;
 
-/* False: it is a line. */
+/* False if the arc is a line. */
 static bool find_unit(unit_arc *out, const double from[2], const arc *a)
 {
     double rx = fabs(a->radii[0]), ry = fabs(a->radii[1]), c, s;

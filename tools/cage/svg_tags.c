@@ -9,7 +9,7 @@ bool tag_is(const tag *t, const char *name)
     return t->n_name == strlen(name) && strncmp(t->name, name, t->n_name) == 0;
 }
 
-/* The '>' that ends a tag, minding quotes; NULL if there is none. */
+/* The '>' that ends a tag, outside quotes, or NULL. */
 static const char *tag_end(const char *p)
 {
     char quote = '\0';

@@ -21,7 +21,7 @@ void transform_apply(const transform *t, double point[2])
     point[1] = t->m[1] * x + t->m[3] * y + t->m[5];
 }
 
-/* First `inner`, then `outer`. */
+/* Applies `inner` first, then `outer`. */
 static transform both(const transform *outer, const transform *inner)
 {
     const double *a = outer->m, *b = inner->m;
@@ -54,12 +54,12 @@ static transform skew(double degrees, bool along_x)
     return (transform){{1, along_x ? 0 : s / c, along_x ? s / c : 0, 1, 0, 0}};
 }
 
-/* One by its name and its n numbers. */
+/* Makes a transform from its name and its n numbers. */
 static bool make(transform *out, const char *name, size_t n_name, size_t n, const double *v)
 {
     static const struct {
         const char *name;
-        unsigned counts; /* bit k: it may have k numbers */
+        unsigned counts; /* bit k is set if it may have k numbers */
     } kinds[] = {{"matrix", 1U << 6},          {"translate", 1U << 1 | 1U << 2},
                  {"scale", 1U << 1 | 1U << 2}, {"rotate", 1U << 1 | 1U << 3},
                  {"skewX", 1U << 1},           {"skewY", 1U << 1}};
@@ -76,7 +76,7 @@ static bool make(transform *out, const char *name, size_t n_name, size_t n, cons
     return true;
 }
 
-/* NAME ( NUMBERS ); moves *cursor behind it. */
+/* Reads NAME ( NUMBERS ) and moves *cursor after it. */
 static bool read_one(transform *out, const char **cursor, const char *end)
 {
     const char *name = *cursor;

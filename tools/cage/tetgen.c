@@ -1,6 +1,6 @@
 /* Runs the program tetgen (Si, TetGen, a Delaunay-Based Quality Tetrahedral Mesh Generator, 2015),
- * if it is installed, in a folder of its own. -Y keeps the surface as it is: the first vertices
- * that come back are those that went in. */
+ * if it is installed, in a private folder. -Y keeps the surface unchanged, so the first vertices of
+ * the result are those of the input. */
 #include "cage/filling.h"
 
 #include "base/allocate.h"
@@ -11,8 +11,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* -p: what a surface encloses; -Y: without new vertices on it; -q1.4: radius-edge ratio; -F: no
- * files of faces; -Q: quiet. */
+/* -p: fill a surface; -Y: without new vertices on it; -q1.4: radius-edge ratio; -F: no files of
+ * faces; -Q: quiet. */
 #define OPTIONS "-pYq1.4FQ"
 
 static const char *const leftovers[] = {"cage.off",    "cage.1.node", "cage.1.ele",
@@ -63,7 +63,7 @@ static bool run(const char *folder, problem *wrong)
     return state == 0 || spoilt(wrong, 0, "tetgen cannot fill the surface");
 }
 
-/* A line of `n` numbers behind the number of the item, which counts from `base`. */
+/* Reads a line of `n` numbers after the number of the item, which counts from `base`. */
 static bool read_row(FILE *file, size_t i, unsigned long base, size_t n, double *row)
 {
     unsigned long number;
@@ -75,7 +75,7 @@ static bool read_row(FILE *file, size_t i, unsigned long base, size_t n, double 
     return true;
 }
 
-/* Vertices and tetrahedra count from 0 because those of OFF files do. */
+/* Vertices and tetrahedra count from 0, because those of OFF files do. */
 static bool read_points(FILE *file, const cage *c, filling *out)
 {
     if (fscanf(file, "%zu %*d %*d %*d", &out->n_points) != 1 || out->n_points < c->n ||

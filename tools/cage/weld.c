@@ -8,8 +8,8 @@
 
 enum { NONE = -1 };
 
-/* Kept vertices by the cubes that they lie in, which are as wide as the tolerance; without one, by
- * their places. Those of a cube are chained; cubes may share a chain. */
+/* Vertices that are kept, by cubes that are as wide as the tolerance. Without a tolerance, each
+ * place is a cube. The vertices of a cube are chained. Cubes may share a chain. */
 typedef struct cubes {
     const double *points;
     double width;
@@ -29,13 +29,13 @@ static cubes cubes_make(const cage *c, double tolerance)
     return x;
 }
 
-/* Adding 0 makes one of both zeros. */
+/* Adding 0 turns -0 into 0. */
 static double cube_of(const cubes *x, double at)
 {
     return x->width > 0 ? floor(at / x->width) : at + 0;
 }
 
-/* The chain of a cube; the bits are mixed by multiples of the golden ratio. */
+/* The chain of a cube. Multiples of the golden ratio mix the bits. */
 static int64_t *chain(const cubes *x, const double cube[3])
 {
     uint64_t mixed = 0;
@@ -68,7 +68,8 @@ static int64_t *chain_beside(const cubes *x, size_t i, const int step[3])
     return chain(x, cube);
 }
 
-/* The first vertex kept that is near vertex i, or NONE: in its cube or one beside. */
+/* The first kept vertex close to vertex i, or NONE. It is in the same cube or in a neighbouring
+ * one. */
 static int64_t find_near(const cubes *x, size_t i)
 {
     int64_t found = NONE;
@@ -89,8 +90,8 @@ static void keep(cubes *x, size_t i)
     *first = (int64_t)i;
 }
 
-/* The vertex that each becomes: the first kept one near it, else it is kept itself. So kept ones are
- * farther apart than the tolerance, and few are in a cube. */
+/* Finds what each vertex becomes: the first kept vertex close to it, or else itself. So kept
+ * vertices are farther apart than the tolerance, and a cube has few of them. */
 static uint32_t *find_first(const cage *c, double tolerance, size_t *n_later)
 {
     uint32_t *first = need(c->n, sizeof *first);

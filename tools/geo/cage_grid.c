@@ -1,5 +1,5 @@
-/* A regular grid of about as many cells as the cage has edges. A segment is in the cells that it
- * passes in each row, so that n edges are in O(n sqrt n) cells, however long they are. */
+/* A regular grid with about as many cells as the cage has edges. In each row, a segment is in the
+ * cells that it passes. So n edges are in O(n sqrt n) cells, however long they are. */
 #include "geo/cage_grid.h"
 
 #include "base/allocate.h"
@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The cells first..last of one row, or of all rows. */
+/* The cells first..last of one row, or rows first..last of the grid. */
 typedef struct range {
     size_t first, last;
 } range;
 
-/* The cells along axis k that lie between two coordinates. */
+/* The cells along axis k between two coordinates. */
 static range cells_between(const cage_grid *g, size_t k, double low, double high)
 {
     double last = (double)g->n[k] - 1;
@@ -22,8 +22,8 @@ static range cells_between(const cage_grid *g, size_t k, double low, double high
     return (range){from > 0 ? (size_t)fmin(from, last) : 0, to > 0 ? (size_t)fmin(to, last) : 0};
 }
 
-/* The cells that a segment passes in a row. One that reaches far beyond the cage is in all of them
- * between its ends: where exactly it passes would drown in rounding. */
+/* The cells of a row that a segment passes. A segment that reaches far beyond the cage counts in
+ * all cells between its ends, because rounding would hide where exactly it passes. */
 static range cells_of_row(const cage_grid *g, size_t row, const double a[2], const double b[2])
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], low = fmin(a[0], b[0]), high = fmax(a[0], b[0]);
@@ -38,7 +38,7 @@ static range cells_of_row(const cage_grid *g, size_t row, const double a[2], con
     return cells_between(g, 0, low, high);
 }
 
-/* Counts the edge in its cells (edges == NULL), or lists it there. */
+/* Counts the edge in its cells if edges == NULL, else lists it there. */
 static void enter_edge(cage_grid *g, uint32_t edge, size_t *fill)
 {
     const double *a = cage_end(g->cage, edge, 0), *b = cage_end(g->cage, edge, 1);
@@ -104,7 +104,7 @@ static void begin_question(cage_grid *g)
     }
 }
 
-/* Answers with the edges in some cells of a row that have not been among the answers yet. */
+/* Adds to the result the edges in some cells of a row that are not in it yet. */
 static void answer(cage_grid *g, size_t row, range columns)
 {
     for (size_t cell = row * g->n[0] + columns.first; cell <= row * g->n[0] + columns.last; cell++)

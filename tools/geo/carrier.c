@@ -1,5 +1,6 @@
-/* The map takes each facet of the cage linearly to its image, so a point that is taken to the cage
- * gets its image from the facet alone, and no rounding can put it outside again. */
+/* Carries points by one map or several. A map takes each facet of the cage linearly to its image.
+ * So a point on the cage gets its image from the facet alone, and no rounding can put it outside
+ * again. */
 #include "geo/carrier.h"
 
 #include "base/allocate.h"
@@ -26,7 +27,7 @@ static void flip_y(const carrier *c, size_t side, size_t n, double *points)
         points[2 * i + 1] = 0 - points[2 * i + 1];
 }
 
-/* The vertices of one side behind those that there are, and its first n_facets facets. */
+/* Adds the vertices of one side after those present, and its first n_facets facets. */
 static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain,
                                const icc_domain_info *info, size_t n_facets)
 {
@@ -44,7 +45,8 @@ static icc_status add_boundary(carrier *c, size_t side, const icc_domain *domain
     return status;
 }
 
-/* The outer ring has the inside on its left if it is counter-clockwise, a hole if it is not. */
+/* The outer ring has the inside on its left if it is counter-clockwise, and a hole if it is
+ * clockwise. */
 static void add_holes(carrier *c, const icc_domain *from, const icc_domain_info *domain,
                       size_t n_facets)
 {
@@ -118,7 +120,7 @@ icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, c
     return ICC_OK;
 }
 
-/* Sides that do not correspond facet by facet have no image to snap to. */
+/* If sides do not correspond facet by facet, there is no image to snap to. */
 void carrier_set_snap(carrier *c, double snap)
 {
     double least = fmax(1e-9 * c->size, 4 * DBL_EPSILON * c->largest);
@@ -191,7 +193,7 @@ icc_status carrier_is_outside(const carrier *c, const double *point, bool *out)
     return status;
 }
 
-/* Whether a point is so near to the cage's box that it may be snapped; most outside are not. */
+/* True if a point is close enough to the cage's box to be snapped. Most points outside are not. */
 static bool may_snap(const carrier *c, const double *point)
 {
     for (size_t k = 0; k < c->dim; k++)
@@ -200,7 +202,8 @@ static bool may_snap(const carrier *c, const double *point)
     return c->snap > 0;
 }
 
-/* Maps what the maps before have left outside: gathers it, and puts it where it belongs. */
+/* Maps the points that earlier maps left outside. Gathers them, and puts the images where they
+ * belong. */
 static icc_status map_rest(const carrier *c, const icc_map *map, size_t n, const double *points,
                            double *images, icc_status *status, size_t *n_failed)
 {

@@ -1,5 +1,5 @@
-/* A map as files of points need it, or several of domains that lie apart: what lies outside the cage
- * by no more than rounding is taken to be on it. */
+/* One map, or several of separate domains, in the form that files of points need. A point outside
+ * the cage by no more than rounding counts as on it. */
 #ifndef CARRIER_H
 #define CARRIER_H
 
@@ -10,8 +10,9 @@
 
 typedef struct carried {
     const icc_map *map;
-    const icc_domain *from; /* the side that points are read on */
-    uint32_t first_facet;   /* its first n_facets facets are these of the carrier and the next */
+    const icc_domain *from; /* the domain of the points that are read */
+    uint32_t first_facet;   /* its first n_facets facets are facets first_facet and following of
+                               the carrier */
     uint32_t n_facets;
 } carried;
 
@@ -21,44 +22,46 @@ typedef struct carrier {
     const icc_env *env;
     bool inverse;
     bool flipped[2]; /* for the side of the points, and for the other: the maps' domains have y
-                     * reversed; set by the caller before anything is added */
+                        reversed. The caller sets this before anything is added */
     size_t dim;
-    double snap; /* how far outside counts as on the cage */
+    double snap; /* a point this far outside counts as on the cage */
     double size; /* of the cage: the longest side of its box */
     double lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
-    bool matched; /* facet by facet */
+    bool matched; /* both sides correspond facet by facet */
     double largest;
     size_t n_vertices, n_facets, room_vertices[2], room_facets[2], room_reversed, room_holes;
     double *vertices[2]; /* of the cage and of its image */
     uint32_t *facets[2]; /* dim vertices each; facet i of one corresponds to facet i of the other */
-    bool *reversed;      /* in the plane: which facets of the cage have its inside on their right */
+    bool *reversed;      /* in the plane: for each facet, true if the inside of the cage is on
+                            its right */
     size_t n_holes;
-    double *in_holes; /* a point in each */
+    double *in_holes; /* a point in each hole */
 } carrier;
 
-/* Which rings of a domain bound what can be carried: all, not its holes, or none, since others fill
- * them or surround it. */
+/* The rings of a domain that bound the carried area: all, not its holes, or none because others
+ * fill or surround it. */
 enum { CARRIER_ALL = 1, CARRIER_OUTER, CARRIER_NONE };
 
-/* Begins to carry; back if `inverse` says so. To be freed in any case. Then come the maps between
- * two domains, which are given in the order in which points go, and how far outside still counts:
- * below 0 1e-9 of the cage's size, and no less than what rounding does to its coordinates. */
+/* Begins to carry, backwards if `inverse` is set. Free it in any case. Then add the maps, each
+ * between two domains in the order in which points go, and set how far outside still counts as on
+ * the cage. Below 0 that is 1e-9 of the cage's size, and never less than the rounding of its
+ * coordinates. */
 void carrier_start(carrier *out, bool inverse, const icc_env *env);
 icc_status carrier_add(carrier *c, const icc_map *map, const icc_domain *from, const icc_domain *to,
                        int32_t rings);
 void carrier_set_snap(carrier *c, double snap);
 void carrier_free(carrier *c);
 
-/* Whether a point lies in none of the domains. */
+/* *out becomes true if a point lies in none of the domains. */
 icc_status carrier_is_outside(const carrier *c, const double *point, bool *out);
 
-/* Maps n points, which may not be the images. Status: n of them. Snapped: n truth values, or
- * NULL. */
+/* Maps n points. `points` must not be `images`. `status` has n entries. `snapped` has n truth
+ * values, or is NULL. */
 icc_status carrier_map(const carrier *c, size_t n, const double *points, double *images,
                        icc_status *status, bool *snapped);
 
-/* The place on the cage nearest to a point: a facet, `dim` shares of its corners, and how far
- * off. Infinitely far where rings that bound nothing are nearer. */
+/* Finds the place on the cage nearest to a point: a facet, `dim` shares of its corners, and the
+ * distance. The distance is infinite if rings that bound nothing are nearer. */
 icc_status carrier_nearest(const carrier *c, const double *point, uint32_t *facet, double *shares,
                            double *distance);
 

@@ -1,7 +1,7 @@
 /* Based on: K. Weiler, P. Atherton, Hidden Surface Removal Using Polygon Area Sorting, 1977, for
- * two polygons whose boundaries have been cut where they meet. Of the polygon's pieces those in the
- * cage are kept, of the cage's those in the polygon; a piece that both have is kept once if they
- * are on the same side of it. */
+ * two polygons whose boundaries have been cut where they meet. The pieces of the polygon inside the
+ * cage are kept, and the pieces of the cage inside the polygon. A common piece is kept once if both
+ * polygons are on the same side of it. */
 #include "geo/clip.h"
 
 #include "base/allocate.h"
@@ -22,7 +22,7 @@ typedef struct clipper {
     geo_node *nodes; /* each place once */
     size_t n_nodes, room_nodes;
     pieces own, cage, kept;
-    uint32_t *facets; /* of the cage, near the polygon, in their order */
+    uint32_t *facets; /* edges of the cage close to the polygon, in their order */
     size_t n_facets;
 } clipper;
 
@@ -46,8 +46,7 @@ static int by_place(const void *a, const void *b)
     for (size_t k = 0; k < 2; k++)
         if (p->at[k] < q->at[k] || p->at[k] > q->at[k])
             return p->at[k] < q->at[k] ? -1 : 1;
-    /* Vertices of the polygon come before what was computed, and that before corners of the
-     * cage. */
+    /* Vertices of the polygon come first, then computed places, then corners of the cage. */
     double i = p->from == SIZE_MAX ? 2 : p->along, j = q->from == SIZE_MAX ? 2 : q->along;
     return i < j ? -1 : i > j ? 1 : p->from < q->from ? -1 : p->from > q->from;
 }
@@ -57,7 +56,7 @@ static bool same_place(const geo_node *a, const geo_node *b)
     return memcmp(a->at, b->at, sizeof a->at) == 0;
 }
 
-/* Where a node has come to among those that are kept once each. */
+/* The number of a node after equal places have been united. */
 static uint32_t find_node(const clipper *c, const double at[2])
 {
     size_t low = 0, high = c->n_nodes;
@@ -71,11 +70,11 @@ static uint32_t find_node(const clipper *c, const double at[2])
     return (uint32_t)low;
 }
 
-/* Sorts the nodes, and keeps one at each place: what is on the cage stays known to be. */
+/* Sorts the nodes and keeps one at each place. A place on the cage stays marked as such. */
 static void unite_nodes(clipper *c)
 {
     size_t n = 0;
-    /* Minus zero is zero. */
+    /* Turns -0 into 0. */
     for (size_t i = 0; i < c->n_nodes; i++)
         for (size_t k = 0; k < 2; k++)
             c->nodes[i].at[k] += 0.0;
@@ -101,7 +100,7 @@ static int by_number(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-/* The edges of the cage near the box of the nodes. */
+/* Finds the edges of the cage close to the box of the nodes. */
 static void find_facets(clipper *c)
 {
     cage_grid *grid = &c->noding->grid;
@@ -130,7 +129,8 @@ static int by_share(const void *a, const void *b)
     return p->share < q->share ? -1 : p->share > q->share;
 }
 
-/* The edges of the cage near the polygon, cut at the nodes on them, which are sorted by place. */
+/* Cuts the edges of the cage close to the polygon at the nodes on them, which are sorted by
+ * place. */
 static void cut_cage(clipper *c, size_t n_on, const geo_node *on)
 {
     const carrier *cage = c->noding->cage;
@@ -164,8 +164,8 @@ static void add_corners(clipper *c)
         }
 }
 
-/* The nodes on an edge of the cage among all that are on edges; how many, and which is the
- * first. */
+/* Finds the nodes on an edge of the cage among all that are on edges. Returns their number; *first
+ * is the first one. */
 static size_t nodes_of(size_t n_on, const geo_node *on, uint32_t facet, size_t *first)
 {
     size_t low = 0, high = n_on;
@@ -181,8 +181,8 @@ static size_t nodes_of(size_t n_on, const geo_node *on, uint32_t facet, size_t *
     return low - *first;
 }
 
-/* Adds a piece of the polygon. One that runs along an edge of the cage is cut at whatever nodes
- * there are on it, as the edge is. */
+/* Adds a piece of the polygon. A piece along an edge of the cage is cut at the same nodes as the
+ * edge. */
 static void add_own(clipper *c, const geo_node *a, const geo_node *b, bool reversed, size_t n_on,
                     const geo_node *on)
 {
@@ -216,7 +216,7 @@ static clip_piece *find_piece(const pieces *p, uint32_t from, uint32_t to)
     return p->n > 0 ? bsearch(&key, p->list, p->n, sizeof *p->list, by_ends) : NULL;
 }
 
-/* Takes out spikes: pieces of the polygon that are gone along there and back. */
+/* Removes spikes: pieces of the polygon that are run through in both directions. */
 static void cancel_spikes(pieces *own)
 {
     size_t n = 0;
@@ -239,7 +239,7 @@ static void middle_of(const clipper *c, const clip_piece *p, double out[2])
         out[k] = c->nodes[p->from].at[k] / 2 + c->nodes[p->to].at[k] / 2;
 }
 
-/* Whether a ray to the right of p meets an odd number of pieces. */
+/* True if a ray to the right of p meets an odd number of pieces. */
 static bool is_within(const clipper *c, size_t n, const clip_piece *list, const double p[2])
 {
     bool odd = false;
@@ -251,7 +251,7 @@ static bool is_within(const clipper *c, size_t n, const clip_piece *list, const 
     return odd;
 }
 
-/* Chooses the pieces that bound what both have: see above. */
+/* Chooses the pieces that bound the common area, as described above. */
 static void keep(clipper *c)
 {
     double middle[2];
@@ -283,8 +283,8 @@ static void keep(clipper *c)
         qsort(c->kept.list, c->kept.n, sizeof *c->kept.list, by_ends);
 }
 
-/* The nodes of the rings, each ring behind the other, with where they begin; false if one is not in
- * order. */
+/* Collects the nodes of the rings, ring after ring, and finds the edges of the cage close to them.
+ * Returns where each ring begins. */
 static size_t *collect(clipper *c, const geo_shape *shape, size_t first, size_t n_rings,
                        const icc_status *status, const bool *snapped)
 {

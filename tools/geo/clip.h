@@ -1,4 +1,4 @@
-/* The part of a polygon that lies in the cage. */
+/* Computes the part of a polygon that lies in the cage. */
 #ifndef CLIP_H
 #define CLIP_H
 
@@ -17,9 +17,9 @@ typedef struct clipped {
     size_t n_nodes, n_rings, n_parts;
 } clipped;
 
-/* Cuts the polygon of the shape's paths first .. first + n_rings - 1, the outer ring before the
- * holes. False: the rings cross themselves or each other so that there is no telling what is
- * inside. To be freed in either case. */
+/* Clips the polygon of the shape's paths first .. first + n_rings - 1, the outer ring before the
+ * holes. False if the rings cross themselves or each other so that their inside is not defined.
+ * Free the result in either case. */
 bool clip_polygon(clipped *out, noding *x, const geo_shape *shape, size_t first, size_t n_rings,
                   const icc_status *status, const bool *snapped);
 void clipped_free(clipped *c);

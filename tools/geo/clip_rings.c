@@ -1,5 +1,5 @@
-/* What is kept has as many pieces into each node as out of it, unless the polygon crosses itself or
- * rounding has misplaced a piece, and then falls into rings. */
+/* As many kept pieces end at each node as start there, so they form rings. This fails only if the
+ * polygon crosses itself or rounding has moved a piece. */
 #include "geo/clip_rings.h"
 
 #include "base/allocate.h"
@@ -26,8 +26,8 @@ double ring_area(size_t n, const double *points, size_t stride)
     return sum;
 }
 
-/* Where the pieces from each node begin. False: into some node there come more or fewer than go
- * out. */
+/* Finds where the pieces from each node begin. False if at some node the numbers of pieces in and
+ * out differ. */
 static bool balance(tracer *c)
 {
     uint32_t *into = need(c->n_nodes + 1, sizeof *into);
@@ -45,7 +45,7 @@ static bool balance(tracer *c)
     return good;
 }
 
-/* How far b is turned clockwise from a, in full turns: 0 < turn <= 1. */
+/* The angle by which b is turned clockwise from a, in full turns: 0 < turn <= 1. */
 static double clockwise(const double a[2], const double b[2])
 {
     const double full = 6.283185307179586;
@@ -53,8 +53,8 @@ static double clockwise(const double a[2], const double b[2])
     return turn > 0 ? turn : turn + 1;
 }
 
-/* The piece that goes on along the same face: of those that leave the node the first clockwise from
- * where we come from. */
+/* The next piece along the same face: of those that leave the node, the first one clockwise from
+ * the piece that came in. */
 static clip_piece *next_piece(const tracer *c, const clip_piece *p, const clip_piece *start)
 {
     const double *at = c->nodes[p->to].at, *from = c->nodes[p->from].at;
@@ -87,8 +87,8 @@ static void add_ring(tracer *c, clipped *out, size_t n, const uint32_t *ring)
     }
 }
 
-/* Follows the pieces round. A ring that comes back to a node before its end is split there, so that
- * each is simple. */
+/* Follows the pieces around. A ring that returns to a node before its end is split there, so that
+ * each ring is simple. */
 static bool trace_rings(tracer *c, clipped *out)
 {
     size_t n = 0;

@@ -28,8 +28,7 @@ static double distance_to_segment(const double a[2], const double b[2], const do
     return hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
-/* A piece that has an image in part only is split as well, so that the gap begins where the map's
- * does. */
+/* A piece with a partial image is split as well, so that the gap begins where the map's does. */
 static bool must_split(const double a[2], const double b[2], const double checks[2 * N_CHECKS],
                        double tolerance)
 {
@@ -66,8 +65,8 @@ static icc_status map_checks(const polyline *line, const carrier *c, size_t n_op
     return ran;
 }
 
-/* The vertex half-way between two, which are at most one position apart unless one is a corner of
- * the cage. */
+/* The vertex half-way between two vertices. They are at most one position apart unless one is a
+ * corner of the cage. */
 static vertex middle_of(const vertex *a, const vertex *b, const double image[2])
 {
     vertex v = {.image = {image[0], image[1]}, .open = true};

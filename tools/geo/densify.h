@@ -1,17 +1,17 @@
-/* Lines that stay true when they are mapped: with more vertices where the map bends them. */
+/* Adds vertices to lines where the map bends them, so that the mapped lines stay accurate. */
 #ifndef DENSIFY_H
 #define DENSIFY_H
 
 #include "base/say.h"
 #include "geo/carrier.h"
 
-/* A vertex, and where it is from: a position of a shape, or a share of the way to the next one. */
+/* A vertex and its origin: a position of a shape, or a share of the way to the next one. */
 typedef struct vertex {
-    double point[2], image[2]; /* NaN: no image */
-    bool position;             /* the position itself */
+    double point[2], image[2]; /* NaN if there is no image */
+    bool position;             /* it is the position itself */
     size_t from;
     double along;
-    bool open; /* the piece up to the next vertex is to be looked at */
+    bool open; /* the piece up to the next vertex still has to be tested */
 } vertex;
 
 typedef struct polyline {
@@ -22,9 +22,9 @@ typedef struct polyline {
 void polyline_add(polyline *line, const vertex *v);
 void polyline_free(polyline *line);
 
-/* Inserts vertices until no open piece's image is farther than `tolerance` from a straight line, as
- * seen at three points of the piece; at most 4096 pieces between two vertices. Where the map has a
- * gap there is a vertex without image. DONE, or FAILED: see `wrong`. */
+/* Adds vertices until the image of each open piece is within `tolerance` of a straight line, as
+ * tested at three points of the piece. There are at most 4096 pieces between two vertices. Where
+ * the map has a gap there is a vertex without an image. DONE, or FAILED: see `wrong`. */
 int polyline_densify(polyline *line, const carrier *c, double tolerance, problem *wrong);
 
 #endif

@@ -1,4 +1,4 @@
-/* A text with some pieces replaced; all others stay as they are, byte for byte. */
+/* A text in which some pieces are replaced. The rest stays as it is, byte for byte. */
 #ifndef EDITS_H
 #define EDITS_H
 
@@ -6,8 +6,8 @@
 #include <stdio.h>
 
 typedef struct edit {
-    size_t begin, end; /* of what is replaced, in the text */
-    size_t from, to;   /* of what replaces it, in the bytes */
+    size_t begin, end; /* the replaced piece, in the text */
+    size_t from, to;   /* the replacement, in the bytes */
 } edit;
 
 typedef struct edits {
@@ -17,11 +17,11 @@ typedef struct edits {
     size_t n_bytes, room_bytes;
 } edits;
 
-/* Begins to replace a piece of the text. Pieces may come in any order; one that lies within another
+/* Begins to replace a piece of the text. Pieces may come in any order. One that lies inside another
  * is lost with it. */
 void edits_replace(edits *e, size_t begin, size_t end);
 
-/* Adds to what replaces the last one: bytes, or a number that reads as the same again. */
+/* Adds to the last replacement: bytes, or a number that reads back as the same number. */
 void edits_put(edits *e, size_t n, const char *bytes);
 void edits_put_text(edits *e, const char *text);
 void edits_put_number(edits *e, double value);

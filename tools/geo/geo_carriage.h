@@ -1,4 +1,4 @@
-/* What the files that carry geometries share. */
+/* Data that the files that carry geometries share. */
 #ifndef GEO_CARRIAGE_H
 #define GEO_CARRIAGE_H
 
@@ -12,12 +12,12 @@ typedef struct carriage {
     double tolerance;
     const char *text;
     geo_index index;
-    geo_box *boxes; /* one per object: of what is in it */
+    geo_box *boxes; /* one for each object: the box of its contents */
     geo_result *out;
     problem *wrong;
-    size_t line, line_at; /* the line of a place in the text, for the next one behind it */
+    size_t line, line_at; /* the line of a place in the text, from which later lines are counted */
     uint32_t fault_of;    /* the object of the last fault */
-    /* of the current geometry */
+    /* The current geometry. */
     uint32_t object;
     geo_shape shape;
     double *images;
@@ -31,18 +31,18 @@ typedef struct carriage {
 /* The object of the current geometry. */
 geo_object *geo_current(const carriage *c);
 
-/* Notes that the current geometry is not carried as it was. A feature has one entry; of two fates
- * of its geometries the worse is reported. */
+/* Records that the current geometry is not carried unchanged. A feature has one entry. If its
+ * geometries have two fates, the worse one is reported. */
 void geo_note_fault(carriage *c, size_t n_without, const char *fate);
 
-/* Notes that, and leaves nothing of it. Returns true. */
+/* Records a fault and drops the geometry. Returns true. */
 bool geo_leave_out(carriage *c, size_t n_without);
 
-/* One more empty line in c->lines. */
+/* Adds an empty line to c->lines. */
 polyline *geo_add_line(carriage *c);
 
-/* A node with its image: on the cage that of its place there, elsewhere that of its position, if it
- * has one. */
+/* A node with its image. On the cage it is the image of the place on the edge; elsewhere that of
+ * its position, if there is one. */
 vertex geo_vertex_of(const carriage *c, const geo_node *node);
 bool geo_has_gap(const polyline *line);
 geo_writer geo_writer_of(carriage *c);
@@ -50,8 +50,8 @@ geo_writer geo_writer_of(carriage *c);
 /* Cuts the current geometry along the cage. False: see c->wrong. */
 bool geo_cut(carriage *c, size_t n_without);
 
-/* Sets each bbox to what is in its object, from the last object to the first, so that what an
- * object holds is known before it. False: see c->wrong. */
+/* Sets each bbox to the box of its object's contents. Goes from the last object to the first, so
+ * that contents are known before their object. False: see c->wrong. */
 bool geo_set_boxes(carriage *c);
 
 #endif

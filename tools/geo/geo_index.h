@@ -1,4 +1,4 @@
-/* The objects of a GeoJSON text (RFC 7946): which they are and where their members stand. */
+/* Finds the objects of a GeoJSON text (RFC 7946) and the places of their members. */
 #ifndef GEO_INDEX_H
 #define GEO_INDEX_H
 
@@ -30,22 +30,21 @@ extern const char *const geo_type_names[];
 /* How one object is held by another. */
 typedef enum geo_route { GEO_ROOT, GEO_IN_GEOMETRY, GEO_IN_GEOMETRIES, GEO_IN_FEATURES } geo_route;
 
-/* A piece of the text; begin == end: it is not there. */
+/* A piece of the text. If begin == end, it is absent. */
 typedef struct geo_span {
     size_t begin, end;
 } geo_span;
 
 typedef struct geo_object {
     geo_span all, type_name, coordinates, bbox, id;
-    uint32_t parent; /* comes before its children; GEO_NOWHERE: none */
+    uint32_t parent; /* its parent, which comes before it; GEO_NOWHERE if there is none */
     uint32_t top;    /* the geometry of a feature to which this geometry belongs, or GEO_NOWHERE */
     uint32_t number; /* place in the list that holds it, from 0 */
     geo_type type;
     geo_route route;
-    unsigned members, repeated; /* bits: which are there, and more than once */
-    size_t
-        odd[3]; /* where geometry, geometries, features or an item is not what it should be, or 0 */
-    bool live;  /* false: part of a foreign member, which is left alone */
+    unsigned members, repeated; /* bits: which members are present, and which are repeated */
+    size_t odd[3]; /* where geometry, geometries, features or an item has a wrong type, or 0 */
+    bool live;     /* false if it is part of a foreign member, which is left alone */
 } geo_object;
 
 typedef struct geo_index {
@@ -54,8 +53,8 @@ typedef struct geo_index {
     bool sequence; /* of several texts, or with separators (RFC 8142) */
 } geo_index;
 
-/* Checks text[0..n), with text[n] == '\0', and finds its objects. False: see `wrong`. To be freed
- * in either case. */
+/* Checks text[0..n), with text[n] == '\0', and finds its objects. False: see `wrong`. Free the
+ * result in either case. */
 bool geo_index_read(geo_index *out, const char *text, size_t n, problem *wrong);
 void geo_index_free(geo_index *index);
 

@@ -1,14 +1,14 @@
-/* The coordinates of a geometry: where its positions stand in the text, and how they make up lines
- * and rings. */
+/* The coordinates of a geometry: the places of its positions in the text, and the lines and rings
+ * that they form. */
 #ifndef GEO_SHAPE_H
 #define GEO_SHAPE_H
 
 #include "geo/geo_index.h"
 
-/* Positions in a row: a line, a ring, the points of a MultiPoint, or one point. */
+/* A sequence of positions: a line, a ring, the points of a MultiPoint, or one point. */
 typedef struct geo_path {
     size_t first, n;
-    size_t part; /* which polygon of a MultiPolygon */
+    size_t part; /* the polygon of a MultiPolygon */
 } geo_path;
 
 typedef struct geo_shape {
@@ -20,12 +20,12 @@ typedef struct geo_shape {
     size_t room_spans, room_points, room_paths;
 } geo_shape;
 
-/* Reads the coordinates of a geometry, which have been checked to be JSON; the shape may have been
- * used before, or be all zero. False: see `wrong`. */
+/* Reads the coordinates of a geometry, which have been checked to be JSON. The shape may have been
+ * used before, or must be zeros. False: see `wrong`. */
 bool geo_shape_read(geo_shape *out, const geo_object *object, const char *text, problem *wrong);
 void geo_shape_free(geo_shape *shape);
 
-/* The next number behind p in checked JSON, with where it ends: NULL before a closing bracket. */
+/* Finds the next number after p in checked JSON, and its end. NULL before a closing bracket. */
 const char *geo_next_number(const char *p, const char **end);
 
 #endif

@@ -1,4 +1,4 @@
-/* The coordinates of a geometry that has been carried, as text in the manner of the old. */
+/* Writes the coordinates of a carried geometry as text in the style of the original. */
 #ifndef GEO_WRITE_H
 #define GEO_WRITE_H
 
@@ -6,7 +6,7 @@
 #include "geo/edits.h"
 #include "geo/geo_shape.h"
 
-/* A rectangle around images; empty while lower > upper. */
+/* A rectangle around images; empty if lower > upper. */
 typedef struct geo_box {
     double lower[2], upper[2];
 } geo_box;
@@ -18,11 +18,11 @@ typedef struct geo_writer {
     edits *edits;
     const char *text;
     const geo_shape *shape;
-    geo_box *box; /* grows by what is written */
+    geo_box *box; /* grows by everything that is written */
 } geo_writer;
 
 /* Replaces the coordinates by the images of lines that have every position of the shape in its
- * order; what stands between positions stays. */
+ * order. The text between positions stays. */
 void geo_write_in_place(geo_writer *w, geo_span coordinates, size_t n_lines, const polyline *lines);
 
 /* Adds the vertices first .. end - 1 of a line as a list of positions. */

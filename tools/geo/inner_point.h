@@ -1,4 +1,4 @@
-/* A point inside a polygon. */
+/* Finds a point inside a polygon. */
 #ifndef INNER_POINT_H
 #define INNER_POINT_H
 

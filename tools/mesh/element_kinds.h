@@ -23,8 +23,8 @@ enum {
     ELEMENT_LAGRANGE_PYRAMID = 74
 };
 
-/* The shape of the reference element, a product of simplices. A pyramid is no such product, but the
- * signs at the corners of its base decide. Of other shapes only the dimension is known. */
+/* The shape of the reference element, a product of simplices. A pyramid is not such a product, but
+ * the signs at the corners of its base decide. For other shapes only the dimension is known. */
 typedef enum element_shape {
     SHAPE_OTHER,
     SHAPE_POLYGON,
@@ -45,7 +45,8 @@ typedef struct element_kind {
     unsigned n_nodes; /* 0: any number */
     element_shape shape;
     unsigned degree;            /* 1 or 2, along each side */
-    const unsigned char *order; /* where each node stands in a file, or NULL: in this order */
+    const unsigned char *order; /* the place of each node in a file, or NULL if they are in this
+                                   order */
 } element_kind;
 
 /* The kind of a number from 0 to 255. An unknown one is a "cell of unknown kind" of dimension 3. */
@@ -55,7 +56,7 @@ const element_kind *element_kind_find(int type);
 extern const element_kind element_kinds[];
 extern const size_t n_element_kinds;
 
-/* ---- shapes: how their corners and further nodes lie ---- */
+/* ---- shapes: the places of their corners and further nodes ---- */
 
 /* Factors of the product, and the dimension of each. */
 typedef struct element_product {

@@ -286,7 +286,7 @@ static void find_corners(element_plan *p, const lattice *all, const unsigned *de
     }
 }
 
-/* Everything that does not depend on where the nodes are. */
+/* Computes everything that does not depend on the nodes' places. */
 static bool make_bernstein(element_plan *p, lattice l[4])
 {
     unsigned degrees[3] = {0, 0, 0};

@@ -1,5 +1,5 @@
-/* Plans for the elements of one kind: how the Bernstein coefficients of the Jacobian determinant
- * follow from the nodes, and how they are subdivided. */
+/* Plans for the elements of one kind. A plan computes the Bernstein coefficients of the Jacobian
+ * determinant from the nodes, and subdivides them. */
 #ifndef ELEMENT_PLAN_H
 #define ELEMENT_PLAN_H
 
@@ -10,8 +10,8 @@
 /* Exponents of three factors with two vertices each, or of fewer with more. */
 enum { N_EXPONENTS = 6, MOST_ROWS = 18, MOST_PAIRS = 6, MOST_DEGREE = 5 };
 
-/* Limits of subdivision: bisections in a row, and parts in all. Larger limits decide only elements
- * whose determinant is nearly 0 somewhere. */
+/* Limits of subdivision: bisections in a row, and parts in all. Larger limits only help for
+ * elements whose determinant is nearly 0 somewhere. */
 enum { DEEPEST = 24, MOST_PARTS = 256 };
 
 /* Coefficient `to` gets `weight` times the determinant of rows a, b, c of the three derivatives. */
@@ -29,14 +29,14 @@ struct element_plan {
     const element_kind *kind;
     const element_product *product;
     size_t dim, n_nodes;
-    size_t first[4]; /* where the exponents of each factor begin; then how many there are */
+    size_t first[4]; /* the first exponent of each factor, then the number of exponents */
     size_t n_rows[3];
     double *rows[3]; /* derivatives along each direction: n_rows * n_nodes shares of the nodes */
     size_t n_terms, n_coefficients;
     term *terms;
     double *rounding; /* of each coefficient, in units of its size */
     size_t n_corners;
-    unsigned short corners[8]; /* coefficients that are values at corners */
+    unsigned short corners[8]; /* coefficients that are the values at corners */
     size_t n_pairs, n_lines[MOST_PAIRS];
     bernstein_line *lines[MOST_PAIRS];
     double *work; /* (DEEPEST + 2) * 2 * n_coefficients: lower and upper bounds */

@@ -1,7 +1,8 @@
 /* Based on: A. Johnen, J.-F. Remacle, C. Geuzaine, Geometrical validity of curvilinear finite
- * elements, Journal of Computational Physics 233, 2013: the Jacobian determinant in Bernstein form,
- * whose coefficients bound it and have its values at the corners, subdivided until they tell.
- * Coefficients are intervals: a bound of the rounding errors belongs to each from the beginning. */
+ * elements, Journal of Computational Physics 233, 2013. The Jacobian determinant is put into
+ * Bernstein form. The coefficients bound it and include its values at the corners. They are
+ * subdivided until the sign is known. Coefficients are intervals: each has a bound of its rounding
+ * errors from the start. */
 #include "mesh/element_sign.h"
 
 #include "base/orientation.h"
@@ -53,7 +54,7 @@ static double determinant(size_t dim, const double *a, const double *b, const do
                           a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
-/* The same with all signs positive. */
+/* Does the same with all signs positive. */
 static double permanent(size_t dim, const double *a, const double *b, const double *c)
 {
     return dim == 2 ? a[0] * b[1] + a[1] * b[0]

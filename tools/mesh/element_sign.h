@@ -1,5 +1,5 @@
-/* Proves, and does not sample, the sign of the Jacobian determinant of the map from the reference
- * element, and so whether an element is inverted anywhere. */
+/* Proves the sign of the Jacobian determinant of the map from the reference element, instead of
+ * sampling it. So it proves whether an element is inverted anywhere. */
 #ifndef ELEMENT_SIGN_H
 #define ELEMENT_SIGN_H
 
@@ -7,19 +7,19 @@
 
 typedef enum element_sign {
     ELEMENT_UNDECIDED,
-    ELEMENT_POSITIVE, /* the determinant has the sign that was asked for, everywhere */
+    ELEMENT_POSITIVE, /* the determinant has the requested sign everywhere */
     ELEMENT_INVERTED  /* somewhere it is 0 or has the other sign */
 } element_sign;
 
-/* A plan for the elements of one kind, with room to work. NULL: there is no memory. */
+/* A plan for the elements of one kind, with work space. NULL if there is no memory. */
 typedef struct element_plan element_plan;
 element_plan *element_plan_make(const element_kind *kind);
 void element_plan_free(element_plan *p);
 
-/* The sign of an element whose dimension is that of the points. With `sign` -1 the determinant
+/* The sign of an element whose dimension is that of the points. If `sign` is -1, the determinant
  * must be negative everywhere. All points are finite. Signs at the corners of linear elements are
- * exact unless some coordinates differ by more than a factor 2^180. All else rests on bounds that
- * count every rounding. */
+ * exact unless some coordinates differ by more than a factor 2^180. Everything else rests on bounds
+ * that include every rounding. */
 element_sign element_sign_of(element_plan *p, const double *points, const uint32_t *nodes,
                              int sign);
 

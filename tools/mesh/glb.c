@@ -14,7 +14,7 @@ enum { NO_SET = 0, BYTES = 5121, SHORTS = 5123, WORDS = 5125, FLOATS = 5126 };
 
 /* ------------------------------------------------------------------ chunks */
 
-/* The chunk at *at, which is moved behind it: where its data begin, and how long they are. */
+/* Takes the chunk at *at, which is moved after it: the beginning and length of its data. */
 static bool take_chunk(const char *text, size_t n, size_t *at, const char *type, size_t *begin,
                        size_t *length, problem *wrong)
 {
@@ -69,7 +69,7 @@ static const cJSON **list_items(const cJSON *array, size_t *n)
     return items;
 }
 
-/* A whole number of an object; `missing`: what it is when it is not there. */
+/* Reads an integer of an object. `missing` is the value if it is absent. */
 static bool take_count(const cJSON *object, const char *where, const char *name, size_t missing,
                        size_t *out, problem *wrong)
 {
@@ -86,7 +86,7 @@ static bool take_count(const cJSON *object, const char *where, const char *name,
     return true;
 }
 
-/* The bytes of a view, which must lie in the binary part. */
+/* Finds the bytes of a view, which must lie in the binary part. */
 static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t *stride,
                       problem *wrong)
 {
@@ -110,7 +110,7 @@ static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t 
     return true;
 }
 
-/* Bytes of an item; 0: it is not of that kind. */
+/* The bytes of an item, or 0 if it is not of that kind. */
 static size_t item_size(const cJSON *accessor, glb_kind kind)
 {
     static const char *const types[] = {"SCALAR", "VEC3", "VEC4"};
@@ -190,7 +190,7 @@ static int by_place(const void *a, const void *b)
     return (p->items.at > q->items.at) - (p->items.at < q->items.at);
 }
 
-/* Vertices are numbered as they stand in the file. */
+/* Numbers the vertices in the order of the file. */
 static bool number_sets(glb *g, problem *wrong)
 {
     size_t first = 0, end = 0;

@@ -1,5 +1,5 @@
-/* Binary glTF: where the positions and indices of its meshes lie in the file, how nodes place them, and
- * which normals, tangents and morph targets they have. */
+/* Binary glTF: the places of its meshes' positions and indices in the file. It also finds how nodes
+ * place the meshes, and their normals, tangents and morph targets. */
 #ifndef GLB_H
 #define GLB_H
 
@@ -14,7 +14,7 @@ typedef struct glb_items {
     size_t at, n, size, stride;
 } glb_items;
 
-/* The items of an accessor: whole numbers, or three or four floats each. */
+/* The type of the items of an accessor: integers, or three or four floats each. */
 typedef enum glb_kind { GLB_INDICES, GLB_THREE, GLB_FOUR } glb_kind;
 
 /* An accessor that holds positions, and the number of its first vertex. */
@@ -23,8 +23,8 @@ typedef struct glb_positions {
     glb_items items;
 } glb_positions;
 
-/* What a vertex has beside its position: directions, and a morph target's displacements of its position
- * and of its directions. */
+/* Data of a vertex besides its position: directions, and the displacements of its position and
+ * directions by a morph target. */
 typedef enum glb_use {
     GLB_NORMAL,
     GLB_TANGENT,
@@ -36,10 +36,10 @@ typedef enum glb_use {
 typedef struct glb_vectors {
     glb_use use;
     size_t accessor;
-    size_t set;   /* the positions that it belongs to */
-    size_t base;  /* for a target's directions: the accessor that they are added to, or SIZE_MAX */
+    size_t set;   /* the positions to which it belongs */
+    size_t base;  /* for a target's directions: the accessor to which they are added, or SIZE_MAX */
     size_t morph; /* for a target's directions: the accessor of its displacements, or SIZE_MAX */
-    bool shared;  /* others use the same accessor, and their images may differ */
+    bool shared;  /* others use the same accessor, and their images may be different */
     glb_items items;
 } glb_vectors;
 
@@ -50,8 +50,8 @@ typedef struct glb {
     size_t bin_at, bin_n; /* the binary chunk */
     size_t n_accessors, n_views;
     const cJSON **accessors, **views;
-    size_t *set_of;      /* of an accessor that holds positions: which of the sets below */
-    size_t n_sets, room; /* ascending in the file, apart */
+    size_t *set_of;      /* of an accessor that holds positions: its number among the sets below */
+    size_t n_sets, room; /* in rising order in the file, without overlap */
     glb_positions *sets;
 } glb;
 
@@ -59,24 +59,24 @@ typedef struct glb {
 bool glb_open(glb *out, const char *text, size_t n, problem *wrong);
 void glb_close(glb *g);
 
-/* Finds the items of the accessor that `index` names. `of` is its use, for messages. */
+/* Finds the items of the accessor that `index` names. `of` names its use in messages. */
 bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind kind,
                     size_t *accessor, glb_items *out, problem *wrong);
 
-/* The affine map (affine_map.h) by which nodes place each of the n_sets sets of positions. free() them.
- * NULL: see `wrong`. */
+/* The affine maps (affine_map.h) by which nodes place each of the n_sets sets of positions; free()
+ * them. NULL: see `wrong`. */
 double (*glb_find_places(const glb *g, problem *wrong))[12];
 
-/* Finds all vectors; free() them. Directions that are not floats, or not one for each vertex, are left
- * out and set *other. NULL while *n is not 0: see `wrong`. */
+/* Finds all vectors; free() them. Directions that are not floats, or not one for each vertex, are
+ * skipped and set *other. NULL although *n is not 0: see `wrong`. */
 glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wrong);
 
-/* True if positions, and n of their vectors, can be written in a text of that length without changing
- * one another or indices. */
+/* True if positions, and n of their vectors, can be written in a text of that length without
+ * affecting one another or indices. */
 bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors,
                   problem *wrong);
 
-/* True if a mesh is skinned, and if nodes are animated. */
+/* The first is true if a mesh is skinned, the second if nodes are animated. */
 bool glb_has_skins(const glb *g);
 bool glb_has_animations(const glb *g);
 

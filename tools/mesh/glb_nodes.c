@@ -17,8 +17,9 @@
 typedef struct node {
     const cJSON *json;
     size_t parent;      /* or SIZE_MAX */
-    size_t below;       /* while parents are looked for: the node that asked */
-    double matrix[12];  /* its own; once `placed`, composed with those of all nodes above it */
+    size_t below;       /* during the search for parents: the node that asked */
+    double matrix[12];  /* its own matrix; once `placed`, composed with those of all nodes above
+                           it */
     bool placed, asked; /* asked: on the way up */
 } node;
 

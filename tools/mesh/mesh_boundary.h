@@ -1,4 +1,5 @@
-/* The boundary of a mesh of triangles or tetrahedra: the facets that only one element has. */
+/* Finds the boundary of a mesh of triangles or tetrahedra: the facets that belong to only one
+ * element. */
 #ifndef MESH_BOUNDARY_H
 #define MESH_BOUNDARY_H
 
@@ -8,13 +9,13 @@
 
 typedef struct mesh_boundary {
     size_t n, dim;
-    uint32_t *facets; /* n * dim vertices, in the order in which their elements list them */
+    uint32_t *facets; /* n * dim vertices, in the order in which the elements list them */
     size_t *elements; /* the element of each facet, ascending */
-    size_t n_shared;  /* facets that more than two elements have */
+    size_t n_shared;  /* facets that belong to more than two elements */
 } mesh_boundary;
 
-/* Finds edges (a, b), (b, c), (c, a) of triangles, or faces of tetrahedra. Faces look outwards if the
- * determinant of b - a, c - a, d - a is positive. Sorts, so the time is n log n. */
+/* Finds edges (a, b), (b, c), (c, a) of triangles, or faces of tetrahedra. Faces look outwards if
+ * the determinant of b - a, c - a, d - a is positive. Takes O(n log n), because it sorts. */
 void mesh_boundary_find(mesh_boundary *out, size_t dim, size_t n, const uint32_t *elements);
 void mesh_boundary_free(mesh_boundary *b);
 

@@ -1,32 +1,36 @@
-/* Carries the normals, tangents and morph targets of a mesh by the map that its vertices follow. */
+/* Transforms the normals, tangents and morph targets of a mesh by the map that its vertices
+ * follow. */
 #ifndef MESH_CARRY_H
 #define MESH_CARRY_H
 
 #include "mesh/mesh_file.h"
 
-/* A map as a mesh sees it. A function that returns false has said why. */
+/* A map as a mesh uses it. A function that returns false has printed a message. */
 typedef struct mesh_mover {
     void *data;
-    /* Images of n points; a point without one stays where it is, and is counted. */
+    /* Maps n points. A point without an image stays where it is and is counted. */
     bool (*map)(void *data, size_t n, const double *points, double *images, size_t *n_failed);
-    /* The derivatives at n points, dim * dim numbers each, NaN if there is none. For a point on the
-     * boundary it is taken beside the point, along the point's direction (3 numbers each). */
+    /* Computes the derivatives at n points, dim * dim numbers each, or NaN if there is none. At a
+     * boundary point the derivative is taken beside the point, along the point's direction (3
+     * numbers each). */
     bool (*derive)(void *data, size_t n, const double *points, const double *directions,
                    double *derivatives);
 } mesh_mover;
 
-/* What became of normals, tangents and morph targets. */
+/* The result for normals, tangents and morph targets. */
 typedef struct mesh_carried {
-    size_t n_vectors, n_stay;   /* normals and tangents; those without a derivative */
-    double shared;              /* normals of several vertices are off by up to this, in degrees */
-    size_t n_morphed, n_beyond; /* displaced vertices; those without an image */
-    bool other;                 /* there are normals or tangents that are not read, and stay */
-    bool skins, animations;     /* joints, or nodes, that move; they stay */
+    size_t n_vectors, n_stay;   /* normals and tangents; how many of them have no derivative and
+                                   stay */
+    double shared;              /* normals shared by several vertices are wrong by up to this
+                                   angle, in degrees */
+    size_t n_morphed, n_beyond; /* displaced vertices; how many of them have no image */
+    bool other;                 /* there are normals or tangents that cannot be read; they stay */
+    bool skins, animations;     /* joints or nodes move; they stay */
 } mesh_carried;
 
 /* Replaces them in the text of m, whose vertices become `images`, rounded. Without a mover it only
- * counts what there is: n_vectors, n_morphed and the flags. False: see `wrong`. If its text is empty, the
- * mover has said why. */
+ * counts: n_vectors, n_morphed and the flags. False: see `wrong`. If its text is empty, the mover
+ * has printed a message. */
 bool mesh_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                 problem *wrong);
 
@@ -35,7 +39,8 @@ bool mesh_carry(mesh_file *m, const double *images, const mesh_mover *mover, mes
 bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh_carried *out,
                problem *wrong);
 
-/* Makes an affine map of space of a derivative of dim * dim numbers. False: one is not finite. */
+/* Makes an affine map of space from a derivative of dim * dim numbers. False if one is not
+ * finite. */
 bool carry_derivative(double out[12], size_t dim, const double *derivative);
 
 #endif

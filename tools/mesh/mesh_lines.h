@@ -1,5 +1,6 @@
-/* Reading a mesh: what the formats share, most of it for text. Each takes one line or one word at a
- * time; blanks and comments (from # on) are left out. Whatever returns false has said why. */
+/* Functions that readers of meshes share, most of them for text. Each takes one line or one word at
+ * a time. Blanks and comments (from # on) are skipped. A function that returns false has filled in
+ * the reason. */
 #ifndef MESH_LINES_H
 #define MESH_LINES_H
 
@@ -10,42 +11,42 @@ typedef struct lines {
     const char *at, *end; /* of the current line */
     size_t line;
     problem *wrong;
-    bool wraps;          /* a vertex may go on in the next line */
+    bool wraps;          /* a vertex may continue in the next line */
     uint32_t corners[3]; /* of the fan of the current face */
     size_t n_corners;
 } lines;
 
-/* The line behind this one; false at the end of the file, which is no failure. */
+/* Goes to the next line. False at the end of the file, which is no failure. */
 bool lines_next(lines *r);
 
 void lines_skip_blanks(lines *r);
 
-/* Whether `word` stands here; moves behind it if so. */
+/* If `word` comes next, moves after it and returns true. */
 bool lines_take(lines *r, const char *word);
 
 /* Moves to the next word of the file, whatever line it is on. */
 bool lines_word(lines *r);
 
-/* A number in this line. */
+/* Reads a number in this line. */
 bool lines_number(lines *r, double *value);
 
-/* A whole number from 0 to below `limit` in this line, or as the next word of the file. */
+/* Reads an integer from 0 to below `limit`: in this line, or as the next word of the file. */
 bool lines_count(lines *r, double limit, uint32_t *count);
 bool lines_next_count(lines *r, double limit, uint32_t *count);
 
-/* Room for one more vertex. */
+/* Makes room for one more vertex. */
 void mesh_make_room(mesh_file *m);
 
-/* The coordinates of the next vertex, which begin in this line. */
+/* Reads the coordinates of the next vertex, which begin in this line. */
 bool lines_vertex(lines *r);
 
-/* Faces, corner by corner; the third makes it an element. */
+/* Reads faces corner by corner. The third corner makes a face an element. */
 void lines_begin_face(lines *r);
 void lines_corner(lines *r, uint32_t vertex);
 bool lines_end_face(lines *r);
 
-/* Adds an element of any kind with n nodes, all vertices of the mesh. An element of dimension 2 with
- * straight sides is a face, too. False if the kind has another number of nodes. */
+/* Adds an element of any kind with n nodes, all of them vertices of the mesh. An element of
+ * dimension 2 with straight sides is a face, too. False if the kind has another number of nodes. */
 bool lines_element(lines *r, int kind, size_t n, const uint32_t *nodes);
 
 /* ---- the formats ---- */
@@ -58,7 +59,8 @@ bool mesh_read_ply(lines *r);
 bool mesh_read_stl(lines *r);
 bool mesh_read_glb(lines *r);
 
-/* For glTF: the place of the vertices from `first` on, or NULL; and mesh_round() and mesh_write(). */
+/* For glTF: the place of the vertices from `first` on, or NULL, and its versions of mesh_round()
+ * and mesh_write(). */
 const mesh_place *glb_place(const mesh_file *m, size_t first);
 bool glb_round(const mesh_file *m, double *points, size_t *beyond);
 void glb_write(const mesh_file *m, const double *points, FILE *stream);

@@ -1,4 +1,4 @@
-/* Reads the numbers of legacy VTK, as text or as bytes, the most significant first. */
+/* Reads the numbers of legacy VTK, as text or as bytes with the most significant first. */
 #ifndef VTK_NUMBERS_H
 #define VTK_NUMBERS_H
 
@@ -7,16 +7,17 @@
 /* The bytes of a number of a type, by its name. 0 for bits, strings and unknown types. */
 size_t vtk_size(const char *word, size_t n);
 
-/* Goes to the bytes behind the line that announces them. Text may begin in that line, so it stays. */
+/* Goes to the bytes after the line that announces them. Text may begin in that line, so there it
+ * does not move. */
 void vtk_begin(lines *r);
 
-/* A whole number from 0 to below `limit`: the next word, or the next `size` bytes. */
+/* Reads an integer from 0 to below `limit`: the next word, or the next `size` bytes. */
 bool vtk_count(lines *r, size_t size, double limit, uint32_t *count);
 
 /* Reads the next vertex, which has three numbers of `size` bytes. In the plane the third is ignored. */
 bool vtk_vertex(lines *r, size_t size);
 
-/* Passes over the arrays of a field, which was announced in this line, where they are bytes. */
+/* Skips the arrays of a field, which this line announces, if they are bytes. */
 bool vtk_skip_field(lines *r);
 
 #endif
