@@ -3,10 +3,10 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/bulk.h"
-#include "chart/chart_create.h"
-#include "chart/chart_field.h"
-#include "chart/gradient_state.h"
-#include "chart/load.h"
+#include "field/chart_field.h"
+#include "gradient/coordinates/gradient_state.h"
+#include "method/chart_create.h"
+#include "method/load.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/options.h"
-#include "chart/chart_parameters.h"
+#include "gradient/coordinates/chart_parameters.h"
 
 #include <math.h>
 

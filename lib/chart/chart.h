@@ -7,11 +7,9 @@
 
 #include "base/blob.h"
 #include "domain/domain.h"
-#include "field/flow.h"
-#include "gradient/trace/path.h"
+#include "geometry/path.h"
 #include "icc/icc.h"
 #include "mesh/planar.h"
-#include "shelling/leafn.h"
 
 /* Coordinates of one point. */
 typedef struct iccp_coords {
@@ -42,10 +40,10 @@ typedef icc_status (*iccp_emit)(void *argument, const double *local);
  * quickly. */
 enum { ICCP_CHART_MANY = 128 };
 
-/* Where a point inside lies, in the terms of the methods that search for it. */
-typedef union iccp_chart_place {
-    iccp_flow_place flow;   /* method field */
-    iccp_leafn_place fibre; /* method foliation on the domain's mesh */
+/* Where a point inside lies: room for a struct of the method that searches for it, which copies its
+ * bytes in and out. */
+typedef struct iccp_chart_place {
+    unsigned char bytes[2 * ICC_MAX_DIM * sizeof(double)];
 } iccp_chart_place;
 
 /* All points are local. `path` is scratch. */
@@ -83,7 +81,7 @@ typedef struct iccp_chart_ops {
     /* Makes what encode or decode makes when it is first asked: who asks in parallel does so first.
      * ICC_OK or ICC_ERR_MEMORY. NULL for methods that have all they need. */
     icc_status (*ready)(const icc_chart *chart, bool decodes);
-    /* What the method's loader wants, without the domain (chart/load.h). */
+    /* What the method's loader wants, without the domain (method/load.h). */
     void (*save)(const icc_chart *chart, iccp_blob *w);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;

@@ -4,7 +4,7 @@
 #define ICCP_FLOW_H
 
 #include "field/vectors.h"
-#include "gradient/trace/path.h"
+#include "geometry/path.h"
 
 enum {
     ICCP_FLOW_TERMS = 25, /* of a Taylor series at most */

@@ -4,7 +4,7 @@
 #define ICCP_LEAF2_H
 
 #include "foliation/psi.h"
-#include "gradient/trace/path.h"
+#include "geometry/path.h"
 
 /* Where a leaf crosses the half-edge that a corner faces, seen from the triangle nearer to the
  * centre: the label of the half-edge's first vertex lies `below` under the leaf's, that of its

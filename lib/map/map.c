@@ -4,13 +4,13 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "base/threads.h"
-#include "chart/chart_create.h"
 #include "domain/features_check.h"
 #include "map/curves/curves_kind.h"
 #include "map/energy/affine.h"
 #include "map/plane/plane_kind.h"
 #include "map/solid/filled_pair.h"
 #include "map/solid/solid_kind.h"
+#include "method/chart_create.h"
 
 #include <string.h>
 

@@ -3,8 +3,8 @@
 #include "base/blob.h"
 #include "base/budget.h"
 #include "base/clock.h"
-#include "chart/load.h"
 #include "domain/domain_file.h"
+#include "method/load.h"
 
 static const char KIND[] = "MAP_";
 /* With features, and without. */

@@ -10,8 +10,8 @@
 #define ICCP_LEAFN_H
 
 #include "geometry/facet_tree.h"
+#include "geometry/path.h"
 #include "geometry/simplices.h"
-#include "gradient/trace/path.h"
 
 enum { ICCP_LEAFN_CORNERS = ICC_MAX_DIM + 1 };
 

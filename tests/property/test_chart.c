@@ -1,6 +1,6 @@
 /* What holds for the gradient coordinates of every shape, whatever the options. */
 #include "chart/chart.h"
-#include "chart/gradient_state.h"
+#include "gradient/coordinates/gradient_state.h"
 
 #include "../random.h"
 #include "../shapes.h"

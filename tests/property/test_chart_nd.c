@@ -1,6 +1,6 @@
 /* What holds for the gradient coordinates of solids and masks of any dimension. */
 #include "chart/chart.h"
-#include "chart/gradient_line.h"
+#include "gradient/coordinates/gradient_line.h"
 #include "gradient/grid/kuhn_simplex.h"
 
 #include "../faulty.h"

@@ -1,5 +1,5 @@
 /* What holds for the map of gradient curves between every two shapes. */
-#include "chart/gradient_state.h"
+#include "gradient/coordinates/gradient_state.h"
 #include "map/map.h"
 
 #include "../random.h"

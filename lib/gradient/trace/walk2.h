@@ -6,9 +6,9 @@
 #ifndef ICCP_WALK2_H
 #define ICCP_WALK2_H
 
+#include "geometry/path.h"
 #include "gradient/function/function.h"
 #include "gradient/trace/boundary_cells2.h"
-#include "gradient/trace/path.h"
 
 /* Derivatives of a walk with respect to two parameters, one column each. */
 typedef struct iccp_jet2 {

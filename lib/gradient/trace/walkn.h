@@ -9,8 +9,8 @@
 #ifndef ICCP_WALKN_H
 #define ICCP_WALKN_H
 
+#include "geometry/path.h"
 #include "gradient/trace/boundary_cellsn.h"
-#include "gradient/trace/path.h"
 #include "gradient/trace/walkn_motion.h"
 
 typedef struct iccp_walkn {

@@ -7,8 +7,8 @@
 
 #include "base/minmax.h"
 #include "base/threads.h"
-#include "chart/chart_field.h"
 #include "chart/low_discrepancy.h"
+#include "field/chart_field.h"
 #include "gradient/function/function.h"
 #include "map/curves/curves.h"
 #include "math/elementary.h"

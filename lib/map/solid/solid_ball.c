@@ -2,11 +2,11 @@
 #include "map/solid/solid_ball.h"
 
 #include "base/minmax.h"
-#include "chart/chart_create.h"
 #include "fill/fill_domain.h"
 #include "geometry/simplices.h"
 #include "map/solid/cone_map.h"
 #include "math/vec.h"
+#include "method/chart_create.h"
 
 #include <string.h>
 

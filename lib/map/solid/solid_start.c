@@ -5,13 +5,13 @@
 #include "map/solid/solid_start.h"
 
 #include "base/clock.h"
-#include "chart/chart_create.h"
 #include "map/solid/coat_map.h"
 #include "map/solid/solid_ball.h"
 #include "map/solid/solid_edit.h"
 #include "map/solid/solid_pockets.h"
 #include "map/solid/solid_ways.h"
 #include "math/elementary.h"
+#include "method/chart_create.h"
 
 #include <math.h>
 

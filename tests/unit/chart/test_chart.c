@@ -1,9 +1,9 @@
 /* What the tests of the public functions cannot reach: corners of charts and maps. */
 #include "chart/bulk.h"
-#include "chart/chart_create.h"
-#include "chart/chart_foliation.h"
-#include "chart/gradient_state.h"
+#include "foliation/chart_foliation.h"
+#include "gradient/coordinates/gradient_state.h"
 #include "map/map.h"
+#include "method/chart_create.h"
 
 #include "../../hard_shapes.h"
 #include "../../shapes.h"

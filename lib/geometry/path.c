@@ -1,5 +1,5 @@
 /* A polyline with its arc length. */
-#include "gradient/trace/path.h"
+#include "geometry/path.h"
 
 #include <assert.h>
 #include <string.h>

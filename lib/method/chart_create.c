@@ -1,14 +1,14 @@
-#include "chart/chart_create.h"
+#include "method/chart_create.h"
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "chart/chart_disc.h"
-#include "chart/chart_field.h"
-#include "chart/chart_foliation.h"
-#include "chart/chart_gradient.h"
-#include "chart/chart_shelling.h"
-#include "chart/pairing.h"
 #include "domain/features.h"
+#include "field/chart_field.h"
+#include "field/pairing.h"
+#include "foliation/chart_disc.h"
+#include "foliation/chart_foliation.h"
+#include "gradient/coordinates/chart_gradient.h"
+#include "shelling/chart_shelling.h"
 
 static const char CHART_DOMAIN[] = "the domain of a chart";
 

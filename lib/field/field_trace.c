@@ -1,5 +1,5 @@
 /* The whole curve of a point. */
-#include "chart/field_state.h"
+#include "field/field_state.h"
 
 /* Emits the places of a path's marks, from the first or from the last. */
 static icc_status emit_marks(const iccp_field_state *state, const iccp_path *path, bool reversed,
@@ -54,13 +54,18 @@ icc_status iccp_field_trace(const icc_chart *chart, const double *point,
                             iccp_path *path, iccp_emit emit, void *argument)
 {
     const iccp_field_state *state = chart->state;
-    iccp_flow_place entry;
+    iccp_flow_place start;
     iccp_flow_walk walk;
-    icc_status status = boundary != NULL ? find_entry(chart, point, boundary, &entry)
-                                         : trace_below(chart, &place->flow, path, emit, argument);
+    icc_status status;
+    if (boundary != NULL) {
+        status = find_entry(chart, point, boundary, &start);
+    } else {
+        start = iccp_field_place(place);
+        status = trace_below(chart, &start, path, emit, argument);
+    }
     path->n_marks = 0;
     if (status == ICC_OK)
-        status = iccp_flow_start(&walk, &state->flow, +1, boundary != NULL ? &entry : &place->flow);
+        status = iccp_flow_start(&walk, &state->flow, +1, &start);
     for (bool more = true; status == ICC_OK && more;) {
         status = iccp_flow_note(&walk, path);
         more = !walk.ends;

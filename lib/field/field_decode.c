@@ -1,5 +1,5 @@
 /* From coordinates to the point: the curve from the boundary, as far as t says. */
-#include "chart/field_state.h"
+#include "field/field_state.h"
 #include "field/flow_jet.h"
 
 /* The whole curve from a boundary point, its pieces noted. */

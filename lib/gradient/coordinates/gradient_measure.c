@@ -1,11 +1,11 @@
 /* Based on: L. Huynh, thesis, 2013, section 6.4 (expansion edges and the area that they leave
  * uncovered, figure 6.12; compression edges), measured instead of drawn. */
-#include "chart/gradient_measure.h"
+#include "gradient/coordinates/gradient_measure.h"
 
 #include "base/minmax.h"
 #include "base/threads.h"
-#include "chart/gradient_line.h"
 #include "chart/low_discrepancy.h"
+#include "gradient/coordinates/gradient_line.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* Based on: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM
  * Transactions on Graphics 25, 2006: the affine map that fits the boundary best, the nearer the
  * better. */
-#include "chart/pairing.h"
+#include "field/pairing.h"
 
 #include "math/elementary.h"
 

@@ -1,4 +1,4 @@
-#include "chart/gradient_jet.h"
+#include "gradient/coordinates/gradient_jet.h"
 
 #include "math/vec.h"
 

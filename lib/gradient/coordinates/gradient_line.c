@@ -1,4 +1,4 @@
-#include "chart/gradient_line.h"
+#include "gradient/coordinates/gradient_line.h"
 
 #include <string.h>
 

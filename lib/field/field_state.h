@@ -2,9 +2,12 @@
 #ifndef ICCP_FIELD_STATE_H
 #define ICCP_FIELD_STATE_H
 
-#include "chart/chart_parameters.h"
 #include "field/flow_follow.h"
 #include "field/vectors.h"
+#include "gradient/coordinates/chart_parameters.h"
+
+#include <assert.h>
+#include <string.h>
 
 typedef struct iccp_field_state {
     iccp_chart_parameters parameters;
@@ -16,6 +19,15 @@ typedef struct iccp_field_state {
 } iccp_field_state;
 
 /* ---- places ---- */
+
+static_assert(sizeof(iccp_flow_place) <= sizeof(iccp_chart_place), "there is room for a place");
+
+static inline iccp_flow_place iccp_field_place(const iccp_chart_place *place)
+{
+    iccp_flow_place own;
+    memcpy(&own, place->bytes, sizeof own);
+    return own;
+}
 
 /* A local point of the boundary, in the simplex that the curve enters from there, or
  * ICC_ERR_TRACE. */

@@ -1,7 +1,7 @@
 /* Integral Curve Coordinates along leaves that never meet: docs/theory.md, foliations. The idea of
  * simplicial foliations: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations,
  * 2016. */
-#include "chart/chart_foliation.h"
+#include "foliation/chart_foliation.h"
 
 #include "base/clock.h"
 #include "base/error.h"

@@ -1,12 +1,12 @@
 /* The certificate wants an order of the simplices. Any order will do in which leaves come to
  * simplices of smaller rank only, so it is made from the directions: A. B. Kahn, Topological
  * Sorting of Large Networks, 1962. */
-#include "chart/shelling_file.h"
+#include "shelling/shelling_file.h"
 
-#include "chart/shelling_state.h"
 #include "domain/domain_file.h"
 #include "shelling/element.h"
 #include "shelling/shelling_certificate.h"
+#include "shelling/shelling_state.h"
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* From a point of the domain to its coordinates: its curve downhill to the boundary, and uphill to
  * the maximum. */
-#include "chart/field_state.h"
+#include "field/field_state.h"
 #include "field/flow_jet.h"
 
 #include <string.h>
@@ -110,15 +110,16 @@ icc_status iccp_field_encode(const icc_chart *chart, const double *point,
 {
     (void)point;
     const iccp_field_state *state = chart->state;
+    const iccp_flow_place start = iccp_field_place(place);
     double s_down = 0, s_up = 0;
     iccp_flow_jet down, up;
     if (jet != NULL) {
         unit_jet(&down, chart->domain->dim);
         unit_jet(&up, chart->domain->dim);
     }
-    icc_status status = walk_down(state, &place->flow, coords, &s_down, jet != NULL ? &down : NULL);
+    icc_status status = walk_down(state, &start, coords, &s_down, jet != NULL ? &down : NULL);
     if (status == ICC_OK)
-        status = walk_up(state, &place->flow, &s_up, jet != NULL ? &up : NULL);
+        status = walk_up(state, &start, &s_up, jet != NULL ? &up : NULL);
     if (status != ICC_OK)
         return status;
     coords->t = s_down / (s_down + s_up);
@@ -138,9 +139,10 @@ icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const size_t
     if (curves == NULL)
         return ICC_ERR_MEMORY;
     for (size_t j = 0; j < n; ++j) {
-        curves[2 * j] = (iccp_flow_curve){
-            .start = place[j].flow, .sign = -1, .share = 0, .measured = volume != NULL};
-        curves[2 * j + 1] = (iccp_flow_curve){.start = place[j].flow, .sign = +1};
+        const iccp_flow_place start = iccp_field_place(&place[j]);
+        curves[2 * j] =
+            (iccp_flow_curve){.start = start, .sign = -1, .share = 0, .measured = volume != NULL};
+        curves[2 * j + 1] = (iccp_flow_curve){.start = start, .sign = +1};
     }
     const icc_status all = iccp_flow_follow(&state->flow, 2 * n, curves, path->memory);
     for (size_t j = 0; all == ICC_OK && j < n; ++j) {

@@ -2,7 +2,7 @@
 #ifndef ICCP_GRADIENT_STATE_H
 #define ICCP_GRADIENT_STATE_H
 
-#include "chart/chart_parameters.h"
+#include "gradient/coordinates/chart_parameters.h"
 #include "gradient/trace/boundary_cellsn.h"
 #include "gradient/trace/walk2.h"
 

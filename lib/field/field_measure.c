@@ -1,6 +1,6 @@
 /* Curves of this method do not merge, so nothing is uncovered or collapsed: what can be amiss is
  * that a curve does not arrive, and that it crosses the boundary outward on its way up. */
-#include "chart/field_measure.h"
+#include "field/field_measure.h"
 
 #include "base/threads.h"
 #include "chart/low_discrepancy.h"

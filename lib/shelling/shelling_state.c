@@ -1,10 +1,11 @@
 /* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
  * section 4; the curves are the leaves of docs/theory.md, foliations of simplices. */
-#include "chart/shelling_state.h"
+#include "shelling/shelling_state.h"
 
 #include "base/minmax.h"
 #include "domain/domain_file.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -13,14 +14,26 @@ static const uint32_t *facet_of(const icc_chart *chart, uint32_t facet)
     return chart->domain->facets + (size_t)chart->domain->dim * facet;
 }
 
+static_assert(sizeof(iccp_leafn_place) <= sizeof(iccp_chart_place), "there is room for a place");
+
+static iccp_leafn_place own_place(const iccp_chart_place *place)
+{
+    iccp_leafn_place own;
+    memcpy(&own, place->bytes, sizeof own);
+    return own;
+}
+
 /* ICC_INSIDE and so on. The domain is asked only where the simplex cannot tell. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                       iccp_coords *coords)
 {
     const iccp_shelling_state *state = chart->state;
+    iccp_leafn_place own;
     bool inner;
     const bool found =
-        iccp_leafn_find(&state->leaves, point, chart->domain->band.reach, &place->fibre, &inner);
+        iccp_leafn_find(&state->leaves, point, chart->domain->band.reach, &own, &inner);
+    if (found)
+        memcpy(place->bytes, &own, sizeof own);
     if (found && inner)
         return ICC_INSIDE;
     const int32_t where =
@@ -74,13 +87,13 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 {
     (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_leafn_place low = place->fibre, high = place->fibre;
+    iccp_leafn_place low = own_place(place), high = low;
     parts p;
     if (jet == NULL) {
         p.down = iccp_leafn_fall(&state->leaves, &low, &coords->facet);
         p.up = iccp_leafn_rise(&state->leaves, &high);
     } else {
-        iccp_leafn_gradient(&state->leaves, place->fibre.simplex, &p.down_jet);
+        iccp_leafn_gradient(&state->leaves, low.simplex, &p.down_jet);
         p.up_jet = p.down_jet;
         p.down = iccp_leafn_fall_jet(&state->leaves, &low, &coords->facet, &p.down_jet);
         p.up = iccp_leafn_rise_jet(&state->leaves, &high, &p.up_jet, UINT32_MAX, NULL);
@@ -197,12 +210,13 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
 {
     (void)point;
     const iccp_shelling_state *state = chart->state;
-    iccp_leafn_place start = place->fibre;
+    iccp_leafn_place start;
     icc_status status = ICC_OK;
     if (boundary != NULL) {
         iccp_leafn_enter(&state->leaves, boundary->facet, facet_of(chart, boundary->facet),
                          boundary->bary, &start);
     } else {
+        start = own_place(place);
         status = iccp_leafn_note_fall(&state->leaves, &start, path);
         for (size_t k = path->n; status == ICC_OK && k-- > 1;)
             status = emit_note(state, path, k, emit, argument);

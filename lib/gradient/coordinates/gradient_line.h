@@ -3,7 +3,7 @@
 #ifndef ICCP_GRADIENT_LINE_H
 #define ICCP_GRADIENT_LINE_H
 
-#include "chart/gradient_state.h"
+#include "gradient/coordinates/gradient_state.h"
 #include "gradient/trace/walkn.h"
 
 typedef struct iccp_gradient_line {

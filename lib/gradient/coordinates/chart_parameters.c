@@ -1,4 +1,4 @@
-#include "chart/chart_parameters.h"
+#include "gradient/coordinates/chart_parameters.h"
 
 #include "base/error.h"
 

@@ -1,14 +1,14 @@
 /* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, for
  * grid, tree and function; the curves follow the field of docs/theory.md, fields on grids, instead
  * of the function's gradient, whose curves merge. */
-#include "chart/chart_field.h"
+#include "field/chart_field.h"
 
 #include "base/budget.h"
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/minmax.h"
-#include "chart/field_measure.h"
-#include "chart/field_state.h"
+#include "field/field_measure.h"
+#include "field/field_state.h"
 #include "gradient/function/critical_points.h"
 #include "gradient/function/make_function.h"
 #include "gradient/grid/grassfire.h"

@@ -2,7 +2,7 @@
 #ifndef ICCP_GRADIENT_JET_H
 #define ICCP_GRADIENT_JET_H
 
-#include "chart/gradient_line.h"
+#include "gradient/coordinates/gradient_line.h"
 
 /* Of a point by itself. */
 void iccp_gradient_identity(int32_t dim, iccp_jetn *jet);

@@ -1,16 +1,16 @@
 /* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
  * Transactions on Graphics 35, 2016; docs/theory.md, foliations of simplices. */
-#include "chart/chart_shelling.h"
+#include "shelling/chart_shelling.h"
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/shelling_state.h"
 #include "shelling/arranged.h"
 #include "shelling/best_order.h"
 #include "shelling/centres.h"
 #include "shelling/reference.h"
 #include "shelling/shelling_certificate.h"
 #include "shelling/shelling_split.h"
+#include "shelling/shelling_state.h"
 
 /* Share of the flux through the boundary that is harmonic, the rest goes by area: with more of it
  * median energies of maps fall, but so do their least determinants (bench_tets). */

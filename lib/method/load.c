@@ -1,12 +1,12 @@
-#include "chart/load.h"
+#include "method/load.h"
 
 #include "base/budget.h"
-#include "chart/chart_disc.h"
-#include "chart/chart_field.h"
-#include "chart/chart_foliation.h"
-#include "chart/chart_gradient.h"
-#include "chart/shelling_file.h"
 #include "domain/domain_file.h"
+#include "field/chart_field.h"
+#include "foliation/chart_disc.h"
+#include "foliation/chart_foliation.h"
+#include "gradient/coordinates/chart_gradient.h"
+#include "shelling/shelling_file.h"
 
 static const char KIND[] = "CHRT";
 static const uint32_t VERSION = 1;

@@ -1,6 +1,6 @@
 /* The map is Tutte's (foliation/harmonic.h). Its image is a polygon round the origin; a point's
  * curve is the ray from the boundary of that polygon to the origin. */
-#include "chart/chart_disc.h"
+#include "foliation/chart_disc.h"
 
 #include "base/clock.h"
 #include "base/error.h"

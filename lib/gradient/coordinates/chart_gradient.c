@@ -1,12 +1,12 @@
 /* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4):
  * the same in any dimension, on top of gradient_line.h. */
-#include "chart/chart_gradient.h"
+#include "gradient/coordinates/chart_gradient.h"
 
 #include "base/clock.h"
 #include "base/error.h"
-#include "chart/gradient_boundary.h"
-#include "chart/gradient_jet.h"
-#include "chart/gradient_measure.h"
+#include "gradient/coordinates/gradient_boundary.h"
+#include "gradient/coordinates/gradient_jet.h"
+#include "gradient/coordinates/gradient_measure.h"
 #include "gradient/function/critical_points.h"
 #include "gradient/function/edges.h"
 #include "gradient/function/make_function.h"

@@ -1,5 +1,5 @@
 /* Places of points in the grid of a chart of method field. */
-#include "chart/field_state.h"
+#include "field/field_state.h"
 
 #include "math/elementary.h"
 
@@ -36,10 +36,13 @@ int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_char
                           iccp_coords *coords)
 {
     const iccp_field_state *state = chart->state;
+    iccp_flow_place own;
     double x[ICC_MAX_DIM];
     to_lattice(state, point, x);
-    const bool found = iccp_flow_find(&state->flow, x, NULL, &place->flow);
-    const uint32_t lowest = found ? place->flow.simplex.corner[0] : 0;
+    const bool found = iccp_flow_find(&state->flow, x, NULL, &own);
+    const uint32_t lowest = found ? own.simplex.corner[0] : 0;
+    if (found)
+        memcpy(place->bytes, &own, sizeof own);
     if (found && !iccp_band_is_wide(&chart->domain->band) && state->incidence.bits[lowest] == 0 &&
         state->tree->grid->inside[lowest])
         return ICC_INSIDE;

@@ -1,4 +1,4 @@
-#include "chart/gradient_state.h"
+#include "gradient/coordinates/gradient_state.h"
 
 icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],
                                 iccp_walk2 *walk, iccp_jet2 *jet)

@@ -3,7 +3,7 @@
 #define ICCP_GRADIENT_MEASURE_H
 
 #include "chart/chart.h"
-#include "chart/gradient_state.h"
+#include "gradient/coordinates/gradient_state.h"
 
 /* See iccp_chart_ops::measure. */
 icc_status iccp_gradient_measure(const icc_chart *chart, size_t n_points,
