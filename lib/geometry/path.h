@@ -1,21 +1,5 @@
 /* A polyline with its arc length, which grows as needed. One path serves many curves, so a loop
- * over points does not allocate.
- *
- * Legend of lib/gradient/trace, stage 4 of the papers. Begin with walk2.h, which has the plane;
- * walkn.h is the same in any dimension.
- * - line: an integral line of the function's gradient. A walk follows it uphill to the maximum or
- *   downhill to the boundary.
- * - step: the part of a line within one simplex or face.
- * - cell: a cube of the grid, which the Kuhn triangulation cuts into simplices.
- * - merged: a walk that has met a vertex or followed an edge, which other lines share.
- * - jet: derivatives of the walk's position and arc length with respect to its start.
- * - hit: where a step meets the boundary (boundary_cells2.h, boundary_cellsn.h).
- * - place, motion, slope: where a walk stands, how it moves on a face, and the values that it
- *   climbs (walkn_star.h, walkn_motion.h).
- *
- * Invariants: exact signs decide which simplex or face comes next, and doubles give the place where
- * the line meets it. f rises strictly along a walk (equal values by vertex index), so no walk
- * loops. Positions are in lattice coordinates. */
+ * over points does not allocate. */
 #ifndef ICCP_PATH_H
 #define ICCP_PATH_H
 

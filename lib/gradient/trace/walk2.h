@@ -2,7 +2,23 @@
  *
  * Every grid cell is cut by the diagonal from (i, j) to (i + 1, j + 1). Exact signs decide which
  * edge comes next (topology). Doubles give the place where the line crosses it (geometry). In
- * lattice coordinates, vertex (i, j) is at x = i, y = j. */
+ * lattice coordinates, vertex (i, j) is at x = i, y = j.
+ *
+ * Legend of lib/gradient/trace, stage 4 of the papers. This header has the plane;
+ * walkn.h is the same in any dimension.
+ * - line: an integral line of the function's gradient. A walk follows it uphill to the maximum or
+ *   downhill to the boundary.
+ * - step: the part of a line within one simplex or face.
+ * - cell: a cube of the grid, which the Kuhn triangulation cuts into simplices.
+ * - merged: a walk that has met a vertex or followed an edge, which other lines share.
+ * - jet: derivatives of the walk's position and arc length with respect to its start.
+ * - hit: where a step meets the boundary (boundary_cells2.h, boundary_cellsn.h).
+ * - place, motion, slope: where a walk stands, how it moves on a face, and the values that it
+ *   climbs (walkn_star.h, walkn_motion.h).
+ *
+ * Invariants: exact signs decide which simplex or face comes next, and doubles give the place where
+ * the line meets it. f rises strictly along a walk (equal values by vertex index), so no walk
+ * loops. Positions are in lattice coordinates. */
 #ifndef ICCP_WALK2_H
 #define ICCP_WALK2_H
 
