@@ -1,8 +1,11 @@
-/* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
- * as a semismooth Newton method, SIAM J. Optim. 13, 2002. An active inequality ties a child to its
- * parent, so that each step solves a smaller problem of the same kind (tied.h), and one sweep from
- * the leaves to the root gives the multipliers. All tests are relative to the function where they
- * are made: it spans hundreds of orders of magnitude in long limbs. */
+/* Primal-dual active set for Laplace's function under the tree's inequalities. Source: M.
+ * Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy as a semismooth Newton
+ * method, SIAM J. Optim. 13, 2002.
+ *
+ * An active inequality ties a child to its parent. So each step solves a smaller problem of the
+ * same kind (tied.h), and one sweep from the leaves to the root gives the multipliers. All tests
+ * are relative to the local value of the function, which spans hundreds of orders of magnitude in
+ * long limbs. */
 #include "gradient/solver/active_set.h"
 
 #include "base/clock.h"
@@ -15,16 +18,16 @@
 
 enum {
     MOST_ITERATIONS = 1000,
-    PATIENCE = 3,    /* steps without progress before smaller ones are taken */
-    MOST_LEVELS = 60 /* single changes, unless there are 2^60 candidates */
+    PATIENCE = 3,    /* steps without progress before changes become smaller */
+    MOST_LEVELS = 60 /* reaches single changes, unless there are 2^60 candidates */
 };
 
-/* Half of the rounds, as far as progress goes. */
+/* Progress reports count this many rounds as half of the work. */
 static const double TYPICAL_ROUNDS = 8;
 
-/* Slacks and multipliers in units of f are rounding errors up to the first: with a factorisation
- * they were 3e-14 at most (700,000 unknowns). Up to the second they are within what an iterative
- * solver can do. */
+/* Slacks and multipliers in units of f up to NOISE are rounding errors. With a factorisation they
+ * were at most 3e-14 (700,000 unknowns). Up to ACCEPTABLE they are within the errors of an
+ * iterative solver. */
 static const double NOISE = 3e-13, ACCEPTABLE = 1e-9;
 
 /* Shares are squared, and a tenth of the exponents is left for the entries of the factor. */
@@ -34,20 +37,21 @@ typedef struct state {
     const iccp_unknowns *unknowns;
     const iccp_scaled *f;
     double sigma;
-    bool *active; /* per unknown: the edge to its parent */
-    bool *wrong;  /* per unknown: its edge is active with a negative multiplier, or violated */
+    bool *active; /* by unknown: the edge to its parent is active */
+    bool *wrong;  /* by unknown: its edge is active with a negative multiplier, or violated */
     size_t n_wrong;
-    double worst;  /* the largest multiplier or violation of these */
-    uint32_t *top; /* ties by `active`: see iccp_ties, as for the next two */
+    double worst;  /* the largest such multiplier or violation */
+    uint32_t *top; /* ties that follow from `active`: see iccp_ties, like the next two */
     double *share;
     uint32_t *order;
-    double *multiplier; /* per unknown: of its edge if that is active, in units of 2^exponent of f
-                           at the unknown's top */
-    double *work;       /* 2 n, the multipliers among them: for the residual */
+    /* By unknown: multiplier of its edge if that is active, in units of 2^exponent of f at the
+     * unknown's top */
+    double *multiplier;
+    double *work; /* 2 n, including the multipliers: for the residual */
     uint64_t random;
 } state;
 
-/* False when the share of an unknown underflows. */
+/* Returns false if the share of an unknown underflows. */
 static bool tie(state *s)
 {
     double least = 1;
@@ -62,7 +66,8 @@ static bool tie(state *s)
     return least > LEAST_SHARE;
 }
 
-/* (1 + eta) multiplier_k = sum of those of k's active children - row k of the gradient. */
+/* (1 + eta) multiplier_k = (sum of the multipliers of k's active children) - (row k of the
+ * gradient). */
 static void find_multipliers(state *s)
 {
     const iccp_unknowns *unknowns = s->unknowns;
@@ -77,20 +82,20 @@ static void find_multipliers(state *s)
     }
 }
 
-/* By how much f_parent >= sigma f_child fails, in units of f_parent. */
+/* Returns by how much f_parent >= sigma f_child is violated, in units of f_parent. */
 static double violation(const state *s, size_t k)
 {
     const uint32_t p = s->unknowns->parent[k];
     return s->sigma * iccp_scaled_get(s->f, k, s->f->exponent[p]) / s->f->fraction[p] - 1;
 }
 
-/* By how much a multiplier is negative, in units of f. */
+/* Returns by how much a multiplier is negative, in units of f. */
 static double pull(const state *s, size_t k)
 {
     return -s->multiplier[k] / iccp_scaled_get(s->f, k, s->f->exponent[s->top[k]]);
 }
 
-/* Marks the inequalities that are on the wrong side. */
+/* Marks the inequalities whose state is wrong. */
 static void mark_wrong(state *s)
 {
     find_multipliers(s);
@@ -104,11 +109,12 @@ static void mark_wrong(state *s)
     }
 }
 
-/* Changes each of the wrong ones with probability 2^-level, and the last of them if that was none.
+/* Changes each wrong inequality with probability 2^-level, and the last one if that chose none.
+ *
  * In the variables f_parent - sigma f_child this is a linear complementarity problem with a
- * positive definite matrix. To change the last alone, to which this comes as the level rises, is
- * Murty's rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme
- * for solving the complementarity problem, Opsearch 11, 1974. */
+ * positive definite matrix. As the level rises, only the last wrong one changes. That is Murty's
+ * rule, which reaches the solution from every state: K. Murty, Note on a Bard-type scheme for
+ * solving the complementarity problem, Opsearch 11, 1974. */
 static void flip_some(state *s, int level)
 {
     const uint64_t mask = ((uint64_t)1 << level) - 1;
@@ -124,9 +130,9 @@ static void flip_some(state *s, int level)
     }
 }
 
-/* Begins with the empty set, for which f is the solution. All wrong inequalities are flipped as
- * long as their number falls; every PATIENCE steps without a new minimum the share that is flipped
- * is halved. What is then still wrong by no more than an iterative solver's errors is accepted. */
+/* Begins with the empty set, for which f is the solution. All wrong inequalities change as long as
+ * their number falls. After every PATIENCE steps without a new minimum, the share that changes is
+ * halved. Errors that remain are accepted if they are within those of an iterative solver. */
 static icc_status iterate(state *s, iccp_tied_solver solve, icc_function_info *info,
                           const iccp_env *env)
 {
@@ -155,7 +161,7 @@ static icc_status iterate(state *s, iccp_tied_solver solve, icc_function_info *i
     return ICC_OK;
 }
 
-/* The values are at most 1, so that what underflows does not matter here. */
+/* The values are at most 1, so underflow does not matter here. */
 static double residual(const state *s)
 {
     const iccp_scaled row = {s->share, NULL};

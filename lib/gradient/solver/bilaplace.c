@@ -1,7 +1,9 @@
-/* Based on: L. Huynh and Y. Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 5.2. Simply supported (Navier), the minimum satisfies L L f = 0 but at the root, so that
- * two solves with the M-matrix L give it; nothing cancels in them. Clamped, it is a least squares
- * problem with the Laplacians outside as further equations. */
+/* Bi-Laplace functions without inequalities. Based on: L. Huynh and Y. Gingold, Bijective
+ * Deformations in R^n via Integral Curve Coordinates, section 5.2.
+ *
+ * Simply supported (Navier), the minimum satisfies L L f = 0 except at the root. So two solves with
+ * the M-matrix L give it, and nothing cancels in them. Clamped, it is a least squares problem, with
+ * the Laplacians outside as further equations. */
 #include "gradient/solver/bilaplace.h"
 
 #include "base/clock.h"
@@ -14,11 +16,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1
- * of others. */
+/* Largest residual of a component, relative to the component. It is far above the 1e-15 of correct
+ * solutions and far below the 1 of wrong ones. */
 static const double MOST_RESIDUAL = 1e-6;
 
-/* Divides by the value of the root, which becomes 1. */
+/* Divides by the value at the root, which becomes 1. */
 static void scale(const iccp_scaled *f, size_t n)
 {
     const double root = f->fraction[0];
@@ -28,7 +30,7 @@ static void scale(const iccp_scaled *f, size_t n)
             iccp_scaled_set(f, k, f->fraction[k] / root, f->exponent[k] - exponent);
 }
 
-/* ICC_ERR_SOLVER unless every component of L x = b is about what it should be. */
+/* Returns ICC_ERR_SOLVER unless every component of L x = b holds approximately. */
 static icc_status check_solution(const iccp_unknowns *unknowns, const iccp_scaled *x,
                                  const iccp_scaled *b, const iccp_env *env)
 {
@@ -44,7 +46,7 @@ static icc_status check_solution(const iccp_unknowns *unknowns, const iccp_scale
     return status;
 }
 
-/* L f = b. Takes f over into b if it is good. `work` is room. */
+/* Solves L f = b and copies f into b if it is accurate. `work` is workspace. */
 static icc_status solve(const iccp_unknowns *unknowns, const iccp_ldlt *factor,
                         const iccp_scaled *b, const iccp_scaled *f, const iccp_scaled *work,
                         const iccp_env *env)
@@ -99,7 +101,7 @@ static icc_status navier_direct(const iccp_unknowns *unknowns, const iccp_scaled
     return status;
 }
 
-/* The free variables are all unknowns but the root. */
+/* All unknowns except the root are free variables. */
 static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, double *f,
                           icc_function_info *info, const iccp_env *env)
 {
@@ -121,7 +123,7 @@ static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, d
     return status;
 }
 
-/* The largest |A'A f| but for the root's. */
+/* Finds the largest |A'A f|, except the root's. */
 static icc_status find_residual(const iccp_sparse *a, const double *f, icc_function_info *info,
                                 const iccp_env *env)
 {

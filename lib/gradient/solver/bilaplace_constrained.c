@@ -1,10 +1,10 @@
-/* An active set iteration is fast when it converges, and then exact up to rounding. When it does
- * not, an interior point method, which is slower and always converges, tells it where to begin. Far
- * from the root f is as small as the leaves' bounds, and what is active there shows only in the
- * last iterates of the latter; so the two take turns.
+/* Bi-Laplace functions under inequalities. An active set iteration is fast if it converges, and
+ * then exact up to rounding. If it does not, an interior point method tells it where to begin. That
+ * method is slower and always converges. Far from the root f is as small as the leaves' bounds.
+ * There only its last iterates show which inequalities are active, so the two methods take turns.
  *
- * From the empty set it takes more steps the larger the grid is, and goes astray in the end. So it
- * is told by coarser grids (nested.h) where to begin on large ones. */
+ * From the empty set, the active set needs more steps the larger the grid is, and finally fails. So
+ * on large grids, coarser grids (nested.h) tell it where to begin. */
 #include "base/clock.h"
 #include "base/minmax.h"
 #include "gradient/solver/bilaplace.h"
@@ -16,28 +16,28 @@
 #include <math.h>
 #include <string.h>
 
-/* Residuals, for a maximum of 1: no better one is looked for; no other method is tried; a worse one
- * is not handed out. */
+/* Residuals for a maximum of 1. With ENOUGH no better one is sought, with GOOD no other method is
+ * tried, and beyond ACCEPTABLE there is no result. */
 static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
 
-/* Residual at which smoothing has found most of what is active. On letters C of 117,000 to 468,000
- * unknowns that takes 16 to 30 iterations, and the active set finds the rest in 5 to 20 steps that
- * take half as long each. */
+/* Residual at which smoothing has found most active inequalities. On letters C of 117,000 to
+ * 468,000 unknowns that takes 16 to 30 iterations. The active set finds the rest in 5 to 20 steps,
+ * each of which takes half as long. */
 static const double EARLY = 1e-8;
 
-/* Means of slack * multiplier where the active set is tried. The last one is never reached. */
+/* Means of slack * multiplier at which the active set is tried. The last one is never reached. */
 static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 
-/* A slack below this, relative to the parent or the bound, is equality. */
+/* A slack below this, relative to the parent or the bound, counts as equality. */
 static const double EQUAL = 1e-12;
 
-/* Unknowns from which on coarser grids pay, the most of the coarsest one, and steps of the active
- * set afterwards. */
+/* Unknowns from which on coarser grids pay, most unknowns of the coarsest grid, and steps of the
+ * active set afterwards. */
 enum { LARGE = 50000, COARSEST = 3000, STEPS = 60 };
 
-/* Runs the interior point method to one target after the other and tries the active set that each
- * iterate suggests: where the multiplier exceeds the slack. Ends with a residual that is good
- * enough or when rounding stops the interior point method, which the last target forces. */
+/* Runs the interior point method to one target after another, and tries the active set that each
+ * iterate suggests: the multiplier exceeds the slack. Ends when a residual is good enough, or when
+ * rounding stops the interior point method. The last target forces that. */
 static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_candidate *candidate,
                                     icc_function_info *info, const iccp_env *env)
 {
@@ -62,8 +62,8 @@ static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_can
     return status;
 }
 
-/* A few steps of the active set give the same function with those inequalities as equations that
- * are active. When they lead elsewhere, the candidate stays as it is. */
+/* Runs a few steps of the active set, which give the same function with the active inequalities as
+ * equations. If they lead elsewhere, the candidate stays. */
 static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted, bool *is_exact,
                              iccp_candidate *candidate, icc_function_info *info,
                              const iccp_env *env)
@@ -82,8 +82,8 @@ static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted
     return status;
 }
 
-/* Smoothing tells early what is active but for the last few inequalities; where the active set
- * does not find those, it goes on. */
+/* Smoothing finds the active inequalities early, except the last few. If the active set does not
+ * find these, smoothing continues. */
 static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *active,
                              iccp_candidate *candidate, icc_function_info *info,
                              const iccp_env *env)
@@ -104,7 +104,7 @@ static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *ac
     return status;
 }
 
-/* From coarse to fine. */
+/* Starts on coarse grids and goes to finer ones. */
 static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *active,
                                iccp_candidate *candidate, icc_function_info *info,
                                const iccp_env *env)
@@ -122,8 +122,8 @@ static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *act
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
-/* Large problems from coarse to fine first; where that is not enough, and for small ones, the
- * active set. */
+/* Large problems start on coarse grids. For small ones, and if that is not enough, the active set
+ * runs. */
 static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *candidate,
                            icc_function_info *info, const iccp_env *env)
 {
@@ -150,8 +150,8 @@ static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *
     return ICC_ERR_SOLVER;
 }
 
-/* Raises what is below the least value that the leaves' bounds allow, then sweeps from the root.
- * `f` as doubles follows. work: n */
+/* Raises values below the least that the leaves' bounds allow, then sweeps from the root. Also
+ * updates `f`, the values as doubles. `work` has n entries. */
 static void sweep(const iccp_qp *qp, double *f, const iccp_scaled *scaled, double *work)
 {
     const size_t n = qp->unknowns->n;
@@ -174,8 +174,9 @@ static size_t count_active(const iccp_qp *qp, const double *f)
     return n_active;
 }
 
-/* The sweep makes the inequalities hold in rounded arithmetic, at the price of the residual; that
- * before and that after are both reported. Active is then what holds with equality. */
+/* The sweep makes the inequalities hold in rounded arithmetic, but increases the residual. So
+ * residuals before and after are reported. An inequality is then active if it holds with
+ * equality. */
 static icc_status sweep_and_report(const iccp_qp *qp, const iccp_candidate *candidate,
                                    const iccp_scaled *f, icc_function_info *info,
                                    const iccp_env *env)
@@ -198,7 +199,7 @@ static icc_status sweep_and_report(const iccp_qp *qp, const iccp_candidate *cand
     return ICC_OK;
 }
 
-/* Whether the bounds of the leaves leave room below the root. */
+/* Checks that the bounds of the leaves leave room below the root. */
 static icc_status check_room(const iccp_qp *qp, double *work, const iccp_env *env)
 {
     const double least = iccp_qp_least_root(qp, work);

@@ -1,22 +1,22 @@
-/* Two solves by conjugate gradients with a multigrid preconditioner, after D. Braess, P. Peisker,
- * On the numerical solution of the biharmonic equation and the role of squaring matrices for
- * preconditioning, IMA J. Numer. Anal. 6, 1986: simply supported, the biharmonic equation is two
- * Poisson equations. */
+/* Bi-Laplace functions by two solves with conjugate gradients and a multigrid preconditioner.
+ * Source: D. Braess, P. Peisker, On the numerical solution of the biharmonic equation and the role
+ * of squaring matrices for preconditioning, IMA J. Numer. Anal. 6, 1986. Simply supported, the
+ * biharmonic equation consists of two Poisson equations. */
 #include "base/clock.h"
 #include "gradient/solver/bilaplace.h"
 #include "gradient/solver/mg_cg.h"
 
 #include <math.h>
 
-/* Every row holds to that share of its own terms, however small they are, or there is no result:
- * what conjugate gradients leave in long limbs is noise. */
+/* Every row must hold to that share of its own terms, however small they are. Otherwise there is no
+ * result, because conjugate gradients leave only noise in long limbs. */
 static const iccp_mg_goal GOAL = {.relative = 1e-11, .componentwise = 1e-9, .floor = 0};
 
 typedef struct poisson {
     const iccp_unknowns *unknowns;
     iccp_multigrid mg;
-    uint32_t *position; /* by unknown: where it is among the entries of the finest level */
-    double *x, *r;      /* per entry */
+    uint32_t *position; /* by unknown: its place among the entries of the finest level */
+    double *x, *r;      /* by entry */
 } poisson;
 
 static icc_status poisson_create(poisson *p, const iccp_unknowns *unknowns, const iccp_env *env)
@@ -45,7 +45,7 @@ static void poisson_free(poisson *p, const iccp_env *env)
     iccp_free(&env->memory, p->r);
 }
 
-/* x = L^-1 r, divided by its value at the unknown that is loaded. */
+/* Computes x = L^-1 r, divided by its value at the loaded unknown. */
 static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = p->mg.level[0].n_entries;

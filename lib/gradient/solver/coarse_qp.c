@@ -1,17 +1,18 @@
+/* The quadratic program on a coarser grid. */
 #include "gradient/solver/coarse_qp.h"
 
 #include "base/minmax.h"
 
 #include <string.h>
 
-/* A coarse tree that reaches less than this share of what it should is of no use. */
+/* A coarse tree that reaches less than this share of the expected vertices is useless. */
 static const double LEAST_SHARE = 0.5;
 
-/* A multiplier is the sum of forces along a path: in units of the grid, forces are 16 times and
- * paths twice as large where the spacing is twice as large. */
+/* A multiplier is the sum of forces along a path. In grid units, doubling the spacing makes forces
+ * 16 times and paths twice as large. */
 static const double MULTIPLIER_RATIO = 0.125;
 
-/* Coarse coordinates are the fine ones, less 0 or 1, halved. */
+/* Coarse coordinates are the fine ones, minus 0 or 1, halved. */
 static uint32_t shift(const icc_tree *fine, int32_t axis)
 {
     return iccp_grid_coordinate(fine->grid, fine->root, axis) % 2;
@@ -100,8 +101,8 @@ void iccp_coarse_qp_free(iccp_coarse_qp *coarse)
     coarse->tree = NULL;
 }
 
-/* The coarse unknowns at the corners of the smallest coarse cell, edge or vertex that holds a fine
- * vertex; ICCP_NONE where there is none. Returns how many corners there are. */
+/* Finds the coarse unknowns at the corners of the smallest coarse cell, edge or vertex that
+ * contains a fine vertex, or ICCP_NONE. Returns the number of corners. */
 static size_t find_corners(const iccp_coarse_qp *c, uint32_t vertex,
                            uint32_t corner[1 << ICC_MAX_DIM])
 {
@@ -114,7 +115,7 @@ static size_t find_corners(const iccp_coarse_qp *c, uint32_t vertex,
         const bool between = x % 2 != s;
         const size_t n_sides = between ? 2 : 1;
         for (size_t side = n_sides; side-- > 0;) {
-            /* Below a shift of 1, and beyond the last coarse plane, there is nothing. */
+            /* There is nothing below a shift of 1, or beyond the last coarse plane. */
             const int64_t at = ((int64_t)x - s - between) / 2 + (int64_t)side;
             const bool exists = x + side >= s + (size_t)between && at < (int64_t)grid->shape[a];
             for (size_t k = 0; k < n; ++k)
@@ -129,7 +130,7 @@ static size_t find_corners(const iccp_coarse_qp *c, uint32_t vertex,
     return n;
 }
 
-/* The neighbour, by its number among them, that is the parent of unknown k > 0. */
+/* Returns the number of the neighbour that is the parent of unknown k > 0. */
 static int32_t direction(const iccp_unknowns *unknowns, uint32_t k)
 {
     const uint32_t *neighbour = unknowns->neighbour + k * (size_t)unknowns->n_neighbours;
@@ -139,7 +140,7 @@ static int32_t direction(const iccp_unknowns *unknowns, uint32_t k)
     return d;
 }
 
-/* `bound`: the multiplier of each coarse unknown's bound, if it has one. */
+/* `bound` has the multiplier of each coarse unknown's bound, if any. */
 static void prolong_unknown(const iccp_coarse_qp *c, uint32_t k, const double *coarse_f,
                             const double *coarse_multiplier, const double *bound, double *f,
                             double *multiplier, double *bound_multiplier)

@@ -1,13 +1,14 @@
-/* Nested dissection: A. George, Nested dissection of a regular finite element mesh, SIAM J. Numer.
- * Anal. 10, 1973. Neighbours differ by 1 in one coordinate, and by 1 in their generation of the
- * tree, which is one coordinate more here: the unknowns with one value of a coordinate separate
- * those below it from those above it. Parts that are thin along the tree are eliminated from their
- * far end.
+/* An order of elimination by nested dissection: A. George, Nested dissection of a regular finite
+ * element mesh, SIAM J. Numer. Anal. 10, 1973.
+ *
+ * Neighbours differ by 1 in one coordinate, and by 1 in their generation of the tree, which is used
+ * as one more coordinate. So the unknowns with one value of a coordinate separate those below it
+ * from those above it. Parts that are thin along the tree are eliminated from their far end.
  *
  * A separator in the middle of a long limb would be joined with the limb's ends by entries that
- * underflow, and the values beyond it would be lost. So the unknowns are first cut into bands, in
- * each of which values fall by a bounded factor on the way from the root, and the farthest band
- * goes first. */
+ * underflow, and the values beyond it would be lost. So the unknowns are first cut into bands.
+ * Within each band, values fall by a bounded factor along paths from the root. The farthest band
+ * comes first. */
 #include "gradient/solver/dissection.h"
 
 #include "base/minmax.h"
@@ -18,20 +19,20 @@
 #include <string.h>
 
 enum {
-    SMALL = 16,      /* unknowns: smaller parts are not cut */
-    MOST_PARTS = 64, /* that wait: the smaller half goes first, so that they halve */
-    MOST_PLANES = 16 /* per unknown of a part: coordinates that span more are not looked at */
+    SMALL = 16,      /* parts with fewer unknowns are not cut */
+    MOST_PARTS = 64, /* parts on the stack; the smaller half goes first, so sizes halve */
+    MOST_PLANES = 16 /* per unknown of a part: coordinates with more planes are skipped */
 };
 
-/* Natural logarithm of what values fall by in a band: 2^-288, and entries of a factor may go down
- * to 2^-500 (math/ldlt_scaled.c). */
+/* Natural logarithm of the factor by which values fall in a band: 2^-288. Entries of a factor may
+ * go down to 2^-500 (math/ldlt_scaled.c). */
 static const double BAND = 200;
 
-/* The larger side of a cut, of the part. */
+/* Largest share of a part on one side of a cut. */
 static const double MOST_SIDE = 0.875;
 
-/* What parts are not cut any more: with these, serpentines, boxes and tubes take the fewest seconds
- * (tests/bench/bench_spd). */
+/* Limits of is_thin(), below which parts are not cut. With these, serpentines, boxes and tubes take
+ * the least time (tests/bench/bench_spd). */
 static const double THIN_IN_2D = 4, THIN_BEYOND = 0.25;
 
 static const double PI = 3.14159265358979323846;
@@ -39,10 +40,10 @@ static const double PI = 3.14159265358979323846;
 typedef struct dissection {
     const iccp_unknowns *unknowns;
     const iccp_env *env;
-    size_t n_axes;   /* the generation is the last one */
-    uint32_t *order; /* parts are ranges of it, their unknowns rising */
+    size_t n_axes;   /* the last axis is the generation */
+    uint32_t *order; /* parts are ranges of it; their unknowns are in rising order */
     uint32_t *work;  /* n */
-    uint32_t *place; /* n * n_axes: the coordinates of each unknown; at first the runs through it */
+    uint32_t *place; /* n * n_axes: coordinates of each unknown; at first the runs through it */
     uint32_t *count; /* unknowns of a part in each plane across one axis */
     size_t n_done, n_visited;
 } dissection;
@@ -68,7 +69,7 @@ static icc_status count_visits(dissection *d, size_t n_rows)
 
 /* ------------------------------------------------------------------- bands */
 
-/* How many unknowns lie in one line through each unknown, along one axis. */
+/* Finds how many unknowns lie in one line through each unknown, along one axis. */
 static icc_status find_runs(dissection *d, size_t axis)
 {
     const size_t degree = (size_t)d->unknowns->n_neighbours;
@@ -88,8 +89,8 @@ static icc_status find_runs(dissection *d, size_t axis)
     return ICC_OK;
 }
 
-/* About how fast functions fall along the longest run through an unknown, from the widths across
- * it. */
+/* Estimates how fast functions fall along the longest run through an unknown, from the widths
+ * across it. */
 static double rate(const uint32_t *run, size_t dim)
 {
     double sum = 0, least = HUGE_VAL;
@@ -101,7 +102,7 @@ static double rate(const uint32_t *run, size_t dim)
     return PI * sqrt(sum - least);
 }
 
-/* The band of each unknown into `work`. */
+/* Writes the band of each unknown to `work`. */
 static icc_status find_bands(dissection *d, uint32_t *n_bands)
 {
     const size_t n = d->unknowns->n, dim = d->n_axes - 1;
@@ -122,7 +123,7 @@ static icc_status find_bands(dissection *d, uint32_t *n_bands)
     return status;
 }
 
-/* Puts the unknowns in order by falling band; the ends of the bands into end[1..]. */
+/* Sorts the unknowns by falling band, and writes the ends of the bands to end[1..]. */
 static void sort_bands(dissection *d, size_t *end, uint32_t n_bands)
 {
     const size_t n = d->unknowns->n;
@@ -158,7 +159,7 @@ static icc_status find_places(dissection *d)
 }
 
 /* Counts the unknowns of a part in its planes across one axis, from the lowest on. Returns the
- * number of planes, 0 when there are too many. */
+ * number of planes, or 0 if there are too many. */
 static size_t count_planes(const dissection *d, const part *p, size_t axis, uint32_t *lowest)
 {
     const uint32_t *place = d->place + axis;
@@ -178,7 +179,7 @@ static size_t count_planes(const dissection *d, const part *p, size_t axis, uint
     return n_planes;
 }
 
-/* Multiplications of an elimination by generations against those of a dissection. */
+/* Compares the multiplications of an elimination by generations with those of a dissection. */
 static bool is_thin(const dissection *d, const part *p, size_t n_generations)
 {
     const double dim = (double)d->n_axes - 1, factor = dim > 2 ? THIN_BEYOND : THIN_IN_2D;
@@ -189,7 +190,8 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
            work <= factor * iccp_pow((double)(p->end - p->begin), iccp_max(1, 3 - 3 / dim));
 }
 
-/* Few unknowns in the plane, many on either side. The median's sides are never too large. */
+/* Chooses a plane with few unknowns in it and many on either side. At the median, neither side is
+ * too large. */
 static void choose_plane(const dissection *d, const part *p, size_t axis, size_t n_planes,
                          uint32_t lowest, plane *best)
 {
@@ -203,7 +205,7 @@ static void choose_plane(const dissection *d, const part *p, size_t axis, size_t
     }
 }
 
-/* The unknowns below a plane, those above it, then those in it. */
+/* Splits a part into the unknowns below a plane, those above it, and those in it. */
 static void split(dissection *d, const part *p, const plane *cut, part half[2])
 {
     size_t n[3] = {0, 0, 0};
@@ -235,7 +237,7 @@ static void eliminate_from_far_end(dissection *d, const part *p)
     }
 }
 
-/* Whether the part was cut. */
+/* Returns true if the part was cut. */
 static bool cut_part(dissection *d, const part *p, part half[2])
 {
     plane best = {0, 0, HUGE_VAL};
@@ -272,7 +274,7 @@ static icc_status dissect(dissection *d, part band)
     return status;
 }
 
-/* Most planes across any axis. */
+/* Returns the largest number of planes across an axis. */
 static size_t most_planes(const iccp_unknowns *unknowns)
 {
     const icc_tree *tree = unknowns->tree;

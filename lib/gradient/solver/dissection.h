@@ -4,10 +4,10 @@
 
 #include "gradient/solver/unknowns.h"
 
-/* order[k] is the unknown that is eliminated k-th; n entries. For factorisations of the Laplacian
- * of the unknowns, whose entries it keeps from underflow: no two unknowns are joined far beyond
- * which values fall by 10^87 or so along the tree. O(n log n) time; 12 + 4 dim bytes an unknown
- * until it returns. */
+/* Computes an order of n entries: order[k] is the unknown that is eliminated k-th. The order is for
+ * factorisations of the Laplacian of the unknowns, whose entries it keeps from underflow. It joins
+ * no two unknowns if values between them, along the tree, fall by much more than 10^87. O(n log n)
+ * time. Needs 12 + 4 dim bytes per unknown while it runs. */
 icc_status iccp_dissection(const iccp_unknowns *unknowns, uint32_t *order, const iccp_env *env);
 
 #endif

@@ -12,10 +12,10 @@
 
 enum { MAX_CORRECTIONS = 8 };
 
-/* A correction below this, relative to the solution, is rounding. */
+/* A smaller correction, relative to the solution, is rounding. */
 static const double SMALL_CORRECTION = 1e-15;
 
-/* A solution that is still corrected by more than this, relative to it, is not handed out. */
+/* If the last correction is larger, relative to the solution, there is no result. */
 static const double LARGE_CORRECTION = 1e-6;
 
 static uint32_t neighbour(const iccp_unknowns *unknowns, size_t k, int32_t d)
@@ -23,7 +23,7 @@ static uint32_t neighbour(const iccp_unknowns *unknowns, size_t k, int32_t d)
     return unknowns->neighbour[k * (size_t)unknowns->n_neighbours + (size_t)d];
 }
 
-/* The vertex outside next to unknown k, or ICCP_NONE beyond the grid. */
+/* Returns the vertex outside next to unknown k, or ICCP_NONE outside the grid. */
 static uint32_t vertex_outside(const iccp_unknowns *unknowns, size_t k, int32_t d)
 {
     return iccp_grid_neighbour(unknowns->tree->grid, unknowns->vertex[k], d / 2, 2 * (d % 2) - 1);
@@ -54,8 +54,8 @@ static void set_inside(iccp_sparse *a, const iccp_unknowns *unknowns)
     a->first[unknowns->n] = p;
 }
 
-/* The row of A of the vertex outside next to unknown k; numbers it when it is met for the first
- * time. A vertex beyond the grid has one neighbour inside, so that it is met only once. */
+/* Returns the row of A for the vertex outside next to unknown k. The first call for a vertex gives
+ * it a number. A vertex outside the grid has one neighbour inside, so it is met only once. */
 static size_t row_outside(iccp_sparse *a, const iccp_unknowns *unknowns, uint32_t *row_of, size_t k,
                           int32_t d)
 {
@@ -67,8 +67,8 @@ static size_t row_outside(iccp_sparse *a, const iccp_unknowns *unknowns, uint32_
     return row_of[u];
 }
 
-/* Two passes over the neighbours outside, which number them alike: the first counts the entries of
- * their rows, the second writes them. */
+/* Makes two passes over the neighbours outside, which number them in the same way. The first counts
+ * the entries of their rows, the second writes them. */
 static icc_status set_outside(iccp_sparse *a, const iccp_unknowns *unknowns, const iccp_env *env)
 {
     const size_t n = unknowns->n, n_vertices = unknowns->tree->grid->n_vertices, most = a->n_rows;
@@ -130,7 +130,7 @@ void iccp_energy_gradient(const iccp_sparse *a, const double *f, double *work, d
     iccp_sparse_apply_transpose(a, work, out);
 }
 
-/* B = A P: the columns of A that share an variable, added up. */
+/* Computes B = A P: adds up the columns of A that share a variable. */
 static icc_status reduce(iccp_sparse *b, const iccp_sparse *a, const iccp_reduction *reduction,
                          const iccp_env *env)
 {
@@ -165,8 +165,8 @@ typedef struct least_squares {
     iccp_sparse b;
     iccp_gram gram;
     iccp_ldlt factor;
-    double *residual;        /* per row of A */
-    double *x, *step, *work; /* per variable */
+    double *residual;        /* by row of A */
+    double *x, *step, *work; /* by variable */
 } least_squares;
 
 static void expand(const least_squares *s, double *f)
@@ -176,7 +176,7 @@ static void expand(const least_squares *s, double *f)
             f[k] = s->reduction->share[k] * s->x[s->reduction->variable[k]];
 }
 
-/* One correction; returns its size relative to the solution. */
+/* Makes one correction. Returns its size relative to the solution. */
 static double correct(const least_squares *s, double *f)
 {
     const size_t n = s->b.n_columns;
@@ -199,7 +199,7 @@ static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
     double size = HUGE_VAL;
     memset(s->x, 0, s->b.n_columns * sizeof *s->x);
     expand(s, f);
-    (void)correct(s, f); /* the solution itself */
+    (void)correct(s, f); /* yields the solution itself */
     for (int k = 0; k < MAX_CORRECTIONS; ++k) {
         const double last = size;
         size = correct(s, f);
@@ -212,8 +212,8 @@ static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
     return ICC_ERR_SOLVER;
 }
 
-/* Sets up B = A P and factorises B'B. The correction in correct() makes up for the digits that are
- * lost by squaring, so the normal equations will do. */
+/* Makes B = A P and factorises B'B. correct() restores the digits that are lost by squaring, so the
+ * normal equations suffice. */
 static icc_status factorise(least_squares *s, icc_function_info *info, const iccp_env *env)
 {
     double start = iccp_seconds();

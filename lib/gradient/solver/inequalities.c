@@ -1,5 +1,5 @@
-/* Optimality under inequalities along a tree: each unknown but the root has one multiplier, that of
- * the edge to its parent, so that stationarity is a triangular system. */
+/* Optimality under inequalities along a tree. Each unknown except the root has one multiplier, that
+ * of the edge to its parent. So stationarity is a triangular system. */
 #include "gradient/solver/inequalities.h"
 
 #include "base/minmax.h"
@@ -8,13 +8,13 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Entry i as a double; `exponent` NULL stands for 0 everywhere. */
+/* Returns entry i as a double. If `exponent` is NULL, all exponents are 0. */
 static double plain(const iccp_scaled *vector, size_t i)
 {
     return vector->exponent == NULL ? vector->fraction[i] : iccp_scaled_get(vector, i, 0);
 }
 
-/* Whether sigma * child, rounded, is more than the parent. */
+/* Returns true if sigma * child, rounded, exceeds the parent. */
 static bool is_violated(const iccp_scaled *f, double sigma, size_t parent, size_t child)
 {
     const int32_t shift = f->exponent[child] - f->exponent[parent];
@@ -38,7 +38,7 @@ void iccp_inequalities_sweep(const iccp_unknowns *unknowns, double eta, const ic
             continue;
         double x = f->fraction[p] / sigma;
         iccp_scaled_set(f, k, x, f->exponent[p]);
-        while (is_violated(f, sigma, p, k)) { /* the quotient had been rounded up */
+        while (is_violated(f, sigma, p, k)) { /* the quotient was rounded up */
             x = nextafter(x, 0);
             iccp_scaled_set(f, k, x, f->exponent[p]);
         }
@@ -57,10 +57,10 @@ double iccp_laplacian_row(const iccp_unknowns *unknowns, const iccp_scaled *f, s
     return sum;
 }
 
-/* A leaf's bound and its edge pull at the same value: with both tight, the edge's multiplier may be
- * raised at will, the bound's with it, and so on up the tree as long as edges are tight. `lift` is
- * the least price of that below an unknown: the largest slack on the way, by which a residual is
- * bounded where the multipliers are positive. */
+/* A leaf's bound and its edge pull at the same value. If both are tight, the edge's multiplier may
+ * be raised freely, and the bound's with it. This continues up the tree as long as edges are tight.
+ * `lift` is the least cost of doing so below an unknown: the largest slack on the way, which bounds
+ * a residual where the multipliers are positive. */
 double iccp_inequalities_residual(const iccp_unknowns *unknowns, double eta, double leaf,
                                   const iccp_scaled *f, const iccp_scaled *gradient, double *work)
 {
@@ -76,7 +76,7 @@ double iccp_inequalities_residual(const iccp_unknowns *unknowns, double eta, dou
         const uint32_t p = unknowns->parent[k];
         const double own = plain(f, k), slack = plain(f, p) - sigma * own;
         double lambda = (sum[k] - plain(gradient, k)) / sigma;
-        if (lift[k] < 0 && leaf > 0) { /* no children: the bound takes what pulls downwards */
+        if (lift[k] < 0 && leaf > 0) { /* no children: the bound absorbs a downward pull */
             residual = iccp_max(residual, fabs(iccp_min(own - leaf, iccp_max(0, -sigma * lambda))));
             lambda = iccp_max(0, lambda);
         }

@@ -1,5 +1,5 @@
-/* Based on: S. Mehrotra, On the implementation of a primal-dual interior point method, SIAM J.
- * Optim. 2, 1992. */
+/* Interior point method. Based on: S. Mehrotra, On the implementation of a primal-dual interior
+ * point method, SIAM J. Optim. 2, 1992. */
 #include "gradient/solver/interior_point.h"
 
 #include "base/clock.h"
@@ -11,20 +11,20 @@
 enum {
     MAX_ITERATIONS = 200,
     MAX_CORRECTIONS = 8,
-    PATIENCE = 6 /* iterations that reduce the products by less than a tenth, and residuals
-                    hardly */
+    /* Iterations that reduce products by less than a tenth, and hardly any residuals */
+    PATIENCE = 6
 };
 
-/* Share of the first residuals: the products do not fall before. */
+/* Share of the first residuals above which products do not fall. */
 static const double NEARLY_FEASIBLE = 1e-6;
 
-/* The share of the way to the boundary that is gone. */
+/* The share of the way to the boundary that a step takes. */
 static const double SHORTEN = 0.995;
 
-/* Least slacks and multipliers to start from; a power of ten more or less costs 2 iterations. */
+/* Least initial slacks and multipliers. A power of ten more or less costs 2 iterations. */
 static const double LEAST_SLACK = 0.01, LEAST_MULTIPLIER = 0.001;
 
-/* A step that gets less far is taken towards the middle of the way instead. */
+/* If a step gets less far, the method steps towards the middle of the way instead. */
 static const double SHORT_STEP = 0.01;
 
 /* Error of a step, relative to the slacks. */
@@ -48,8 +48,8 @@ static double mean_product(const iccp_interior_point *p)
     return sum / (double)n_pairs(p);
 }
 
-/* The step for the present residuals and products. The first correction brings what softness left
- * out, so that the error may grow there. */
+/* Computes the step for the present residuals and products. The first correction adds what softness
+ * left out, so the error may grow there. */
 static void solve(iccp_interior_point *p, double tolerance)
 {
     double last = HUGE_VAL;
@@ -65,7 +65,7 @@ static void solve(iccp_interior_point *p, double tolerance)
     }
 }
 
-/* How far one can go along a step before an entry gets zero, at most 1. */
+/* Returns how far one can go along a step before an entry becomes zero, at most 1. */
 static double reach(const double *x, const double *step, size_t n)
 {
     double most = 1;
@@ -81,9 +81,10 @@ static double step_length(const iccp_interior_point *p)
                     reach(p->newton.multiplier, p->newton.step_multiplier, n_pairs(p)));
 }
 
-/* Predictor: straight to products of 0. Corrector: to equal products, the smaller the further the
- * predictor got, with the predictor's second order terms. Where that leads into a wall, to
- * equal products alone. Returns the share of the residuals that a whole step makes up for. */
+/* The predictor goes straight to products of 0. The corrector goes to equal products, which are
+ * smaller the further the predictor got, and includes the predictor's second-order terms. If that
+ * is stopped early by a bound, it goes to equal products alone. Returns the share of the residuals
+ * that a whole step removes. */
 static double find_step(iccp_interior_point *p)
 {
     const double mean = mean_product(p);
@@ -121,7 +122,7 @@ static void take_step(iccp_interior_point *p, double length)
     }
 }
 
-/* ICC_ERR_SOLVER when the step leads nowhere. */
+/* Returns ICC_ERR_SOLVER if the step leads nowhere. */
 static icc_status iterate(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
 {
     iccp_newton_qp_residuals(&p->newton);
@@ -164,8 +165,8 @@ icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool 
     return ICC_OK;
 }
 
-/* Slacks and multipliers of the function with the least energy and sum of squared slacks, where
- * they are positive and large enough. */
+/* Starts from the function with the least energy plus sum of squared slacks. Takes its slacks and
+ * multipliers where they are positive and large enough. */
 static icc_status start(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
 {
     const size_t n = n_rows(p), m = n_pairs(p);

@@ -7,19 +7,20 @@
 typedef struct iccp_interior_point {
     iccp_newton_qp newton;
     size_t n_iterations;
-    double remaining; /* share of the first iterate's residuals: each step takes its length off */
+    /* Share of the first iterate's residuals; each step reduces it by its length */
+    double remaining;
 } iccp_interior_point;
 
-/* Analyses the systems and finds a point to start from. Memory: see newton_qp.h. */
+/* Analyses the systems and finds a starting point. For memory see newton_qp.h. */
 icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
                                       icc_function_info *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);
 
-/* Half of the iterations, as far as progress goes. */
+/* Progress reports count this many iterations as half of the work. */
 #define ICCP_INTERIOR_POINT_TYPICAL 15.0
 
-/* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors do not
- * let it get there; the iterate is then the last good one. Adds to `info` (work, seconds_*). */
+/* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors prevent
+ * that, and the iterate is the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
                                    icc_function_info *info, const iccp_env *env);
 

@@ -1,3 +1,4 @@
+/* The factorised Laplacian. */
 #include "gradient/solver/laplacian_factor.h"
 
 #include "base/clock.h"
@@ -6,8 +7,8 @@
 
 #include <math.h>
 
-/* The Laplacian of the vertices inside with f = 0 outside: neighbours outside have no entry, but
- * count in the diagonal. That makes it a positive definite M-matrix. */
+/* Makes the Laplacian of the inside vertices with f = 0 outside. Neighbours outside have no entry,
+ * but count in the diagonal. So it is a positive definite M-matrix. */
 static icc_status set_matrix(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                              const iccp_env *env)
 {
@@ -46,7 +47,7 @@ static icc_status analyse(iccp_laplacian_factor *l, const iccp_unknowns *unknown
     return status;
 }
 
-/* Times each of its three parts: the matrix, the order, the factorisation. */
+/* Measures the time of its three parts: the matrix, the order, and the factorisation. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                                     icc_function_info *info, const iccp_env *env)
 {

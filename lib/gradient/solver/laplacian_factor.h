@@ -1,4 +1,4 @@
-/* The factorised Laplacian of all unknowns, the root's included. */
+/* The factorised Laplacian of all unknowns, including the root's. */
 #ifndef ICCP_LAPLACIAN_FACTOR_H
 #define ICCP_LAPLACIAN_FACTOR_H
 
@@ -8,7 +8,7 @@
 
 typedef struct iccp_laplacian_factor {
     iccp_memory memory;
-    iccp_symmetric matrix; /* borrows the four arrays below */
+    iccp_symmetric matrix; /* borrows the next four arrays */
     size_t *first;
     uint32_t *column;
     double *value, *diagonal;
@@ -16,11 +16,11 @@ typedef struct iccp_laplacian_factor {
 } iccp_laplacian_factor;
 
 /* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure
- * nothing is left allocated. */
+ * nothing stays allocated. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
                                     icc_function_info *info, const iccp_env *env);
 
-/* Accepts what has only its memories and what has been freed. */
+/* Accepts a factor that was freed, or that has only its memories. */
 void iccp_laplacian_factor_free(iccp_laplacian_factor *l);
 
 #endif

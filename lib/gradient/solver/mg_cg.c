@@ -1,11 +1,13 @@
-/* Conjugate gradients in the form with one round of dot products an iteration: A. Chronopoulos and
- * C. W. Gear, s-step iterative methods for symmetric linear systems, 1989. Memory is what costs
- * time here, so that an iteration is two passes over it: down (new direction p, new x and r, first
- * half of the V-cycle) and up (second half, dot products), slab by slab with each step a slab
- * behind the one before.
+/* Conjugate gradients in the form with one round of dot products per iteration: A. Chronopoulos and
+ * C. W. Gear, s-step iterative methods for symmetric linear systems, 1989.
  *
- * p and the V-cycle are float. That is no loss: r changes by exactly what x does, whatever p is, so
- * that it stays the residual to double precision. A p is never stored. */
+ * Memory access takes most of the time, so an iteration makes only two passes over memory. The pass
+ * down computes the new direction p, the new x and r, and the first half of the V-cycle. The pass
+ * up computes the second half and the dot products. Both go slab by slab, and each step is one slab
+ * behind the previous step.
+ *
+ * p and the V-cycle are float. That loses nothing: r changes exactly as x does, whatever p is, so
+ * it stays the residual to double precision. A p is never stored. */
 #include "gradient/solver/mg_cg.h"
 
 #include "base/budget.h"
@@ -13,16 +15,16 @@
 
 #include <math.h>
 
-/* Iterations without a smaller residual after which it will not get smaller. */
+/* Stops after this many iterations without a smaller residual. */
 enum { PATIENCE = 40 };
 
-/* Progress is reported whenever so many entries have been worked on. */
+/* Number of entries between progress reports. */
 static const size_t ENTRIES_PER_REPORT = (size_t)1 << 20;
 
 typedef struct solver {
     iccp_multigrid *mg;
     const iccp_mg_level *level;
-    double *x, *r; /* per entry of the level, as is p */
+    double *x, *r; /* by entry of the level, like p */
     float *p;
     double alpha, beta, bound, least;
     iccp_mg_upward up;     /* of the last pass up */
@@ -52,7 +54,7 @@ typedef struct stretch {
     uint32_t begin;
 } stretch;
 
-/* Does something with every run of a slab. */
+/* Calls act() for every run of a slab. */
 static ICCP_INLINE void for_slab(solver *s, size_t slab, void (*act)(solver *, const stretch *))
 {
     const size_t n = s->level->n_rows / s->level->n_slabs;
@@ -88,14 +90,14 @@ static void measure(solver *s, const stretch *t)
     s->level->kernels->measure(s->level->x + at, s->r + at, near, t->n, 2 * s->level->dim, &s->up);
 }
 
-/* Reports progress once for so many entries. */
+/* Reports progress once per ENTRIES_PER_REPORT. */
 static icc_status report(const solver *s, size_t slab, const iccp_env *env)
 {
     const size_t slabs = ENTRIES_PER_REPORT / (s->level->n_entries / s->level->n_slabs + 1) + 1;
     return slab % slabs == 0 ? iccp_progress(env, "solve", 0) : ICC_OK;
 }
 
-/* Of an iteration, with all levels. */
+/* Multiplications per entry of an iteration, with all levels. */
 static const double WORK_PER_ENTRY = 60;
 
 static icc_status pass_down(solver *s, const iccp_env *env)
@@ -132,9 +134,9 @@ static icc_status pass_up(solver *s, const iccp_env *env)
     return status;
 }
 
-/* p'Ap is not summed up but follows from z'Az and the last step, as in the source. That is a
- * difference, which rounding may spoil; the next direction is then z alone. What a pass down
- * measures belongs to the x that it made, so that the goal is tested between the passes. */
+/* As in the source, p'Ap is not summed up but follows from z'Az and the last step. It is a
+ * difference, which rounding may spoil; then the next direction is z alone. The measurements of a
+ * pass down belong to the x that it made. So the goal is tested between the passes. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {
@@ -142,7 +144,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
     double least = HUGE_VAL, rz = 0;
     size_t since = 0;
     s->bound = goal->componentwise * 2 * s->level->dim;
-    /* A pass with alpha = 0 measures what is there and begins the first V-cycle. */
+    /* A pass with alpha = 0 measures the initial state and begins the first V-cycle. */
     icc_status status = pass_down(s, env);
     while (status == ICC_OK) {
         const double rr = add_lanes(s->down.rr);
@@ -158,7 +160,7 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
         const double next = add_lanes(s->up.rz), zaz = add_lanes(s->up.zaz);
         s->beta = s->alpha > 0 ? next / rz : 0;
         double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
-        if (!(curvature > 0)) { /* a difference of rounding errors: from here anew */
+        if (!(curvature > 0)) { /* a difference of rounding errors: restart from here */
             s->beta = 0;
             curvature = zaz;
         }

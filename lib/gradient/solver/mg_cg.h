@@ -4,7 +4,7 @@
 
 #include "gradient/solver/multigrid.h"
 
-/* When an iteration ends: all three must hold. */
+/* Three conditions, all of which must hold at the end. */
 typedef struct iccp_mg_goal {
     double relative;      /* |residual| <= relative * |b|, in the Euclidean norm */
     double componentwise; /* each |residual| <= componentwise * 2 dim * max(x, floor * the largest
@@ -12,10 +12,11 @@ typedef struct iccp_mg_goal {
     double floor;
 } iccp_mg_goal;
 
-/* x: the guess, then the solution; r: b - L x of the guess, then that of the solution; both with
- * n_entries of level 0, 0 outside; |b| = `size`. Adds to *n_iterations. ICC_ERR_SOLVER when the
- * goal is out of reach. 4 bytes an entry while it runs: with x, r and the multigrid 32 bytes a
- * vertex of a large box, up to 60 where a shape is thin. */
+/* On entry x is a guess and r = b - L x its residual. On return they are the solution and its
+ * residual. Both have n_entries of level 0 and are 0 outside; |b| = `size`. Adds to *n_iterations.
+ * Returns ICC_ERR_SOLVER if the goal is out of reach. Needs 4 bytes per entry while it runs.
+ * Together with x, r and the multigrid that is 32 bytes per vertex of a large box, and up to 60
+ * where a shape is thin. */
 icc_status iccp_mg_cg(iccp_multigrid *mg, double *x, double *r, double size,
                       const iccp_mg_goal *goal, size_t *n_iterations, const iccp_env *env);
 

@@ -1,16 +1,20 @@
-/* Coarse levels are rediscretised: the vertices inside with even coordinates, with the stencil of
- * their own spacing. Three things keep that close to the fine problem, whatever the mask:
- * - the boundary stays where it is: a neighbour outside counts 1 / (its distance in coarse steps),
+/* Coarse levels of the multigrid. They are discretised anew: the inside vertices with even
+ * coordinates, with the stencil of their own spacing. Three rules keep that close to the fine
+ * problem, whatever the mask.
+ *
+ * - The boundary stays where it is. A neighbour outside counts 1 / (its distance in coarse steps),
  *   which is the symmetric form of Shortley and Weller's stencil (W. Hackbusch, Elliptic
- *   Differential Equations, 2nd edition, 2017, section 4.8.1);
- * - coarse neighbours never look through a wall: if there is one between them, neither is kept;
- * - corridors too narrow for a coarse vertex need none: what is wrong there decays within their
- *   width, which the smoother sees to.
- * Measured on the masks of tests/hard_masks.h: 9 to 14 iterations to 1e-10 instead of 11 to 36 with
- * the plain stencil and the walls looked through. */
+ *   Differential Equations, 2nd edition, 2017, section 4.8.1).
+ * - Coarse neighbours are never joined through a wall. If there is a wall between them, neither is
+ *   kept.
+ * - Corridors too narrow for a coarse vertex need none. Errors there decay within their width, and
+ *   the smoother removes them.
+ *
+ * Measured on the masks of tests/hard_masks.h: 9 to 14 iterations to 1e-10. With the plain stencil,
+ * and neighbours joined through walls, there were 11 to 36. */
 #include "gradient/solver/mg_level.h"
 
-/* A place in a level's box. */
+/* Coordinates in a level's box. */
 typedef struct place {
     uint32_t at[ICC_MAX_DIM];
     size_t row;
@@ -22,7 +26,7 @@ static bool is_inside(const iccp_mg_level *level, size_t row, uint32_t x)
     return x >= r->first && x <= r->last && level->inside[iccp_mg_position(level, row, x)];
 }
 
-/* Whether the vertex `steps` along an axis is inside; the box has an end. */
+/* Returns true if the vertex `steps` along an axis is inside. It may lie outside the box. */
 static bool is_inside_along(const iccp_mg_level *level, const place *p, int32_t axis, int32_t sign,
                             uint32_t steps)
 {
@@ -34,7 +38,7 @@ static bool is_inside_along(const iccp_mg_level *level, const place *p, int32_t 
     return is_inside(level, sign < 0 ? p->row - step : p->row + step, x);
 }
 
-/* The same vertex on a level 2^depth times as fine. */
+/* Returns the same vertex on a level 2^depth times as fine. */
 static place finer(const iccp_mg_level *fine, const place *p, int32_t depth)
 {
     place f = {.row = 0};
@@ -45,7 +49,7 @@ static place finer(const iccp_mg_level *fine, const place *p, int32_t depth)
     return f;
 }
 
-/* The place of x = 0 in a row; false for rows on the rim of the box. */
+/* Finds the place of x = 0 in a row. Returns false for rows on the rim of the box. */
 static bool row_place(const iccp_mg_level *level, size_t row, place *p)
 {
     *p = (place){.row = row};
@@ -68,7 +72,8 @@ static bool is_kept(const iccp_mg_level *fine, const place *f)
     return true;
 }
 
-/* The diagonal entry: 1 for a neighbour inside, 1 / distance for one outside. */
+/* Returns the diagonal entry: the sum of 1 for each neighbour inside and 1 / distance for each one
+ * outside. */
 static double diagonal(const iccp_mg_level *level, const iccp_mg_level *finest, int32_t depth,
                        const place *p)
 {
@@ -87,8 +92,8 @@ static double diagonal(const iccp_mg_level *level, const iccp_mg_level *finest, 
     return sum;
 }
 
-/* Every coarse row next to a row of the finer level covers it, so that both can be added to each
- * other without asking. */
+/* Makes every coarse row next to a row of the finer level cover it. Then both can be added to each
+ * other without tests. */
 static void cover(iccp_mg_level *level, const iccp_mg_level *fine)
 {
     for (size_t r = 0; r < fine->n_rows; ++r) {

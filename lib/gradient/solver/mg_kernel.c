@@ -1,6 +1,6 @@
-/* Each loop is written once and compiled for each number of neighbours that matters and for each
- * kind of machine; compilers vectorise all of them. Nothing is reordered on the way, so that the
- * bits are the same. */
+/* The inner loops. Each loop is written once and compiled for each relevant number of neighbours
+ * and for each kind of machine. Compilers vectorise all of them. Nothing is reordered, so the bits
+ * are the same. */
 #include "gradient/solver/mg_kernel.h"
 
 #include "base/simd.h"
@@ -34,7 +34,7 @@ static ICCP_INLINE void redirect(float *restrict p, const float *z, float beta, 
         p[i] = z[i] + beta * p[i];
 }
 
-/* Row i of the Laplacian. */
+/* Returns row i of the Laplacian. */
 static ICCP_INLINE double apply(const float *x, const float *const *near, size_t i, int32_t n_near)
 {
     double sum = (double)near[0][i] + (double)near[1][i];

@@ -1,6 +1,6 @@
-/* The inner loops of multigrid and conjugate gradients: over the vertices of one run, which lie
- * side by side in every array. near[j][i] is neighbour j of vertex i. All code paths give the same
- * bits. */
+/* The inner loops of multigrid and conjugate gradients over the vertices of one run, which are
+ * contiguous in every array. near[j][i] is neighbour j of vertex i. All implementations give the
+ * same bits. */
 #ifndef ICCP_MG_KERNEL_H
 #define ICCP_MG_KERNEL_H
 
@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Sums are taken in so many interleaved parts, whatever the width of the machine's vectors. */
+/* Sums have this many interleaved parts, whatever the width of the machine's vectors. */
 enum { ICCP_MG_LANES = 8 };
 
 /* Dot products with the preconditioned residual z. */
@@ -46,7 +46,7 @@ typedef struct iccp_mg_kernels {
                     iccp_mg_downward *down);
 } iccp_mg_kernels;
 
-/* The fastest of this machine, or those that every machine has. */
+/* Returns the fastest kernels for this machine, or those that every machine can run. */
 const iccp_mg_kernels *iccp_mg_kernels_choose(int32_t n_near, bool portable);
 
 #endif

@@ -1,10 +1,10 @@
-/* The finest level from a list of vertices, and what all levels have in common: rows, windows,
- * runs. */
+/* Makes the finest level from a list of vertices, and the parts that all levels have: rows,
+ * windows, runs. */
 #include "gradient/solver/mg_level.h"
 
 #include <string.h>
 
-/* The rows of the box, their strides, parities and empty ranges. */
+/* Makes the rows of the box, with their strides, parities and empty ranges. */
 icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory)
 {
     const int32_t last = level->dim - 1;
@@ -30,8 +30,9 @@ icc_status iccp_mg_make_rows(iccp_mg_level *level, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* Windows: the ranges of a row and of all rows round it (axis by axis), and one vertex more to both
- * sides. Where they are stored follows. `wide`: 2 n_rows numbers of work space. */
+/* Computes windows: the ranges of a row and of all adjacent rows (along the axes), and one vertex
+ * more on both sides. They determine where rows are stored. `wide` is workspace of 2 n_rows
+ * numbers. */
 static void place_windows(iccp_mg_level *level, uint32_t *wide)
 {
     const size_t n = level->n_rows;
@@ -110,11 +111,11 @@ icc_status iccp_mg_make_runs(iccp_mg_level *level, const iccp_memory *memory)
     return ICC_OK;
 }
 
-/* The grid's rows between the first and the last that a list of vertices meets: of each the first
- * and the last x of the list, and later its number among the rows of the level. */
+/* The grid's rows from the first to the last that a list of vertices meets. For each: the first and
+ * the last x of the list, and later its number among the rows of the level. */
 typedef struct grid_rows {
     const icc_grid *grid;
-    uint32_t first; /* the row with number 0 */
+    uint32_t first; /* row with number 0 */
     size_t n;
     uint32_t *range; /* 2 n */
     uint32_t *row;   /* n */
@@ -158,7 +159,7 @@ static bool is_met(const grid_rows *g, size_t row)
     return g->range[2 * row] <= g->range[2 * row + 1];
 }
 
-/* The smallest box round all vertices. */
+/* Finds the smallest box around all vertices. */
 static void find_extent(iccp_mg_level *level, const grid_rows *g)
 {
     uint32_t range[ICC_MAX_DIM][2];
@@ -183,7 +184,7 @@ static void find_extent(iccp_mg_level *level, const grid_rows *g)
     }
 }
 
-/* Numbers the grid's rows as the level does, and hands over their ranges. */
+/* Gives the grid's rows the numbers of the level, and copies their ranges. */
 static void match_rows(iccp_mg_level *level, grid_rows *g)
 {
     for (size_t r = 0; r < g->n; ++r) {

@@ -1,9 +1,10 @@
-/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 3: red-black smoothing, linear
- * interpolation and its transpose. A V-cycle that starts from 0 needs no x on the way down: red is
- * b / diagonal, black follows from it, and then only red has a residual. On the way up red is b
- * / diagonal and the coarse correction, black and red follow from that.
+/* Smoothing and transfer between levels: red-black smoothing, linear interpolation and its
+ * transpose. Source: W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 3.
  *
- * Loops run over pieces of halves of rows: contiguous, without a branch, vectorised. */
+ * A V-cycle that starts from 0 needs no x on the way down. Red is b / diagonal, black follows from
+ * it, and then only red has a residual. On the way up red is b / diagonal plus the coarse
+ * correction, and black and red follow from that. Loops run over pieces of halves of rows, which
+ * are contiguous, without branches, and vectorised. */
 #include "gradient/solver/mg_sweep.h"
 
 static size_t rows_per_slab(const iccp_mg_level *level)
@@ -11,7 +12,7 @@ static size_t rows_per_slab(const iccp_mg_level *level)
     return level->n_rows / level->n_slabs;
 }
 
-/* The half of a row that has a colour. */
+/* Returns the half of a row that has a colour. */
 static int half_of(const iccp_mg_level *level, size_t row, int colour)
 {
     return (int)(level->row[row].parity ^ (uint32_t)colour);
@@ -71,7 +72,7 @@ void iccp_mg_residual(const iccp_mg_level *level, size_t slab)
 
 /* --------------------------------------------------------------- two levels */
 
-/* The first and the last x of the vertices inside a row; false if there are none. */
+/* Finds the first and the last x of a row's inside vertices. Returns false if there are none. */
 static bool row_range(const iccp_mg_level *level, size_t row, uint32_t *first, uint32_t *last)
 {
     *first = UINT32_MAX;
@@ -87,8 +88,9 @@ static bool row_range(const iccp_mg_level *level, size_t row, uint32_t *first, u
     return *first <= *last;
 }
 
-/* line[x - first] = weighted residuals round the vertices x of a coarse row. In rows an odd number
- * of steps away red is to the left and right of them, in the others in the same place. */
+/* line[x - first] = weighted residuals around the vertices x of a coarse row. In rows an odd number
+ * of steps away, red vertices are on the left and right of them. In other rows they have the same
+ * x. */
 static void collect(const iccp_mg_level *fine, size_t centre, uint32_t first, size_t n, float scale,
                     float *restrict line)
 {
@@ -133,7 +135,7 @@ void iccp_mg_restrict(const iccp_mg_level *coarse, const iccp_mg_level *fine,
                       const iccp_mg_scratch *scratch, size_t slab)
 {
     const size_t n = rows_per_slab(coarse);
-    /* Energies of the same function: sum of squared differences, times spacing^(dim - 2). */
+    /* Keeps the energy of a function: sum of squared differences times spacing^(dim - 2). */
     float scale = 2;
     for (int32_t k = 1; k < coarse->dim; ++k)
         scale *= 0.5f;
@@ -154,7 +156,8 @@ void iccp_mg_restrict(const iccp_mg_level *coarse, const iccp_mg_level *fine,
     }
 }
 
-/* line[x - first] = sum of the coarse rows round a fine row, first even; their number. */
+/* line[x - first] = sum of the coarse rows around a fine row; `first` is even. Returns the number
+ * of these rows. */
 static size_t prolongate(const iccp_mg_level *coarse, const iccp_mg_level *fine, size_t row,
                          uint32_t first, size_t n_pairs, const iccp_mg_scratch *scratch)
 {

@@ -1,5 +1,5 @@
-/* What the V-cycle does to one slab of a level. Red are the vertices whose coordinates have an even
- * sum, and with them all that have a coarse one in their place. */
+/* What the V-cycle does with one slab of a level. Red vertices are those whose coordinates have an
+ * even sum. They include all vertices that are also on the coarse level. */
 #ifndef ICCP_MG_SWEEP_H
 #define ICCP_MG_SWEEP_H
 
@@ -7,8 +7,8 @@
 
 enum { ICCP_RED = 0, ICCP_BLACK = 1 };
 
-/* Room for rows that are being put together: as long as the longest row, plus 4. `constant` is 1 /
- * diagonal of the finest level over and over. */
+/* Workspace for assembling rows, 4 longer than the longest row. `constant` is filled with 1 /
+ * diagonal of the finest level. */
 typedef struct iccp_mg_scratch {
     float *even, *odd, *line, *constant;
 } iccp_mg_scratch;
@@ -23,12 +23,12 @@ void iccp_mg_relax(const iccp_mg_level *level, const iccp_mg_scratch *scratch, s
 /* x = residual for red, after iccp_mg_start() for red and iccp_mg_relax() for black. */
 void iccp_mg_residual(const iccp_mg_level *level, size_t slab);
 
-/* b of a slab of the coarse level, from the residuals that iccp_mg_residual() left in the three
- * slabs round it of the fine level. */
+/* Computes b of a slab of the coarse level from the residuals that iccp_mg_residual() left in the
+ * three adjacent slabs of the fine level. */
 void iccp_mg_restrict(const iccp_mg_level *coarse, const iccp_mg_level *fine,
                       const iccp_mg_scratch *scratch, size_t slab);
 
-/* x for red: what iccp_mg_start() gave, plus what the coarse level says. */
+/* For red: x becomes the result of iccp_mg_start() plus the coarse correction. */
 void iccp_mg_prolong(const iccp_mg_level *fine, const iccp_mg_level *coarse,
                      const iccp_mg_scratch *scratch, size_t slab);
 

@@ -1,8 +1,9 @@
-/* W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 2; as a preconditioner: O.
- * Tatebe, The multigrid preconditioned conjugate gradient method, 1993. One red-black sweep before
- * and one in the reverse order after the coarse correction make it symmetric. Several slabs are in
- * work at the same time, each a step behind the one before, so that all steps find their data in
- * the cache. */
+/* The V-cycle: W. Hackbusch, Multi-Grid Methods and Applications, 1985, chapter 2; as a
+ * preconditioner: O. Tatebe, The multigrid preconditioned conjugate gradient method, 1993.
+ *
+ * One red-black sweep before the coarse correction and one in reverse order after it make the cycle
+ * symmetric. Several slabs are processed at the same time. Each step is one slab behind the
+ * previous step, so all steps find their data in the cache. */
 #include "gradient/solver/multigrid.h"
 
 #include <string.h>
@@ -88,7 +89,7 @@ static void ascend(iccp_multigrid *mg, int32_t l, size_t s)
         iccp_mg_relax(level, &mg->scratch, s - 2, ICCP_RED);
 }
 
-/* Any number of sweeps, as long as their colours read the same forwards and backwards. */
+/* Any number of sweeps works if their colours read the same forwards and backwards. */
 static void solve_bottom(iccp_multigrid *mg, int32_t l)
 {
     const iccp_mg_level *level = &mg->level[l];

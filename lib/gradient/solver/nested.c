@@ -1,5 +1,5 @@
-/* Nested iteration: the active inequalities are those of the coarser grid but for a few along their
- * border, and so is the function but for its detail. */
+/* Nested iteration. The active inequalities are those of the coarser grid, except a few along their
+ * border. The function is that of the coarser grid, except for its detail. */
 #include "gradient/solver/nested.h"
 
 #include "gradient/solver/coarse_qp.h"
@@ -8,10 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-/* What the interior point method stops at on the coarsest grid: a mean of slack * multiplier. */
+/* Mean of slack * multiplier at which the interior point method stops on the coarsest grid. */
 static const double COARSEST_TARGET = 1e-16;
 
-/* Residual of the coarser grids: more digits than that do not outlast the finer grid. */
+/* Residual for the coarser grids: the finer grid loses any further digits. */
 static const double COARSE_ENOUGH = 1e-8;
 
 static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplier,
@@ -33,7 +33,7 @@ static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplie
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
                         double *multiplier, icc_function_info *info, const iccp_env *env);
 
-/* The guess for qp from the next coarser grid, where there is one. */
+/* Computes the guess for qp from the next coarser grid, if there is one. */
 static icc_status guess(const iccp_qp *qp, bool *useful, int32_t function, size_t coarsest,
                         double *f, double *multiplier, icc_function_info *info, const iccp_env *env)
 {
@@ -55,7 +55,7 @@ static icc_status guess(const iccp_qp *qp, bool *useful, int32_t function, size_
     return status;
 }
 
-/* start: f, then the multipliers. */
+/* `start` has f, then the multipliers. */
 static icc_status begin(iccp_nested *p, const iccp_qp *qp, const double *start,
                         icc_function_info *info, const iccp_env *env)
 {
@@ -96,7 +96,7 @@ void iccp_nested_free(iccp_nested *nested)
     iccp_newton_qp_free(&nested->newton);
 }
 
-/* From the guess of coarser grids to a last iterate. */
+/* Goes from the guess of coarser grids to a last iterate. */
 static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier,
                                  icc_function_info *info, const iccp_env *env)
 {
@@ -113,8 +113,8 @@ static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier,
     return status;
 }
 
-/* f and multiplier on a coarser grid, from grids that are coarser still as long as these hold the
- * shape. */
+/* Solves for f and multipliers on a coarser grid. Uses still coarser grids as long as these
+ * represent the shape. */
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
                         double *multiplier, icc_function_info *info, const iccp_env *env)
 {

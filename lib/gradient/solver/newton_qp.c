@@ -1,9 +1,9 @@
 /* Newton's method for the quadratic program of qp.h. With slacks s and multipliers y, each step
  * solves
  *     A'A df - G' dy = -dual,   G df + (s / y) dy = -product / y - primal
- * by eliminating dy, which leaves A'A + G'WG with W = y / s. Where an inequality gets active, W
- * grows beyond all bounds and drowns A'A. So W = 1 / (s / y + softness) is factorised instead, and
- * the residuals of the two equations correct the step: M. Friedlander, D. Orban, A primal-dual
+ * It eliminates dy, which leaves A'A + G'WG with W = y / s. When an inequality becomes active, W
+ * grows without bound and drowns A'A. So W = 1 / (s / y + softness) is factorised instead, and the
+ * residuals of the two equations correct the step. Source: M. Friedlander, D. Orban, A primal-dual
  * regularized interior-point method for convex quadratic programs, Math. Prog. Comp. 4, 2012,
  * section 5. */
 #include "gradient/solver/newton_qp.h"
@@ -15,8 +15,8 @@
 
 enum { MAX_SOFTENINGS = 4 };
 
-/* Weights are at most its inverse, which A'A, with entries up to 4 dim (dim + 1/2), can stand
- * beside. Between 1e-8 and 1e-5 the iterations are the same. */
+/* Weights are at most the inverse of this. A'A has entries up to 4 dim (dim + 1/2) and keeps its
+ * digits beside such weights. Between 1e-8 and 1e-5 the iterations are the same. */
 static const double SOFTNESS = 1e-6;
 
 static size_t n_rows(const iccp_newton_qp *p)
@@ -106,10 +106,10 @@ static void stack_energy(iccp_sparse *b, const iccp_sparse *a, size_t *end)
     }
 }
 
-/* B = A above G, both without the column of the root, whose value is fixed. G has the rows of qp.h
- * in their order: edges, with 1 at the parent and -sigma at the child, then the leaves' bounds.
- * With weights 1 for the rows of A and W for those of G, B'WB is the matrix that each step solves
- * with. */
+/* Makes B = A above G, both without the column of the root, whose value is fixed. G has the rows of
+ * qp.h in their order: edges, with 1 at the parent and -sigma at the child, then the leaves'
+ * bounds. With weights 1 for the rows of A and W for those of G, B'WB is the matrix that each step
+ * solves with. */
 static icc_status stack(iccp_newton_qp *p, const iccp_env *env)
 {
     const iccp_sparse *a = &p->qp->a;

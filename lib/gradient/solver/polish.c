@@ -1,13 +1,14 @@
 /* Primal-dual active set: M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set strategy
- * as a semismooth Newton method, SIAM J. Optim. 13, 2002. A'A is no M-matrix, and nothing says that
- * the iteration converges: it does so nearly always from the empty set, at one generation or so a
- * step where f gets as small as the bounds, and within a few steps from the last iterates of an
- * interior point method.
+ * as a semismooth Newton method, SIAM J. Optim. 13, 2002.
  *
- * Active edges tie children to parents. A cluster in which leaves are active is held: its values
- * are the highest that one of these leaves asks for. The others are then above their bounds, as a
- * rule by no more than eta times the bound, which is nothing; if it is more than `enough`, they are
- * inactive. */
+ * A'A is no M-matrix, so nothing guarantees that the iteration converges. It nearly always does.
+ * From the empty set it advances about one generation per step where f becomes as small as the
+ * bounds. From the last iterates of an interior point method it takes a few steps.
+ *
+ * Active edges tie children to parents. A cluster with active leaves is held: its values are the
+ * highest that one of these leaves requires. The other leaves are then above their bounds, usually
+ * by no more than eta times the bound, which is negligible. If it is more than `enough`, they
+ * become inactive. */
 #include "gradient/solver/polish.h"
 
 #include "base/clock.h"
@@ -20,11 +21,11 @@
 
 enum {
     PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
-    TRUST = 3      /* of these are made in full */
+    TRUST = 3      /* number of these that are made in full */
 };
 
-/* Slacks and multipliers are wrong below minus this part of `enough`. With all of it, a contact
- * moves by one unknown a step where the function is tiny; with a hundredth, rounding errors get
+/* Slacks and multipliers are wrong below minus this share of `enough`. With a share of 1, a contact
+ * moves by one unknown per step where the function is tiny. With 0.01, rounding errors become
  * active. */
 static const double WRONG = 0.1;
 
@@ -34,27 +35,26 @@ typedef struct state {
     const iccp_qp *qp;
     size_t n;
     double enough, tolerance;
-    uint8_t *active;      /* per inequality */
-    uint8_t *open;        /* per unknown: an active leaf is reached from here by active edges,
-                             downwards */
-    uint8_t *mark;        /* LIFTED: such a leaf bears what would be a negative multiplier of the
-                             unknown's edge; RISES: the cluster of this top pulls at its leaves;
-                             STAYS: but not here; TIED, FREED: the unknown's edge has just become
-                             active, or inactive */
-    uint32_t *top;        /* per unknown: the top of its cluster */
-    uint32_t *variable;   /* of its cluster, or ICCP_NONE if it is held */
-    double *share;        /* of the value of the top */
-    double *held;         /* per top: its value, or 0 */
-    double *f, *gradient; /* per unknown */
-    double *sum;          /* of the multipliers of the children's edges */
+    uint8_t *active; /* by inequality */
+    uint8_t *open;   /* by unknown: active edges lead down from here to an active leaf */
+    /* LIFTED: such a leaf takes over a negative multiplier of the unknown's edge. RISES: the
+     * cluster of this top pulls at its leaves. STAYS: but not here. TIED, FREED: the unknown's edge
+     * has just become active, or inactive. */
+    uint8_t *mark;
+    uint32_t *top;        /* by unknown: the top of its cluster */
+    uint32_t *variable;   /* variable of its cluster, or ICCP_NONE if it is held */
+    double *share;        /* share of the value of the top */
+    double *held;         /* by top: its value if held, or 0 */
+    double *f, *gradient; /* by unknown */
+    double *sum;          /* sum of the multipliers of the children's edges */
     double *work;
-    double *room;  /* what the arrays of doubles lie in */
+    double *room;  /* memory of the arrays of doubles */
     bool by_rows;  /* see tie_rows() */
-    bool hesitant; /* only every other change is made, by chance */
+    bool hesitant; /* only every other change is made, at random */
     uint64_t random;
 } state;
 
-/* Whether to make a change. Making all of them may lead round in circles. */
+/* Decides whether to make a change. Making all changes may cycle. */
 static bool decide(state *s)
 {
     if (!s->hesitant)
@@ -78,7 +78,7 @@ static void find_clusters(state *s)
     }
 }
 
-/* The root holds its cluster, whatever the leaves ask for. */
+/* The root holds its cluster, whatever the leaves require. */
 static void hold_clusters(state *s)
 {
     const iccp_qp *p = s->qp;
@@ -127,7 +127,7 @@ static icc_status solve(state *s, double *residual, icc_function_info *info, con
     return ICC_OK;
 }
 
-/* Returns how many leaves fell below their bound, which makes them active. */
+/* Returns how many leaves fell below their bound. They become active. */
 static size_t correct_leaves(state *s)
 {
     const iccp_qp *p = s->qp;
@@ -144,10 +144,10 @@ static size_t correct_leaves(state *s)
     return n_wrong;
 }
 
-/* Makes violated edges active and those with a negative multiplier inactive; returns how many.
- * Multipliers follow from the gradient from the leaves to the root. Leaves of a held cluster have
- * multipliers of their own, as many as are needed for the edges above them not to get negative;
- * what is then left over at the top must not be positive, or the cluster rises. */
+/* Makes violated edges active, and edges with a negative multiplier inactive. Returns how many. The
+ * gradient gives the multipliers in a sweep from the leaves to the root. Leaves of a held cluster
+ * have multipliers of their own, as many as necessary to keep the edges above them from becoming
+ * negative. The rest at the top must not be positive; otherwise the cluster rises. */
 static size_t correct_edges(state *s)
 {
     const iccp_qp *p = s->qp;
@@ -182,7 +182,7 @@ static size_t correct_edges(state *s)
     return n_wrong;
 }
 
-/* Whether an edge follows one next to it that has just become active. */
+/* Returns true if an edge follows an adjacent one that has just become active. */
 static bool follows(const state *s, uint32_t k, uint32_t next)
 {
     const iccp_qp *p = s->qp;
@@ -196,10 +196,10 @@ static void tie(state *s, uint32_t k)
     s->mark[k] |= TIED;
 }
 
-/* Where the function is next to nothing, edges that should be active are violated by less than the
- * tolerance, and would become active one after the other along a row, one a step, each when the one
- * before it is. So those follow at once that are not slack by more, down the tree and up. From a
- * set that is far from the right one this is as likely to lead astray. */
+/* Where the function is almost 0, edges that should be active are violated by less than the
+ * tolerance. They would become active one after another along a row, one per step. So edges whose
+ * slack is no larger follow at once, down the tree and up. If the set is far from the right one,
+ * this is as likely to mislead. */
 static void tie_rows(state *s)
 {
     const uint32_t *parent = s->qp->unknowns->parent;
@@ -211,9 +211,9 @@ static void tie_rows(state *s)
             tie(s, parent[k]);
 }
 
-/* The parts of a rising cluster that are lifted stay, each by itself and in one piece, whatever is
- * lifted further down in it: edges that were untied there would be violated at once, and be tied
- * again one by one. The leaves of the rest are inactive from now on. */
+/* The lifted parts of a rising cluster stay, each by itself and in one piece, whatever is lifted
+ * further down in it. Edges untied there would be violated at once, and tied again one by one. The
+ * leaves of the rest become inactive. */
 static void let_rise(state *s)
 {
     const iccp_qp *p = s->qp;
@@ -235,8 +235,8 @@ static void let_rise(state *s)
     }
 }
 
-/* The best candidate is kept, whatever becomes of the set. Patience is for steps that neither find
- * a smaller residual nor fewer wrong inequalities than ever before; when some of it is used up,
+/* Keeps the best candidate, whatever becomes of the set. A step costs patience if it finds neither
+ * a smaller residual nor fewer wrong inequalities than ever before. When some patience is used up,
  * only every other change is made, which breaks cycles. */
 static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_function_info *info,
                           const iccp_env *env)
@@ -247,7 +247,7 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_
         double residual;
         const icc_status status = solve(s, &residual, info, env);
         if (status == ICC_ERR_SOLVER)
-            return ICC_OK; /* what there is so far may do */
+            return ICC_OK; /* the best candidate so far may suffice */
         if (status != ICC_OK)
             return status;
         ++info->n_iterations;

@@ -1,3 +1,4 @@
+/* The quadratic program of constrained bi-Laplace functions. */
 #include "gradient/solver/qp.h"
 
 #include "base/minmax.h"

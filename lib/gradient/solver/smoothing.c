@@ -1,11 +1,13 @@
-/* Based on: C. Kanzow, Some noninterior continuation methods for linear complementarity problems,
- * SIAM J. Matrix Anal. Appl. 17, 1996. Slack s and multiplier y of an inequality are two functions
- * of one number v that is free: s - unit y = v and s unit y = width^2. So no step meets a wall, and
- * any guess will do to start from, where an interior point method wants one in the middle. The
- * widths shrink from iteration to iteration, and v tells in the end which inequalities are active.
+/* Smoothing method. Based on: C. Kanzow, Some noninterior continuation methods for linear
+ * complementarity problems, SIAM J. Matrix Anal. Appl. 17, 1996.
  *
- * Widths are relative to f, which falls by many powers of ten along limbs: otherwise the far ends
- * would take shape only when all the rest is done. */
+ * Slack s and multiplier y of an inequality are two functions of one free number v: s - unit y = v
+ * and s unit y = width^2. So no step meets a bound, and any guess will do, while an interior point
+ * method needs a central one. The widths shrink from iteration to iteration, and in the end v tells
+ * which inequalities are active.
+ *
+ * Widths are relative to f, which falls by many powers of ten along limbs. Otherwise the far ends
+ * would take shape only after all the rest. */
 #include "gradient/solver/smoothing.h"
 
 #include "base/clock.h"
@@ -19,24 +21,25 @@
 enum {
     MAX_ITERATIONS = 100,
     PATIENCE = 20, /* iterations without a smaller residual */
-    TYPICAL = 15   /* half of the iterations, as far as progress goes */
+    TYPICAL = 15   /* progress reports count this many as half of the work */
 };
 
-/* Multipliers are smaller than slacks by the square of the number of vertices across a limb. Chosen
- * on a letter C of 75,000 unknowns, where a tenth of it costs a third more iterations. */
+/* Unit of multipliers relative to slacks. Multipliers are smaller by the square of the number of
+ * vertices across a limb. Chosen on a letter C of 75,000 unknowns, where a tenth of it costs a
+ * third more iterations. */
 static const double UNIT = 0.04;
 
 /* Width of the first iteration, relative to f. */
 static const double FIRST_WIDTH = 0.01;
 
-/* Width below which nothing is gained, for a maximum of 1. */
+/* Widths below this gain nothing, for a maximum of 1. */
 static const double LEAST_WIDTH = 1e-17;
 
-/* The fewer inequalities are off by more than their width, the more it shrinks. */
+/* The width shrinks more if fewer inequalities are off by more than it. */
 static const double FEW = 0.1, MANY = 0.25;
 static const double FAST = 0.1, STEADY = 0.2, SLOW = 0.3;
 
-/* The square of an inequality's width. */
+/* Returns the square of an inequality's width. */
 static double square_width(const iccp_smoothing *s, double width, size_t i)
 {
     const size_t k = i < s->n - 1 ? i + 1 : s->newton->qp->leaf_unknown[i - (s->n - 1)];
@@ -44,7 +47,7 @@ static double square_width(const iccp_smoothing *s, double width, size_t i)
     return own * own;
 }
 
-/* The smaller one of slack and multiplier by division, so that it keeps its digits. */
+/* Computes the smaller one of slack and multiplier by division, so that it keeps its digits. */
 static void find_pairs(iccp_smoothing *s)
 {
     for (size_t i = 0; i < s->m; ++i) {
@@ -75,7 +78,7 @@ static double next_width(const iccp_smoothing *s)
     return s->width * (share < FEW ? FAST : share < MANY ? STEADY : SLOW);
 }
 
-/* One whole step of Newton's method, towards the next width. */
+/* Makes one full step of Newton's method towards the next width. */
 static icc_status step(iccp_smoothing *s, icc_function_info *info, const iccp_env *env)
 {
     iccp_newton_qp *p = s->newton;
@@ -132,7 +135,8 @@ static icc_status iterate(iccp_smoothing *s, double enough, iccp_candidate *cand
         iccp_newton_qp_residuals(s->newton);
         status = step(s, info, &part);
         if (status != ICC_OK)
-            return status == ICC_ERR_SOLVER ? ICC_OK : status; /* what there is so far may do */
+            /* The best candidate so far may suffice */
+            return status == ICC_ERR_SOLVER ? ICC_OK : status;
     }
     return ICC_OK;
 }

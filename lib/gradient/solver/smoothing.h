@@ -5,24 +5,24 @@
 #include "gradient/solver/newton_qp.h"
 #include "gradient/solver/polish.h"
 
-/* An iterate, from f and multiplier of `newton`, of which the latter may be 0. `newton` belongs to
- * the caller, and must live longer. */
+/* An iterate. It starts from f and multiplier of `newton`; the latter may be 0. `newton` belongs to
+ * the caller and must live longer. */
 typedef struct iccp_smoothing {
     iccp_newton_qp *newton;
-    size_t n, m; /* unknowns, inequalities */
+    size_t n, m; /* numbers of unknowns and inequalities */
     double unit, width;
-    double *size; /* per unknown: of f in the beginning, the bound at least */
-    double *v;    /* per inequality: see smoothing.c */
+    double *size; /* by unknown: initial f, at least the bound */
+    double *v;    /* by inequality: see smoothing.c */
 } iccp_smoothing;
 
 icc_status iccp_smoothing_create(iccp_smoothing *smoothing, iccp_newton_qp *newton,
                                  const iccp_env *env);
 void iccp_smoothing_free(iccp_smoothing *smoothing);
 
-/* Iterates until the residual is at most `enough` or does not get smaller any more; may be called
- * again, to go on. The iterate of `newton` is the last one, with positive slacks and multipliers;
- * the candidate is replaced by what is better than it. active[i]: which of inequality i's slack and
- * multiplier is the smaller one, in its own unit. Adds to `info` (n_iterations, seconds_*). */
+/* Iterates until the residual is at most `enough` or no longer falls. It may be called again to
+ * continue. The iterate of `newton` is the last one, with positive slacks and multipliers. The
+ * candidate is replaced by any better one. active[i] tells whether the slack or the multiplier of
+ * inequality i is smaller, in its own unit. Adds to `info` (n_iterations, seconds_*). */
 icc_status iccp_smoothing_run(iccp_smoothing *smoothing, double enough, iccp_candidate *candidate,
                               uint8_t *active, icc_function_info *info, const iccp_env *env);
 

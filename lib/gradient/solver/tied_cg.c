@@ -1,7 +1,8 @@
-/* The preconditioner is P+ M P+' with the V-cycle M and P+ = (P'P)^-1 P', the weighted average over
- * each top and its members. Its inverse is at most P'LP if M is exact, whatever is tied, and
- * nearly that where functions are smooth: it takes two to three times the iterations that M takes
- * without ties. (A Jacobi step for each top, added to it, costs more of them.) */
+/* Conjugate gradients for the tied problem. The preconditioner is P+ M P+', with the V-cycle M and
+ * P+ = (P'P)^-1 P', the weighted average over each top and its members. If M is exact, its inverse
+ * is at most P'LP for any ties, and nearly equal where functions are smooth. It takes two to three
+ * times the iterations that M takes without ties. (Adding a Jacobi step for each top increases
+ * their number.) */
 #include "gradient/solver/tied_cg.h"
 
 #include "base/budget.h"
@@ -10,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Iterations without a smaller residual after which it will not get smaller. */
+/* Stops after this many iterations without a smaller residual. */
 enum { PATIENCE = 60 };
 
 enum { LANES = 8 };
@@ -29,7 +30,7 @@ double iccp_mg_dot(size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* One run of L x. n_near is a constant wherever this is called. */
+/* Computes one run of L x. n_near is a constant in every call. */
 static ICCP_INLINE void apply_run(const double *x, double *restrict y, const double *const *near,
                                   size_t n, int32_t n_near)
 {
@@ -100,7 +101,7 @@ static void find_tops(solver *s)
     }
 }
 
-/* z = P+ M P+' r, z in the level's x. */
+/* Computes z = P+ M P+' r, with z in the level's x. */
 static void precondition(solver *s)
 {
     float *b = s->level->b, *z = s->level->x;
@@ -147,12 +148,12 @@ static double dot_float(size_t n, const double *a, const float *b)
     return sum;
 }
 
-/* Of an iteration, with all levels. */
+/* Multiplications per entry of an iteration, with all levels. */
 static const double WORK_PER_ENTRY = 60;
 
-/* Preconditioned conjugate gradients as in every textbook, on the tops: the entries of members in
- * r, p and q stay 0 or are completed by iccp_tied_apply(). Ends when the goal is reached, or fails
- * when the residual has not fallen for PATIENCE iterations. */
+/* Preconditioned conjugate gradients as in every textbook, on the tops. The entries of members in
+ * r, p and q stay 0, or iccp_tied_apply() fills them in. Ends when the goal is reached. Fails if
+ * the residual has not fallen for PATIENCE iterations. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {

@@ -1,8 +1,9 @@
-/* The tied problem by factorisation. Each cluster of unknowns but the root's is one variable u.
+/* Solves the tied problem by factorisation. Each cluster of unknowns except the root's is one
+ * variable u.
  *
  * Diagonal entries of P'LP are sums of squares, by s'Ls = sum of (s_u - s_v)^2 over neighbours u,
- * v: the accuracy of small components hangs on how far the diagonal exceeds the rest of its row,
- * and in the difference of 2 dim |s|^2 and the products within the cluster that would be lost. */
+ * v. The accuracy of small components depends on how far the diagonal exceeds the rest of its row.
+ * The difference of 2 dim |s|^2 and the products within the cluster would lose that. */
 #include "base/clock.h"
 #include "base/minmax.h"
 #include "gradient/solver/dissection.h"
@@ -13,26 +14,26 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Clusters between looks at the progress callback. */
+/* Clusters between two calls of the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
-/* Of a component, in its own size: far above the 1e-15 of solutions that are right, far below the 1
- * of others. */
+/* Largest residual of a component, relative to the component. It is far above the 1e-15 of correct
+ * solutions and far below the 1 of wrong ones. */
 static const double MOST_RESIDUAL = 1e-6;
 
 typedef struct assembly {
     const iccp_unknowns *unknowns;
     const iccp_ties *ties;
-    size_t n;           /* clusters */
-    uint32_t *cluster;  /* per unknown: its cluster; ICCP_NONE: the root's */
-    uint32_t *last;     /* per cluster: its last unknown */
-    uint32_t *previous; /* per unknown: the one before in its cluster; ICCP_NONE at its top */
-    size_t *slot;       /* per cluster v: where entry (u, v) is, if that belongs to row u */
-    size_t *first;      /* n + 1, as in iccp_symmetric, as are the next two */
+    size_t n;           /* number of clusters */
+    uint32_t *cluster;  /* by unknown: its cluster; ICCP_NONE: the root's */
+    uint32_t *last;     /* by cluster: its last unknown */
+    uint32_t *previous; /* by unknown: the previous one in its cluster; ICCP_NONE at its top */
+    size_t *slot;       /* by cluster v: where entry (u, v) is, if that belongs to row u */
+    size_t *first;      /* n + 1, as in iccp_symmetric, like the next two */
     uint32_t *column;
     double *value;
-    double *diagonal; /* per cluster */
-    double *known;    /* per cluster: the right-hand side */
+    double *diagonal; /* by cluster */
+    double *known;    /* by cluster: the right-hand side */
 } assembly;
 
 /* Numbers the clusters by their tops and links their unknowns. */
@@ -61,7 +62,7 @@ static size_t count_entries(const assembly *a)
             const uint32_t j = a->unknowns->neighbour[k * degree + d];
             n_entries += j != ICCP_NONE && a->cluster[j] != a->cluster[k];
         }
-    return n_entries; /* those of the root too: an upper bound is wanted */
+    return n_entries; /* includes those of the root, because an upper bound suffices */
 }
 
 static bool allocate(assembly *a, const iccp_env *env)
@@ -86,7 +87,7 @@ static void release(assembly *a, const iccp_env *env)
         iccp_free(&env->memory, arrays[i]);
 }
 
-/* Adds -x to the entry (u, v), which is made if the row has none yet. */
+/* Subtracts x from the entry (u, v), which is added if the row has none yet. */
 static void subtract(assembly *a, size_t u, uint32_t v, double x, size_t *end)
 {
     size_t p = a->slot[v];
@@ -98,7 +99,7 @@ static void subtract(assembly *a, size_t u, uint32_t v, double x, size_t *end)
     a->value[p] -= x;
 }
 
-/* Row u of P'LP, which begins at first[u]. */
+/* Assembles row u of P'LP, which begins at first[u]. */
 static void assemble_row(assembly *a, size_t u)
 {
     const int32_t degree = a->unknowns->n_neighbours;
@@ -109,7 +110,7 @@ static void assemble_row(assembly *a, size_t u)
             const uint32_t j = a->unknowns->neighbour[k * (size_t)degree + (size_t)d];
             if (j != ICCP_NONE && a->cluster[j] == u) {
                 const double step = share[k] - share[j];
-                a->diagonal[u] += 0.5 * step * step; /* met from either end */
+                a->diagonal[u] += 0.5 * step * step; /* half, because it is met from either end */
                 continue;
             }
             a->diagonal[u] += share[k] * share[k] * iccp_unknowns_slope(a->unknowns, k, d);
@@ -123,8 +124,8 @@ static void assemble_row(assembly *a, size_t u)
     a->first[u + 1] = end;
 }
 
-/* P'LP row by row. The clusters are linked first: the number of entries between them is an upper
- * bound for the arrays, and rows are filled one after the other without gaps. */
+/* Assembles P'LP row by row. Clusters are linked first. The number of entries between them is an
+ * upper bound for the arrays, and rows are filled one after another without gaps. */
 static icc_status assemble(assembly *a, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
@@ -147,7 +148,7 @@ static icc_status assemble(assembly *a, const iccp_env *env)
     return status;
 }
 
-/* x of the clusters into `f` of the unknowns. */
+/* Copies x of the clusters into `f` of the unknowns. */
 static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f)
 {
     for (size_t k = 0; k < a->unknowns->n; ++k) {
@@ -160,8 +161,8 @@ static void expand(const assembly *a, const iccp_scaled *x, const iccp_scaled *f
     }
 }
 
-/* -P'L f, cluster by cluster. Differences of neighbours are exact, those of the terms of P'LP x
- * would not be. */
+/* Computes -P'L f, cluster by cluster. Differences of neighbours are exact, while those of the
+ * terms of P'LP x would not be. */
 static icc_status find_residual(const assembly *a, const iccp_scaled *x, const iccp_scaled *f,
                                 const iccp_scaled *residual, const iccp_env *env)
 {
@@ -177,9 +178,8 @@ static icc_status find_residual(const assembly *a, const iccp_scaled *x, const i
     return status;
 }
 
-/* Whether every component is about what it should be, by its residual. Entries of the factor that
- * underflow, which the bands of gradient/solver/dissection.c are to prevent, spoil whole stretches.
- */
+/* Checks by the residuals that every component is accurate. Entries of the factor that underflow
+ * spoil whole regions. The bands of gradient/solver/dissection.c should prevent that. */
 static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scaled *residual)
 {
     for (size_t u = 0; u < a->n; ++u) {
@@ -190,8 +190,8 @@ static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scal
     return true;
 }
 
-/* x = A^-1 b, and once more for what is left. Components are right as they are, but multipliers are
- * sums over many entries of the residual, and gain two digits. */
+/* Computes x = A^-1 b, and once more for the residual. The components are accurate after the first
+ * solve. But multipliers are sums over many entries of the residual, and gain two digits. */
 static icc_status solve_twice(const assembly *a, const iccp_ldlt *factor, const iccp_scaled *x,
                               const iccp_scaled *d, const iccp_scaled *work, const iccp_scaled *f,
                               const iccp_env *env)
@@ -235,9 +235,8 @@ static icc_status solve(const assembly *a, const iccp_ldlt *factor, const iccp_s
     return status;
 }
 
-/* Eliminates each cluster when its last unknown would be. This makes no new fill: a path through
- * clusters that come earlier is one through unknowns that come earlier, as each cluster is
- * connected. */
+/* Eliminates each cluster when its last unknown would be eliminated. This adds no fill. Clusters
+ * are connected, so a path through earlier clusters is a path through earlier unknowns. */
 static void contract_order(const assembly *a, const uint32_t *kept, uint32_t *order)
 {
     size_t end = a->n;
@@ -270,7 +269,7 @@ static icc_status analyse(const assembly *a, iccp_ldlt *factor, const iccp_symme
     return status;
 }
 
-/* Time since the last call. */
+/* Returns the time since the last call. */
 static double lap(double *clock)
 {
     const double before = *clock;

@@ -1,13 +1,13 @@
-/* The tied problem by conjugate gradients, in shells. What an iteration leaves as an error is
- * relative to the largest value. So a solution is accepted only where it exceeds CUT times that;
- * the unknowns left are solved for again, with the accepted ones as given values, in units of the
- * largest of these. The equations are the same, so that the shells fit together to the accuracy of
+/* Solves the tied problem by conjugate gradients, in shells. The error that an iteration leaves is
+ * relative to the largest value. So a solution is accepted only where it exceeds CUT times that.
+ * The remaining unknowns are solved for again, with the accepted ones as given values, in units of
+ * the largest of these. The equations are the same, so the shells fit together to the accuracy of
  * each.
  *
- * A shell need not reach to the end of what is left: if it ends where the solution has fallen to v,
- * with 0 assumed beyond, a value of w is wrong by about (v / w)^2 of itself (sinh(D - s) / sinh(D)
- * in place of exp(-s)). Nothing flows into a shell from beyond but what has left it there: unknowns
- * next to known ones always belong to it. */
+ * A shell need not include all remaining unknowns. Suppose that it ends where the solution has
+ * fallen to v, with 0 assumed beyond. Then a value of w has an error of about (v / w)^2 of itself
+ * (sinh(D - s) / sinh(D) in place of exp(-s)). Only values that came from the shell itself could
+ * flow back into it, because unknowns next to known ones always belong to the shell. */
 #include "base/clock.h"
 #include "base/minmax.h"
 #include "base/sort.h"
@@ -16,14 +16,14 @@
 
 #include <string.h>
 
-/* Accepted: values above CUT of the largest and TRUNCATION times those where the shell ends. Of
- * 1e-5 .. 1e-8, all leave residuals below 1e-9 of each value; the lower, the fewer shells. */
+/* Accepts values above CUT of the largest and TRUNCATION times those where the shell ends. All CUTs
+ * from 1e-5 to 1e-8 leave residuals below 1e-9 of each value. Lower ones need fewer shells. */
 static const double CUT = 1e-7, TRUNCATION = 1e7;
 
-/* Values below this share of the largest are no help in guessing how large a shell should be. */
+/* Values below this share of the largest do not help to guess the size of a shell. */
 static const double NEGLIGIBLE = 1e-14;
 
-/* Each shell is solved to this; a tenth of CUT, so that unknowns next to an accepted one are good,
+/* Each shell is solved to a tenth of CUT, so that unknowns next to an accepted one are good,
  * too. */
 static const iccp_mg_goal GOAL = {.relative = 1e-10, .componentwise = 1e-9, .floor = 1e-8};
 
@@ -37,18 +37,18 @@ typedef struct shells {
     const iccp_scaled *f;
     icc_function_info *info;
     const iccp_env *env;
-    uint32_t *order;   /* n unknowns, by their tops: members behind their top */
-    uint32_t *cluster; /* n + 1: where the unknowns with that top begin in `order` */
+    uint32_t *order;   /* n unknowns, sorted by top: members follow their top */
+    uint32_t *cluster; /* n + 1: where the cluster of each top begins in `order` */
     uint8_t *state;    /* n: LEFT, IN_SHELL, KNOWN */
-    uint32_t *unknown; /* n: the shell's unknowns, members behind their top */
-    size_t n;          /* their number */
+    uint32_t *unknown; /* n: unknowns of the shell; members follow their top */
+    size_t n;          /* number of these unknowns */
     size_t n_left;     /* unknowns that are LEFT */
-    size_t growth;     /* unknowns to be added to what the last shell leaves over */
+    size_t growth;     /* unknowns to add to those that the last shell leaves */
     bool first;
 } shells;
 
 typedef struct shell {
-    uint32_t *position; /* by unknown: where it is among the entries of the finest level */
+    uint32_t *position; /* by unknown: its place among the entries of the finest level */
     iccp_tie *tie;
     size_t n_tied;
     iccp_multigrid mg;
@@ -70,7 +70,7 @@ static icc_status report(const shells *s, size_t i)
     return i % ICCP_VERTICES_PER_REPORT == 0 ? iccp_progress(s->env, "solve", 0) : ICC_OK;
 }
 
-/* The first shell. */
+/* Makes the first shell. */
 static icc_status add_all(shells *s)
 {
     icc_status status = ICC_OK;
@@ -97,7 +97,7 @@ static bool has_neighbour(const shells *s, uint32_t unknown, uint8_t state)
     return false;
 }
 
-/* Adds unknowns in the order of their distance from those that are there. */
+/* Adds unknowns in the order of their distance from those that are in the shell. */
 static void grow(shells *s)
 {
     const size_t least = s->n + s->growth;
@@ -111,7 +111,7 @@ static void grow(shells *s)
 
 /* ------------------------------------------------------------------ one shell */
 
-/* The largest known value next to the shell decides on the unit. */
+/* The largest known value next to the shell determines the unit. */
 static void find_exponent(const shells *s, shell *h)
 {
     h->exponent = s->first ? 0 : ICCP_ZERO_EXPONENT;
@@ -123,7 +123,7 @@ static void find_exponent(const shells *s, shell *h)
         }
 }
 
-/* r = P' of what the known values contribute. In the first shell nothing is known; there it is a
+/* r = P' of the contribution of known values. In the first shell nothing is known. There it is a
  * unit load at the root, and the solution is scaled afterwards. */
 static void load(const shells *s, shell *h)
 {
@@ -144,7 +144,7 @@ static void load(const shells *s, shell *h)
     }
 }
 
-/* Lists what is tied and fills in the guess. */
+/* Lists the ties and fills in the guess. */
 static icc_status place(const shells *s, shell *h)
 {
     icc_status status = ICC_OK;
@@ -162,7 +162,7 @@ static icc_status place(const shells *s, shell *h)
     return status;
 }
 
-/* Scales the guess, of which q is P'LP x, so that its energy is least, and makes r its residual;
+/* Scales the guess, for which q is P'LP x, so that its energy is least. Makes r its residual, and
  * returns the size of the load. */
 static double begin_with_guess(shell *h)
 {
@@ -210,8 +210,8 @@ static bool allocate(const shells *s, shell *h)
     return h->tie != NULL && h->x != NULL && h->r != NULL && h->q != NULL;
 }
 
-/* Sets up the multigrid on the shell's vertices alone, with the rest as the outside: known values
- * enter by the load, those left count as 0. Whatever is allocated on the way stays in h for
+/* Makes the multigrid for the shell's vertices alone, with the rest as the outside. Known values
+ * enter through the load, and the remaining unknowns count as 0. All allocations stay in h for
  * free_shell(), also on failure. */
 static icc_status solve_shell(shells *s, shell *h)
 {
@@ -253,12 +253,12 @@ static void free_shell(const shells *s, shell *h)
 /* ----------------------------------------------------------------- accepting */
 
 typedef struct extent {
-    double peak;        /* the largest value */
-    double border;      /* the largest next to unknowns that are left out */
-    size_t significant; /* unknowns with a value that is not negligible */
+    double peak;        /* largest value */
+    double border;      /* largest value next to unknowns that are left out */
+    size_t significant; /* number of unknowns with a value that is not negligible */
 } extent;
 
-/* Spreads x to the members on the way. */
+/* Also spreads x to the members. */
 static extent measure(const shells *s, shell *h)
 {
     extent e = {0, 0, 0};
@@ -277,7 +277,7 @@ static extent measure(const shells *s, shell *h)
     return e;
 }
 
-/* From the normalised value: shares may be tiny. */
+/* Uses the normalised value, because shares may be tiny. */
 static void share_top(const shells *s, uint32_t unknown)
 {
     const uint32_t top = s->ties->top[unknown];
@@ -285,7 +285,7 @@ static void share_top(const shells *s, uint32_t unknown)
                     s->f->exponent[top]);
 }
 
-/* Takes over the unknowns whose tops exceed the limit. */
+/* Accepts the unknowns whose tops exceed the limit. */
 static icc_status accept_unknowns(shells *s, const shell *h, double limit, double one)
 {
     icc_status status = ICC_OK;
@@ -307,7 +307,8 @@ static icc_status accept_unknowns(shells *s, const shell *h, double limit, doubl
     return status;
 }
 
-/* Whether the next shell keeps the cluster that begins at unknown[i]: it is worth it, or has to. */
+/* Returns true if the next shell keeps the cluster that begins at unknown[i]: it is worth it, or
+ * required. */
 static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, double negligible)
 {
     if (s->state[s->unknown[i]] == KNOWN)
@@ -318,7 +319,7 @@ static bool is_kept(const shells *s, const shell *h, size_t i, size_t end, doubl
     return kept;
 }
 
-/* Collects what the next shell keeps; its values are the guess there. */
+/* Collects the unknowns that the next shell keeps. Their values are the guess there. */
 static void keep_unknowns(shells *s, const shell *h, double negligible, double one)
 {
     size_t n = 0;
@@ -341,7 +342,7 @@ static void keep_unknowns(shells *s, const shell *h, double negligible, double o
     s->n = n;
 }
 
-/* A shell that ends too early is worth less than its work, one that goes too far costs more. */
+/* A shell that ends too early is not worth its work, and one that goes too far costs more. */
 static void adapt_growth(shells *s, const extent *e)
 {
     const double wanted = CUT / TRUNCATION * e->peak;
@@ -354,7 +355,7 @@ static void adapt_growth(shells *s, const extent *e)
     s->growth = s->growth > LEAST_GROWTH ? s->growth : LEAST_GROWTH;
 }
 
-/* Takes what is good from a shell that has been solved, and prepares the next one. */
+/* Accepts the good part of a solved shell, and prepares the next one. */
 static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);

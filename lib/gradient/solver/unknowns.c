@@ -1,10 +1,11 @@
+/* The inside vertices as unknowns of a linear system. */
 #include "gradient/solver/unknowns.h"
 
 #include "base/minmax.h"
 
 #include <string.h>
 
-/* Vertices at the border of the grid have fewer neighbours; one division an axis tells. */
+/* Vertices at the border of the grid have fewer neighbours. One division per axis finds them. */
 static void find_neighbours(iccp_unknowns *unknowns, const uint32_t *unknown_of, uint32_t k)
 {
     const icc_grid *grid = unknowns->tree->grid;
@@ -52,10 +53,10 @@ icc_status iccp_unknowns_create(iccp_unknowns *unknowns, const icc_tree *tree, c
     return status;
 }
 
-/* Nearer zeros would only make numbers large: they move the function by less than that. */
+/* Nearer zeros would only make numbers large, and move the function by less than this. */
 static const double LEAST_REACH = 1e-6;
 
-/* The share of the way between two vertices at which the boundary is met. */
+/* Returns where the boundary lies between two vertices, as a share of the way. */
 static double find_reach(const icc_grid *grid, uint32_t from, uint32_t to)
 {
     double ends[2][ICC_MAX_DIM], bary[ICC_MAX_DIM], share;
