@@ -1,7 +1,8 @@
-/* libicc animate: a picture follows its cage along a path of cages, a picture a frame.
+/* libicc animate: a picture follows its cage along a path of cages, one picture for each frame.
  *
- * The first map is made; each further one follows the one before to the next cage, so that what lies inside does not jump
- * from frame to frame. Between two cages of the path vertices go straight. */
+ * The first map is made. Each further map follows the one before to the next cage, so that the
+ * inside does not jump from frame to frame. Between two cages of the path, vertices move
+ * straight. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -17,10 +18,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Making the first map, beside a frame. */
+/* The share of the time that the first map takes, compared with a frame. */
 static const double FIRST = 0.3;
 
-/* What the report says of a frame. */
+/* Facts about a frame for the report. */
 typedef struct frame_facts {
     icc_map_info map;
     size_t n_failed; /* pixels without an image */
@@ -30,12 +31,13 @@ typedef struct animation {
     const args *args;
     source_file source;
     size_t n_keys;
-    job *keys; /* from the source to each cage of the path; the first one has map and progress */
-    picture from, empty; /* and what each frame is drawn on */
+    job *keys; /* from the source to each cage of the path; the first one has the map and the
+                  progress */
+    picture from, empty; /* the picture that is read, and the empty one that frames are drawn on */
     picture_style style;
-    icc_map *map; /* to the cage of the present frame; not the first */
+    icc_map *map; /* to the cage of the present frame, if it is not the first */
     size_t frame, n_frames;
-    frame_facts *frames; /* n_frames, those before `frame` known */
+    frame_facts *frames; /* n_frames; those before `frame` are known */
     double began;
 } animation;
 
@@ -69,7 +71,7 @@ static int read_picture(animation *x)
                           : result;
 }
 
-/* The progress of one more call for a frame. */
+/* Announces one more library call for a frame. */
 static void expect_frame(animation *x)
 {
     progress_expect(&x->keys[0].bar, 1.0 / (double)(2 * (x->n_frames - x->frame)));
@@ -98,7 +100,7 @@ static int write_frame(animation *x, const icc_map *map)
     return result;
 }
 
-/* Says why a frame between two cages, or at the second, cannot be had. */
+/* Reports why a frame between two cages, or at the second one, cannot be made. */
 static int failed_frame(animation *x, size_t key, double share, const icc_error *err)
 {
     progress_end(&x->keys[0].bar);
@@ -107,7 +109,7 @@ static int failed_frame(animation *x, size_t key, double share, const icc_error 
                   share, job_file(&x->keys[key - 1], 2), job_message(err));
 }
 
-/* The map of the frame before goes on to a share of the way from one cage of the path to the next. */
+/* Moves the map of the frame before to a share of the way from one cage of the path to the next. */
 static int follow(animation *x, size_t key, double share)
 {
     job *first = &x->keys[0];
@@ -143,7 +145,7 @@ static int write_frames(animation *x)
     return result;
 }
 
-/* One object a frame: its file, and what is proved of its map. */
+/* Writes one object for each frame: its file and what is proved of its map. */
 static void report_frames(animation *x, json *j)
 {
     json_open(j, "frames", '[');

@@ -1,8 +1,8 @@
-/* libicc check: are the cages boundaries, and can the map between them be certified? Of a mask or a
- * surface by itself only the first is asked.
+/* libicc check: checks that the cages are boundaries, and that the map between them can be
+ * certified. For a mask or a surface alone, it only does the first.
  *
- * Defects go to stdout, one per line; the verdict goes to stderr. --repair writes the cages without
- * the vertices that a defect names as superfluous. */
+ * Defects go to stdout, one in a line. The verdict goes to stderr. --repair writes the cages
+ * without superfluous vertices, which a defect names. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -26,7 +26,7 @@ static int verdict_on_defects(check *c)
                   first && c->defects[1].n > 0 ? " in both cages" : "");
 }
 
-/* Asks the chart, or the map and its charts, for their certificates. */
+/* Gets the certificates of the chart, or of the map and its charts. */
 static void ask(check *c)
 {
     bool pair = c->job.args->target != NULL;
@@ -45,7 +45,7 @@ static void ask(check *c)
     c->certified = c->certified && c->map.certified;
 }
 
-/* Makes the chart, or both charts and the map, of each polygon; the library certifies what it
+/* Makes the chart, or both charts and the map, of each polygon. The library certifies what it
  * can. */
 static int certify(check *c)
 {
@@ -62,7 +62,7 @@ static int certify(check *c)
     return DONE;
 }
 
-/* What speaks for all: the first polygon that is not certified, if there is one. */
+/* Returns the polygon that speaks for all: the first one that is not certified, if there is one. */
 static const check *first_doubtful(const check *c)
 {
     for (size_t i = 0; i < c->job.n_parts && c->certified; i++)
@@ -113,7 +113,7 @@ static const char *repaired_formats(const check *c)
                                          : "text, GeoJSON, JSON";
 }
 
-/* What the cages must be for the options. */
+/* Checks that the cages fit the options. */
 static int check_options(const check *c)
 {
     const args *a = c->job.args;

@@ -1,8 +1,9 @@
-/* libicc encode, libicc decode: Cartesian coordinates to integral curve coordinates and back.
+/* libicc encode, libicc decode: convert Cartesian coordinates to integral curve coordinates and
+ * back.
  *
- * A row of coordinates is `facet b0 b1 t`: the curve starts on the edge from vertex `facet` (from
- * 0) at b0 of that vertex plus b1 of the next one, and the point lies at the share t of its length.
- * In space the facet is a face, which has three corners, and so on. */
+ * A row of coordinates is `facet b0 b1 t`. The curve starts on the edge from vertex `facet` (from
+ * 0), at b0 of that vertex plus b1 of the next one. The point lies at the share t of its length. In
+ * space the facet is a face, which has three corners, and so on. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -13,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Coordinates of n points, in the arrays that the library takes. */
+/* Coordinates of n points, in the library's arrays. */
 typedef struct coordinates {
     uint32_t *facet;
     double *bary, *t;

@@ -1,4 +1,5 @@
-/* libicc demo: a pair of cages and a picture to try the other commands on, and these commands. */
+/* libicc demo: writes a pair of cages and a picture to try the other commands with, and prints
+ * these commands. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -14,7 +15,7 @@
 
 enum { N_VERTICES = 12 };
 
-/* Round the fish, which swims to the right; and the same when it has bent. */
+/* Around the fish, which swims to the right, before and after it bends. */
 static const int before[N_VERTICES][2] = {{30, 55},   {115, 105}, {190, 62},  {262, 40},
                                           {345, 72},  {425, 160}, {345, 248}, {262, 275},
                                           {190, 258}, {115, 215}, {30, 265},  {58, 160}};
@@ -55,7 +56,7 @@ static int write_picture(const char *folder)
     return result;
 }
 
-/* A word for a shell. */
+/* Prints a word quoted for a shell. */
 static void print_word(const char *text)
 {
     static const char plain[] =
@@ -70,7 +71,7 @@ static void print_word(const char *text)
     putchar('\'');
 }
 
-/* A line of what to try, with this program in front of its arguments. */
+/* Prints a line to try, with this program in front of its arguments. */
 static void print_call(const char *program, const char *lead, const char *arguments)
 {
     printf("  %s", lead);
@@ -78,8 +79,8 @@ static void print_call(const char *program, const char *lead, const char *argume
     printf(" %s\n", arguments);
 }
 
-/* Says what to try next. The commands run within the folder, so they are short, and they call this
- * program as it was called. */
+/* Prints what to try next. The commands run inside the folder, so they are short, and they call
+ * this program as the user called it. */
 static void print_next(const char *folder, const char *program)
 {
     fputs("In ", stdout);

@@ -1,5 +1,5 @@
-/* libicc mesh --fill: a closed surface becomes a mesh of tetrahedra with the same vertices and faces,
- * and vertices inside. */
+/* libicc mesh --fill: fills a closed surface with tetrahedra. The mesh has the same vertices and
+ * faces, and new vertices inside. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -65,7 +65,7 @@ static void write_vtk(const tetrahedra *m, FILE *out)
         fprintf(out, "10\n");
 }
 
-/* VTK where the name says so, else Medit. */
+/* Writes VTK if the name asks for it, else Medit. */
 static int write_filled(const job *j, const icc_domain *filled)
 {
     const char *name = j->args->operands[1], *format = output_format(name);

@@ -1,4 +1,4 @@
-/* libicc map --geojson: carries the geometries of a GeoJSON file (RFC 7946) along. */
+/* libicc map --geojson: maps the geometries of a GeoJSON file (RFC 7946). */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -24,7 +24,7 @@ static geo_policy policy_of(const args *a)
                                         : GEO_NULL;
 }
 
-/* Ids of people's own making are cut short, between characters of UTF-8. */
+/* Ids that users chose are cut short, between UTF-8 characters. */
 static void name_fault(char out[NAME_ROOM], const geo_fault *fault, const char *text)
 {
     size_t n = fault->id.end - fault->id.begin;
@@ -41,7 +41,7 @@ static void name_fault(char out[NAME_ROOM], const geo_fault *fault, const char *
                  dots);
 }
 
-/* One line with the first of those that are not carried. */
+/* Lists the first geometries that are not carried in one line. */
 static void name_faults(const geo_result *r, const char *text, char *out, size_t room)
 {
     size_t used = 0;
@@ -87,8 +87,8 @@ static int report_all(const job *j, const geo_result *r, const char *text, doubl
     return report_close(&out) ? DONE : FAILED;
 }
 
-/* Writes the result, unless that is not wanted or would cost the only copy of what is not carried.
- * The report comes first, so that whatever fails leaves the file as it was. */
+/* Writes the result, unless it is refused or would destroy the only copy of geometries that are not
+ * carried. The report comes first, so that a failure leaves the file as it was. */
 static int finish(const job *j, geo_result *r, const char *text, size_t n, double seconds)
 {
     const char *in = j->args->operands[0], *to = j->args->operands[1];
@@ -134,7 +134,7 @@ static double size_of(const job *j)
     return fmax(info.upper[0] - info.lower[0], info.upper[1] - info.lower[1]);
 }
 
-/* Lines may be off by a thousandth of the result's size unless an option says otherwise. */
+/* By default lines are accurate to 0.001 of the result's size. */
 static double choose_tolerance(const job *j)
 {
     double size = size_of(j);
@@ -143,7 +143,7 @@ static double choose_tolerance(const job *j)
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
-/* Reads the text, carries it with the job's map, and writes what has become of it. */
+/* Reads the text, carries it with the job's map, and writes the result. */
 static int carry_file(job *j)
 {
     const char *name = j->args->operands[0];

@@ -1,4 +1,4 @@
-/* libicc info: what a chart is made of, and what it misses. */
+/* libicc info: describes a chart and what it does not cover. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -8,8 +8,8 @@
 
 #include <stdlib.h>
 
-/* The critical vertices of the order in which the tree was grown, and, beyond the plane, what it
- * takes to have an order with none but the maximum. */
+/* Examines the critical vertices of the order in which the tree was grown. In more than 2
+ * dimensions also the cost of an order with no critical vertex but the maximum. */
 static int examine_order(info *x, const stages *s)
 {
     icc_function_report found = {.size = sizeof found};
@@ -30,7 +30,7 @@ static int examine_order(info *x, const stages *s)
     return status == ICC_OK || status == ICC_ERR_TOPOLOGY ? DONE : job_failed(&x->job, &err);
 }
 
-/* How the function was made, and where the first critical point lies that should not be there. */
+/* Examines how the function was made, and where the first unwanted critical point lies. */
 static int examine_function(info *x, const stages *s)
 {
     icc_function_report found = {.size = sizeof found};
@@ -48,8 +48,7 @@ static int examine_function(info *x, const stages *s)
     return examine_order(x, s);
 }
 
-/* Everything that is to be printed, in one pass before the first word of output: a failure leaves
- * no half report behind. */
+/* Gathers everything before anything is printed, so that a failure leaves no half report. */
 static int gather(info *x)
 {
     job *j = &x->job;

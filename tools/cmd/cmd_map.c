@@ -1,4 +1,4 @@
-/* libicc map: carries points from source to target or back. */
+/* libicc map: maps points from source to target or back. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -21,8 +21,8 @@ static void settle_outside(const job *j, const table *points, double *images,
             memcpy(images + dim * i, points->values + dim * i, dim * sizeof *images);
 }
 
-/* Names the first point that has no image, by its line, when all must have one or the input would
- * be lost. */
+/* Names the line of the first point without an image, if all must have one or the input would be
+ * lost. */
 static int refuse(const job *j, const table *points, const icc_status *status, size_t n_failed)
 {
     size_t i = 0;

@@ -1,4 +1,4 @@
-/* libicc match: two outlines, or two surfaces, that do not correspond, with common vertices. */
+/* libicc match: gives two outlines, or two surfaces, that do not correspond common vertices. */
 #include "cmd/commands.h"
 
 #include "job/cage_file.h"
@@ -14,7 +14,7 @@ static bool is_standard(const char *name)
     return name != NULL && strcmp(name, "-") == 0;
 }
 
-/* The source's file may take both. */
+/* Both may be written to the source's file. */
 static int check_outputs(const args *a)
 {
     if (is_standard(a->output) && is_standard(a->target_output))

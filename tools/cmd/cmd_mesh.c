@@ -1,6 +1,6 @@
-/* libicc mesh: carries the vertices of a mesh along, and reports what became of its elements. Or it
- * fills a surface with tetrahedra (cmd_fill.c). The exit code tells whether an element is inverted or
- * a vertex lies outside the cage. */
+/* libicc mesh: maps the vertices of a mesh, and reports the signs of its elements. It can also fill
+ * a surface with tetrahedra (cmd_fill.c). The exit code tells if an element is inverted or a vertex
+ * lies outside the cage. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What the library says of a mesh as a whole, which may have its images repaired; from target to
- * source it has nothing to say, nor of a mesh with elements of other kinds. */
+/* Gets the library's certificate of a mesh as a whole, whose images may be repaired first. There is
+ * none from target to source, nor for a mesh with elements of other kinds. */
 static int certify(job *j, const mesh_file *m, double *images, icc_certificate *certificate)
 {
     icc_error err = {.size = sizeof err, .index = -1};
@@ -31,8 +31,8 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
     return ran == ICC_OK ? DONE : job_failed(j, &err);
 }
 
-/* Images as the format holds them are what is reported; where it rounds, the library's certificate
- * is of something else. */
+/* Rounds images to the precision of the format, because the report is about these. If that changes
+ * them, the library's certificate does not apply. */
 static int round_images(const job *j, const mesh_file *m, double *images,
                         icc_certificate *certificate)
 {
@@ -117,7 +117,8 @@ static int write_mesh(const job *j, const mesh_file *m, const double *images,
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* How many vertices have no image, which is the first, and what has been done about it. */
+/* Prints how many vertices have no image, which one is the first, and what has been done about
+ * it. */
 static int tell_outside(job *j, const mesh_file *m, const icc_status *status, size_t n_failed)
 {
     size_t first = 0;
@@ -147,7 +148,7 @@ static const char *why_inner(const job *j, const icc_certificate *certificate)
                : "no places were found for the inner vertices";
 }
 
-/* Says which faults a mesh has that was written. */
+/* Prints the faults of a mesh that was written. */
 static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_failed,
                 const tally *t, const icc_certificate *certificate, const mesh_carried *attached)
 {
@@ -159,7 +160,7 @@ static int tell(job *j, const mesh_file *m, const icc_status *status, size_t n_f
     return result == DONE && tally_spoilt(t) > 0 ? PARTIAL : result;
 }
 
-/* Says why --require forbids to write a mesh. */
+/* Prints why --require forbids writing a mesh. */
 static int refuse(const job *j, const mesh_file *m, const tally *t,
                   const icc_certificate *certificate)
 {
@@ -190,8 +191,8 @@ static int finish(job *j, const mesh_file *m, const double *images, const icc_st
                      : tell(j, m, status, n_failed, t, certificate, attached);
 }
 
-/* Counts elements, then finishes. A certificate is about triangles, so an inverted larger face takes
- * it away. */
+/* Counts elements, then finishes. A certificate is about triangles, so an inverted larger face
+ * cancels it. */
 static int count_and_finish(job *j, const mesh_file *m, const double *images,
                             const icc_status *status, size_t n_failed, icc_certificate *certificate,
                             const mesh_carried *attached)
@@ -204,8 +205,8 @@ static int count_and_finish(job *j, const mesh_file *m, const double *images,
     return result;
 }
 
-/* Maps the vertices, certifies the simplices, and carries normals and the like, before anything is
- * written. */
+/* Maps the vertices, certifies the simplices, and carries normals and similar data before anything
+ * is written. */
 static int map_mesh(job *j, mesh_file *m)
 {
     size_t n = m->n_vertices, n_failed = 0;
@@ -228,7 +229,7 @@ static int map_mesh(job *j, mesh_file *m)
     return result;
 }
 
-/* What is written has the format of what is read, and its name must not say otherwise. */
+/* The output has the format of the input, and its name must agree. */
 static int make_and_map(job *j, mesh_file *m)
 {
     int result = output_fits(j->args->command, j->args->operands[1], m->format);

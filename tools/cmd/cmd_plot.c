@@ -1,7 +1,7 @@
-/* libicc plot: the papers' figures. Rows as in figure 6 of the paper: the u v map, the
- * checkerboard, the function with its curves; then its elevation. One column for the source, one
- * for the target; or one for each of several functions, after one for the source if there is a
- * target. */
+/* libicc plot: the papers' figures. The rows are those of figure 6 of the paper: the u v map, the
+ * checkerboard, the function with its curves; then its elevation. There is one column for the
+ * source and one for the target. With several functions there is one for each, after one for the
+ * source if there is a target. */
 #include "cmd/commands.h"
 
 #include "base/system.h"
@@ -20,7 +20,7 @@ static const double margin = 36, caption = 30, line = 20;
 typedef struct column {
     stages stages;
     int side;     /* 1 source, 2 target */
-    bool undrawn; /* the function: the column is for the patterns only */
+    bool undrawn; /* the function is not drawn: the column is for the patterns only */
     double left, width;
 } column;
 
@@ -33,14 +33,14 @@ typedef struct plot {
     size_t n_columns;
     bool rows[N_ROWS];
     double size;   /* of the longest side of a shape */
-    double height; /* of the rows but that of the surface */
+    double height; /* of all rows except that of the surface */
     collector drawing;
     FILE *svg; /* its stream */
 } plot;
 
 /* ------------------------------------------------------------------ layout */
 
-/* The shapes are drawn with the same longest side. */
+/* Lays out the shapes, which have the same longest side in the drawing. */
 static int lay_out(plot *x)
 {
     double left = margin;
@@ -83,7 +83,7 @@ static double row_top(const plot *x, int what)
     return top;
 }
 
-/* The panel in a row and column; a shape is centred in its box, a surface fills it. */
+/* The panel in a row and column. A shape is centred in its box, and a surface fills it. */
 static panel make_panel(const plot *x, int what, size_t i)
 {
     const column *c = &x->columns[i];
@@ -103,7 +103,7 @@ static panel make_panel(const plot *x, int what, size_t i)
 
 /* ---------------------------------------------------------------- captions */
 
-/* Below the panels; what they show, and of the function how its shades are to be read. */
+/* Writes captions below the panels: what they show, and how to read the shades of the function. */
 static void write_captions(const plot *x, int what, const column *c, bool triangles)
 {
     static const char *const captions[N_ROWS] = {"uv map", "checkerboard",
@@ -132,7 +132,7 @@ static void write_captions(const plot *x, int what, const column *c, bool triang
         svg_label(x->svg, middle, below + line, scale);
 }
 
-/* Several functions stand above their columns. */
+/* Writes the names of several functions above their columns. */
 static void write_heading(const plot *x, const column *c)
 {
     char text[48];
@@ -217,7 +217,7 @@ static int add_column(plot *x, int side, bool undrawn)
     return stages_make(&c->stages, &x->job, side);
 }
 
-/* The chart or the map of one function, and its columns. */
+/* Makes the chart or the map of one function, and its columns. */
 static int make_function(plot *x, size_t i)
 {
     job *j = &x->job;

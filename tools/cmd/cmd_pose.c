@@ -40,7 +40,7 @@ static int read_pose(pose *p, size_t dim, size_t n_handles, const double *handle
 
 /* ------------------------------------------------------------------- points */
 
-/* Poses points as they come. --json also counts how many keep their orientation, which takes a
+/* Poses points in their order. --json also counts how many keep their orientation, which needs a
  * Jacobian for each. */
 static int write_points(pose *p, const table *points)
 {
@@ -83,8 +83,8 @@ static int pose_rows(pose *p, const char *text, size_t n)
 
 /* ------------------------------------------------------------------- meshes */
 
-/* Of a mesh every vertex was finite, but its image may not be, or not in the numbers of its file, to
- * which it is rounded. */
+/* All vertices of the mesh were finite. Their images may not be, or may not fit the numbers of the
+ * file, to which they are rounded. */
 static int check_images(pose *p, const mesh_file *m, double *images)
 {
     size_t vertex;
@@ -126,7 +126,7 @@ static int write_images(const pose *p, const mesh_file *m, const double *images)
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* Says which elements are inverted. With --require that is a failure. */
+/* Prints which elements are inverted. With --require this is a failure. */
 static int tell_mesh(const pose *p, const mesh_file *m, const tally *t)
 {
     const args *a = p->kernel.job.args;
@@ -139,7 +139,7 @@ static int tell_mesh(const pose *p, const mesh_file *m, const tally *t)
                : failed(a->operands[0], 0, "elements are inverted, so nothing was written");
 }
 
-/* Writes a mesh, unless --require forbids it, and says what became of its elements. */
+/* Writes a mesh, unless --require forbids it, and prints the signs of its elements. */
 static int finish_mesh(pose *p, const mesh_file *m, const double *images, size_t n_failed,
                        double seconds)
 {
@@ -189,7 +189,7 @@ static int pose_mesh(pose *p, const char *text, size_t n)
 
 /* ------------------------------------------------------------------ command */
 
-/* Points begin with a number, or there are none. */
+/* A file of points begins with a number, or is empty. */
 static bool is_points(const char *text)
 {
     double number;
@@ -215,8 +215,8 @@ static int pose_input(pose *p, const char *text, size_t n)
                                : pose_mesh(p, text, n);
 }
 
-/* Files are read first, so that a mistake is reported at once; as is a result's name that says
- * something else than what it will be. */
+/* Files are read first, so that a mistake is reported at once, including a result's name that does
+ * not fit its format. */
 static int pose_shape(pose *p)
 {
     const handle_set *set = &p->kernel.set;

@@ -1,4 +1,4 @@
-/* libicc weights: how much of each handle there is at a point. */
+/* libicc weights: computes the weights of all handles at points. */
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
@@ -13,7 +13,7 @@
 
 enum { PLACES_ALONG = 401 };
 
-/* Points on the segment of --along. */
+/* Spreads points along the segment of --along. */
 static int spread_along(const kernel_job *k, table *points)
 {
     const args *a = k->job.args;
@@ -43,7 +43,7 @@ static int read_points(const kernel_job *k, table *points)
     return rows_read(points, a->points, &form);
 }
 
-/* Along a segment the first column says how far along it is. */
+/* Writes the weights. Along a segment the first column is the place on it. */
 static int write_rows(const kernel_job *k, size_t n, const double *weights)
 {
     size_t m = k->set.n_handles;
@@ -92,7 +92,7 @@ static int write_binding(kernel_job *k, const table *points)
     return result;
 }
 
-/* What is said of the quality is measured at the points that have weights. */
+/* The reported quality is measured at the points that have weights. */
 static int report_weights(kernel_job *k, const table *points, size_t n_failed, double seconds)
 {
     if (!k->job.args->json)
@@ -116,8 +116,8 @@ static int report_weights(kernel_job *k, const table *points, size_t n_failed, d
     return report_close(&r) ? DONE : FAILED;
 }
 
-/* Weights of all points, a row of n_handles each, to everything that was asked for: binding,
- * picture, table, report. */
+/* Computes the weights of all points, a row of n_handles each, and writes everything that was asked
+ * for: binding, picture, table, report. */
 static int weigh(kernel_job *k, const table *points)
 {
     const args *a = k->job.args;

@@ -1,4 +1,4 @@
-/* The commands; each returns the exit code of the program. */
+/* The commands. Each returns the exit code of the program. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 

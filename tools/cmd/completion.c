@@ -1,7 +1,8 @@
-/* Each shell reads a file of its own language. Where a choice is wanted, its names are offered, otherwise files; options
- * once a dash has been typed.
- * bash: https://www.gnu.org/software/bash/manual/html_node/Programmable-Completion.html
- * zsh: zshcompsys(1), _arguments; fish: https://fishshell.com/docs/current/cmds/complete.html */
+/* Each shell reads a file in its own language. If an option has choices, their names are offered,
+ * otherwise files. Options are offered after a dash.
+ *
+ * bash: https://www.gnu.org/software/bash/manual/html_node/Programmable-Completion.html zsh:
+ * zshcompsys(1), _arguments; fish: https://fishshell.com/docs/current/cmds/complete.html */
 #include "cmd/completion.h"
 
 #include "base/say.h"
@@ -10,7 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Text within single quotes, for zsh with the brackets and colons escaped that _arguments would take for its own. */
+/* Prints text within single quotes. For zsh it escapes brackets and colons, which _arguments would
+ * interpret. */
 static void print_quoted(const char *text, const char *special)
 {
     for (const char *c = text; *c != '\0'; c++)
@@ -39,7 +41,8 @@ static void print_commands(size_t n, const command *commands)
     fputs("help completion", stdout);
 }
 
-/* Two lists by `case`: what may follow an option of a command, and the options of a command. */
+/* Prints two lists by `case`: what may follow an option of a command, and the options of a
+ * command. */
 static void print_bash(size_t n, const command *commands)
 {
     fputs("_libicc() {\n"
@@ -102,7 +105,8 @@ static void print_zsh_option(const option *o)
     fputs("' \\\n", stdout);
 }
 
-/* Commands by _describe; behind one of them, which then counts as the first word, its options by _arguments. */
+/* Offers commands by _describe. After one of them, which then counts as the first word, _arguments
+ * offers its options. */
 static void print_zsh(size_t n, const command *commands)
 {
     fputs("#compdef libicc\n"
@@ -166,7 +170,7 @@ static void print_fish_command(const char *name, const char *summary)
     fputs("'\n", stdout);
 }
 
-/* A line for each command and for each option of a command. */
+/* Prints a line for each command and for each option of a command. */
 static void print_fish(size_t n, const command *commands)
 {
     for (const command *c = commands; c < commands + n; c++)

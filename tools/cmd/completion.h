@@ -1,4 +1,4 @@
-/* Completion of the command line in a shell, from the tables of commands and options. */
+/* Completes the command line in a shell, from the tables of commands and options. */
 #ifndef COMPLETION_H
 #define COMPLETION_H
 

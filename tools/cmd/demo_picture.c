@@ -1,5 +1,5 @@
-/* A fish, made of discs, an ellipse and triangles. Each pixel is the mean of FINE * FINE colours; they are computed from
- * products and sums of whole numbers, so that all machines draw the same. */
+/* Draws a fish from discs, an ellipse and triangles. Each pixel is the mean of FINE * FINE colours.
+ * They are computed from products and sums of integers, so that all machines draw the same. */
 #include "cmd/demo_picture.h"
 
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static bool in_ellipse(spot p, int64_t x, int64_t y, int64_t a, int64_t b)
     return dx * dx * b * b + dy * dy * a * a <= FINE * FINE * a * a * b * b;
 }
 
-/* Corners in pixels, counter-clockwise as seen. */
+/* True inside a triangle, whose corners are in pixels and counter-clockwise on the screen. */
 static bool in_triangle(spot p, const int64_t c[3][2])
 {
     bool inside = true;
@@ -45,7 +45,7 @@ static bool in_fin(spot p)
     return inside;
 }
 
-/* The stripes lie between arcs of large circles. */
+/* True between arcs of large circles, which bound the stripes. */
 static bool in_stripe(spot p)
 {
     bool inside = false;

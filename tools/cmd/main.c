@@ -1,4 +1,4 @@
-/* libicc: shapes and what is inside them follow their boundary.
+/* libicc: the inside of a shape follows its boundary.
  *
  * setlocale() is never called, so numbers are read and written the same way everywhere. */
 #include "base/file.h"
@@ -254,7 +254,7 @@ static int run_command(const command *c, int argc, char **argv)
     return result == PARTIAL && a.require != 0 ? FAILED : result;
 }
 
-/* Whatever was printed must have arrived. */
+/* Reports a failure if the output did not arrive. */
 static int flushed(int result)
 {
     errno = 0;
@@ -281,7 +281,7 @@ static int no_command(const char *name)
     return misused(NULL, "there is no command '%.40s'%s", name, guess_say(text, &near, ""));
 }
 
-/* `libicc help` and `libicc help COMMAND`. */
+/* Handles `libicc help` and `libicc help COMMAND`. */
 static int help_with(const char *name)
 {
     const command *c = name != NULL ? find_command(name) : NULL;

@@ -49,7 +49,7 @@ static void point_between(const vertex *a, const vertex *b, double t, double out
         out[k] = (1 - t) * a->point[k] + t * b->point[k];
 }
 
-/* The images of the check points of every open piece. */
+/* Computes the images of the check points of every open piece. */
 static icc_status map_checks(const polyline *line, const carrier *c, size_t n_open, double *checks)
 {
     size_t n = 0;
@@ -78,7 +78,8 @@ static vertex middle_of(const vertex *a, const vertex *b, const double image[2])
     return v;
 }
 
-/* One round: every open piece is closed, or split into two that are open. Returns how many are. */
+/* Does one round: closes every open piece, or splits it into two open pieces. Returns the number of
+ * open pieces. */
 static size_t split(polyline *line, const double *checks, double tolerance)
 {
     polyline next = {0};

@@ -1,9 +1,9 @@
-/* Bounding boxes of what has been carried. */
+/* Bounding boxes of carried objects. */
 #include "geo/geo_carriage.h"
 
 #include <string.h>
 
-/* Takes a member away, with the comma that it leaves over. */
+/* Removes a member, together with the comma that would be left over. */
 static void drop_member(carriage *c, geo_span value)
 {
     const char *text = c->text, *blanks = " \t\r\n";
@@ -25,7 +25,7 @@ static void drop_member(carriage *c, geo_span value)
     edits_replace(&c->out->edits, begin, end);
 }
 
-/* Replaces the first two numbers of each half of a bounding box; heights stay. */
+/* Replaces the first two numbers in each half of a bounding box. Heights stay. */
 static bool set_box(carriage *c, geo_span span, const geo_box *box)
 {
     const char *p = c->text + span.begin, *number, *end = p;

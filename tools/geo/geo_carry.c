@@ -1,6 +1,6 @@
-/* Geometry by geometry: one that is in the cage as a whole, snapped vertices included, is mapped in
- * place; what becomes of the others is the policy's business. Bounding boxes come last, since they
- * may stand before what they bound. */
+/* Carries one geometry after the other. A geometry that lies in the cage as a whole, including
+ * snapped vertices, is mapped in place. The policy decides about the others. Bounding boxes come
+ * last, because they may precede the objects that they bound. */
 #include "geo/geo_carry.h"
 
 #include "base/allocate.h"
@@ -52,8 +52,8 @@ void geo_note_fault(carriage *c, size_t n_without, const char *fate)
         fault->fate = fate;
 }
 
-/* Leaves nothing of a geometry: a feature's becomes null, that of no feature or one among others
- * becomes empty, which readers take for none. */
+/* Empties a geometry. A feature's becomes null. One that belongs to no feature, or is one of
+ * several, becomes empty, which readers treat as missing. */
 static void empty_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
@@ -101,7 +101,7 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node)
     return v;
 }
 
-/* The path that has just been noded as a line; with all its nodes, or with its vertices alone. */
+/* Adds the path that was noded last as a line, with all nodes or only with its vertices. */
 static void add_noded(carriage *c, bool all)
 {
     polyline *line = geo_add_line(c);
@@ -125,7 +125,7 @@ bool geo_has_gap(const polyline *line)
     return false;
 }
 
-/* Notes all paths of a geometry as lines. Returns whether all of it lies in the cage. */
+/* Nodes all paths of a geometry as lines. Returns true if all of it lies in the cage. */
 static bool node_all(carriage *c)
 {
     bool whole = true;
@@ -137,7 +137,7 @@ static bool node_all(carriage *c)
     return whole;
 }
 
-/* Whether one of the polygons is around a point: a ray to the right of it meets its rings an odd
+/* True if one of the polygons contains a point: a ray to the right of it meets the rings an odd
  * number of times. */
 static bool is_around(const geo_shape *s, const double p[2])
 {
@@ -154,7 +154,7 @@ static bool is_around(const geo_shape *s, const double p[2])
     return odd;
 }
 
-/* Whether a polygon all rings of which lie in the cage is around a hole of it. */
+/* True if a polygon whose rings all lie in the cage contains a hole of the cage. */
 static bool covers_hole(const carriage *c)
 {
     for (size_t k = 0; k < c->cage->n_holes; k++)
@@ -203,7 +203,7 @@ static bool map_positions(carriage *c, size_t *n_without)
     return true;
 }
 
-/* Makes c->lines lines that are true, or finds that they cannot be. */
+/* Makes c->lines accurate, or finds that this is impossible. */
 static bool refine(carriage *c, bool *whole)
 {
     for (size_t l = 0; l < c->n_lines && *whole; l++) {
@@ -228,8 +228,8 @@ static size_t count_jumps(const geo_shape *s)
     return n;
 }
 
-/* Maps a geometry in place if it is in the cage as a whole, or if it is kept; else does what the
- * policy says. */
+/* Maps a geometry in place if it lies in the cage as a whole or is to be kept. Otherwise it follows
+ * the policy. */
 static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);

@@ -1,4 +1,4 @@
-/* Geometries that lie in the cage in part, cut along it and carried. */
+/* Geometries that lie partly in the cage, cut along it and carried. */
 #include "geo/clip.h"
 #include "geo/geo_carriage.h"
 
@@ -13,7 +13,7 @@ static void set_type(carriage *c, const char *type)
     edits_put_text(&c->out->edits, type);
 }
 
-/* Ends the list that has been written and returns the fate of the geometry. */
+/* Ends the list being written and returns the fate of the geometry. */
 static bool end_cut(carriage *c, size_t n_without, size_t n_written)
 {
     if (n_written == 0)
@@ -39,7 +39,7 @@ static bool cut_points(carriage *c, size_t n_without)
     return end_cut(c, n_without, n);
 }
 
-/* The parts of a path that lie in the cage, as lines. */
+/* Adds the parts of a path that lie in the cage as lines. */
 static void add_parts(carriage *c)
 {
     const noding *x = &c->noding;
@@ -59,8 +59,8 @@ static void add_parts(carriage *c)
     }
 }
 
-/* The parts of a line between gaps of the map, where its curves do not reach; counts them, and if
- * `write` adds them to a list. */
+/* Counts the parts of a line between gaps of the map, where its curves do not reach. If `write` is
+ * set, adds them to a list. */
 static size_t write_parts(geo_writer *w, const polyline *line, bool write, size_t n_before)
 {
     size_t n = n_before;
@@ -78,7 +78,7 @@ static size_t write_parts(geo_writer *w, const polyline *line, bool write, size_
     return n;
 }
 
-/* Cuts lines at the cage, and where the map has gaps. */
+/* Cuts lines at the cage and at gaps of the map. */
 static bool cut_lines(carriage *c, size_t n_without)
 {
     const geo_object *o = geo_current(c);
@@ -108,8 +108,8 @@ static bool cut_lines(carriage *c, size_t n_without)
     return end_cut(c, n_without, n);
 }
 
-/* A ring of a clipped polygon as a line, in the sense of the old one. Corners of the cage get their
- * heights from the node before. */
+/* Adds a ring of a clipped polygon as a line with the orientation of the original. Corners of the
+ * cage get their heights from the node before. */
 static void add_ring(carriage *c, const clipped *cut, const clip_ring *ring, size_t first_position,
                      bool reversed)
 {
@@ -128,7 +128,7 @@ static void add_ring(carriage *c, const clipped *cut, const clip_ring *ring, siz
         v.open = i < ring->n;
         polyline_add(line, &v);
     }
-    /* The first may have been a corner. */
+    /* The first one may have been a corner. */
     line->vertices[0].from = line->vertices[ring->n].from;
     line->vertices[0].along = line->vertices[ring->n].along;
 }
@@ -139,13 +139,13 @@ static bool is_closed(const geo_shape *s, const geo_path *p)
                               2 * sizeof *s->points) == 0;
 }
 
-/* The polygons of a geometry, cut, are being written. */
+/* The polygons of a geometry while they are cut and written. */
 typedef struct cutting {
     size_t n_polygons;
     bool failed; /* one could not be cut */
 } cutting;
 
-/* Writes the rings that are in c->lines as a polygon, unless the map has a gap in one. */
+/* Writes the rings in c->lines as a polygon, unless the map has a gap in one of them. */
 static bool write_polygon(carriage *c, cutting *to)
 {
     geo_writer w = geo_writer_of(c);
@@ -188,8 +188,7 @@ static bool cut_polygon(carriage *c, size_t first, size_t end, cutting *to)
     return good;
 }
 
-/* Cuts polygons one by one. What has been written is taken back if one cannot be cut, or nothing is
- * left. */
+/* Cuts polygons one by one. If one cannot be cut, or nothing is left, the output is taken back. */
 static bool cut_polygons(carriage *c, size_t n_without)
 {
     const geo_object *o = geo_current(c);

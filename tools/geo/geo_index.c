@@ -1,6 +1,6 @@
-/* One pass over the text, with a stack of its own: an object is noted where a member `geometry`,
- * `features` or `geometries` leads to it. As `type` may be the last member, only a second pass over
- * the objects shows which of these members mean what they seem to. */
+/* Goes over the text once, with a stack of its own. It records an object where a member `geometry`,
+ * `features` or `geometries` leads to it. `type` may be the last member, so only a second pass over
+ * the objects shows which of these members have their usual meaning. */
 #include "geo/geo_index.h"
 
 #include "base/allocate.h"
@@ -17,10 +17,10 @@ enum { TYPE, COORDINATES, BBOX, ID, GEOMETRY, GEOMETRIES, FEATURES, N_MEMBERS };
 static const char *const member_names[] = {"type",     "coordinates", "bbox",    "id",
                                            "geometry", "geometries",  "features"};
 
-/* An object or one of its lists that is open. */
+/* An object or one of its lists while it is open. */
 typedef struct level {
     uint32_t object, n_items;
-    geo_route route; /* GEO_ROOT: the object itself, else the list */
+    geo_route route; /* GEO_ROOT for the object itself, else the list */
 } level;
 
 typedef struct indexer {
@@ -36,7 +36,7 @@ static void push(indexer *x, uint32_t object, geo_route route)
     x->levels[x->depth++] = (level){object, 0, route};
 }
 
-/* The scanner has just read the bracket of the object. */
+/* Opens an object, after the scanner has read its bracket. */
 static void open_object(indexer *x, uint32_t parent, geo_route route, uint32_t number)
 {
     geo_index *out = x->out;
@@ -68,7 +68,7 @@ static geo_type find_type(const json_scan *s)
     return (geo_type)type;
 }
 
-/* A member that leads on to objects: opens what it holds. False: it holds something else. */
+/* Opens the contents of a member that leads to objects. False if the member has another value. */
 static bool follow_member(indexer *x, uint32_t object, int member, json_kind kind)
 {
     if (member == GEOMETRY && kind == JSON_OBJECT)
@@ -82,7 +82,7 @@ static bool follow_member(indexer *x, uint32_t object, int member, json_kind kin
     return true;
 }
 
-/* The value of a member whose name has just been read. */
+/* Reads the value of a member whose name was read last. */
 static json_kind read_member(indexer *x, uint32_t object)
 {
     json_scan *s = &x->scan;
@@ -111,7 +111,7 @@ static json_kind read_member(indexer *x, uint32_t object)
     return kind;
 }
 
-/* A piece of the innermost object or list that is open. */
+/* Reads a piece of the innermost object or list that is open. */
 static json_kind read_piece(indexer *x)
 {
     level *top = &x->levels[x->depth - 1];
@@ -145,7 +145,7 @@ static bool is_held(const geo_object *o, const geo_object *parent)
            (o->route == GEO_IN_FEATURES && parent->type == GEO_FEATURES);
 }
 
-/* Members that must be there besides the type. */
+/* The members that are required besides the type. */
 static unsigned needed(geo_type type)
 {
     return type < GEO_GEOMETRIES    ? 1U << COORDINATES
@@ -160,8 +160,7 @@ static bool misses(const geo_object *o, const char *text, size_t at, const char 
     return spoilt(wrong, line_of(text, text + at), format, geo_type_names[o->type], name);
 }
 
-/* Members that mean something must be there, once, and be lists or objects where these are
- * expected. */
+/* Checks that required members exist once, and are lists or objects where these are expected. */
 static bool check_members(const geo_object *o, const char *text, problem *wrong)
 {
     unsigned need = needed(o->type), feature = o->type == GEO_FEATURE ? 1U << GEOMETRY : 0;
@@ -196,7 +195,7 @@ static bool check_type(const geo_object *o, const char *text, problem *wrong)
                   geometry ? "geometry" : "GeoJSON");
 }
 
-/* Which objects are live, from the root down, and whether those are what they must be. */
+/* Decides which objects are live, from the root down, and checks these. */
 static bool settle(geo_index *out, const char *text, problem *wrong)
 {
     for (size_t i = 0; i < out->n; i++) {
@@ -214,7 +213,7 @@ static bool settle(geo_index *out, const char *text, problem *wrong)
     return true;
 }
 
-/* One text with all that it holds; *object: whether it is an object. */
+/* Reads one text with all its contents. *object becomes true if it is an object. */
 static json_kind read_text(indexer *x, uint32_t number, bool *object)
 {
     json_kind kind = json_scan_next(&x->scan);

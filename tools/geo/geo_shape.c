@@ -26,7 +26,7 @@ const char *geo_next_number(const char *p, const char **end)
     return p;
 }
 
-/* A position at *cursor: two finite numbers, and any numbers behind them. */
+/* Reads a position at *cursor: two finite numbers, and any further numbers. */
 static bool read_position(geo_shape *out, const char *text, const char **cursor)
 {
     const char *p = skip_blanks(*cursor), *begin = p, *number, *end;
@@ -54,7 +54,7 @@ static void open_path(geo_shape *out)
     out->paths[out->n_paths++] = (geo_path){out->n, 0, out->n_parts};
 }
 
-/* Lists of lists of positions, `levels` deep; goes down and up through them without recursion. */
+/* Reads lists of lists of positions, `levels` deep, without recursion. */
 static bool read_lists(geo_shape *out, const char *text, const char **cursor, int levels)
 {
     int level = levels;

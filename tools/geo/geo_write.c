@@ -17,14 +17,14 @@ void geo_box_add(geo_box *box, const double lower[2], const double upper[2])
     }
 }
 
-/* Text that stays as it is. */
+/* Copies text that does not change. */
 static void copy(geo_writer *w, const char *begin, const char *end)
 {
     edits_put(w->edits, (size_t)(end - begin), begin);
 }
 
-/* The third and further numbers of a place between two positions: each is taken over where both
- * have the same, else it is in between; there are as many as both positions have. */
+/* Writes the third and further numbers of a place between two positions. A number that both share
+ * is copied, and others are interpolated. There are as many as both positions have. */
 static void write_heights(geo_writer *w, const char *p, const char *q, double along)
 {
     const char *a, *a_end, *b, *b_end;
@@ -44,7 +44,7 @@ static void write_heights(geo_writer *w, const char *p, const char *q, double al
     }
 }
 
-/* The end of the last number at or behind p. */
+/* The end of the last number from p on. */
 static const char *last_number_end(const char *p)
 {
     const char *end;
@@ -53,7 +53,7 @@ static const char *last_number_end(const char *p)
     return p;
 }
 
-/* A position, laid out as the one that it is or is behind. */
+/* Writes a position in the layout of the position that it is or follows. */
 static void write_position(geo_writer *w, const vertex *v)
 {
     geo_span span = w->shape->spans[v->from];

@@ -1,6 +1,6 @@
-/* Nodes are shared: whatever comes within `near` of a corner of the cage is at that corner, and a
- * vertex that comes within `near` of an edge is a node of the edge. So what crosses is well apart
- * from what touches, and exact signs decide crossings. */
+/* Nodes are shared. A node within `near` of a corner of the cage is at that corner, and a vertex
+ * within `near` of an edge is a node of the edge. So crossings are well apart from touching places,
+ * and exact signs decide them. */
 #include "geo/noding.h"
 
 #include "base/allocate.h"
@@ -16,7 +16,8 @@ void noding_start(noding *out, const carrier *cage)
     for (size_t k = 0; k < 2; k++)
         largest = fmax(largest, fmax(fabs(cage->lower[k]), fabs(cage->upper[k])));
     *out = (noding){.cage = cage};
-    /* Some hundred roundings of the cage's coordinates: crossings are computed to a few. */
+    /* About a hundred roundings of the cage's coordinates. Crossings are computed to a few
+     * roundings. */
     cage_grid_make(&out->grid, cage, fmax(1e-13 * cage->size, 128 * DBL_EPSILON * largest));
 }
 
@@ -32,7 +33,7 @@ static double distance(const double a[2], const double b[2])
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* The nearest point of a segment, as a share of it; returns how far off. */
+/* Finds the nearest point of a segment, as a share of it. Returns the distance. */
 static double nearest_on(const double a[2], const double b[2], const double p[2], double *share)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
@@ -41,7 +42,7 @@ static double nearest_on(const double a[2], const double b[2], const double p[2]
     return hypot(p[0] - a[0] - *share * dx, p[1] - a[1] - *share * dy);
 }
 
-/* Puts a node on an edge of the cage, and at its corner if that is near. */
+/* Puts a node on an edge of the cage, or at its corner if that is close. */
 static void put_on(const noding *x, geo_node *node, uint32_t facet, double share)
 {
     node->place = GEO_ON_CAGE;
@@ -57,7 +58,7 @@ static void put_on(const noding *x, geo_node *node, uint32_t facet, double share
     }
 }
 
-/* Puts a vertex that was snapped where it was snapped to. */
+/* Puts a snapped vertex at its nearest place on the cage. */
 static void put_at_nearest(noding *x, geo_node *node)
 {
     uint32_t facet;
@@ -71,7 +72,7 @@ static void put_at_nearest(noding *x, geo_node *node)
     put_on(x, node, facet, shares[1]);
 }
 
-/* Adds a vertex, which is on the cage if it has been snapped or is near. */
+/* Adds a vertex. It is on the cage if it has been snapped or is close. */
 static void add_vertex(noding *x, const double at[2], size_t from, icc_status status, bool snapped)
 {
     x->nodes = grow(x->nodes, &x->room, x->n + 1, sizeof *x->nodes);
@@ -107,7 +108,7 @@ static bool is_at(const geo_node *node, const double at[2])
              node->at[1] > at[1]);
 }
 
-/* Adds a node on the piece from `a` to `b`, by copy, in its order along it. */
+/* Adds a copy of a node to the piece from `a` to `b`, in its order along the piece. */
 static void insert(noding *x, size_t first, const geo_node *a, const geo_node *b, geo_node node)
 {
     if (is_at(a, node.at) || is_at(b, node.at))
@@ -124,9 +125,9 @@ static void insert(noding *x, size_t first, const geo_node *a, const geo_node *b
     x->nodes[i] = node;
 }
 
-/* How far the line a b is from an end of the cage's edge that it crosses, in any unit. The end of
- * the line that is nearer comes first, and its direction is scaled, so that lines from far away
- * neither overflow nor drown the edge in rounding. */
+/* The distance of an end of the cage's edge from the line a b that crosses it, in any unit. The
+ * closer end of the line comes first, and its direction is scaled. So lines from far away neither
+ * overflow nor lose the edge in rounding. */
 static double height(const double a[2], const double b[2], const double p[2])
 {
     double dx = b[0] / 2 - a[0] / 2, dy = b[1] / 2 - a[1] / 2, scale = fmax(fabs(dx), fabs(dy));
@@ -134,7 +135,7 @@ static double height(const double a[2], const double b[2], const double p[2])
     return dx / scale * (p[1] - ref[1]) - dy / scale * (p[0] - ref[0]);
 }
 
-/* Where a piece crosses an edge of the cage, as a share of the edge; false if it does not. */
+/* Finds where a piece crosses an edge of the cage, as a share of the edge. False if it does not. */
 static bool crosses(const noding *x, const double a[2], const double b[2], uint32_t edge,
                     double *share)
 {
@@ -152,7 +153,7 @@ static bool crosses(const noding *x, const double a[2], const double b[2], uint3
     return true;
 }
 
-/* The places where the piece between two vertices meets the cage. */
+/* Adds the places where the piece between two vertices meets the cage. */
 static void add_meetings(noding *x, geo_node a, geo_node b)
 {
     size_t first = x->n;
@@ -200,7 +201,7 @@ uint32_t noding_common_edge(noding *x, const double a[2], const double b[2], dou
     return GEO_NOWHERE;
 }
 
-/* A piece lies where its ends do; one from cage to cage is looked at in three places. */
+/* A piece lies where its ends lie. A piece from cage to cage is tested in three places. */
 static bool is_in(noding *x, const geo_node *a, const geo_node *b)
 {
     if (a->place != GEO_ON_CAGE || b->place != GEO_ON_CAGE)
@@ -226,7 +227,8 @@ bool noding_path(noding *x, const geo_shape *shape, size_t path, const icc_statu
         add_vertex(x, shape->points + 2 * i, i, status[i], snapped[i]);
         if (i == p->first)
             continue;
-        /* The meetings come before the vertex that was added to find them. */
+        /* The places where the piece meets the cage come before the vertex that was added to find
+         * them. */
         geo_node vertex = x->nodes[own];
         x->n = own;
         add_meetings(x, x->nodes[last], vertex);

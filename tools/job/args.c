@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Where the reading is. */
+/* The state of reading. */
 typedef struct reading {
     args *out;
     const command *command;
@@ -89,8 +89,8 @@ static int set_point(reading *r, const option *o, const char *value)
     return DONE;
 }
 
-/* RRGGBB with or without alpha, two digits a channel; a # before it is what other programs print.
- */
+/* Reads RRGGBB with or without alpha, two digits a channel. Other programs print a # before it, so
+ * that is accepted. */
 static int set_colour(reading *r, const option *o, const char *value)
 {
     static const char digits[] = "0123456789abcdef";
@@ -134,7 +134,7 @@ static int set_value(reading *r, const option *o, const char *value)
     }
 }
 
-/* An option that was found, with the text behind '=' or NULL. */
+/* Takes an option, with the text after '=' or NULL. */
 static int take_option(reading *r, const option *o, const char *attached)
 {
     if (o->kind == OPTION_REPORT) {
@@ -208,7 +208,7 @@ static int take_long(reading *r, const char *text)
     return take_option(r, o, text[n] == '=' ? text + n + 1 : NULL);
 }
 
-/* -q, -qi, -o FILE and -oFILE. */
+/* Takes short options: -q, -qi, -o FILE and -oFILE. */
 static int take_short(reading *r, const char *text)
 {
     for (; *text != '\0'; text++) {

@@ -1,4 +1,4 @@
-/* The command line: which command, with which options. */
+/* The command line: the command and its options. */
 #ifndef ARGS_H
 #define ARGS_H
 
@@ -10,32 +10,33 @@
 #include <stdint.h>
 
 typedef struct args {
-    const char *program; /* as it was called */
+    const char *program; /* as the user called it */
     const char *command;
     /* files */
     const char *source, *target, *mesh, *target_mesh, *points, *coords, *output, *repair, *boundary;
     const char *triangulation, *source_crs, *target_crs, *ties;
     const char *match, *landmarks, *target_output;
     const char *json_file, *handles, *pose, *binding, *picture;
-    char **operands; /* gathered at the front of argv */
+    char **operands; /* moved to the front of argv */
     size_t n_operands;
-    /* how charts and maps are made: 0 means the library's choice */
+    /* how charts and maps are made; 0 is the library's choice */
     int32_t method, map, mesher, tree, solver, cells, threads;
     function_choice functions[MAX_FUNCTIONS];
     size_t n_functions;
-    int32_t improve; /* steps at most; -1: the library's choice */
+    int32_t improve; /* limit of steps; -1: the library's choice */
     double min_fall;
     double tolerance;    /* 0: the command's choice */
     int32_t outside;     /* one of the policies below; 0: the command's choice */
-    int32_t require;     /* what must hold, or nothing is written; 0: nothing */
+    int32_t require;     /* required of the result, or nothing is written; 0: nothing */
     int32_t quality;     /* of JPEG; 0: not given */
-    int32_t turning;     /* of outlines that are matched; 0: the library's choice */
-    int32_t y_down_side; /* in which cages y points down; 0: not given */
+    int32_t turning;     /* of outlines to match; 0: the library's choice */
+    int32_t y_down_side; /* the cages in which y points down; 0: not given */
     double snap;         /* below 0: the command's choice */
-    double flatten;      /* how far an edge may be from its curve; 0: a fixed number of edges */
-    double weld;         /* how far apart vertices may be that `welds` joins */
+    double flatten;      /* the largest distance of an edge from its curve; 0: a fixed number of
+                            edges */
+    double weld;         /* the largest distance of vertices that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
-    size_t n_maximum, n_target_maximum; /* their coordinates; 0: not given */
+    size_t n_maximum, n_target_maximum; /* number of their coordinates; 0: not given */
     /* What the command does with two cages. */
     bool needs_target, may_pair, takes_parts, flips_cages;
     bool constrained, unconstrained;
@@ -57,19 +58,19 @@ typedef struct args {
     int32_t lines;
 } args;
 
-/* Which of the two cages an option means. */
+/* The cage, or cages, that an option concerns. */
 enum { SIDE_SOURCE = 1, SIDE_TARGET, SIDE_BOTH };
 
-/* What fills surfaces in space. */
+/* The program that fills surfaces in space. */
 enum { MESHER_OWN = 1, MESHER_TETGEN };
 
-/* What becomes of what lies outside the cage. */
+/* What to do with parts outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
 
 /* What --require demands of a result. */
 enum { REQUIRE_CERTIFIED = 1 };
 
-/* Bits of the commands. */
+/* Bits that stand for commands. */
 enum {
     FOR_MAP = 1,
     FOR_ENCODE = 2,
@@ -99,28 +100,30 @@ typedef struct command {
     unsigned bit;
     size_t n_operands;
     size_t n_operands_geojson; /* with --geojson */
-    size_t n_operands_more;    /* so many more are taken, too */
+    size_t n_operands_more;    /* this many more are accepted */
     bool needs_target;
     int (*run)(const args *a);
-    const char *usage;   /* what follows the name: one line for each way to call the command */
+    const char *usage;   /* the text after the name: one line for each way to call the command */
     const char *summary; /* one line */
-    const char *details; /* paragraphs for --help, which breaks lines that begin without a blank */
+    const char *details; /* paragraphs for --help, which wraps lines that do not begin with a
+                            blank */
 } command;
 
-/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a line on stderr. *help is set
- * when --help is among them; nothing else counts then. */
+/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a message on stderr. *help is
+ * set if --help is given; then nothing else counts. */
 int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
 
-/* The last step of that: what no single option shows. */
+/* The last step of parsing: checks of several options together. */
 int args_check(args *a, const command *c);
 
-/* The operand that names the result; NULL where none does. */
+/* The operand that names the result, or NULL if none does. */
 const char *args_result(const args *a, const command *c);
 
 /* Prints the help of a command on stdout, in lines of at most 80 columns. */
 void args_help(const command *c);
 
-/* Prints paragraphs in such lines. Lines that begin with a blank, and empty ones, stay as they are. */
+/* Prints paragraphs in such lines. Lines that begin with a blank and empty lines stay as they
+ * are. */
 void help_paragraphs(const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* Options that need or exclude each other, and what they stand for. */
+/* Checks options that need or exclude each other, and fills in what they imply. */
 #include "base/say.h"
 #include "job/args.h"
 #include "job/call_files.h"
@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Options that only some methods have. */
+/* Checks options that only some methods have. */
 static int check_method(const args *a, const command *c)
 {
     const char *gradient_only = a->n_functions > 0 ? "function"
@@ -37,7 +37,7 @@ static int check_method(const args *a, const command *c)
     return DONE;
 }
 
-/* Options that only functions which solve an equation have. */
+/* Checks options of functions that solve an equation. */
 static int check_functions(const args *a, const command *c)
 {
     const char *solved_only = a->constrained     ? "constrained"
@@ -58,7 +58,7 @@ static int check_functions(const args *a, const command *c)
     return DONE;
 }
 
-/* The flags stand for the functions that say nothing themselves. */
+/* Applies the flags to functions without their own constraints. */
 static void settle_functions(args *a)
 {
     for (size_t i = 0; i < a->n_functions; i++)
@@ -68,8 +68,8 @@ static void settle_functions(args *a)
                                                              : 0;
 }
 
-/* Files and options that exclude each other, before any file is read. The number of files depends
- * on --geojson, and on --binding, which replaces one. */
+/* Checks files and options that exclude each other, before any file is read. The number of files
+ * depends on --geojson, and on --binding, which replaces one. */
 static int check_operands(const args *a, const command *c)
 {
     size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
@@ -100,7 +100,7 @@ static int check_operands(const args *a, const command *c)
     return DONE;
 }
 
-/* The same for the commands with handles. */
+/* Checks the same for the commands with handles. */
 static int check_kernel(const args *a, const command *c)
 {
     bool bound = has_bound(a, c);
@@ -127,7 +127,7 @@ static int check_kernel(const args *a, const command *c)
     return DONE;
 }
 
-/* Filling a surface takes it, and no map. */
+/* Filling takes a surface and no map. */
 static int check_fill(const args *a, const command *c)
 {
     const char *of_maps = a->source != NULL   ? "source"
@@ -153,7 +153,7 @@ static bool is_zero(const double v[3])
     return !(fabs(v[0]) + fabs(v[1]) + fabs(v[2]) > 0);
 }
 
-/* What cuts bodies, and from where they are seen. */
+/* Checks the options that cut solids and set the view. */
 static int check_views(const args *a, const command *c)
 {
     if (a->n_slice != 0 && a->n_slice != 3 && a->n_slice != 6)
@@ -165,7 +165,7 @@ static int check_views(const args *a, const command *c)
     return DONE;
 }
 
-/* What goes with --match only, and what does not. */
+/* Checks options that need --match, or exclude it. */
 static int check_match(const args *a, const command *c)
 {
     const char *matched_only = a->landmarks != NULL ? "landmarks"
@@ -199,7 +199,7 @@ static int check_charts(const args *a, const command *c)
     return result == DONE ? check_functions(a, c) : result;
 }
 
-/* The frames are several files, and so are the cages of a path. */
+/* Checks animations: frames are several files, and so are the cages of a path. */
 static int check_animate(const args *a, const command *c)
 {
     bool standard = false;
@@ -211,7 +211,7 @@ static int check_animate(const args *a, const command *c)
                : DONE;
 }
 
-/* What no single option shows. */
+/* Checks options together. */
 static int check_together(const args *a, const command *c)
 {
     int result = c->bit & FOR_DEMO     ? DONE
@@ -228,7 +228,7 @@ static int check_together(const args *a, const command *c)
     return result == DONE ? call_outputs_check(a, c) : result;
 }
 
-/* Matching is by shape unless it is said otherwise; `--match FILE` is that with landmarks. */
+/* Sets how to match: by shape by default, and by landmarks for `--match FILE`. */
 static int settle_match(args *a, const command *c)
 {
     if (a->match == NULL && c->bit & FOR_MATCH)
@@ -248,7 +248,7 @@ const char *args_result(const args *a, const command *c)
     return a->n_operands > 0 && at < a->n_operands ? a->operands[at] : NULL;
 }
 
-/* Reads come by default from stdin, and results go by default to stdout. */
+/* By default input comes from stdin, and results go to stdout. */
 static int settle_streams(args *a, const command *c)
 {
     bool draws = c->bit & FOR_WEIGHTS && (a->picture != NULL || a->n_along > 0);

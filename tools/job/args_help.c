@@ -72,7 +72,7 @@ static void print_group(const command *c, bool papers, const char *heading)
     }
 }
 
-/* Prints one line for each way to call the command. A long one goes on below its first option. */
+/* Prints one line for each way to call the command. A long one continues below its first option. */
 static void print_usage(const command *c)
 {
     const char *head = "Usage:";

@@ -26,14 +26,14 @@ static bool map_points(void *data, size_t n, const double *points, double *image
 
 /* -------------------------------------------------------------- derivatives */
 
-/* The search for derivatives at points, of which some are still to be found. */
+/* The search for derivatives at points, some of which are still missing. */
 typedef struct search {
     job *j;
     size_t dim, n;
     size_t *left; /* n of them */
     double *at, *found, *sources;
     icc_status *status;
-    double size, centre[3]; /* of the points' box */
+    double size, centre[3]; /* of the box of the points */
 } search;
 
 static void find_box(search *s, size_t n, const double *points)
@@ -51,7 +51,7 @@ static void find_box(search *s, size_t n, const double *points)
     s->size = extent;
 }
 
-/* Where the derivative of a point is looked for in each round: at the point, beside it against its
+/* The place where each round computes a point's derivative: at the point, beside it against its
  * direction, beside it along its direction, and towards the middle of all points. The step is as
  * small as the resolution of floats. */
 static void step(const search *s, size_t round, const double *point, const double *direction,
@@ -76,7 +76,7 @@ static void invert(size_t dim, double *derivative)
         derivative[i] = good ? back[i / dim * 4 + i % dim] : (double)NAN;
 }
 
-/* Looks for all derivatives that are left, and keeps those that it finds. */
+/* Computes all missing derivatives, and keeps those that it finds. */
 static icc_status look(search *s, double *derivatives)
 {
     job *j = s->j;

@@ -5,17 +5,18 @@
 #include "job/job.h"
 #include "mesh/mesh_carry.h"
 
-/* Carries them, once the vertices have images. Vertices whose `status` is not ICC_OK stay. */
+/* Carries them after the vertices have images. Vertices whose `status` is not ICC_OK stay. */
 int attached_carry(job *j, mesh_file *m, const double *images, const icc_status *status,
                    mesh_carried *out);
 
-/* Says if morph targets displace vertices to where there is no image. Then it returns PARTIAL. */
+/* Prints a message and returns PARTIAL if morph targets displace vertices to places without an
+ * image. */
 int attached_beyond(const job *j, const mesh_carried *c);
 
-/* Says which of them stay as `file` has them, and which are not exact. */
+/* Prints which of them stay as in `file`, and which are not exact. */
 void attached_tell(const char *file, const mesh_carried *c);
 
-/* Says which of them a pose does not carry. False: see `wrong`. */
+/* Prints which of them a pose does not carry. False: see `wrong`. */
 bool attached_left(mesh_file *m, const char *file, problem *wrong);
 
 #endif

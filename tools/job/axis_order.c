@@ -1,6 +1,6 @@
 /* Tells which reference systems of EPSG have latitude or northing first, by a table, as GDAL treats
- * them. PROJ's tinshift always has x (east) first, so programs that follow the system's order need a
- * step that swaps. */
+ * them. PROJ's tinshift always has x (east) first, so programs that follow the system's order need
+ * a step that swaps. */
 #include "job/axis_order.h"
 
 #include <ctype.h>

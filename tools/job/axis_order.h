@@ -8,7 +8,8 @@ typedef enum axis_order {
     AXES_UNKNOWN
 } axis_order;
 
-/* The order of a system's axes, from a code such as EPSG:4326 or a URN. Other names are unknown. */
+/* The order of a system's axes, from a code such as EPSG:4326 or a URN. For other names it is
+ * unknown. */
 axis_order axis_order_of(const char *crs);
 
 #endif

@@ -15,7 +15,7 @@ bool has_bound(const args *a, const command *c)
     return c->bit & FOR_POSE && a->binding != NULL;
 }
 
-/* The input at place `i`; false: there are not so many. */
+/* The input at place `i`. False if there are not so many. */
 static bool call_input(call_file *out, const args *a, const command *c, size_t i)
 {
     bool has_operand = (c->n_operands >= 2 || a->geojson) && !has_bound(a, c) && a->n_operands > 0;

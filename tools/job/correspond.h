@@ -1,12 +1,12 @@
-/* How source and target belong together. */
+/* Checks that source and target correspond. */
 #ifndef CORRESPOND_H
 #define CORRESPOND_H
 
 #include "job/job.h"
 
-/* Checks that the target has the source's dimension, vertices and facets; takes over the facets if
- * it has none of its own. Nothing to do without a target, or while a mask does not know its
- * boundary. Returns DONE, or FAILED with a line on stderr. */
+/* Checks that the target has the source's dimension, vertices and facets. A target without facets
+ * gets the source's. Does nothing without a target, or if a mask has no boundary yet. Returns DONE,
+ * or FAILED with a message on stderr. */
 int correspond(job *j);
 
 /* Gives a mask the vertices and facets of the boundary of its domain. */

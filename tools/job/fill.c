@@ -21,7 +21,7 @@ static bool by_tetgen(const job *j)
     return j->args->mesher == MESHER_TETGEN;
 }
 
-/* The library fills the surfaces of a map itself, but those of a chart only when it is told to. */
+/* The library fills the surfaces of a map by itself, but those of a chart only on request. */
 static bool wanted(const job *j)
 {
     bool suits = j->args->method == 0 || j->args->method == ICC_METHOD_FOLIATION;
@@ -46,7 +46,8 @@ static int check(const job *j)
     return DONE;
 }
 
-/* The cage without vertices that no facet has: a mesh need not have them either. To be freed. */
+/* A copy of the cage without vertices that belong to no facet, because a mesh need not have them
+ * either. Free it. */
 static cage used_part(const cage *c)
 {
     cage used = {.dim = c->dim, .n_facets = c->n_facets};
@@ -88,7 +89,7 @@ static int fill_by_tetgen(filling *out, job *j, const cage *c, size_t side)
                : failed(job_file(j, (int)side + 1), 0, "%s", wrong.text);
 }
 
-/* The mesh that is read, or tetgen's. */
+/* Makes a domain from the mesh that is read, or from tetgen's. */
 static int make_from(icc_domain **out, job *j, size_t side)
 {
     filling f = {0};

@@ -4,9 +4,9 @@
 
 #include "job/job.h"
 
-/* Makes the domains, with a mesh where the options ask for it: one that is given, or tetgen's; and
- * in space, where the method takes one, that of a cage without a target. Does nothing the second
- * time. Returns DONE, or FAILED with a line on stderr. */
+/* Makes the domains. They get a mesh if the options ask for it: a given one, or tetgen's. In space,
+ * a cage without a target also gets one if the method uses it. Does nothing the second time.
+ * Returns DONE, or FAILED with a message on stderr. */
 int fill_domains(job *j);
 
 #endif

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What making a chart or a map takes of the time that is left then. */
+/* The share of the remaining time that making a chart or a map takes. */
 static const double MADE = 0.8;
 
 void job_start(job *j, const args *a)
@@ -62,8 +62,8 @@ const char *job_message(const icc_error *err)
     return strncmp(text, side, strlen(side)) == 0 ? text + strlen(side) : text;
 }
 
-/* In the plane edge i begins at vertex i. Beyond, the index is that of a facet, unless the message
- * is about a vertex. */
+/* In the plane edge i begins at vertex i. In other dimensions the index is that of a facet, unless
+ * the message is about a vertex. */
 static size_t line_at_fault(const cage *c, const icc_error *err)
 {
     const char *text = job_message(err);
@@ -83,7 +83,7 @@ static size_t line_at_fault(const cage *c, const icc_error *err)
     return (of_face ? c->facet_lines : c->lines)[err->index];
 }
 
-/* The options that help if cages turn in opposite ways, or "". */
+/* The options that help if cages have opposite orientations, or "". */
 static const char *unlike_turn(const job *j, const icc_error *err)
 {
     return strstr(err->message, "turn the same way") == NULL ? ""
@@ -183,7 +183,7 @@ int job_make_map(job *j)
     return result;
 }
 
-/* Of holes that are filled only the outlines of polygons that lie in no hole are left. */
+/* If holes are filled, only the outlines of polygons that lie in no hole are left. */
 static icc_status add_to_carrier(const job *j, carrier *c)
 {
     bool inverse = j->args->inverse;

@@ -1,4 +1,4 @@
-/* What every command does first: read the cages, make domains, a chart or a map. */
+/* The first steps of every command: reading the cages, making domains, a chart or a map. */
 #ifndef JOB_H
 #define JOB_H
 
@@ -13,7 +13,7 @@
 
 #include <icc/icc.h>
 
-/* What file_read_chosen() gives. */
+/* The result of file_read_chosen(). */
 typedef struct source_file {
     char *text;
     size_t n;
@@ -25,81 +25,82 @@ typedef struct job {
     args own;
     progress bar;
     icc_env env;
-    const source_file *source; /* borrowed, where several jobs have one source; NULL: it is read */
+    const source_file *source; /* borrowed if several jobs have one source; NULL: it is read */
     cage cages[2];             /* source, target */
-    bool both;                 /* are in one file */
+    bool both;                 /* both cages are in one file */
     const icc_domain *domains[2];
-    icc_domain *made[2]; /* the same, but for those that are of `match` */
-    bool has_domains;    /* of all parts */
-    bool filled;         /* the domains: see job/fill.h */
+    icc_domain *made[2]; /* the domains that are not owned by `match` */
+    bool has_domains;    /* all parts have domains */
+    bool filled;         /* domains are made: see job/fill.h */
     icc_match *match;
     icc_match_info matched; /* size 0: the cages correspond as they are */
-    size_t function;        /* which of args->functions; the first unless there are several */
+    size_t function;        /* the number in args->functions; the first one unless there are
+                               several */
     icc_chart *chart;       /* of the source */
     icc_map *map;
-    char name[48];     /* of one polygon of several, as in "polygon 2: "; else "" */
-    cage_hole place;   /* the hole of another that it lies in */
-    size_t n_parts;    /* others: polygons, then insides of holes */
-    size_t n_polygons; /* all of them, with this one */
+    char name[48];     /* the name of one polygon of several, as in "polygon 2: "; else "" */
+    cage_hole place;   /* the hole of another polygon in which it lies */
+    size_t n_parts;    /* the others: polygons, then insides of holes */
+    size_t n_polygons; /* all polygons, including this one */
     struct job *parts;
     double started, seconds_read, seconds_made;
 } job;
 
-/* The functions below return DONE, or FAILED with a line on stderr. Each does what it needs unless
- * it has been done. A job is to be ended in any case. */
+/* The functions below return DONE, or FAILED with a message on stderr. Each does the steps that it
+ * needs unless they have been done. End the job in any case. */
 void job_start(job *j, const args *a);
 void job_end(job *j);
 
-/* Reads the source, and the target if there is one, and matches them if that is asked for; they
- * then correspond, unless the source is a mask. Where no target was named, and one is needed, or
- * the source has features, which only maps take, the source's file may hold both. */
+/* Reads the source and the target, if there is one, and matches them on request. Then they
+ * correspond, unless the source is a mask. The source's file may have both cages. That applies if
+ * no target was named and one is needed, or if the source has features, which only maps use. */
 int job_read_cages(job *j);
 
-/* Coordinates of a point, once the cages have been read. */
+/* The number of coordinates of a point. The cages must have been read. */
 size_t job_dim(const job *j);
 
-/* Reads the cages and makes their domains, those of all parts. A mask then has the vertices and facets of its
- * boundary. */
+/* Reads the cages and makes their domains, including those of all parts. A mask then has the
+ * vertices and facets of its boundary. */
 int job_make_domains(job *j);
 
-/* The domain of a polygon with what lies inside. */
+/* Makes the domain of a polygon with the features inside. */
 icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err);
 
 /* Reads the cages, which must be in the plane for `what`. */
 int job_read_plane(job *j, const char *what);
 
-/* All that, and the chart of the source. */
+/* Does all that, and makes the chart of the source. */
 int job_make_chart(job *j);
 
-/* All that, and the map from source to target, of each part. */
+/* Does all that, and makes the map from source to target of each part. */
 int job_make_map(job *j);
 
-/* A carrier from the side whose points are read to the other, once there is a map; to be freed in
- * any case. */
+/* Makes a carrier from the side of the points that are read to the other side. Needs a map. Free it
+ * in any case. */
 int job_start_carrier(job *j, carrier *c);
 
 typedef char side_text[64];
 
-/* The words that tell which cage of a file with several is meant: "source: ", "target: polygon 2: ",
- * or "". Returns `out`. */
+/* Tells which cage of a file with several is meant: "source: ", "target: polygon 2: ", or "".
+ * Returns `out`. */
 const char *job_side(side_text out, const job *j, int side);
 
-/* The library's message without the side in front, because job_side() names it. */
+/* The library's message without the side at its beginning, because job_side() names the side. */
 const char *job_message(const icc_error *err);
 
-/* Says what the library said, with the file and the line at fault; returns FAILED. */
+/* Prints the library's message with the file and the line at fault. Returns FAILED. */
 int job_failed(job *j, const icc_error *err);
 
-/* The same with more behind it. */
+/* Prints the same with a hint after it. */
 int job_failed_with(job *j, const icc_error *err, const char *hint);
 
-/* The same for a call that has no icc_error. */
+/* Prints the message of a call that has no icc_error. */
 int job_failed_status(job *j, icc_status status);
 
 /* The name of the source's or the target's file. */
 const char *job_file(const job *j, int side);
 
-/* Says how many points have no image, and returns PARTIAL; returns DONE when all have. */
+/* If points have no image, prints how many and returns PARTIAL; else returns DONE. */
 int job_partial(job *j, size_t n, const icc_status *status, const char *what);
 
 /* ---- the report of --json ---- */
@@ -109,14 +110,14 @@ typedef struct report {
     json json;
 } report;
 
-/* Begins a report with what is known of every job. False: said why. */
+/* Begins a report with the members that every job has. False: a message is on stderr. */
 bool report_open(report *r, const job *j);
 bool report_close(report *r);
 
-/* How long it took to read, to make a map, and to map. */
+/* Reports how long it took to read, to make a map, and to map. */
 void report_times(report *r, const job *j, double apply);
 
-/* Most commands report how many points they mapped, how many of these failed, and how long it took.
+/* Reports how many points were mapped, how many failed, and how long it took, as most commands do.
  * Does nothing without --json. */
 int report_points(const job *j, size_t n, size_t n_failed, double seconds);
 

@@ -1,4 +1,4 @@
-/* Files to cages, and cages to domains. */
+/* Makes cages from files, and domains from cages. */
 #include "job/job.h"
 
 #include "base/allocate.h"
@@ -15,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Both cages are welded in one way, so that they go on to correspond if they did. The target may be
- * the vertices alone of what the source has become. */
+/* Both cages are welded in the same way, so that they still correspond if they did before. The
+ * target may have only vertices; its faces are those of the welded source. */
 static int join_vertices(job *j, size_t side)
 {
     cage *c = &j->cages[side];
@@ -28,7 +28,7 @@ static int join_vertices(job *j, size_t side)
     return DONE;
 }
 
-/* If y points down in one of two cages, reverses its y, so both turn the same way. */
+/* If y points down in one of two cages, reverses its y, so that both have the same orientation. */
 static int flip_cage(job *j, size_t side)
 {
     cage *c = &j->cages[side];
@@ -41,8 +41,8 @@ static int flip_cage(job *j, size_t side)
     return DONE;
 }
 
-/* The curves of one cage are cut into no fewer edges than those of the other, if that has been read
- * and both are to correspond. */
+/* Reads a cage. If both cages are to correspond, its curves are cut into at least as many edges as
+ * those of the other one, if that has been read. */
 static int read_cage(job *j, size_t side, const char *named, const char *text, size_t n)
 {
     problem wrong;
@@ -62,8 +62,8 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
                   wrong.text);
 }
 
-/* The target from its own file, or, where it was left out, from that of the source, if it has one.
- * A source without features may do without, even if there is one. */
+/* Reads the target from its own file. If none is given, reads it from the source's file, if that
+ * has one. A source without features may stay without a target even so. */
 static int read_target(job *j, const char *text, size_t n)
 {
     args *a = &j->own;
@@ -84,7 +84,7 @@ static int read_target(job *j, const char *text, size_t n)
     return result;
 }
 
-/* The source anew, if curves of the target have taken more edges than its own. */
+/* Reads the source again if curves of the target needed more edges than its own. */
 static int read_source_again(job *j, const char *named, const char *text, size_t n)
 {
     cage *c = &j->cages[0];
@@ -105,7 +105,7 @@ static int check_curves(const job *j)
                : DONE;
 }
 
-/* Points of options must have as many coordinates as the cage. */
+/* Points in options must have as many coordinates as the cage. */
 static int check_points(job *j)
 {
     const args *a = j->args;
@@ -124,7 +124,7 @@ static int check_points(job *j)
     return DONE;
 }
 
-/* A boundary that is no boundary: names the first defect by its line, and counts the others. */
+/* Reports an invalid boundary: names the line of the first defect and counts the others. */
 static int failed_boundary(job *j, size_t side, const icc_error *err)
 {
     const cage *c = &j->cages[side];
@@ -143,7 +143,7 @@ static int failed_boundary(job *j, size_t side, const icc_error *err)
     return FAILED;
 }
 
-/* A surface that is none: perhaps only because its faces do not share their vertices. */
+/* Reports an invalid surface. The reason may only be that its faces do not share their vertices. */
 static int failed_surface(job *j, size_t side, const icc_error *err)
 {
     char hint[120] = "";
@@ -234,7 +234,7 @@ int job_read_plane(job *j, const char *what)
     return result;
 }
 
-/* The domain of a mask knows what its boundary is. */
+/* Makes the source's domain. The domain of a mask finds its boundary. */
 static int make_source(job *j)
 {
     int result = make_domain(j, 0);
@@ -244,7 +244,7 @@ static int make_source(job *j)
     return correspond(j);
 }
 
-/* Says what may surprise only after success, so that an error is one line. */
+/* Prints remarks that may surprise, only after success, so that an error is one line. */
 static void note_all(const job *j)
 {
     match_note(j);

@@ -1,6 +1,6 @@
-/* The georeferencer's files (QGIS, QgsGCPList): lines that begin with # about the reference system,
- * a heading, and a row for each pair of points, with commas between. The second point is named
- * first; before version 3.26 the columns of the first are called pixelX and pixelY. */
+/* The georeferencer's files (QGIS, QgsGCPList): lines that begin with # name the reference system,
+ * then a heading, then a row for each pair of points, with commas between. The second point comes
+ * first. Before version 3.26 the columns of the first point are called pixelX and pixelY. */
 #include "job/landmark_file.h"
 
 #include "base/file.h"
@@ -18,7 +18,7 @@ static const char *skip_line(const char *p, size_t *line)
     return p + (*p == '\n');
 }
 
-/* The line behind the heading, or NULL if these are other landmarks. */
+/* The line after the heading, or NULL if these are other landmarks. */
 static const char *find_rows(const char *text, size_t *line)
 {
     const char *p = strncmp(text, "\xef\xbb\xbf", 3) == 0 ? text + 3 : text;
@@ -30,7 +30,7 @@ static const char *find_rows(const char *text, size_t *line)
     return heads ? skip_line(p, line) : NULL;
 }
 
-/* One row; what stands behind its first columns says how well QGIS fits it. */
+/* Reads one row. The columns after the first ones tell how well QGIS fits it. */
 static bool read_row(const char *p, size_t line, double row[N_COLUMNS], problem *wrong)
 {
     char shown[32];

@@ -1,15 +1,15 @@
-/* Landmarks: pairs of points that go together, a line each. */
+/* Landmarks: pairs of corresponding points, one pair in a line. */
 #ifndef LANDMARK_FILE_H
 #define LANDMARK_FILE_H
 
 #include "base/table.h"
 
-/* Reads rows of a point and its partner, of `dim` coordinates each, or, in the plane, what the
- * georeferencer of QGIS saves (.points), whose points that are not enabled are left out, from
- * text[0..n), with text[n] == '\0'. False: see `wrong`. The table is to be freed in either case. */
+/* Reads rows of a point and its partner, of `dim` coordinates each, from text[0..n), with text[n]
+ * == '\0'. In the plane it also reads files of the QGIS georeferencer (.points), where points that
+ * are not enabled are skipped. False: see `wrong`. Free the table in either case. */
 bool landmarks_decode(table *out, const char *text, size_t n, size_t dim, problem *wrong);
 
-/* The same from a file. The table is to be freed if it is DONE; else said why. */
+/* Reads a file. If it is DONE, free the table; otherwise a message is on stderr. */
 int landmarks_read(table *out, const char *name, size_t dim);
 
 #endif

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What matching takes of the time that is left then. */
+/* The share of the remaining time that matching takes. */
 static const double MATCHED = 0.2;
 
 /* In degrees. A larger turn is rarely meant. */
@@ -32,7 +32,8 @@ int match_check(const job *j)
     return DONE;
 }
 
-/* Landmarks are told by their lines; vertices by the cage, once they are common ones by number. */
+/* Reports a refused match. Landmarks are named by their lines. Vertices are named by the cage, if
+ * they are common vertices, by number. */
 static int refuse(job *j, icc_error *err, const table *landmarks)
 {
     progress_end(&j->bar);
@@ -49,7 +50,7 @@ static int refuse(job *j, icc_error *err, const table *landmarks)
                                : " (--landmarks FILE, or --match arc)");
 }
 
-/* The feature of a cage that a vertex of its domain is of. */
+/* The feature of a cage to which a vertex of its domain belongs. */
 static const cage_feature *feature_of(const cage *c, size_t vertex)
 {
     size_t end = c->n;
@@ -59,7 +60,7 @@ static const cage_feature *feature_of(const cage *c, size_t vertex)
     return f;
 }
 
-/* Holes, lines and points of one side, with their numbers in the source. */
+/* Takes the holes, lines and points of one side, with their numbers in the source. */
 static void take_features(cage *common, const cage *given, const cage *source,
                           const icc_domain *domain, const double *points, const uint32_t *origin)
 {
@@ -80,7 +81,7 @@ static void take_features(cage *common, const cage *given, const cage *source,
     }
 }
 
-/* What is told of its vertices and faces has no line. */
+/* The vertices and faces have no lines for messages. */
 static cage common_surface(const icc_domain *domain, const icc_domain_info *size)
 {
     cage c = {.dim = 3, .n = size->n_vertices, .n_facets = size->n_facets};

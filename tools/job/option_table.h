@@ -1,4 +1,4 @@
-/* The options of the command: one table for reading them and for telling about them. */
+/* The options of the command: one table for reading and for documenting them. */
 #ifndef OPTION_TABLE_H
 #define OPTION_TABLE_H
 
@@ -11,22 +11,22 @@ typedef enum option_kind {
     OPTION_LENGTH, /* double above 0 (or 0 with `zero`), and at most `most` unless that is 0 */
     OPTION_CHOICE, /* int32_t, by name */
     OPTION_FUNCTIONS,
-    OPTION_POINT,       /* double[ICC_MAX_DIM], and a size_t: how many there are */
-    OPTION_COLOUR,      /* unsigned char[4], and a bool that it is there */
-    OPTION_REPORT,      /* bool, and a const char * when =FILE follows */
-    OPTION_WITH_LENGTH, /* bool, and a double when =LENGTH follows */
-    OPTION_WITH_CHOICE, /* bool, and an int32_t when =NAME follows */
+    OPTION_POINT,       /* double[ICC_MAX_DIM], and a size_t for their number */
+    OPTION_COLOUR,      /* unsigned char[4], and a bool that is true if it is given */
+    OPTION_REPORT,      /* bool, and a const char * if =FILE follows */
+    OPTION_WITH_LENGTH, /* bool, and a double if =LENGTH follows */
+    OPTION_WITH_CHOICE, /* bool, and an int32_t if =NAME follows */
     OPTION_HELP
 } option_kind;
 
-/* A name that an option takes; value 0: known, but not in this version. */
+/* A name that an option accepts. Value 0: known, but not in this version. */
 typedef struct choice {
     const char *name;
     int32_t value;
 } choice;
 
 typedef struct option {
-    const char *name, *former; /* former: a spelling that is still taken, or NULL */
+    const char *name, *former; /* former: an older spelling that is still accepted, or NULL */
     char letter;
     option_kind kind;
     unsigned commands;
@@ -34,8 +34,8 @@ typedef struct option {
     int32_t low, high;
     double most;
     bool zero;
-    bool quiet_letter; /* the letter works, but help does not list it */
-    bool papers;       /* of the papers' method alone, listed after the others */
+    bool quiet_letter; /* the letter works, but the help does not list it */
+    bool papers;       /* for the papers' method only, listed after the others */
     const choice *choices;
     const char *value, *help;
 } option;
@@ -43,10 +43,10 @@ typedef struct option {
 extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
     weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[];
 
-/* The name of a value that the library gave. */
+/* The name of a value that the library returned. */
 const char *choice_name(const choice *choices, int32_t value);
 
-/* Whether a value follows as a word of its own. */
+/* True if a value follows as a separate word. */
 bool option_takes_word(const option *o);
 
 extern const option options[];

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Formats, and the extensions of their files with blanks between. Of most of them none is ever
+/* Formats, and the extensions of their files with blanks between. Most of these formats are never
  * written. */
 static const struct {
     const char *name, *extensions;
@@ -96,7 +96,7 @@ static bool is_same_letter(char a, char b)
     return (a >= 'A' && a <= 'Z' ? a | 0x20 : a) == b;
 }
 
-/* Whether one of the words of `list` is `word`, in capitals or not. */
+/* True if `word` is one of the words of `list`, ignoring case. */
 static bool is_listed(const char *word, const char *list)
 {
     while (*list != '\0') {

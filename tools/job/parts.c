@@ -16,7 +16,7 @@ static size_t count_polygons(const cage *c)
     return c->dim == 0 ? 0 : 1 + c->n_more;
 }
 
-/* What keeps the cages from having a map for each polygon. */
+/* Reports why the cages cannot have a map for each polygon. */
 static int check_cages(const job *j)
 {
     const args *a = j->args;
@@ -56,7 +56,7 @@ static void add_ring(cage *c, int32_t kind, size_t n, const double *points)
         cage_add_feature(c, kind, (int64_t)c->n_features + 1, first);
 }
 
-/* What lies in a hole: its ring, and as holes of its own the polygons right in it. */
+/* Makes the inside of a hole: its ring, with the polygons directly in it as holes. */
 static void fill_hole(cage *out, const cage *all, const cage_hole *nesting, cage_hole place)
 {
     const cage_feature *hole = &cage_polygon(all, place.polygon)->features[place.hole];
@@ -76,7 +76,8 @@ static job *add_part(job *j)
     return part;
 }
 
-/* One for each polygon behind the first, which takes it over, and for each hole to be filled. */
+/* Makes a part for each polygon after the first, which it takes over, and for each hole to be
+ * filled. */
 static void make_parts(job *j, const cage_hole *nesting)
 {
     size_t n = j->cages[0].n_more, n_holes = 0, n_filled = 0;
@@ -114,7 +115,7 @@ static const job *part_of(const job *j, size_t k)
     return k == 0 ? j : &j->parts[k - 1];
 }
 
-/* Whether a point is in a polygon and in none of its holes. */
+/* True if a point is in a polygon and in none of its holes. */
 static bool polygon_holds(const cage *c, const double *point)
 {
     bool holds = ring_holds(c->n, c->points, point);
@@ -124,7 +125,8 @@ static bool polygon_holds(const cage *c, const double *point)
     return holds;
 }
 
-/* The part that a feature begins in; the first if there is none, which will be refused there. */
+/* The part that contains the beginning of a feature. If there is none, the first part, which will
+ * then refuse it. */
 static size_t find_part(const job *j, size_t side, const double *point)
 {
     for (size_t k = 0; k <= j->n_parts; k++)
@@ -133,14 +135,15 @@ static size_t find_part(const job *j, size_t side, const double *point)
     return 0;
 }
 
-/* Puts a feature at the end of a part's. */
+/* Adds a feature at the end of a part's features. */
 static void move_feature(cage *to, cage_feature *f)
 {
     to->features = grow(to->features, &to->room_features, to->n_features + 1, sizeof *to->features);
     to->features[to->n_features++] = *f;
 }
 
-/* Lines and points, all of which have been read to the first polygon, go where they are. */
+/* Moves lines and points, which have all been read to the first polygon, to the polygons that
+ * contain them. */
 static int share_features(job *j)
 {
     size_t n_holes = cage_count(&j->cages[0], ICC_FEATURE_HOLE), n = j->cages[0].n_features;
@@ -225,10 +228,11 @@ int parts_make(job *j)
 typedef struct ring_list {
     size_t n;
     icc_feature *rings;
-    size_t *polygons; /* whose they are */
+    size_t *polygons; /* the polygon of each ring */
 } ring_list;
 
-/* Rings as holes of an outer one: the library says exactly whether they lie in it and apart. */
+/* Takes rings as holes of an outer one. The library then decides exactly if they lie in it and do
+ * not meet. */
 static int check_apart(job *j, size_t side, size_t n, const double *outer, const ring_list *list)
 {
     icc_domain *domain = NULL;
@@ -259,7 +263,7 @@ static void list_ring(ring_list *list, const cage *c, size_t polygon)
                                            .vertices = c->points};
 }
 
-/* A box far round all polygons. */
+/* A box far around all polygons. */
 static void box_round(double out[8], const job *j, size_t side, size_t n_polygons)
 {
     double lower[2] = {HUGE_VAL, HUGE_VAL}, upper[2] = {-HUGE_VAL, -HUGE_VAL};
@@ -276,8 +280,8 @@ static void box_round(double out[8], const job *j, size_t side, size_t n_polygon
     memcpy(out, box, sizeof box);
 }
 
-/* The polygons that lie in no hole must be apart, and so must those in the same hole. The inside of
- * a hole that is filled is a polygon itself, which has been checked. */
+/* Polygons that lie in no hole must not meet, nor polygons in the same hole. The inside of a filled
+ * hole is a polygon itself, which has been checked. */
 static int check_side(job *j, size_t side)
 {
     size_t n = j->n_polygons;

@@ -1,15 +1,15 @@
-/* Shapes of several polygons: each has a map of its own. */
+/* Shapes of several polygons: each polygon has its own map. */
 #ifndef PARTS_H
 #define PARTS_H
 
 #include "job/job.h"
 
-/* Once the cages have been read: makes sure that they correspond, polygon by polygon, and makes a
- * part of the job of each but the first; with --fill-holes also of what lies in each hole. Lines and
- * points go to the polygon that they lie in. */
+/* Checks that the cages correspond, polygon by polygon, after they have been read. Makes a part of
+ * the job for each polygon except the first. With --fill-holes it also makes one for the inside of
+ * each hole. Lines and points go to the polygon in which they lie. */
 int parts_make(job *j);
 
-/* Whether the polygons of each side are apart from one another, exactly, once all have domains. */
+/* Checks that the polygons of each side do not meet one another, exactly. All must have domains. */
 int parts_check(job *j);
 
 #endif

@@ -55,7 +55,7 @@ int ties_check(job *j)
 
 /* ------------------------------------------------------------------ writing */
 
-/* A line, a point or a tie. */
+/* Writes a line, a point or a tie. */
 static void write_feature(FILE *stream, const cage *c, const cage_feature *f, cage_role role)
 {
     bool is_point = f->kind == ICC_FEATURE_POINT;

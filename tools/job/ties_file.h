@@ -1,18 +1,18 @@
-/* The ties of a map: which way round one another what is inside the cages goes. */
+/* The ties of a map: they say on which side it passes the features inside the cages. */
 #ifndef TIES_FILE_H
 #define TIES_FILE_H
 
 #include "job/job.h"
 
-/* The ties of a map, as those of one of its cages; 1 source, 2 target. */
+/* The ties of a map, as those of one of its cages: 1 for the source, 2 for the target. */
 size_t ties_of_map(const icc_map *map, const icc_domain *domain, int side, cage_feature **ties);
 void ties_free(size_t n, cage_feature *ties);
 
-/* Whether the cages are such that the file of --ties, if it was given, can be written. */
+/* Checks that the file of --ties, if given, can be written for these cages. */
 int ties_check(job *j);
 
-/* Writes the file of --ties, if it was given, once there is a map: both cages with what is inside and
- * the ties, as GeoJSON that --source takes. */
+/* Writes the file of --ties, if given, for the map. It has both cages with their features and ties,
+ * as GeoJSON that --source accepts. */
 int ties_write(const job *j);
 
 #endif

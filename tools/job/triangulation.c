@@ -1,5 +1,5 @@
-/* The mesh of a map as PROJ's method "tinshift" reads it: a triangulation file in JSON, version 1.1.
- * https://proj.org/en/stable/operations/transformations/tinshift.html */
+/* Writes the mesh of a map as PROJ's method "tinshift" reads it: a triangulation file in JSON,
+ * version 1.1. https://proj.org/en/stable/operations/transformations/tinshift.html */
 #include "job/triangulation.h"
 
 #include "base/allocate.h"
@@ -57,7 +57,8 @@ static size_t count_spoilt(const job *j, size_t *n_all)
     return n;
 }
 
-/* Column by column, as "vertices_columns" and "triangles_columns" say; one part behind the other. */
+/* Writes the columns that "vertices_columns" and "triangles_columns" name, one part after the
+ * other. */
 static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh *meshes)
 {
     const char *comma = "";
@@ -84,8 +85,8 @@ static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh 
     fputs("]\n}\n", stream);
 }
 
-/* Says if a system has y first, or may have. Programs that follow the system's order of axes must
- * then swap before or after the file, which has x first. */
+/* Prints a remark if a system has y first, or may have. The file has x first. Programs that follow
+ * the system's order of axes must then swap coordinates before and after it. */
 static void note_axes(const args *a)
 {
     static const char swap[] = " +step +proj=axisswap +order=2,1";

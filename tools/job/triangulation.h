@@ -1,16 +1,16 @@
-/* The triangles of a map in the plane, for other programs. */
+/* Writes the triangles of a plane map for other programs. */
 #ifndef TRIANGULATION_H
 #define TRIANGULATION_H
 
 #include "job/job.h"
 
-/* Whether the cages are such that --triangulation, if it was given, can be written. */
+/* Checks that --triangulation, if given, can be written for these cages. */
 int triangulation_check(job *j);
 
-/* Writes the file of --triangulation, if it was given, once there is a map. */
+/* Writes the file of --triangulation, if given, for the map. */
 int triangulation_write(const job *j);
 
-/* Says how many of the triangles written are not positive. Returns PARTIAL if there are any. */
+/* Prints how many of the written triangles are not positive. Returns PARTIAL if there are any. */
 int triangulation_tell(const job *j);
 
 #endif

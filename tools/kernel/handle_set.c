@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* The first handle decides between the plane and space. */
+/* Reads the handles. The first one decides between the plane and space. */
 static bool read_handles(handle_set *set, const cJSON *list, problem *wrong)
 {
     int n_coordinates = cJSON_GetArraySize(cJSON_GetArrayItem(list, 0));
@@ -19,8 +19,8 @@ static bool read_handles(handle_set *set, const cJSON *list, problem *wrong)
     return json_points(list, "handles", set->dim, &set->n_handles, &set->handles, wrong);
 }
 
-/* One of "lines". A parallel line may refer to earlier ones only, counted from 0 in the file and
- * from 1 in icc_line, where 0 means none. */
+/* Reads one of "lines". A parallel line may only refer to earlier ones. They count from 0 in the
+ * file and from 1 in icc_line, where 0 means none. */
 static bool read_line(handle_set *set, size_t i, const cJSON *item, problem *wrong)
 {
     static const char *const members[] = {"from", "to", "parallel", NULL};
@@ -152,8 +152,8 @@ static bool read_paint(handle_set *set, const cJSON *list, problem *wrong)
     return true;
 }
 
-/* One of "rigid": an outline or a ball, never both, and how stiff it is compared with the others.
- */
+/* Reads one of "rigid": an outline or a ball, never both, and its stiffness compared with the
+ * others. */
 static bool read_part(rigid_part *part, const cJSON *item, const char *where, size_t dim,
                       problem *wrong)
 {

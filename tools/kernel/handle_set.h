@@ -1,5 +1,5 @@
-/* Handles and what goes with them, from JSON: where they are, the edges between them, lines to keep
- * straight, further regions and curves of the shape, weights to be painted, rigid parts. */
+/* Handles and related data from JSON. They include places, edges between handles, lines to keep
+ * straight, further regions and curves of the shape, weights to be painted, and rigid parts. */
 #ifndef HANDLE_SET_H
 #define HANDLE_SET_H
 
@@ -13,17 +13,19 @@ typedef struct outline {
     double *points; /* n * 2 */
 } outline;
 
-/* What lies in a polygon of the plane, or in a ball. */
+/* The inside of a plane polygon, or of a ball. */
 typedef struct rigid_part {
-    outline region; /* of 0 points: the ball */
+    outline region; /* 0 points: the ball */
     double centre[3], radius, rigidity;
 } rigid_part;
 
-/* More weight for a handle, less and less towards the radius; or all within it starts anew. */
+/* A stroke gives a handle more weight, less and less towards the radius. Or it replaces all weights
+ * within the radius. */
 typedef struct stroke {
     uint32_t handle;
     double centre[3], radius, amount;
-    double *weights; /* n_handles, which are optimised; NULL: handle and amount count */
+    double *weights; /* n_handles weights, which are then optimised; if NULL, handle and amount
+                        are used */
 } stroke;
 
 typedef struct handle_set {
@@ -51,8 +53,8 @@ typedef struct handle_set {
 bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong);
 void handle_set_free(handle_set *set);
 
-/* Reads a pose, {"transforms": [..]} or {"moves": [..]}: n_handles * dim * (dim + 1) numbers, made
- * with need(), or NULL. `handles` are where the handles are at rest. */
+/* Reads a pose, {"transforms": [..]} or {"moves": [..]}. Returns n_handles * dim * (dim + 1)
+ * numbers, made with need(), or NULL. `handles` are the places of the handles at rest. */
 double *pose_read(size_t dim, size_t n_handles, const double *handles, const char *text, size_t n,
                   problem *wrong);
 

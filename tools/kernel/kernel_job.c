@@ -25,8 +25,8 @@ void kernel_job_end(kernel_job *k)
     job_end(&k->job);
 }
 
-/* What the library says of something in the handles' file, called `what` if the message does
- * not. */
+/* Reports the library's message about an entry of the handles' file. `what` names the entry if the
+ * message does not. */
 static int failed_set(kernel_job *k, const char *what, const icc_error *err)
 {
     progress_end(&k->job.bar);
@@ -47,7 +47,7 @@ static int read_set(kernel_job *k)
     return good ? DONE : failed(name, wrong.line, "%s", wrong.text);
 }
 
-/* The source may be missing where the handles' file has a shape. */
+/* The source may be missing if the handles' file has a shape. */
 static int read_shape(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -80,7 +80,7 @@ static int read_shape(kernel_job *k)
 }
 
 /* Spreads samples over the regions of --source and of the handles' file together. Errors name the
- * file of --source when there is nothing else, otherwise the handles' file. */
+ * file of --source if it is the only one, otherwise the handles' file. */
 static int make_samples(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -113,8 +113,8 @@ static int make_samples(kernel_job *k)
                                                          : failed_set(k, "", &err);
 }
 
-/* Options as on the command line; --thesis takes what the thesis does where that differs from the
- * library's defaults. */
+/* Makes weights with the options of the command line. --thesis follows the thesis where that
+ * differs from the library's defaults. */
 static int make_weights(kernel_job *k)
 {
     const handle_set *set = &k->set;
@@ -156,7 +156,7 @@ static int make_edges_linear(kernel_job *k)
     return DONE;
 }
 
-/* Whether a node lies in a ball. */
+/* True if a node lies in a ball. */
 static bool in_ball(const kernel_job *k, const double *node, const double *centre, double radius)
 {
     double squared = 0;
@@ -165,7 +165,7 @@ static bool in_ball(const kernel_job *k, const double *node, const double *centr
     return squared <= radius * radius;
 }
 
-/* All nodes within a stroke start from its weights, and are optimised again. */
+/* All nodes within a stroke get its weights as a start, and are optimised again. */
 static icc_status repaint(icc_weights **out, kernel_job *k, const stroke *by, size_t n,
                           const uint32_t *nodes, icc_error *err)
 {
@@ -214,7 +214,7 @@ static int paint(kernel_job *k)
     return result;
 }
 
-/* Which of n nodes a rigid part holds. */
+/* Marks which of n nodes a rigid part contains. */
 static icc_status find_part(const kernel_job *k, const rigid_part *part, size_t n,
                             const double *nodes, bool *inside, icc_error *err)
 {
@@ -235,7 +235,7 @@ static icc_status find_part(const kernel_job *k, const rigid_part *part, size_t 
     return status;
 }
 
-/* The rigidity of each node, 0 where it is in no part; of several parts the greatest counts. */
+/* Finds the rigidity of each node. It is 0 in no part, and the greatest one in several parts. */
 static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *rigidity)
 {
     bool *inside = need(n, sizeof *inside);
@@ -261,8 +261,8 @@ static int find_rigidity(kernel_job *k, size_t n, const double *nodes, double *r
     return result;
 }
 
-/* Replaces the weights by stiffened ones. `rigidity` is of each of n nodes first, then of the
- * n_stiff nodes that `stiff` lists. */
+/* Replaces the weights by stiffened ones. `rigidity` has the values of n nodes, then those of the
+ * n_stiff nodes in `stiff`. */
 static int stiffen(kernel_job *k)
 {
     icc_weights_info info = {.size = sizeof info};

@@ -1,4 +1,5 @@
-/* What `weights` and `pose` do first: read shape and handles, spread samples, make weights. */
+/* The first steps of `weights` and `pose`: reading shape and handles, spreading samples, making
+ * weights. */
 #ifndef KERNEL_JOB_H
 #define KERNEL_JOB_H
 
@@ -10,22 +11,22 @@
 typedef struct kernel_job {
     job job;
     handle_set set;
-    icc_domain **regions; /* those of the handles' file */
+    icc_domain **regions; /* the regions of the handles' file */
     icc_sampling *sampling;
     icc_weights *weights;
     double energy[2]; /* of the rigid parts, before and after */
     double seconds_samples, seconds_weights, seconds_rigid;
 } kernel_job;
 
-/* As job_start() and so on. Reading comes first, so that a mistake in a file is reported at
+/* Like job_start() and so on. Files are read first, so that a mistake in a file is reported at
  * once. */
 void kernel_job_start(kernel_job *k, const args *a);
 int kernel_job_read(kernel_job *k);
 int kernel_job_make(kernel_job *k);
 void kernel_job_end(kernel_job *k);
 
-/* The report of --json up to what the command itself has to add: what was made, and how good the
- * weights are at n finite points. */
+/* Begins the report of --json with what was made and how good the weights are at n finite points.
+ * The command adds its own members. */
 int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points);
 
 #endif

@@ -5,10 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* A node this close to an edge, in the edge's length, is on it. */
+/* A node this close to an edge, as a share of the edge's length, is on it. */
 static const double ON_EDGE = 1e-9;
 
-/* Whether a node is on an edge between its ends, and the share of the way from the first. */
+/* True if a node is on an edge between its ends. *share is its place from the first end. */
 static bool is_on_edge(const handle_set *set, size_t edge, const double *node, double *share)
 {
     const double *from = set->handles + set->dim * set->edges[2 * edge];

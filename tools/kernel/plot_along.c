@@ -8,7 +8,7 @@
 
 enum { WIDTH = 640, HEIGHT = 360, LEFT = 56, TOP = 20, BOTTOM = 34, COLUMN = 26, ROWS = 21 };
 
-/* What the axes show: levels from `low` to `high`. */
+/* The contents of the axes: levels from `low` to `high`. */
 typedef struct chart {
     FILE *svg;
     size_t n, m;
@@ -28,7 +28,7 @@ static double y_of(const chart *c, double level)
     return TOP + HEIGHT * (1 - fmin(fmax(share, 0), 1));
 }
 
-/* Tenths as far as the weights go, and at least from 0 to 1. */
+/* Chooses tenths as far as the weights go, at least from 0 to 1. */
 static void find_range(chart *c)
 {
     c->low = 0;
@@ -70,7 +70,7 @@ static void draw_axes(const chart *c)
             TOP + HEIGHT, LEFT + WIDTH);
 }
 
-/* Runs of one sign, so that in logarithmic scale negative weights can be dotted. */
+/* Draws runs of one sign, so that negative weights can be dotted on a logarithmic scale. */
 static void draw_curve(const chart *c, size_t handle)
 {
     char colour[8];
@@ -92,7 +92,7 @@ static void draw_curve(const chart *c, size_t handle)
     free(line);
 }
 
-/* Numbers of handles in the colours of their curves, in columns. */
+/* Draws the numbers of handles in the colours of their curves, in columns. */
 static void draw_names(const chart *c)
 {
     char colour[8];

@@ -9,7 +9,7 @@
 enum { SIZE = 560, MARGIN = 24, LEGEND = 92, BATCH = 4096 };
 static const double curve_width = 9;
 
-/* The shape's bounding box in a drawing. */
+/* The place of the shape's bounding box in a drawing. */
 typedef struct sheet {
     kernel_job *job;
     FILE *svg;
@@ -97,7 +97,7 @@ static void write_curves(const sheet *s)
                       set->vertices + 2 * set->segments[2 * i + 1]);
 }
 
-/* What is drawn of the raster: regions, and curves with some width. */
+/* Draws the mask of the raster: regions, and curves with some width. */
 static void draw_mask(const sheet *s)
 {
     fputs("<mask id=\"shape\" maskUnits=\"userSpaceOnUse\" x=\"0\" y=\"0\" width=\"100%\" "
@@ -112,8 +112,8 @@ static void draw_mask(const sheet *s)
     fputs("\"/></mask>\n", s->svg);
 }
 
-/* Regions, edges between handles, lines that stay straight and handles, over the picture of the
- * weight. The handle whose weight is shown is red. */
+/* Draws regions, edges between handles, lines that stay straight, and handles over the picture of
+ * the weight. The handle of the weight is red. */
 static void draw_structure(const sheet *s)
 {
     const handle_set *set = &s->job->set;
@@ -141,8 +141,8 @@ static void draw_structure(const sheet *s)
 
 /* ------------------------------------------------------------------ raster */
 
-/* How much of a pixel an isoline covers that is one pixel wide; the distance to it is by the
- * gradient. */
+/* The share of a pixel that an isoline of one pixel's width covers. The gradient gives the distance
+ * to the line. */
 static double isoline(const sheet *s, double weight, const double gradient[2])
 {
     double steps = s->logarithmic ? DECADES : 10;
@@ -163,8 +163,8 @@ static void paint(const sheet *s, uint16_t *to, double weight, const double grad
         to[k] = (uint16_t)(shade * rgb[k] + 0.5);
 }
 
-/* Evaluates the weight at pixel centres, in batches that bound the memory for n_handles weights
- * and gradients each. */
+/* Evaluates the weight at pixel centres. Batches limit the memory for n_handles weights and
+ * gradients each. */
 static icc_status fill(const sheet *s, picture *image)
 {
     size_t m = s->job->set.n_handles, n = image->width * image->height;
@@ -205,7 +205,7 @@ static int draw_raster(const sheet *s)
 
 /* ------------------------------------------------------------------ legend */
 
-/* A bar with the picture's colours beside it, linear or by powers of ten. */
+/* Draws a bar with the picture's colours beside it, linear or by powers of ten. */
 static int draw_legend(const sheet *s)
 {
     double x = s->width + 2 * MARGIN, size = fmin(s->height, 300);

@@ -1,6 +1,6 @@
-/* Poses that are one-to-one. Kernel coordinates say where the outline goes, the handles inside, and
- * other places inside round which they do not fold; a certified map of the shape with all of these
- * as its points does the rest. */
+/* Poses that are one-to-one. Kernel coordinates give the images of the outline, of the handles
+ * inside, and of other places inside where they do not fold. A certified map of the shape with all
+ * of these as its points does the rest. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"
@@ -14,15 +14,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the outline bends, it may be off by such a share of the shape's size unless an option says
- * otherwise. */
+/* The tolerance for bends of the outline, as a share of the shape's size, unless an option gives
+ * one. */
 static const double TOLERANCE = 1e-3;
 
-/* Where it meets itself, small loops may go away when it is followed less closely: by so many times
- * each, up to so much. */
+/* If the outline meets itself, small loops may disappear when it is followed less closely. The
+ * tolerance grows by this factor each time, up to this share. */
 static const double COARSER = 4, COARSEST = 0.2;
 
-/* The shape must be one region: a map goes from one polygon to another. */
+/* The shape must be one region, because a map goes from one polygon to another. */
 int pose_certified_check(const pose *p)
 {
     const handle_set *set = &p->kernel.set;
@@ -39,7 +39,7 @@ int pose_certified_check(const pose *p)
 
 /* ---------------------------------------------------------------------- map */
 
-/* The handles that are not on the outline, at rest and where their transforms take them. */
+/* Adds the handles that are not on the outline, at rest and posed. */
 static void take_handles(posed_places *in, const pose *p, const bool *on_ring)
 {
     for (size_t h = 0; h < p->kernel.set.n_handles; h++) {
@@ -51,7 +51,7 @@ static void take_handles(posed_places *in, const pose *p, const bool *on_ring)
     }
 }
 
-/* What keeps the handles from being points of a map, by their numbers. */
+/* Reports why the handles cannot be points of a map, by their numbers. */
 static int failed_handle(pose *p, const posed_places *in, const icc_error *err)
 {
     progress_end(&p->kernel.job.bar);
@@ -84,8 +84,8 @@ static icc_status make_sides(icc_domain *sides[2], const pose *p, const posed_ou
     return status;
 }
 
-/* The map of the outline and what is inside, if it can be certified and has at most so many times
- * the energy of what there is. */
+/* Makes the map of the outline and the places inside. It is accepted if it is certified and its
+ * energy is at most `times` the present one. */
 static icc_status try_map(pose *p, const posed_outline *ring, const posed_places *in, double times,
                           icc_error *err)
 {
@@ -112,8 +112,8 @@ static icc_status try_map(pose *p, const posed_outline *ring, const posed_places
     return status;
 }
 
-/* The places of the pose are followed unless the energy is then so many times that of the map of
- * the handles alone: near folds places get entangled. */
+/* Places of the pose are followed unless this raises the energy by more than this factor, compared
+ * with the map of the handles alone. Places close to folds can get entangled. */
 static const double DEAR = 1.5;
 
 static int make_map(pose *p, const posed_samples *samples, const posed_outline *ring,

@@ -10,40 +10,40 @@ typedef struct pose {
     kernel_job kernel;
     double *transforms; /* n_handles * dim * (dim + 1) */
     /* with --certified */
-    icc_domain *sides[2]; /* the shape and what it becomes, with the handles inside as points */
+    icc_domain *sides[2]; /* the shape and its image, with the handles inside as points */
     icc_map *map;
     carrier carrier;
-    double energy, outline_off; /* where the outline met itself: how far it may be off instead */
-    size_t n_followed;          /* places of the pose besides the handles */
-    double folded, off_mean, off_most; /* of the pose by weights alone: the share of the shape that
-                                          is turned over, how far it is from the map */
+    double energy, outline_off; /* if the outline met itself: the tolerance that was used instead */
+    size_t n_followed;          /* places besides the handles where the map follows the pose */
+    double folded, off_mean, off_most; /* of the pose by weights alone: the folded share of the
+                                          shape, and its distance from the map */
 } pose;
 
-/* The file that the result goes to. */
+/* The file of the result. */
 const char *pose_output(const pose *p);
 
-/* Says something on stdout, or on stderr when the result goes to stdout. */
+/* Prints a text on stdout, or on stderr if the result goes to stdout. */
 void pose_say(const pose *p, const char *text);
 
-/* Images of n points, and their dim * dim derivatives unless that is NULL. Points that are not
- * finite have none: NaN, and *n_failed of them; nor have points outside the shape once there is a
- * certified map. */
+/* Computes images of n points, and their dim * dim derivatives unless that is NULL. Points that are
+ * not finite have no image, nor have points outside the shape if there is a certified map. They get
+ * NaN and are counted in *n_failed. */
 int pose_points(pose *p, size_t n, const double *points, double *images, double *jacobians,
                 size_t *n_failed);
 
-/* Points by what becomes of orientation there. */
+/* Numbers of points by their orientation after the map. */
 typedef struct turned {
     size_t kept, inverted, collapsed;
 } turned;
 
 turned pose_count_turned(size_t dim, size_t n, const double *jacobians);
 
-/* Reads a picture from bytes[0..n), and writes it as posed. */
+/* Reads a picture from bytes[0..n), poses it and writes it. */
 int pose_picture(pose *p, const char *bytes, size_t n);
 
-/* With --certified. First comes the check, before anything is made; then the map of the pose, which
- * pose_points() and pose_picture() use from then on. The last does nothing without a map, nor do
- * those that say and report what it is. */
+/* With --certified. The check comes before anything is made. Then comes the map of the pose, which
+ * pose_points() and pose_picture() use afterwards. The functions that print and report do nothing
+ * without a map. */
 int pose_certified_check(const pose *p);
 int pose_certified_make(pose *p);
 int pose_certified_points(pose *p, size_t n, const double *points, double *images,
@@ -53,8 +53,8 @@ void pose_certified_say(const pose *p);
 void pose_certified_report(const pose *p, json *out);
 void pose_certified_free(pose *p);
 
-/* The report up to what is special: points (those of `points` that are finite tell how good the
- * weights are), how many have no image. */
+/* Begins the report: the points, whose finite ones tell how good the weights are, and how many have
+ * no image. */
 int pose_report_open(report *r, pose *p, size_t n, const double *points, size_t n_failed,
                      double seconds);
 

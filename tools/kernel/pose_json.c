@@ -1,5 +1,5 @@
-/* Poses from JSON. The transform of a handle is either given, or made of a linear map about the
- * handle, a turn, and a move, in this order. */
+/* Reads poses from JSON. The transform of a handle is either given, or made of a linear map about
+ * the handle, a rotation, and a translation, in this order. */
 #include "kernel/handle_set.h"
 
 #include "base/allocate.h"
@@ -18,7 +18,7 @@ typedef struct pose_file {
     problem *wrong;
 } pose_file;
 
-/* dim rows of `columns` numbers, to rows of dim + 1. */
+/* Reads dim rows of `columns` numbers to rows of dim + 1. */
 static bool read_rows(const pose_file *p, const cJSON *list, const char *where, size_t columns,
                       double *to)
 {
@@ -146,7 +146,7 @@ static bool read_file(const pose_file *p, const cJSON *file)
     return transforms != NULL ? read_transforms(p, transforms) : read_moves(p, moves);
 }
 
-/* Large numbers may overflow on the way. */
+/* Large numbers may overflow while transforms are composed. */
 static bool check_finite(const pose_file *p)
 {
     size_t n = p->dim * (p->dim + 1);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* An edge is cut in two so many times at most, each part of it again. */
+/* How often an edge is cut in two, and each part of it again. */
 enum { MOST_CUTS = 7 };
 
 double ring_size(size_t n, const double *ring)
@@ -37,7 +37,7 @@ static int pose_all(posed_outline *o, pose *p)
 
 /* ------------------------------------------------------------------ handles */
 
-/* A handle on an edge, `share` of the way along it. */
+/* A handle on an edge, at the place `share` along it. */
 typedef struct stop {
     uint32_t edge;
     double share;
@@ -52,7 +52,7 @@ static int by_place(const void *a, const void *b)
     return p->share < q->share ? -1 : p->share > q->share;
 }
 
-/* The handles that lie between the ends of an edge. Those at its ends are vertices already. */
+/* Finds the handles between the ends of an edge. Those at its ends are vertices already. */
 static size_t find_stops(stop *stops, const handle_set *set, const double *bary,
                          const uint32_t *edges, const bool *on_ring)
 {
@@ -97,8 +97,8 @@ static void between(const double *a, const double *b, double share, double out[2
         out[c] = a[c] + share * (b[c] - a[c]);
 }
 
-/* Whether the pose takes three points of piece i, of which `images` are the places, farther away
- * from those of the straight piece than the tolerance. */
+/* True if the pose takes one of three points of piece i farther from its place on the straight
+ * piece than the tolerance. `images` are the posed points. */
 static bool bends(const posed_outline *o, size_t i, const double *images, double tolerance)
 {
     const double *a = o->posed + 2 * i, *b = o->posed + 2 * ((i + 1) % o->n);
@@ -111,7 +111,7 @@ static bool bends(const posed_outline *o, size_t i, const double *images, double
     return false;
 }
 
-/* Cuts in two what bends; *cut: whether anything did. */
+/* Cuts bent pieces in two. *cut becomes true if there were any. */
 static int cut_pieces(posed_outline *o, pose *p, double tolerance, bool *cut)
 {
     double *at = need(o->n, 6 * sizeof *at), *images = need(o->n, 6 * sizeof *images);

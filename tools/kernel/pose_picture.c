@@ -1,6 +1,6 @@
-/* Pictures are posed forwards: the regions of the shape are cut into small triangles, which are
- * posed, and each is drawn where it has gone to, with the colours from where it was. What turns
- * over is drawn first, so that the rest hides it. */
+/* Poses pictures forwards. The regions of the shape are cut into small triangles. These are posed,
+ * and each is drawn at its new place with the colours of its old one. Triangles that turn over are
+ * drawn first, so that the rest hides them. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"
@@ -14,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Pixels between the vertices of the triangles inside; on the boundary they are twice as close. */
+/* Pixels between the vertices of the triangles inside. On the boundary they are twice as close. */
 enum { STEP = 4 };
 
-/* A region in triangles, each counter-clockwise. The first n_boundary vertices are its boundary. */
+/* A region cut into counter-clockwise triangles. The first n_boundary vertices are its boundary. */
 typedef struct patch {
     size_t n_boundary, n, room, n_triangles;
     double *rest, *posed; /* n * 2 */
@@ -59,8 +59,8 @@ static void add_boundary(patch *p, size_t n, const double *ring)
     p->n_boundary = p->n;
 }
 
-/* Which vertices of a lattice over the picture are too close to the boundary: within half a step of
- * one of its vertices, so that all others are more than rounding away from its edges. */
+/* Finds the vertices of a lattice over the picture that are too close to the boundary: within half
+ * a step of one of its vertices. So all others are farther from its edges than rounding. */
 static bool *find_close(const patch *p, size_t columns, size_t rows)
 {
     bool *close = need(columns * rows, sizeof *close);
@@ -98,7 +98,7 @@ static icc_status add_inside(patch *p, const drawing *d, const icc_domain *regio
     return status;
 }
 
-/* Whether the region is far larger than the picture, so that its boundary would take too many
+/* True if the region is far larger than the picture, so that its boundary would take too many
  * pieces. */
 static bool is_huge(const drawing *d, size_t n, const double *ring)
 {
@@ -110,8 +110,8 @@ static bool is_huge(const drawing *d, size_t n, const double *ring)
     return !(length < 1e3 * (double)(d->from.width + d->from.height) + 1e6);
 }
 
-/* Triangles over one region: its boundary, n points of `ring`, and points inside, all posed by
- * their own weights; the picture is then drawn triangle by triangle. */
+/* Makes triangles over one region from its boundary, n points of `ring`, and points inside. All are
+ * posed by their own weights. Then draws the picture triangle by triangle. */
 static int make_patch(drawing *d, const icc_domain *region, size_t n, const double *ring)
 {
     job *j = &d->pose->kernel.job;
@@ -128,7 +128,7 @@ static int make_patch(drawing *d, const icc_domain *region, size_t n, const doub
     if (err.status == ICC_OK)
         err.status = icc_triangulate(p->n_boundary, p->n, p->rest, p->triangles, &j->env, &err);
     if (err.status != ICC_OK) {
-        err.index = -1; /* of a vertex that no file has */
+        err.index = -1; /* of a vertex that is in no file */
         return job_failed(j, &err);
     }
     size_t n_failed;
@@ -151,7 +151,7 @@ static int make_patches(drawing *d)
 
 /* ------------------------------------------------------------------ drawing */
 
-/* Pixels from `low` to `high` whose centres may lie between a and b. */
+/* The pixels from `low` to `high` whose centres may lie between a and b. */
 static void span(double a, double b, size_t n, size_t *low, size_t *high)
 {
     double first = fmin(fmax(ceil(a - 0.5), 0), (double)n),
@@ -160,10 +160,10 @@ static void span(double a, double b, size_t n, size_t *low, size_t *high)
     *high = last > first ? (size_t)last : *low;
 }
 
-/* 1e-9: what lies on an edge belongs to both sides, so that rounding opens no gaps. */
+/* Places on an edge belong to both sides, so that rounding opens no gaps. */
 static const double slack = 1e-9;
 
-/* Where (x, y) comes from, if it lies in the posed triangle. */
+/* Finds the place at rest of (x, y), if it lies in the posed triangle. */
 static bool find_source(const patch *p, const uint32_t *corners, double x, double y, double out[2])
 {
     const double *a = p->posed + 2 * corners[0], *b = p->posed + 2 * corners[1],
@@ -200,8 +200,8 @@ static void draw_triangle(drawing *d, const patch *p, const uint32_t *corners)
         }
 }
 
-/* The orientation of the image: 1 as at rest, 0 also if a pose with huge numbers has left the
- * doubles. */
+/* The orientation of the image: 1 as at rest. It is also 0 if a pose with huge numbers has
+ * overflowed. */
 static int image_sign(const patch *p, const uint32_t *corners)
 {
     for (size_t k = 0; k < 6; k++)

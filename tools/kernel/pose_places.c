@@ -7,11 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Places are this share of the shape's size apart, and half as far from the outline and from folds.
- * What shrinks to less than the next share of the mean counts as folded. */
+/* APART: distance of places, as a share of the shape's size. NEAR: they are this share of it away
+ * from the outline and from folds. FOLDED: places that shrink to less than this share of the mean
+ * count as folded. */
 static const double APART = 1 / 12.0, NEAR = 0.5, FOLDED = 0.05;
 
-/* The pose takes no two places apart, or together, by more than this, all growth aside. */
+/* The largest factor by which the pose may change the distance of two places, apart from overall
+ * growth. */
 static const double STRETCH = 2;
 
 /* ------------------------------------------------------------------ samples */
@@ -65,8 +67,8 @@ void posed_places_free(posed_places *places)
     *places = (posed_places){0};
 }
 
-/* Whether a sample is far enough from all places, and where it goes fits to where they go: a handle
- * that jumps takes no place near it along. */
+/* True if a sample is far enough from all places and moves in a similar way. A handle that jumps
+ * does not take places near it along. */
 static bool fits(const posed_places *places, const double *rest, const double *posed, double apart,
                  double scale)
 {
@@ -89,7 +91,7 @@ static bool is_away_from_folds(const posed_samples *s, size_t i, double least, d
     return true;
 }
 
-/* How far inside the ring each point is; 0 for those that are not. */
+/* The depth of each point inside the ring, or 0 for points outside. */
 static icc_status find_depths(double *depths, size_t n_ring, const double *ring, size_t n,
                               const double *points, const icc_env *env)
 {

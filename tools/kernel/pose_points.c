@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points that are bound at once: bounds the memory for their weights. */
+/* Points that are bound at once. This limits the memory for their weights. */
 enum { BATCH = 8192 };
 
 static bool is_finite(size_t dim, const double *point)
@@ -30,7 +30,7 @@ static icc_status pose_finite(pose *p, size_t n, double *points, double *jacobia
     return status;
 }
 
-/* Gathers what is finite, poses it, and puts it where it belongs. */
+/* Poses the finite points of a batch and puts their images in place. */
 static icc_status pose_batch(pose *p, size_t n, const double *points, double *images,
                              double *jacobians, double *work, size_t *n_failed, icc_error *err)
 {

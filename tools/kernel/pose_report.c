@@ -1,4 +1,4 @@
-/* What `libicc pose` says and reports, whatever it poses. */
+/* Messages and reports of `libicc pose`, for points, meshes and pictures. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"

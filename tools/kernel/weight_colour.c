@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* From lightness (0 to 1), chroma and hue (in degrees) to sRGB; what sRGB does not have is cut. */
+/* Converts lightness (0 to 1), chroma and hue (in degrees) to sRGB. Values outside sRGB are
+ * clipped. */
 static void from_oklch(double lightness, double chroma, double hue, double rgb[3])
 {
     double angle = hue * 3.14159265358979323846 / 180;
@@ -27,7 +28,7 @@ double weight_level(double weight, bool logarithmic)
     return logarithmic ? fmax(1 + log10(fabs(weight)) / DECADES, 0) : weight;
 }
 
-/* In linear scale negative weights turn red by and by: -1/4 is plenty. */
+/* On a linear scale negative weights turn red gradually, fully at -1/4. */
 void weight_colour(double weight, bool logarithmic, double rgb[3])
 {
     double level = fmin(weight_level(weight, logarithmic), 1), red[3];

@@ -25,13 +25,13 @@ typedef struct finder {
     const glb *g;
     glb_vectors *list;
     size_t n, room;
-    size_t *of; /* of each accessor: its place in the list, from 1 */
+    size_t *of; /* of each accessor: its number in the list, from 1 */
     bool *other;
     problem *wrong;
 } finder;
 
-/* Adds vectors to the list. Directions that cannot be read stay, but for displacements that would be
- * wrong, so these are refused. */
+/* Adds vectors to the list. Directions that cannot be read stay as they are. Displacements would
+ * then be wrong, so they are refused. */
 static bool find(finder *f, const cJSON *index, glb_vectors v)
 {
     static const char *const names[] = {"NORMAL", "TANGENT", "a morph target's POSITION",
@@ -198,8 +198,8 @@ typedef struct carrier {
     const mesh_mover *mover;
     size_t n_vectors;
     const glb_vectors *vectors;
-    size_t *of; /* of each accessor: its vectors, from 1 */
-    char *text; /* what is written */
+    size_t *of; /* of each accessor: the number of its vectors, from 1 */
+    char *text; /* the text that is written */
     mesh_carried *out;
     problem *wrong;
 } carrier;
@@ -238,9 +238,9 @@ typedef struct spots {
     size_t n;
     size_t *vertices;    /* of the set */
     double *points;      /* n * dim, in the scene */
-    double *images;      /* likewise; NULL: not asked for */
+    double *images;      /* the same; NULL if not needed */
     double *directions;  /* 3 n, in the scene */
-    double *derivatives; /* n * dim * dim; NULL: not asked for */
+    double *derivatives; /* n * dim * dim; NULL if not needed */
 } spots;
 
 static void spots_free(spots *s)
@@ -262,7 +262,7 @@ static spots spots_make(const carrier *c, size_t n)
                    .derivatives = need(n, dim * dim * sizeof(double))};
 }
 
-/* The point of vertex i of a set in the scene, displaced in the file by d, or not if that is NULL. */
+/* The point of vertex i of a set in the scene, displaced in the file by d unless d is NULL. */
 static void find_point(const carrier *c, size_t set, size_t i, const double *d, double *out)
 {
     const glb_positions *positions = &c->g->sets[set];
@@ -329,7 +329,7 @@ static bool carry_morph(carrier *c, const glb_vectors *v)
     return good;
 }
 
-/* A direction of the file in the scene, whatever its length. */
+/* Turns a direction of the file to the scene, without regard to length. */
 static void find_direction(const mesh_place *place, bool normal, const double own[3], double out[3])
 {
     memcpy(out, own, 3 * sizeof *out);
@@ -357,7 +357,7 @@ static bool turn(double out[3], const mesh_place *place, bool normal, const doub
     return affine_set_length(out, affine_length(own));
 }
 
-/* The direction of vertex i; for a target's, added to its base. False: it is zero or not finite. */
+/* The direction of vertex i. A target's is added to its base. False if it is zero or not finite. */
 static bool take_direction(const carrier *c, const glb_vectors *v, size_t i, double out[3])
 {
     take(out, c->m->text, &v->items, i);
@@ -370,8 +370,8 @@ static bool take_direction(const carrier *c, const glb_vectors *v, size_t i, dou
     return is_finite(out) && !is_zero(out);
 }
 
-/* Carries directions at the vertices, or at a target's displaced ones. A target's are written as
- * differences from the images of their base, which has been written before. */
+/* Carries directions at the vertices, or at those displaced by a target. A target's directions are
+ * written as differences from the images of their base, which has been written before. */
 static bool carry_directions(carrier *c, const glb_vectors *v)
 {
     const mesh_place *place = glb_place(c->m, c->g->sets[v->set].first);
@@ -414,7 +414,8 @@ static bool carry_directions(carrier *c, const glb_vectors *v)
     return good;
 }
 
-/* False for directions that stay: they are shared, or their base or displacements were not read. */
+/* False for directions that stay: they are shared, or their base or displacements could not be
+ * read. */
 static bool is_read(const carrier *c, const glb_vectors *v)
 {
     bool target = v->use == GLB_MORPH_NORMAL || v->use == GLB_MORPH_TANGENT;
@@ -458,7 +459,7 @@ bool glb_carry(mesh_file *m, const double *images, const mesh_mover *mover, mesh
     glb g;
     size_t n;
     problem none;
-    glb_open(&g, m->text, m->n_text, &none); /* it was opened before, so it cannot fail */
+    glb_open(&g, m->text, m->n_text, &none); /* it was opened before, so this cannot fail */
     glb_vectors *vectors = glb_find_vectors(&g, &n, &out->other, wrong);
     carrier c = {.m = m,
                  .g = &g,

@@ -20,7 +20,7 @@ static bool is_same(size_t dim, const double *a, const double *b)
     return true;
 }
 
-/* Takes a point of the scene to its coordinates in the file. */
+/* Converts a point of the scene to its coordinates in the file. */
 static void take_in(double out[3], const mesh_file *m, const mesh_place *place, const double *point)
 {
     if (place != NULL)
@@ -29,7 +29,8 @@ static void take_in(double out[3], const mesh_file *m, const mesh_place *place, 
         memcpy(out, point, m->dim * sizeof *point);
 }
 
-/* Rounds a point's coordinates in the file to floats. A point that has not moved stays as it was read. */
+/* Rounds a point's coordinates in the file to floats. A point that has not moved keeps the bits
+ * that were read. */
 static bool round_point(const mesh_file *m, const mesh_place *place, size_t i, double *point)
 {
     double own[3];
@@ -145,7 +146,7 @@ void glb_write(const mesh_file *m, const double *points, FILE *stream)
 {
     problem none;
     glb g;
-    glb_open(&g, m->text, m->n_text, &none); /* as it has been before */
+    glb_open(&g, m->text, m->n_text, &none); /* this succeeded before */
     char *text = need(m->n_text, 1);
     memcpy(text, m->text, m->n_text);
     for (size_t s = 0; s < g.n_sets; s++)

@@ -6,12 +6,12 @@
 #include <string.h>
 
 typedef struct facet {
-    uint32_t sorted[3]; /* in the plane the last is 0 */
-    uint32_t corner;    /* the corner of its element that it lacks */
+    uint32_t sorted[3]; /* in the plane the last one is 0 */
+    uint32_t corner;    /* the corner of its element that it does not contain */
     size_t element;
 } facet;
 
-/* The corners of each facet, by the corner that it lacks. */
+/* The corners of each facet, by the corner that it does not contain. */
 static const unsigned char sides[2][4][3] = {{{1, 2, 0}, {2, 0, 0}, {0, 1, 0}, {0, 0, 0}},
                                              {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
@@ -50,7 +50,7 @@ static facet make_facet(size_t dim, const uint32_t *elements, size_t element, si
     return f;
 }
 
-/* Keeps the facets that stand alone, at the front, and returns how many. */
+/* Moves the facets of only one element to the front and returns their number. */
 static size_t keep_single(facet *all, size_t n, size_t *n_shared)
 {
     size_t n_kept = 0;

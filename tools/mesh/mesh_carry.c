@@ -121,7 +121,7 @@ static size_t print_span(const mesh_file *m, const double *image, size_t k, char
 typedef struct rewriter {
     char *text;
     size_t n, room;
-    size_t *at;        /* the next place of a vertex in the text, ascending */
+    size_t *at;        /* the next place of a vertex in the text, in rising order */
     const size_t *end; /* the end of these places */
     size_t done;       /* bytes of the old text that have been copied or replaced */
 } rewriter;

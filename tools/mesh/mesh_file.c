@@ -10,13 +10,13 @@
 #include <string.h>
 
 typedef struct format {
-    const char *name, *begin; /* what its files begin with */
-    bool word;                /* which is a word */
-    bool binary;              /* or may be */
+    const char *name, *begin; /* the beginning of its files */
+    bool word;                /* which must be a whole word */
+    bool binary;              /* it may be binary */
     bool (*read)(lines *r);
 } format;
 
-/* OBJ has no mark of its own. */
+/* OBJ has no mark at its beginning. */
 static const format formats[] = {{"VTK", "# vtk DataFile", false, true, mesh_read_vtk},
                                  {"PLY", "ply", true, true, mesh_read_ply},
                                  {"Medit", "MeshVersion", false, false, mesh_read_medit},
@@ -25,7 +25,7 @@ static const format formats[] = {{"VTK", "# vtk DataFile", false, true, mesh_rea
 static const format stl = {"STL", NULL, false, true, mesh_read_stl};
 static const format gltf = {"glTF", NULL, false, true, mesh_read_glb};
 
-/* The format of the file of n bytes, and in `r` where it begins, behind comments. */
+/* Finds the format of a file of n bytes. `r` is then at its beginning, after comments. */
 static const format *find_format(lines *r, size_t n)
 {
     const format *whole = mesh_is_glb(r->at, n) ? &gltf : mesh_is_stl(r->at, n) ? &stl : NULL;
@@ -109,7 +109,7 @@ bool mesh_round(const mesh_file *m, double *points, size_t *beyond)
     return true;
 }
 
-/* As text, or as the bytes of a float or of a double. */
+/* Writes a number as text, or as the bytes of a float or a double. */
 static void write_number(const mesh_file *m, double number, FILE *stream)
 {
     unsigned char bytes[8];
@@ -140,8 +140,8 @@ static void write_numbers(const mesh_file *m, size_t n, const double *numbers, F
     }
 }
 
-/* The unit normal of a triangle, or 0 of a flat one. Edges are scaled first, so that their products
- * stay within range. */
+/* The unit normal of a triangle, or 0 for a flat one. Edges are scaled first, so that their
+ * products stay within range. */
 static void write_normal(const mesh_file *m, const double *points, size_t triangle, FILE *stream)
 {
     const uint32_t *corners = m->triangles + 3 * triangle;
@@ -187,7 +187,7 @@ static void write_rest(const mesh_file *m, const double *points, size_t done, FI
     fwrite(m->text + done, 1, m->n_text - done, stream);
 }
 
-/* The file goes out as it came in, except for the types and the spans. */
+/* The file is written as it was read, except the types and the spans. */
 void mesh_write(const mesh_file *m, const double *points, FILE *stream)
 {
     size_t done = 0;

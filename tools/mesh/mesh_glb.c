@@ -1,5 +1,6 @@
-/* The meshes of a binary glTF file, as one: the vertices as they stand in the file, the triangles of
- * one primitive behind another. Vertices are read where nodes place them in the scene. */
+/* Reads the meshes of a binary glTF file as one mesh: the vertices in the order of the file, and
+ * the triangles of one primitive after another. Vertices are read where nodes place them in the
+ * scene. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -19,7 +20,7 @@ bool mesh_is_glb(const char *text, size_t n)
     return n >= 4 && memcmp(text, "glTF", 4) == 0;
 }
 
-/* Positions, which a node may move in space. */
+/* Reads positions, which a node may move in space. */
 static bool read_set(mesh_file *m, const char *text, const glb_positions *set,
                      const mesh_place *place, problem *wrong)
 {
@@ -70,11 +71,11 @@ static bool read_vertices(mesh_file *m, const glb *g, problem *wrong)
     return good;
 }
 
-/* The corners of a primitive: those of its positions one by one, or as its indices say. */
+/* The corners of a primitive: its positions one by one, or in the order of its indices. */
 typedef struct corner_list {
     const glb *g;
     const glb_positions *set;
-    glb_items indices; /* size 0: none */
+    glb_items indices; /* size 0: there are none */
     size_t accessor, n;
     bool mirrored; /* by its node */
 } corner_list;
@@ -98,8 +99,8 @@ static bool triangle(lines *r, const corner_list *list, size_t a, size_t b, size
            corner(r, list, list->mirrored ? b : c);
 }
 
-/* The triangles of a primitive, by its mode. There cannot be more in all than the file has bytes
- * unless it names the same ones again and again. */
+/* Reads the triangles of a primitive by its mode. There cannot be more triangles than the file has
+ * bytes, unless it repeats them again and again. */
 static bool read_corners(lines *r, const corner_list *list, int mode)
 {
     size_t n = list->n, n_triangles = mode == TRIANGLES ? n / 3 : n - 2;
@@ -134,7 +135,7 @@ static bool is_mirrored(const mesh_file *m, const glb_positions *set)
     return place != NULL && affine_determinant(place->out) < 0;
 }
 
-/* Points and lines have vertices, but no triangles. */
+/* Primitives of points and lines have vertices, but no triangles. */
 static bool read_primitive(lines *r, const glb *g, const cJSON *primitive)
 {
     const cJSON *mode = json_get(primitive, "mode"), *indices = json_get(primitive, "indices");

@@ -1,5 +1,5 @@
 /* Medit's .mesh as text: sections with a name, the number of their items, and the items. Vertices
- * are counted from 1, and each item ends with a number that refers to something else. */
+ * count from 1, and each item ends with a reference number, which is not used. */
 #include "mesh/element_kinds.h"
 #include "mesh/mesh_lines.h"
 
@@ -33,9 +33,9 @@ static bool read_vertices(lines *r)
     return true;
 }
 
-/* A section of elements. `kind` is VTK's number for them, with the same order of nodes, but the last
- * two nodes of quadratic tetrahedra may be exchanged. If VTK's order differs, it is a kind of which
- * nothing is proved. */
+/* A section of elements. `kind` is VTK's number for them, with the same order of nodes; only the
+ * last two nodes of quadratic tetrahedra may be exchanged. If VTK's order is different, it is a
+ * kind about which nothing is proved. */
 typedef struct section {
     const char *name;
     int kind;
@@ -70,8 +70,8 @@ static double off_middle(const mesh_file *m, uint32_t node, uint32_t a, uint32_t
     return sum;
 }
 
-/* Nodes 8 and 9 belong to the edges (1, 3) and (2, 3), or the other way round, as Gmsh writes them. The
- * nearer assignment is taken. */
+/* Nodes 8 and 9 belong to the edges (1, 3) and (2, 3), or in exchanged order, as Gmsh writes them.
+ * The closer assignment is taken. */
 static void settle_tetrahedron(const mesh_file *m, uint32_t nodes[10])
 {
     if (off_middle(m, nodes[9], nodes[1], nodes[3]) + off_middle(m, nodes[8], nodes[2], nodes[3]) <
@@ -108,7 +108,7 @@ static bool read_section(lines *r, bool seen[N_SECTIONS])
     size_t which = 0;
     while (which < N_SECTIONS && !lines_take(r, sections[which].name))
         which++;
-    if (which == N_SECTIONS) { /* another section, or a number in one */
+    if (which == N_SECTIONS) { /* another section, or a number inside one */
         r->at += strcspn(r->at, " \t\r\n");
         return true;
     }
@@ -124,7 +124,7 @@ static bool read_section(lines *r, bool seen[N_SECTIONS])
                                : read_elements(r, &sections[which]);
 }
 
-/* Moves to the next section; false at the end of the file. */
+/* Moves to the next section. False at the end of the file. */
 static bool find_section(lines *r)
 {
     for (;;) {

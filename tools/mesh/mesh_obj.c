@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Reads the three numbers of a normal. A bad one is no error, because nothing needs it. */
+/* Reads the three numbers of a normal. A bad normal is no error, because no other data depend on
+ * it. */
 static void read_normal(lines *r)
 {
     mesh_file *m = r->mesh;
@@ -29,8 +30,8 @@ static void read_normal(lines *r)
     of->n++;
 }
 
-/* Notes the normal of a corner, behind its second slash. Whether a normal with a positive number
- * exists is known at the end of the file only. */
+/* Records the normal of a corner, after its second slash. Only at the end of the file it is known
+ * if a normal with a positive number exists. */
 static void note_normal(lines *r, uint32_t vertex)
 {
     mesh_normals *of = &r->mesh->vertex_normals;
@@ -45,7 +46,7 @@ static void note_normal(lines *r, uint32_t vertex)
     of->uses[2 * of->n_uses++ + 1] = vertex;
 }
 
-/* One corner of a face: v, v/vt, v//vn or v/vt/vn, from 1, or from -1 backwards. */
+/* Reads a corner of a face: v, v/vt, v//vn or v/vt/vn, counted from 1, or from -1 backwards. */
 static bool read_corner(lines *r, uint32_t *vertex)
 {
     double index;

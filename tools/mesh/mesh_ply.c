@@ -1,6 +1,6 @@
-/* PLY, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Of the vertices x, y and z
- * are looked at, and nx, ny and nz if they are floating-point numbers, of the faces the list
- * vertex_indices; all else is carried along. */
+/* PLY, as text or binary: G. Turk, The PLY Polygon File Format, 1994. Reads x, y and z of the
+ * vertices, nx, ny and nz if they are floating-point numbers, and the list vertex_indices of the
+ * faces. Everything else is copied. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -21,11 +21,11 @@ static const ply_type types[] = {{{"char", "int8"}, 1, 'i'},     {{"uchar", "uin
                                  {{"int", "int32"}, 4, 'i'},     {{"uint", "uint32"}, 4, 'u'},
                                  {{"float", "float32"}, 4, 'f'}, {{"double", "float64"}, 8, 'f'}};
 
-/* What a property is to us. */
+/* How a property is used here. */
 typedef enum ply_use { PLY_X, PLY_Y, PLY_Z, PLY_NX, PLY_NY, PLY_NZ, PLY_CORNERS, PLY_SKIP } ply_use;
 
 typedef struct property {
-    const ply_type *type, *count; /* count: of a list, else NULL */
+    const ply_type *type, *count; /* count: the type of a list's length, else NULL */
     ply_use use;
 } property;
 
@@ -39,18 +39,18 @@ typedef struct element {
 } element;
 
 typedef struct ply {
-    lines *r; /* its line counts on in text only; `end` is that of the file */
+    lines *r; /* its line number is right in text only; `end` is the end of the file */
     const char *end;
-    const char *word;    /* of text: where the last number began */
+    const char *word;    /* of text: the beginning of the last number */
     bool used[PLY_SKIP]; /* which properties have been declared */
-    size_t n_vertices;   /* that the header announces */
+    size_t n_vertices;   /* as the header announces */
     size_t n_elements;
     element elements[MAX_ELEMENTS];
 } ply;
 
 /* ------------------------------------------------------------------ header */
 
-/* The next word of this line, at most 31 characters of it; empty at the line's end. */
+/* The next word of this line, at most 31 characters of it. Empty at the line's end. */
 static const char *next_word(ply *p, char out[32])
 {
     size_t n = 0;
@@ -117,7 +117,7 @@ static bool is_normal(ply_use use)
     return use >= PLY_NX && use <= PLY_NZ;
 }
 
-/* A coordinate becomes a double, so that rounding does not fold what the map keeps apart. */
+/* A coordinate becomes a double, so that rounding does not fold what the map keeps one-to-one. */
 static void take_coordinate(ply *p, ply_use use, const char *type_end, const ply_type *type)
 {
     mesh_file *m = p->r->mesh;
@@ -130,9 +130,8 @@ static void take_coordinate(ply *p, ply_use use, const char *type_end, const ply
     m->order[m->n_types++] = (unsigned char)use;
 }
 
-/* A property of the last element. Those that no map needs are carried along, but to skip them
- * their size must be known; a coordinate that is declared twice would leave open which one counts.
- */
+/* Reads a property of the last element. Properties that are not used are copied, but their size
+ * must be known to skip them. A coordinate that is declared twice would be ambiguous. */
 static bool read_property(ply *p)
 {
     char word[32];
@@ -206,7 +205,7 @@ static void check_normals(ply *p)
     *of = (mesh_normals){.n = 0};
 }
 
-/* At end_header: whether there is what a mesh needs. */
+/* At end_header: true if everything that a mesh needs has been declared. */
 static bool end_header(ply *p, bool formed)
 {
     static const char *const names[] = {"x", "y", "z"};
@@ -219,8 +218,8 @@ static bool end_header(ply *p, bool formed)
     return next_line(p);
 }
 
-/* Lines up to end_header. Elements and properties may come in any order that PLY allows; comments
- * are passed over. */
+/* Reads lines up to end_header. Elements and properties may come in any order that PLY allows.
+ * Comments are skipped. */
 static bool read_header(ply *p)
 {
     char word[32];
@@ -324,7 +323,7 @@ static bool read_list(ply *p, const property *q)
     return true;
 }
 
-/* A coordinate and where it stands; `k` counts those of the vertex that have been read. */
+/* Reads a coordinate and keeps its place. `k` counts the coordinates of the vertex read before. */
 static bool read_coordinate(ply *p, const property *q, size_t k)
 {
     mesh_file *m = p->r->mesh;
@@ -338,7 +337,7 @@ static bool read_coordinate(ply *p, const property *q, size_t k)
     return isfinite(*value) || spoilt(p->r->wrong, p->r->line, "vertex %zu is not finite", i);
 }
 
-/* Reads number `k` of a normal, and keeps where it stands. */
+/* Reads number `k` of a normal and keeps its place. */
 static bool read_normal(ply *p, const property *q, size_t k)
 {
     mesh_file *m = p->r->mesh;

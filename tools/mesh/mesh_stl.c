@@ -1,5 +1,5 @@
 /* STL, as text or binary: 3D Systems, Stereolithography Interface Specification, 1989. Every
- * triangle has corners of its own, and a normal, which follows from them. */
+ * triangle has its own corners, and a normal, which follows from them. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -8,18 +8,18 @@
 #include <math.h>
 #include <string.h>
 
-/* Binary: bytes of anything, the number of triangles, then for each a normal, three corners and two
- * bytes more. */
+/* Binary: a header of any bytes, the number of triangles, then for each a normal, three corners and
+ * two more bytes. */
 enum { N_HEAD = 80, N_TRIANGLE = 50, N_POINT = 12 };
 
-/* The size decides, since the first bytes may be anything, also `solid`. */
+/* The size decides, because the first bytes may be anything, even `solid`. */
 static bool is_binary(const char *text, size_t n)
 {
     return n > N_HEAD + 4 &&
            n == N_HEAD + 4 + N_TRIANGLE * (uint64_t)little_endian(text + N_HEAD, 4);
 }
 
-/* `solid NAME`, then facets, unless there are none. */
+/* `solid NAME`, then facets, if there are any. */
 static bool is_text(const char *text)
 {
     text += strncmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
@@ -36,7 +36,7 @@ bool mesh_is_stl(const char *text, size_t n)
     return is_binary(text, n) || is_text(text);
 }
 
-/* The normal of the next triangle stands from here to there. */
+/* The place of the next triangle's normal. */
 static void add_normal(mesh_file *m, const char *begin, const char *end)
 {
     size_t i = m->n_triangles;
@@ -45,7 +45,7 @@ static void add_normal(mesh_file *m, const char *begin, const char *end)
     m->normals[2 * i + 1] = (size_t)(end - m->text);
 }
 
-/* The three last vertices are a triangle. */
+/* Makes a triangle of the three last vertices. */
 static void add_triangle(lines *r)
 {
     uint32_t first = (uint32_t)r->mesh->n_vertices - 3;
@@ -64,7 +64,7 @@ static bool expect(lines *r, const char *word)
             spoilt(r->wrong, r->line, "'%s' where '%s' is expected", quoted(shown, r->at), word));
 }
 
-/* Three words; some programs write `nan` for the normal of a flat triangle. */
+/* Reads three words. Some programs write `nan` for the normal of a flat triangle. */
 static bool read_normal(lines *r)
 {
     lines_skip_blanks(r);
@@ -115,7 +115,7 @@ static bool read_solid(lines *r)
     return true;
 }
 
-/* Solids, one behind the other. */
+/* Reads solids, one after the other. */
 static bool read_text(lines *r)
 {
     do {

@@ -1,6 +1,6 @@
 /* Legacy VTK: an unstructured grid, with the cells of version 2 (each begins with the number of its
- * corners) or 5 (OFFSETS and CONNECTIVITY). Its lines are text; the numbers between them may be
- * bytes, in the order of points, cells and types. What follows the types is carried along. */
+ * corners) or 5 (OFFSETS and CONNECTIVITY). Its lines are text. The numbers between them may be
+ * bytes, in the order of points, cells and types. Everything after the types is copied. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"
@@ -26,7 +26,7 @@ static bool starts_with(lines *r, const char *word)
            spoilt(r->wrong, r->line, "'%s' where %s is expected", quoted(shown, r->at), word);
 }
 
-/* Two lines that mean nothing here, then ASCII and the kind of data. */
+/* Two lines that are ignored, then ASCII or BINARY and the kind of data. */
 static bool read_head(lines *r)
 {
     char shown[32];
@@ -47,7 +47,7 @@ static bool read_head(lines *r)
            spoilt(r->wrong, r->line, "'%s': an UNSTRUCTURED_GRID is read", quoted(shown, r->at));
 }
 
-/* Goes on in the line that begins after bytes. */
+/* Continues in the line that begins after bytes. */
 static void go_on(lines *r)
 {
     if (r->mesh->form == MESH_BIG)
@@ -82,7 +82,7 @@ static bool read_points(lines *r)
     return true;
 }
 
-/* `n` numbers below `limit` behind a word and the name of a type. */
+/* Reads `n` numbers below `limit` after a word and the name of a type. */
 static bool read_array(lines *r, const char *word, uint32_t n, double limit, uint32_t *out)
 {
     if (!starts_with(r, word) || !lines_word(r))
@@ -114,7 +114,7 @@ static bool read_old_cells(lines *r, cells *c)
     return true;
 }
 
-/* Cells as version 5 writes them, n + 1 offsets into a list of corners, or as older files do, each
+/* Reads cells of version 5, n + 1 offsets into a list of corners, or those of older files, each
  * with its number of corners before it. */
 static bool read_cells(lines *r, cells *c)
 {
@@ -147,7 +147,7 @@ static bool read_cells(lines *r, cells *c)
     return true;
 }
 
-/* The types come after the cells and say what they are. */
+/* Reads the types, which follow the cells. */
 static bool read_types(lines *r, cells *c)
 {
     uint32_t n, type = 0;
@@ -177,8 +177,8 @@ static bool is_letter(char c)
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-/* Whether this line announces an array of data: four words, a name, two numbers and a type. Such an
- * array may be called like a section. */
+/* True if this line announces an array of data: four words, that is a name, two numbers and a type.
+ * Such an array may have the name of a section. */
 static bool is_array(const lines *r)
 {
     size_t n = 0;
@@ -198,8 +198,7 @@ static bool begins_section(lines *r, const char *name)
     return !is_array(r) && lines_take(r, name);
 }
 
-/* Other sections (METADATA, CELL_DATA, POINT_DATA) are carried along. Bytes behind the types are not
- * looked at. */
+/* Copies other sections (METADATA, CELL_DATA, POINT_DATA). Bytes after the types are not read. */
 static bool read_sections(lines *r, cells *c)
 {
     bool binary = r->mesh->form == MESH_BIG;

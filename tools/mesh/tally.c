@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* How many numbers stderr names. A report has them all. */
+/* How many numbers are listed on stderr. A report lists all. */
 enum { MOST_NAMED = 10 };
 
 typedef enum fate {
@@ -53,7 +53,7 @@ static int simplex_sign(const mesh_file *m, const double *points, const uint32_t
                        : orientation_3d(at[0], at[1], at[2], at[3]);
 }
 
-/* The sense of a polygon, exactly; 0 if it meets itself. */
+/* The orientation of a polygon, exactly. 0 if it meets itself. */
 static int polygon_sign(const double *points, const uint32_t *corners, size_t n)
 {
     double *ring = need(n, 2 * sizeof *ring);
@@ -91,7 +91,7 @@ static fate other_fate(const mesh_file *m, const double *images, const uint32_t 
     return after == ELEMENT_POSITIVE ? KEPT : after == ELEMENT_INVERTED ? INVERTED : UNDECIDED;
 }
 
-/* The fate of one element. The plan of its kind is made when it is first needed. */
+/* Finds the fate of one element. The plan of its kind is made when it is first needed. */
 static fate fate_of(const mesh_file *m, const double *images, size_t i, element_plan **plan)
 {
     const element_kind *k = element_kind_find(m->kinds[i]);
@@ -175,7 +175,7 @@ size_t tally_spoilt(const tally *t)
     return n;
 }
 
-/* In the plane larger faces with straight sides are also kept as triangles. */
+/* In the plane, larger faces with straight sides are also stored as triangles. */
 static bool is_made_of_simplices(const element_kind *k)
 {
     return is_simplex(k) || k->shape == SHAPE_POLYGON ||

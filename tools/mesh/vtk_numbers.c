@@ -55,7 +55,7 @@ static const char *take_bytes(lines *r, size_t n)
     return bytes;
 }
 
-/* The end of the line is looked for when all numbers have been taken. */
+/* The end of the line is searched after all numbers have been taken. */
 bool vtk_count(lines *r, size_t size, double limit, uint32_t *count)
 {
     if (is_text(r))
@@ -73,7 +73,7 @@ bool vtk_count(lines *r, size_t size, double limit, uint32_t *count)
 
 static bool read_text_vertex(lines *r)
 {
-    double value; /* in the plane a third coordinate is left alone */
+    double value; /* in the plane a third coordinate is ignored */
     return lines_word(r) && lines_vertex(r) &&
            (r->mesh->dim == 3 || (lines_word(r) && lines_number(r, &value)));
 }

@@ -20,7 +20,7 @@ static range find_range(double lower, double upper, size_t n)
     return r;
 }
 
-/* How many pixels have their centres in the shape; no more than `enough` are counted. */
+/* Counts the pixels whose centres are in the shape, up to `enough`. */
 static size_t count_pixels(const icc_domain *domain, const icc_domain_info *box, size_t width,
                            size_t height, size_t enough)
 {

@@ -1,6 +1,6 @@
-/* Tetrahedra and triangles cut by a plane. A corner on the plane counts as in front, so that every
- * cut has its corners on edges that cross. On an edge the map is linear: corners are mapped as
- * exactly as the vertices. */
+/* Cuts tetrahedra and triangles by a plane. A corner on the plane counts as in front, so that every
+ * corner of a cut lies on an edge that crosses the plane. The map is linear along an edge, so these
+ * corners are mapped as exactly as the vertices. */
 #include "plot/cut.h"
 
 #include "base/allocate.h"
@@ -25,7 +25,7 @@ void corners_add(corners *c, size_t n, const cut_corner *more)
     c->n += n;
 }
 
-/* Where the edge between two corners on different sides meets the plane. */
+/* The place where the edge between two corners on different sides meets the plane. */
 static cut_corner between(const plane *p, const cut_corner *a, const cut_corner *b)
 {
     double da = plane_distance(p, a->at[0]), db = plane_distance(p, b->at[0]), t = da / (da - db);
@@ -77,7 +77,7 @@ void cut_sheet(corners *out, const body *b, const plane *p)
 
 /* ------------------------------------------------------------------- the surface */
 
-/* The vector that stands on a triangle, as long as twice its area. */
+/* A normal vector of a triangle whose length is twice the area. */
 static void stand(const double *a, const double *b, const double *c, double out[3])
 {
     for (size_t k = 0; k < 3; k++) {
@@ -91,11 +91,11 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of a smooth surface the normal at a vertex is the mean of those of its faces; across a crease,
- * of 45 degrees or more, each side has its own. So every corner of a face takes the faces at its
- * vertex that do not turn away from it. */
+/* On a smooth surface the normal at a vertex is the mean of its faces' normals. Across a crease of
+ * 45 degrees or more, each side has its own normal. So every corner of a face averages the faces at
+ * its vertex that do not turn away from it. */
 typedef struct normals {
-    double *of_faces; /* 3 a face */
+    double *of_faces; /* 3 for each face */
     uint32_t *first;  /* the faces at vertex v: at[first[v]] .. at[first[v + 1] - 1] */
     uint32_t *at;
 } normals;

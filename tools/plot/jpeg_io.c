@@ -1,5 +1,6 @@
-/* JPEG through libjpeg-turbo. The colour profile and the size of pixels become the picture's notes;
- * Exif's orientation is obeyed, the rest of Exif is left out, since it tells of another picture. */
+/* JPEG through libjpeg-turbo. The colour profile and the size of pixels become the picture's
+ * notes. Exif's orientation is obeyed. The rest of Exif is dropped, because it describes another
+ * picture. */
 #include "plot/picture_file.h"
 
 #include "base/allocate.h"
@@ -10,15 +11,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Scans of a progressive picture; each costs a pass over all of it, and a few bytes announce one.
- * Encoders write about ten. */
+/* The most scans of a progressive picture. Each costs a pass over the whole picture, and a few
+ * bytes announce one. Encoders write about ten. */
 enum { MOST_SCANS = 500 };
 
 enum { USUAL_QUALITY = 92 };
 
-/* libjpeg leaves its functions by longjmp, to where whoever called them says. */
+/* libjpeg leaves its functions by longjmp, to a place that the caller sets. */
 typedef struct trouble {
-    struct jpeg_error_mgr manager; /* first: libjpeg knows this part only */
+    struct jpeg_error_mgr manager; /* first, because libjpeg only knows this part */
     jmp_buf back;
     char message[JMSG_LENGTH_MAX];
 } trouble;
@@ -30,7 +31,7 @@ static void stop(j_common_ptr jpeg)
     longjmp(t->back, 1);
 }
 
-/* Warnings mean that pixels are missing or wrong, but for some about what stands round them. */
+/* Warnings mean that pixels are missing or wrong, except some about data around them. */
 static void warn(j_common_ptr jpeg, int level)
 {
     static const int harmless[] = {JWRN_ADOBE_XFORM, JWRN_BOGUS_ICC, JWRN_EXTRANEOUS_DATA,
@@ -73,8 +74,8 @@ static unsigned number(const JOCTET *bytes, size_t n, bool little)
     return value;
 }
 
-/* The orientation in a segment of Exif: a TIFF file whose first directory may have it. 0: it does
- * not say. */
+/* The orientation in a segment of Exif, a TIFF file whose first directory may have it. 0 if it is
+ * not given. */
 static unsigned read_orientation(const JOCTET *bytes, size_t n)
 {
     enum { ORIENTATION = 0x112, SHORT = 3 };
@@ -118,7 +119,7 @@ static void read_notes(reader *r, picture_notes *notes)
     notes->per_metre = jpeg->density_unit == 1 || jpeg->density_unit == 2;
 }
 
-/* Everything that libjpeg may jump out of. */
+/* All calls from which libjpeg may jump. */
 static bool decode(reader *r, picture *out, const char *bytes, size_t n)
 {
     struct jpeg_decompress_struct *jpeg = &r->jpeg;
@@ -141,7 +142,7 @@ static bool decode(reader *r, picture *out, const char *bytes, size_t n)
                  "its colours are those of inks (CMYK); save it with red, green and blue");
         return false;
     }
-    /* A bit gives at most a block of 64 pixels; 16: where colours are halved in ways of their own. */
+    /* A bit gives at most a block of 64 pixels; 16 allows for subsampled colours. */
     if ((uint64_t)jpeg->image_width * jpeg->image_height / (8 * 64 * 16) > n)
         ERREXIT(jpeg, JERR_INPUT_EOF);
     bool is_grey = jpeg->num_components == 1;
@@ -181,7 +182,7 @@ bool jpeg_decode(picture *out, const char *bytes, size_t n, problem *wrong)
 /* ------------------------------------------------------------------ writing */
 
 typedef struct writer {
-    struct jpeg_compress_struct jpeg; /* first: libjpeg knows this part only */
+    struct jpeg_compress_struct jpeg; /* first, because libjpeg only knows this part */
     struct jpeg_destination_mgr destination;
     trouble trouble;
     JSAMPLE *row;
@@ -210,7 +211,7 @@ static void end(j_compress_ptr jpeg)
     w->n = w->room - w->destination.free_in_buffer;
 }
 
-/* The size of pixels is written where both numbers have room. */
+/* Writes the size of pixels if both numbers fit. */
 static void set_density(struct jpeg_compress_struct *jpeg, const picture_notes *notes)
 {
     double metre = notes->per_metre ? 0.0254 : 1, x = notes->density[0] * metre + 0.5,
@@ -222,7 +223,7 @@ static void set_density(struct jpeg_compress_struct *jpeg, const picture_notes *
     jpeg->Y_density = (UINT16)y;
 }
 
-/* Everything that libjpeg may jump out of. From quality 90 on colours are as sharp as brightness. */
+/* All calls from which libjpeg may jump. From quality 90 on, colours are as sharp as brightness. */
 static bool encode(writer *w, const picture *p, const picture_style *style)
 {
     struct jpeg_compress_struct *jpeg = &w->jpeg;

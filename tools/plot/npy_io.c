@@ -8,11 +8,11 @@
 #include <string.h>
 
 static const struct {
-    const char *name; /* behind the order of bytes */
+    const char *name; /* after the byte order */
     unsigned depth;
 } types[] = {{"u1", 8}, {"u2", 16}, {"f4", 32}, {"f8", 64}};
 
-/* The bits of a number of this type; 0: it is another one. */
+/* The bits of a number of this type, or 0 for other types. */
 static unsigned depth_of(const char *type)
 {
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
@@ -22,10 +22,10 @@ static unsigned depth_of(const char *type)
     return 0;
 }
 
-/* Along an axis: as many as a row of eight bytes each can have on every machine. */
+/* Limit along an axis: a row of eight bytes for each pixel must fit on every machine. */
 static const size_t most_pixels = INT32_MAX / 8;
 
-/* Whether the array is laid out as a picture is. */
+/* True if the array has the layout of a picture. */
 static bool fits(const npy *a, problem *wrong)
 {
     if (depth_of(a->type) == 0)
@@ -47,7 +47,7 @@ static bool fits(const npy *a, problem *wrong)
            spoilt(wrong, 0, "the picture of %zu x %zu is too large", a->shape[1], a->shape[0]);
 }
 
-/* A number of `size` bytes as its bits. */
+/* Reads a number of `size` bytes as its bits. */
 static uint64_t take_bits(const unsigned char *bytes, size_t size, bool is_big)
 {
     uint64_t bits = 0;
@@ -98,7 +98,8 @@ bool npy_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     return true;
 }
 
-/* What stands before the numbers, which begin at a multiple of 64 bytes; returns its length. */
+/* Writes the header before the numbers, which begin at a multiple of 64 bytes. Returns its
+ * length. */
 static size_t put_header(unsigned char header[192], const picture *p, bool has_axis)
 {
     char type[4] = "<u1", channels[16] = "";

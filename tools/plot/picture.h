@@ -1,5 +1,5 @@
-/* Pictures: grey, grey + alpha, RGB or RGBA, 8 or 16 bits a sample, rows from the top; and arrays
- * that are no plain pictures: of floats, or with more channels. These have no alpha. */
+/* Pictures: grey, grey + alpha, RGB or RGBA, with samples of 8 or 16 bits and rows from the top.
+ * Also arrays that are no plain pictures: of floats, or with more channels. These have no alpha. */
 #ifndef PICTURE_H
 #define PICTURE_H
 
@@ -22,7 +22,7 @@ typedef enum picture_format {
     PICTURE_PAM
 } picture_format;
 
-/* What the file of a picture says about its colours and the size of its pixels. It is neither
+/* Notes in a picture's file about its colours and the size of its pixels. They are neither
  * interpreted nor changed. */
 typedef struct picture_notes {
     bool has_gamma, has_primaries, has_intent;
@@ -31,22 +31,22 @@ typedef struct picture_notes {
     char profile_name[80];
     unsigned char *profile; /* an ICC profile of n_profile bytes, or NULL */
     size_t n_profile;
-    uint32_t density[2]; /* pixels along x and y; 0, 0: not said */
-    bool per_metre;      /* else only the ratio of the two means something */
-    bool has_axis;       /* of an array: one for channels, even if there is only one */
+    uint32_t density[2]; /* pixels along x and y; 0, 0: not given */
+    bool per_metre;      /* if false, only the ratio of the two has a meaning */
+    bool has_axis;       /* of an array: it has an axis for channels, even if there is only one */
 } picture_notes;
 
 typedef struct picture {
     size_t width, height;
-    unsigned channels; /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA; else what they are */
+    unsigned channels; /* 1 grey, 2 grey + alpha, 3 RGB, 4 RGBA; more in an array */
     unsigned depth;    /* 8 or 16; of floats 32 or 64 */
-    uint16_t *samples; /* height * width * channels, each below 2^depth; of floats NULL */
-    double *values;    /* floats, as many; NaN: missing; else NULL */
+    uint16_t *samples; /* height * width * channels, each below 2^depth; NULL for floats */
+    double *values;    /* the same number of floats, NaN if missing; else NULL */
     picture_format format;
     picture_notes notes;
 } picture;
 
-/* How a picture is written. `notes` may be those of another picture, or NULL. */
+/* How to write a picture. `notes` may be those of another picture, or NULL. */
 typedef struct picture_style {
     picture_format format;
     const picture_notes *notes;
@@ -57,25 +57,27 @@ typedef struct picture_style {
 picture picture_make(size_t width, size_t height, unsigned channels, unsigned depth);
 void picture_free(picture *p);
 
-/* Whether it is what picture files hold: no floats, at most four channels. */
+/* True if picture files can store it: no floats, at most four channels. */
 bool picture_is_plain(const picture *p);
 bool picture_has_alpha(const picture *p);
 
 /* A copy without notes. */
 picture picture_copy(const picture *p);
 
-/* Adds colour or an opaque alpha where the plain picture has none. */
+/* Adds colour or an opaque alpha channel if the plain picture has none. */
 void picture_widen(picture *p, bool colour, bool alpha);
 
-/* Turns and mirrors a picture as it is to be looked at, which Exif says by a number: 1 (as it is)
- * to 8. */
+/* Turns and mirrors a picture to its intended orientation, an Exif number from 1 (unchanged) to
+ * 8. */
 void picture_turn(picture *p, unsigned orientation);
 
-/* Sets a pixel to 8-bit RGBA. The picture is plain and has room for what the colour needs. */
+/* Sets a pixel to 8-bit RGBA. The picture must be plain and have the channels that the colour
+ * needs. */
 void picture_set(picture *p, size_t pixel, const unsigned char rgba[4]);
 
-/* What is drawn on: a copy, or all background if that is not NULL, of floats missing. `from` is
- * widened as that needs it; it is plain or of floats where there is a background. */
+/* Makes the picture that is drawn on: a copy, or filled with `background` if that is not NULL;
+ * floats are then missing. Adds channels to `from` if needed. With a background, `from` is plain or
+ * of floats. */
 picture picture_canvas(picture *from, const unsigned char *background);
 
 #endif

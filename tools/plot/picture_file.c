@@ -84,7 +84,7 @@ int picture_read(picture *out, const char *name)
     return result;
 }
 
-/* The format that a name says. */
+/* The format of a name's extension. */
 static picture_format named(const char *name)
 {
     const char *found = output_format(name);
@@ -94,7 +94,7 @@ static picture_format named(const char *name)
     return PICTURE_NONE;
 }
 
-/* Where no name says more, Netpbm's format is the simplest that holds the picture. */
+/* If the name has no format, Netpbm's is the simplest that can hold the picture. */
 static picture_format like(const picture *p, picture_format format)
 {
     if (format < PICTURE_PGM)
@@ -102,8 +102,8 @@ static picture_format like(const picture *p, picture_format format)
     return picture_has_alpha(p) ? PICTURE_PAM : format == PICTURE_PAM ? format : PICTURE_PNM;
 }
 
-/* Chooses how `p` is written to a file: in the format that its name says, else in that of `from`,
- * with the notes of `from`. */
+/* Chooses how to write `p`: in the format of the name, or else in that of `from`, with the notes of
+ * `from`. */
 static int choose(picture_style *style, const picture *p, const picture *from, const args *a,
                   const char *name)
 {

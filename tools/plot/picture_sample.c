@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* The four pixels round a place in the picture, and the share of each. */
+/* The four pixels around a place in the picture, and their shares. */
 typedef struct square {
     size_t pixels[4];
     double shares[4];
@@ -24,7 +24,7 @@ static square find_square(const picture *p, const double at[2])
     return c;
 }
 
-/* Bilinear, each colour by its alpha. */
+/* Mixes bilinearly, each colour weighted by its alpha. */
 static void mix(const picture *p, const square *at, uint16_t *to)
 {
     bool has_alpha = picture_has_alpha(p);
@@ -43,7 +43,7 @@ static void mix(const picture *p, const square *at, uint16_t *to)
         to[n_colours] = (uint16_t)(alphas + 0.5);
 }
 
-/* Of floats, without those that are missing; NaN where all are. */
+/* Mixes floats without the missing ones. NaN if all are missing. */
 static void mix_floats(const picture *p, const square *at, double *to)
 {
     for (unsigned c = 0; c < p->channels; c++) {

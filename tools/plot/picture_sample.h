@@ -4,8 +4,8 @@
 
 #include "plot/picture.h"
 
-/* Gives a pixel of `to` the colour of `from` at a place in it, bilinearly. Both have the same
- * channels and depth. */
+/* Gives a pixel of `to` the colour of `from` at a place, bilinearly. Both have the same channels
+ * and depth. */
 void picture_sample(const picture *from, const double at[2], picture *to, size_t pixel);
 
 #endif

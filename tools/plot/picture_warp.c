@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* The samples as the library takes them; free() the pixels. Floats that are NaN are missing. */
+/* The samples in the library's form; free() the pixels. Floats that are NaN are missing. */
 static icc_picture pack(const picture *p)
 {
     size_t n = p->width * p->height * p->channels;

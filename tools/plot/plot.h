@@ -5,7 +5,7 @@
 #include "plot/stages.h"
 #include "plot/svg.h"
 
-/* Where a shape is drawn: its bounding box, stretched over a box of the drawing. */
+/* The place of a shape in a drawing: its bounding box is stretched over a box of the drawing. */
 typedef struct panel {
     FILE *svg;
     const stages *stages;
@@ -15,45 +15,46 @@ typedef struct panel {
     bool y_down;
 } panel;
 
-/* What the checkerboard and the u v map paint: a colour by place in the source. */
+/* The checkerboard and the u v map: a colour by place in the source. */
 typedef enum pattern { PATTERN_CHECKERBOARD, PATTERN_UV } pattern;
 
-/* A position of the shape in the drawing, and back. */
+/* Convert a position of the shape to the drawing, and back. */
 void panel_place(const panel *p, const double at[2], double out[2]);
 void panel_locate(const panel *p, double x, double y, double out[2]);
 
 /* Defines the clip path of the shape. */
 void plot_clip(const panel *p, const cage *c);
 
-/* The outline with what is inside, and the map's ties, or else those that were given; drawn last. */
+/* Draws the outline, the features inside, and the ties of the map or else the given ones. Call it
+ * last. */
 void plot_cage(const panel *p, const job *j);
 
-/* Numbers at places of the outlines that go together, where these were matched. */
+/* Draws numbers at corresponding places of matched outlines. */
 void plot_pairs(const panel *p, const job *j);
 
-/* True if the shape is drawn with the map's triangles, because the map has them or the user asks for
- * them. The curves of its charts would not be the ones that such a map carries along. */
+/* True if the shape is drawn with the map's triangles, because the map has them or the user asks
+ * for them. Such a map does not carry along the curves of its charts. */
 bool shows_triangles(const stages *s, const job *j);
 
-/* Function as shades, tree, expansion edges, integral curves, maximum. */
+/* Draws the function as shades, the tree, expansion edges, integral curves and the maximum. */
 int plot_shape(const panel *p, job *j);
 
-/* The function as a surface, with the outline and the curves on it. */
+/* Draws the function as a surface, with the outline and the curves on it. */
 int plot_surface(const panel *p, job *j);
 
-/* Where in the source the samples of a raster over a panel come from; both patterns need it. */
+/* The places in the source of the samples of a raster over a panel. Both patterns need them. */
 typedef struct places {
-    size_t width, height; /* of the picture, in pixels; each has several samples */
-    double *points;       /* NaN: nowhere */
+    size_t width, height; /* of the picture, in pixels; each pixel has several samples */
+    double *points;       /* NaN if there is no place */
 } places;
 
 int places_make(places *out, const panel *p, job *j);
 void places_free(places *s);
 
-/* A pattern painted on the source, as the shape of the panel inherits it. */
+/* Draws a pattern that is painted on the source, as the map carries it to the panel's shape. */
 int plot_pattern(const panel *p, job *j, const places *from, pattern what);
 
-/* The whole command when the figure is a file .vtk: the source for ParaView, in the plane or in
+/* The whole command for a figure in a file .vtk: the source for ParaView, in the plane or in
  * space. */
 int plot_vtk(const args *a);
 

@@ -1,5 +1,5 @@
-/* Which places of two matched outlines, and which holes, lines and points, go together: numbers on
- * both. */
+/* Draws numbers on two matched shapes: corresponding places of the outlines, and paired holes,
+ * lines and points. */
 #include "plot/plot.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static double step(const cage *c, size_t i)
     return hypot(b[0] - a[0], b[1] - a[1]);
 }
 
-/* Colours run round the outline once, and go on. */
+/* Colours run around the outline once, and continue. */
 static void draw_number(const panel *p, const double *point, size_t number)
 {
     double at[2];
@@ -26,8 +26,8 @@ static void draw_number(const panel *p, const double *point, size_t number)
             at[0], at[1], radius, number % N_PAIRS * 360 / N_PAIRS, at[0], at[1] + 3.2, number + 1);
 }
 
-/* The first vertex behind each of so many even places along the source; then the first of each
- * feature. */
+/* Numbers the first vertex after each of several even places along the source, then the first
+ * vertex of each feature. */
 void plot_pairs(const panel *p, const job *j)
 {
     const cage *source = &j->cages[0], *shown = &j->cages[p->side == 2];

@@ -1,5 +1,5 @@
-/* Figure 6 of the paper, first and second row: what a checkerboard and the coordinates u (red) and
- * v (green), painted on the source, become. */
+/* Figure 6 of the paper, first and second row: the images of a checkerboard and of the coordinates
+ * u (red) and v (green), painted on the source. */
 #include "plot/plot.h"
 
 #include "base/allocate.h"
@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum { SQUARES = 16 };
-static const size_t samples = 2; /* samples a side of a pixel */
+static const size_t samples = 2; /* samples along the side of a pixel */
 
 static void pattern_colour(const icc_domain_info *box, pattern what, const double at[2],
                            double rgb[3])

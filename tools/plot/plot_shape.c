@@ -1,6 +1,6 @@
-/* A shape with everything that is known of it, as in figure 6 of the paper, third row: function
- * values (background lightness), maximum (red circle), integral lines (blue), the cousin tree,
- * expansion edges (purple). */
+/* Draws a shape with its chart, as in figure 6 of the paper, third row: function values (background
+ * lightness), maximum (red circle), integral lines (blue), the cousin tree, expansion edges
+ * (purple). */
 #include "plot/plot.h"
 
 #include "base/allocate.h"
@@ -38,7 +38,7 @@ static void write_path(const panel *p, size_t n, const double *points, bool clos
     free(path);
 }
 
-/* The outer ring and the holes; with `lines` those too. */
+/* Writes the outer ring and the holes, and with `lines` the lines too. */
 static void write_outline(const panel *p, const cage *c, bool lines)
 {
     write_path(p, c->n, c->points, true);
@@ -57,7 +57,7 @@ void plot_clip(const panel *p, const cage *c)
     fputs("\"/></clipPath>\n", p->svg);
 }
 
-/* Of points inside with a pale rim, so that they show on any ground. */
+/* Draws vertices. Points inside have a pale rim, so that they are visible on any background. */
 static void draw_vertices(const panel *p, size_t n, const double *points, double radius, bool rim)
 {
     for (size_t i = 0; i < n; i++) {
@@ -68,7 +68,8 @@ static void draw_vertices(const panel *p, size_t n, const double *points, double
     }
 }
 
-/* The ties, dashed, and the pale ground of lines and ties: they show on any pattern. */
+/* Draws the ties, dashed, and a pale background of lines and ties, so that they are visible on any
+ * pattern. */
 static void draw_lines(const panel *p, const cage *c)
 {
     fputs("<path fill=\"none\" stroke=\"white\" stroke-width=\"4\" stroke-linejoin=\"round\" "
@@ -89,7 +90,7 @@ static void draw_lines(const panel *p, const cage *c)
     }
 }
 
-/* Of points with a radius. */
+/* Draws circles for points with a radius. */
 static void draw_circles(const panel *p, const cage *c)
 {
     for (size_t i = 0; i < c->n_features; i++) {
@@ -105,7 +106,7 @@ static void draw_circles(const panel *p, const cage *c)
     }
 }
 
-/* Dots are vertices where there are not too many of them, and points inside always. */
+/* Draws dots for vertices unless there are too many, and for points inside always. */
 static void draw_cage(const panel *p, const cage *c)
 {
     size_t n = c->n;
@@ -145,7 +146,7 @@ void plot_cage(const panel *p, const job *j)
 
 /* ------------------------------------------------------------------ curves */
 
-/* Points spread evenly over the length of the boundary. */
+/* Spreads points evenly over the length of the boundary. */
 static double *spread(const cage *c, size_t n)
 {
     double *points = need(n, 2 * sizeof *points), total = 0, walked = 0;
@@ -164,7 +165,7 @@ static double *spread(const cage *c, size_t n)
         }
         walked += length;
     }
-    for (; k < n; k++) /* rounding may leave the last one over */
+    for (; k < n; k++) /* rounding may leave the last one without a place */
         memcpy(points + 2 * k, c->points, 2 * sizeof *points);
     return points;
 }
@@ -224,7 +225,7 @@ static int draw_curves(const panel *p, job *j)
 
 /* ------------------------------------------------------------------ shades */
 
-/* From slate at the lowest value to white at the maximum; rose where no value is. */
+/* From slate at the lowest value to white at the maximum, and rose without a value. */
 static void shade(const stages *s, double value, unsigned char rgba[4])
 {
     static const double low[3] = {148, 163, 184}, high[3] = {255, 255, 255};
@@ -237,7 +238,8 @@ static void shade(const stages *s, double value, unsigned char rgba[4])
         rgba[k] = (unsigned char)(low[k] + t * (high[k] - low[k]) + 0.5);
 }
 
-/* One picture with the panel's pixels under the drawing: a value and a colour at each centre. */
+/* Draws one picture with the panel's pixels below the drawing: the colour of the value at each
+ * centre. */
 static int draw_shades(const panel *p, job *j)
 {
     picture image = picture_make((size_t)ceil(p->width), (size_t)ceil(p->height), 3, 8);
@@ -274,7 +276,8 @@ static void draw_segment(const panel *p, uint32_t a, uint32_t b)
     svg_polyline(p->svg, 2, ends);
 }
 
-/* The tree where a vertex inside is the parent; left out where it would be a grey mush. */
+/* Draws the tree where a vertex inside is the parent. It is left out where its lines would merge to
+ * grey. */
 static void draw_tree(const panel *p)
 {
     const uint32_t *parents = icc_tree_parents(p->stages->tree);
@@ -311,7 +314,7 @@ static void draw_maximum(const panel *p)
             at[0], at[1]);
 }
 
-/* The mesh of the map, every edge once. */
+/* Draws the mesh of the map, every edge once. */
 static int draw_triangles(const panel *p)
 {
     icc_map_info info = {.size = sizeof info};
@@ -330,7 +333,8 @@ static int draw_triangles(const panel *p)
     for (size_t i = 0; i < 3 * info.n_simplices; i++) {
         uint32_t a = triangles[i], b = triangles[i % 3 == 2 ? i - 2 : i + 1];
         double ends[4] = {points[2 * a], points[2 * a + 1], points[2 * b], points[2 * b + 1]};
-        /* The triangle on the other side runs from b to a; where there is none, the outline is. */
+        /* The triangle on the other side has the edge from b to a. Without one, the outline is
+         * there. */
         if (a < b)
             svg_polyline(p->svg, 2, ends);
     }

@@ -1,6 +1,5 @@
-/* A map in space: both bodies, of which a plane has taken a half away. What lay on the plane is a
- * sheet with a regular grid; in the target it is what the map makes of it, with the image of the
- * grid. */
+/* Draws a map in space: both solids, of which a plane has removed a half. The cut is a sheet with a
+ * regular grid. In the target it is the image of the sheet and its grid. */
 #include "plot/plot.h"
 
 #include "base/allocate.h"
@@ -22,7 +21,7 @@ typedef struct paper {
     double light;
 } paper;
 
-/* Fields of two pale colours, and lines as thin everywhere as on the source. */
+/* Paints fields of two pale colours, and lines that are as thin everywhere as on the source. */
 static void paint_sheet(const void *of, const double value[3], double rgb[3])
 {
     static const double light[3] = {255, 250, 234}, dark[3] = {222, 232, 244},
@@ -46,7 +45,7 @@ static void paint_shell(const void *of, const double value[3], double rgb[3])
         rgb[k] = dark[k] + (pale[k] - dark[k]) * share;
 }
 
-/* How fast the values change along the picture is constant on a triangle. */
+/* The rate at which the values change in the picture is constant on a triangle. */
 static paper take_paper(const z_buffer_corner *c, double half_width)
 {
     paper p = {.light = 1};
@@ -144,7 +143,7 @@ static size_t greatest(size_t a, size_t b)
     return a > b ? a : b;
 }
 
-/* Both pictures side by side, each in the middle of the height. */
+/* Puts both pictures side by side, each in the middle of the height. */
 static picture join(const picture p[2])
 {
     picture whole =
@@ -201,7 +200,7 @@ static int write_solid(const picture pictures[2], const char *name)
     return outfile_close(&file) && result == DONE ? DONE : FAILED;
 }
 
-/* Options that are about pictures of the plane. */
+/* Refuses options for pictures of the plane. */
 static int check_options(const args *a)
 {
     const char *flat = a->triangles     ? "triangles"

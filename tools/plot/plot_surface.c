@@ -1,9 +1,9 @@
-/* The function as a surface, as in figure 4.5 of the thesis, seen from above at a slant.
+/* Draws the function as a surface, as in figure 4.5 of the thesis, seen at a slant from above.
  *
- * Painter's algorithm: everything is cut into pieces that lie in one cell of the grid, and cells
- * are drawn from the farthest to the nearest, with the pieces of curves and outline right after
- * their cell. So nearer slopes cover what lies behind them. Cells on the boundary are drawn as fine
- * tiles, and only those inside the shape. */
+ * Painter's algorithm: everything is cut into pieces that lie in one cell of the grid. Cells are
+ * drawn from the farthest to the nearest, each followed by its pieces of curves and outline. So
+ * near slopes cover those behind them. Cells on the boundary are drawn as fine tiles, and only the
+ * tiles inside the shape. */
 #include "plot/plot.h"
 
 #include "base/allocate.h"
@@ -19,14 +19,14 @@ enum {
 
 typedef struct view {
     const panel *panel;
-    double turn[2]; /* cosine and sine of the turn about the vertical */
+    double turn[2]; /* cosine and sine of the turn around the vertical */
     double tilt[2]; /* cosine and sine of the height of the eye */
     double centre[2], size, relief;
     double fit, at[2];            /* from the plane of view to the drawing */
-    size_t stride, columns, rows; /* of the cells that are drawn, in cells of the grid */
+    size_t stride, columns, rows; /* of the drawn cells, in cells of the grid */
 } view;
 
-/* A piece of a line, in the cell that it belongs to. */
+/* A piece of a line, and the cell to which it belongs. */
 typedef struct stroke {
     size_t cell;
     bool outline;
@@ -45,7 +45,7 @@ static double height_share(const view *v, double value)
     return s->high > s->low ? (value - s->low) / (s->high - s->low) : 1;
 }
 
-/* To the plane of view: right and down. Returns how far away the point is. */
+/* Projects a point to the plane of view: right and down. Returns its distance. */
 static double project(const view *v, const double p[2], double value, double out[2])
 {
     double x = (p[0] - v->centre[0]) / v->size, y = (p[1] - v->centre[1]) / v->size;
@@ -63,7 +63,8 @@ static void place(const view *v, const double p[2], double value, double out[2])
         out[k] = v->at[k] + v->fit * out[k];
 }
 
-/* The cell that a point lies in, and where in it: (0,0) is its lowest corner, (1,1) the highest. */
+/* The cell that contains a point, and the place in it: (0,0) is its lowest corner, (1,1) the
+ * highest. */
 static size_t cell_of(const view *v, const double p[2])
 {
     const icc_grid_info *g = &v->panel->stages->lattice;
@@ -83,8 +84,8 @@ static void cell_point(const view *v, size_t cell, double u, double w, double ou
 
 /* ------------------------------------------------------------------- tiles */
 
-/* Steel blue below, through pale green, to warm white on top; darker where the slope turns from the
- * light. */
+/* Steel blue at the bottom, through pale green, to warm white at the top. Darker where the slope
+ * faces away from the light. */
 static void tile_colour(double height, double light, int rgb[3])
 {
     static const double ramp[5][3] = {
@@ -96,7 +97,8 @@ static void tile_colour(double height, double light, int rgb[3])
             (int)(fmin(255, light * (ramp[i][k] + (ramp[i + 1][k] - ramp[i][k]) * (x - i))) + 0.5);
 }
 
-/* Light from the left and the front: a slope that rises to the right and to the back is bright. */
+/* Light comes from the left and the front, so a slope that rises to the right and to the back is
+ * bright. */
 static double tile_light(const view *v, const double values[4], double side)
 {
     double step = side / v->size / v->relief, h[4];
@@ -110,14 +112,15 @@ static double tile_light(const view *v, const double values[4], double side)
     return fmin(fmax(light, 0.68), 1.1);
 }
 
-/* The part of a cell between (u, w) and (u + side, w + side), unless a corner has no value. */
+/* Draws the part of a cell between (u, w) and (u + side, w + side), unless a corner has no
+ * value. */
 static void draw_tile(const view *v, size_t cell, double u, double w, double side)
 {
     static const double round[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     double values[4], outline[8], mean = 0;
     for (size_t c = 0; c < 4; c++) {
         double p[2];
-        /* A hair inside: on the rim of the cell the next one may have no value. */
+        /* Slightly inside, because at the border of the cell the next one may have no value. */
         cell_point(v, cell, u + side * (round[c][0] * (1 - 1e-9)),
                    w + side * (round[c][1] * (1 - 1e-9)), p);
         values[c] = stages_value(v->panel->stages, p);
@@ -135,7 +138,7 @@ static void draw_tile(const view *v, size_t cell, double u, double w, double sid
     fputs("Z\"/>\n", v->panel->svg);
 }
 
-/* Whether the middles of the tiles of a cell are inside; n a side. */
+/* Tests if the middles of a cell's tiles are inside, n along a side. */
 static void tiles_inside(const view *v, job *j, size_t cell, size_t n, int32_t *where)
 {
     double middles[2 * BOUNDARY_TILES * BOUNDARY_TILES];
@@ -148,7 +151,7 @@ static void tiles_inside(const view *v, job *j, size_t cell, size_t n, int32_t *
             where[i] = ICC_OUTSIDE;
 }
 
-/* The farthest tiles of a cell come first, as the cells do. */
+/* Draws the farthest tiles of a cell first, in the order of the cells. */
 static void draw_cell(const view *v, job *j, size_t cell, bool crossed)
 {
     size_t n = crossed ? BOUNDARY_TILES : 1;
@@ -177,7 +180,8 @@ static void add_stroke(const view *v, ink *i, const double a[2], const double b[
     place(v, b, to, s->ends + 2);
 }
 
-/* A line in steps of a quarter of a cell: each follows the surface and belongs to one cell. */
+/* Adds a line in steps of a quarter of a cell. Each step follows the surface and belongs to one
+ * cell. */
 static void add_line(const view *v, ink *i, const double a[2], const double b[2], bool outline)
 {
     double step = v->panel->stages->lattice.spacing / 4;
@@ -192,7 +196,8 @@ static void add_line(const view *v, ink *i, const double a[2], const double b[2]
     }
 }
 
-/* A curve may leave the shape for a while; what is outside has no surface to lie on. */
+/* A curve may leave the shape for a while. Outside there is no surface to draw it on, so that part
+ * is dropped. */
 static icc_status drop_outside(const view *v, job *j, ink *i)
 {
     double *middles = need(i->n, 2 * sizeof *middles);
@@ -239,7 +244,7 @@ static int gather_ink(const view *v, job *j, ink *i)
     return DONE;
 }
 
-/* The strokes of a cell; *next is the first of them, and moves behind the last. */
+/* Draws the strokes of a cell. *next is the first of them and moves after the last. */
 static void draw_ink(const view *v, const ink *i, size_t cell, bool outline, size_t *next)
 {
     bool any = false;
@@ -285,7 +290,7 @@ static void stretch(const view *v, const double p[2], double value, double box[4
     }
 }
 
-/* Makes what has a value fill the panel. */
+/* Scales the visible part to the panel. */
 static void fit_view(view *v, const cage *c)
 {
     const panel *p = v->panel;
@@ -325,7 +330,7 @@ static int compare_ranked(const void *a, const void *b)
     return (s->cell > t->cell) - (s->cell < t->cell);
 }
 
-/* All cells from the farthest to the nearest. */
+/* Sorts all cells from the farthest to the nearest. */
 static ranked *rank_cells(const view *v)
 {
     size_t n = v->columns * v->rows;
@@ -339,7 +344,7 @@ static ranked *rank_cells(const view *v)
     return cells;
 }
 
-/* Where in the sorted strokes each cell begins. */
+/* Finds where each cell begins in the sorted strokes. */
 static size_t *index_ink(const view *v, const ink *i)
 {
     size_t n = v->columns * v->rows, next = 0;

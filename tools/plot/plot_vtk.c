@@ -1,8 +1,8 @@
 /* libicc plot OUT.vtk: the source in the legacy VTK format, for ParaView.
  *
- * One unstructured grid of four parts, which the cell data `part` tells apart: 0 the cells of the
+ * One unstructured grid of four parts, which the cell data `part` distinguishes: 0 the cells of the
  * grid (methods gradient and field), 1 the tree's edges, 2 the boundary, 3 integral curves. A
- * target makes the point data `displacement`, which ParaView's filter Warp By Vector turns into the
+ * target adds the point data `displacement`. ParaView's filter Warp By Vector turns it into the
  * target. */
 #include "plot/plot.h"
 
@@ -17,11 +17,11 @@ enum { PART_GRID, PART_TREE, PART_BOUNDARY, PART_CURVES };
 enum { VTK_LINE = 3, VTK_POLY_LINE = 4, VTK_TRIANGLE = 5, VTK_PIXEL = 8, VTK_VOXEL = 11 };
 enum { DEFAULT_LINES = 120 };
 
-/* What is known of a point. */
+/* The data of a point. */
 typedef struct place {
     double at[3];
     double function; /* or its logarithm */
-    double share;    /* of the way along its curve */
+    double share;    /* of the length of its curve */
     int32_t generation;
     int32_t inside;
 } place;
@@ -38,7 +38,7 @@ typedef struct vtk {
     place *places;
     cell *cells;
     uint32_t *corners;
-    double *moved; /* where the map takes the places, dim coordinates each; NULL: there is no map */
+    double *moved; /* the images of the places, dim coordinates each; NULL if there is no map */
     size_t n_places, n_cells, n_corners;
     size_t room_places, room_cells, room_corners;
 } vtk;
@@ -62,7 +62,8 @@ static void add_cell(vtk *v, int32_t part, int32_t type, size_t n, const uint32_
 
 /* -------------------------------------------------------------------- grid */
 
-/* The vertices that the tree reaches; `ids` gets their places, UINT32_MAX for the others. */
+/* Adds the vertices that the tree reaches. `ids` gets their places, and UINT32_MAX for the
+ * others. */
 static void add_vertices(vtk *v, uint32_t *ids)
 {
     const stages *s = &v->stages;
@@ -81,7 +82,7 @@ static void add_vertices(vtk *v, uint32_t *ids)
     }
 }
 
-/* The grid cell whose lowest corner is vertex i, if the tree reaches all its corners. */
+/* Adds the grid cell whose lowest corner is vertex i, if the tree reaches all its corners. */
 static void add_grid_cell(vtk *v, const uint32_t *ids, size_t i)
 {
     const size_t *shape = v->stages.lattice.shape;
@@ -121,7 +122,7 @@ static void add_grid(vtk *v)
 
 /* ---------------------------------------------------------------- boundary */
 
-/* The corners of facet i; those of a ring are its edges. */
+/* The corners of facet i. Those of a ring are its edges. */
 static void facet_corners(const cage *c, size_t i, uint32_t *corners)
 {
     for (size_t k = 0; k < c->dim; k++)
@@ -157,7 +158,7 @@ static double distance(const double *a, const double *b, size_t dim)
     return sqrt(sum);
 }
 
-/* Length, or by Heron's formula area. */
+/* The length, or by Heron's formula the area. */
 static double facet_measure(const cage *c, const uint32_t *corners)
 {
     const double *p[3] = {NULL, NULL, NULL};
@@ -197,7 +198,7 @@ static void add_curve(vtk *v, const double *start, double **curve, size_t *room)
     free(corners);
 }
 
-/* Curves from the middles of facets, spread evenly over the boundary's measure. */
+/* Adds curves from the middles of facets, spread evenly over the boundary's measure. */
 static void add_curves(vtk *v)
 {
     const cage *c = &v->job.cages[0];
@@ -240,7 +241,7 @@ static int move_places(vtk *v)
     return ran == ICC_OK ? DONE : job_failed_status(&v->job, ran);
 }
 
-/* An array per property, each with a value for every place. */
+/* Writes an array for each property, with a value for every place. */
 static void write_point_data(const vtk *v, FILE *f)
 {
     fprintf(f, "POINT_DATA %zu\nSCALARS %s double 1\nLOOKUP_TABLE default\n", v->n_places,
@@ -266,7 +267,8 @@ static void write_point_data(const vtk *v, FILE *f)
         }
 }
 
-/* The legacy format of version 3.0, as text: every program that shows VTK files reads it. */
+/* Writes the legacy format of version 3.0 as text, because every program that shows VTK files reads
+ * it. */
 static void write_vtk(const vtk *v, FILE *f)
 {
     fprintf(f, "# vtk DataFile Version 3.0\nlibicc %s\nASCII\nDATASET UNSTRUCTURED_GRID\n",
@@ -291,7 +293,7 @@ static void write_vtk(const vtk *v, FILE *f)
     write_point_data(v, f);
 }
 
-/* Grid, boundary and curves of one chart, moved along afterwards when there is a map. */
+/* Makes grid, boundary and curves of one chart, and moves them if there is a map. */
 static int make(vtk *v)
 {
     job *j = &v->job;

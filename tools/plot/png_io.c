@@ -1,5 +1,5 @@
-/* PNG through libpng. What the file says about colours (gAMA, cHRM, sRGB, iCCP) and about the size
- * of pixels (pHYs) becomes the picture's notes. */
+/* PNG through libpng. Notes in the file about colours (gAMA, cHRM, sRGB, iCCP) and about the size
+ * of pixels (pHYs) become the picture's notes. */
 #include "plot/picture_file.h"
 
 #include "base/allocate.h"
@@ -12,12 +12,12 @@
 typedef struct reader {
     png_structp png;
     png_infop info;
-    const png_byte *bytes; /* what is left to read */
+    const png_byte *bytes; /* the bytes left to read */
     size_t n;
     char message[160];
 } reader;
 
-/* Bytes of a colour profile; a few bytes of a file can announce 2^32 of them. */
+/* Limit on the bytes of a colour profile, because a few bytes of a file can announce 2^32. */
 enum { MOST_NOTES = 1 << 24 };
 
 typedef struct writer {
@@ -28,7 +28,8 @@ typedef struct writer {
     char message[160];
 } writer;
 
-/* Both structs end the same way: a message of 160 bytes, handed over as libpng's error pointer. */
+/* Both structs end in the same way: a message of 160 bytes, which libpng gets as its error
+ * pointer. */
 static void stop(png_structp png, png_const_charp message)
 {
     snprintf(png_get_error_ptr(png), 160, "%s", message);
@@ -64,7 +65,7 @@ static void no_flush(png_structp png)
     (void)png;
 }
 
-/* Rows as libpng gives them, most significant byte first, to samples. */
+/* Converts a row of libpng, most significant byte first, to samples. */
 static void unpack(picture *p, const png_byte *row, size_t y)
 {
     size_t n = p->width * p->channels;
@@ -108,7 +109,7 @@ static void read_notes(const reader *r, picture_notes *notes)
     }
 }
 
-/* Everything that libpng may jump out of. `rows` is freed by the caller. */
+/* All calls from which libpng may jump. The caller frees `rows`. */
 static bool decode(reader *r, picture *out, png_byte **rows)
 {
     if (setjmp(png_jmpbuf(r->png)))
@@ -116,7 +117,8 @@ static bool decode(reader *r, picture *out, png_byte **rows)
     png_set_read_fn(r->png, r, take_bytes);
     png_set_chunk_malloc_max(r->png, MOST_NOTES);
     png_read_info(r->png, r->info);
-    /* A byte of deflated data gives at most 1032: what is announced beyond that is not there. */
+    /* A byte of deflated data gives at most 1032 bytes, so a picture that announces more is
+     * refused. */
     uint64_t row_size = png_get_rowbytes(r->png, r->info);
     if (row_size * png_get_image_height(r->png, r->info) / 1032 > r->n)
         png_error(r->png, "the file ends early");
@@ -138,8 +140,8 @@ static bool decode(reader *r, picture *out, png_byte **rows)
     return true;
 }
 
-/* Whether every chunk ends within the file; libpng makes room for what a chunk announces before it
- * reads. */
+/* True if every chunk ends within the file. libpng allocates the announced size of a chunk before
+ * it reads it. */
 static bool is_whole(const unsigned char *bytes, size_t n)
 {
     size_t at = 8;
@@ -191,8 +193,8 @@ static void write_notes(writer *w, const picture_notes *notes)
                      notes->per_metre ? PNG_RESOLUTION_METER : PNG_RESOLUTION_UNKNOWN);
 }
 
-/* All calls of libpng that may fail: it leaves them by longjmp, which is why nothing is allocated
- * here and `row` comes from outside. */
+/* All calls of libpng that may fail. It leaves them by longjmp, so nothing is allocated here and
+ * `row` comes from the caller. */
 static bool encode(writer *w, const picture *p, const picture_notes *notes, png_byte *row)
 {
     static const int colour_types[] = {PNG_COLOR_TYPE_GRAY, PNG_COLOR_TYPE_GRAY_ALPHA,
@@ -200,7 +202,7 @@ static bool encode(writer *w, const picture *p, const picture_notes *notes, png_
     if (setjmp(png_jmpbuf(w->png)))
         return false;
     png_set_write_fn(w->png, w, give_bytes, no_flush);
-    png_set_benign_errors(w->png, 1); /* a strange colour profile came in, it may go out */
+    png_set_benign_errors(w->png, 1); /* an unusual colour profile was read, so it may be written */
     png_set_IHDR(w->png, w->info, (png_uint_32)p->width, (png_uint_32)p->height, (int)p->depth,
                  colour_types[p->channels - 1], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                  PNG_FILTER_TYPE_DEFAULT);

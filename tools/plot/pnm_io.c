@@ -1,5 +1,5 @@
-/* Netpbm's formats, as its manual pages pbm(5), pgm(5), ppm(5) and pam(5) say: numbers in a header,
- * then samples in binary, most significant byte first, or as text. Pipes carry them. */
+/* Netpbm's formats, by its manual pages pbm(5), pgm(5), ppm(5) and pam(5): numbers in a header,
+ * then samples in binary, most significant byte first, or as text. They are common in pipes. */
 #include "plot/picture_file.h"
 
 #include "base/allocate.h"
@@ -7,11 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the reader is, and what the header has said. */
+/* The reader's place, and the values of the header. */
 typedef struct reader {
     const char *at, *end;
     size_t width, height, channels, largest;
-    bool is_text, is_bits; /* samples are numbers; or one bit each, 1 being black */
+    bool is_text, is_bits; /* samples are numbers, or one bit each, where 1 is black */
 } reader;
 
 static bool is_blank(char c)
@@ -19,7 +19,7 @@ static bool is_blank(char c)
     return c == ' ' || (c >= '\t' && c <= '\r');
 }
 
-/* Past white space and comments, which end with their line. */
+/* Skips white space and comments, which end with their line. */
 static void skip(reader *r)
 {
     while (r->at < r->end && (is_blank(*r->at) || *r->at == '#')) {
@@ -30,7 +30,7 @@ static void skip(reader *r)
     }
 }
 
-/* The next number, at most `most`; `most` + 1 when there is none, or it is greater. */
+/* Reads the next number, at most `most`. Returns `most` + 1 if there is none or it is greater. */
 static size_t take_number(reader *r, size_t most)
 {
     skip(r);
@@ -47,11 +47,11 @@ static bool starts(const reader *r, const char *word)
     return (size_t)(r->end - r->at) > n && memcmp(r->at, word, n) == 0 && is_blank(r->at[n]);
 }
 
-/* Along an axis: as many as a row of eight bytes each can have on every machine. */
+/* Limit along an axis: a row of eight bytes for each pixel must fit on every machine. */
 static const size_t most_pixels = INT32_MAX / 8;
 
-/* PAM's header has a word before each number. What kind of tuples they are follows from how many
- * numbers each has. */
+/* Reads PAM's header, which has a word before each number. The number of samples in a tuple tells
+ * the kind of tuple. */
 static bool read_words(reader *r)
 {
     const struct {
@@ -78,7 +78,7 @@ static bool read_words(reader *r)
     return true;
 }
 
-/* Reads what stands before the samples, up to the one blank that separates them. */
+/* Reads the header, up to the blank that separates it from the samples. */
 static bool read_header(reader *r)
 {
     char kind = r->at[1];
@@ -101,8 +101,8 @@ static bool read_header(reader *r)
     return true;
 }
 
-/* Bytes that a row takes in binary; as text a sample takes at least one, and another to part it
- * from the next, unless it is a bit. */
+/* Bytes of a row in binary. As text, a sample takes at least one byte, and another one to separate
+ * it from the next, unless it is a bit. */
 static size_t row_bytes(const reader *r)
 {
     if (r->is_text)
@@ -110,7 +110,8 @@ static size_t row_bytes(const reader *r)
     return r->is_bits ? (r->width + 7) / 8 : r->width * r->channels * (r->largest > 255 ? 2 : 1);
 }
 
-/* The next sample of a row that begins at `row`; more than r->largest: there is none. */
+/* Reads the next sample of a row that begins at `row`. Returns more than r->largest if there is
+ * none. */
 static size_t take_sample(reader *r, const char *row, size_t i)
 {
     const unsigned char *bytes = (const unsigned char *)row;
@@ -149,7 +150,7 @@ bool pnm_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     if (!read_header(&r))
         return spoilt(wrong, 0,
                       "the header of the PNM picture is damaged, or has too large numbers");
-    /* The last number of a text may have no blank behind it. */
+    /* The last number of a text may have no blank after it. */
     if (r.height > ((size_t)(r.end - r.at) + r.is_text) / row_bytes(&r))
         return spoilt(wrong, 0, "the PNM picture of %zu x %zu is damaged: the file ends early",
                       r.width, r.height);
@@ -165,7 +166,7 @@ bool pnm_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     return spoilt(wrong, 0, "more follows on the PNM picture; only one at a time is taken");
 }
 
-/* PGM or PPM by the number of channels, PPM also of grey when it must be that, or PAM. */
+/* Writes PGM or PPM by the number of channels, or PAM. Grey may be written as PPM on request. */
 unsigned char *pnm_encode(const picture *p, const picture_style *style, size_t *n, problem *wrong)
 {
     (void)wrong;

@@ -1,4 +1,4 @@
-/* Which plane cuts a body, and what comes of it. */
+/* Chooses the plane that cuts a solid, and makes the cut. */
 #include "plot/solid_cut.h"
 
 #include "base/allocate.h"
@@ -11,7 +11,7 @@ enum { CELLS = 20 }; /* of the grid, along the longer side of the cut */
 
 /* ------------------------------------------------------------------- the body */
 
-/* Tetrahedra of the source: those of its domain, or else such as fill it. */
+/* Takes the tetrahedra of the source's domain, or else fills it with tetrahedra. */
 static int take_domain(solid *x)
 {
     job *j = x->job;
@@ -70,7 +70,7 @@ static int make_body(solid *x)
 
 /* ------------------------------------------------------------------- the plane */
 
-/* Through the middle of the source's box, along one of the axes. */
+/* The plane through the middle of the source's box, at right angles to one of the axes. */
 static plane middle_plane(const job *j, size_t axis)
 {
     icc_domain_info box = {.size = sizeof box};
@@ -81,7 +81,7 @@ static plane middle_plane(const job *j, size_t axis)
     return p;
 }
 
-/* The one asked for; else that with the largest section of three. */
+/* Chooses the plane: the one in the options, or else the one of three with the largest section. */
 static plane choose_plane(const solid *x)
 {
     const args *a = x->job->args;
@@ -116,8 +116,8 @@ static double side_length(const cut_corner *a, const cut_corner *b)
     return hypot(hypot(d[0], d[1]), d[2]);
 }
 
-/* Halves the longest side until none is longer than `most`. Whether a side is halved depends on its
- * length alone, so that triangles with a side in common have its points in common. */
+/* Halves the longest side until none is longer than `most`. Only its length decides if a side is
+ * halved, so triangles with a common side get the same points on it. */
 static void divide(corners *out, const cut_corner t[3], double most)
 {
     size_t at = 0;
@@ -138,8 +138,8 @@ static void divide(corners *out, const cut_corner t[3], double most)
     divide(out, (cut_corner[]){middle, b, c}, most);
 }
 
-/* Maps without a mesh: the sheet in small triangles, their corners mapped one by one. What has no
- * image is left out. */
+/* For maps without a mesh: cuts the sheet into small triangles and maps their corners one by one.
+ * Triangles without an image are dropped. */
 static int map_sheet(solid *x)
 {
     corners fine = {0};
@@ -157,7 +157,7 @@ static int map_sheet(solid *x)
     return ran == ICC_OK ? DONE : job_failed_status(x->job, ran);
 }
 
-/* The grid is upright as the plane is seen from its front. */
+/* Lays the grid upright, as seen from the front of the plane. */
 static void lay_grid(solid *x)
 {
     solid_view front = view_make(x->plane.normal);

@@ -1,4 +1,4 @@
-/* What a figure of a map in space shows: a body, the plane that cuts it, and the cut. */
+/* The contents of a figure of a map in space: a solid, the plane that cuts it, and the cut. */
 #ifndef SOLID_CUT_H
 #define SOLID_CUT_H
 
@@ -16,8 +16,8 @@ typedef struct solid {
     solid_view views[2];
 } solid;
 
-/* Makes the map, if there is none, and cuts the source as the options say. DONE, or FAILED or
- * MISUSED with a line on stderr. To be freed in any case. */
+/* Makes the map, if there is none, and cuts the source as the options ask. DONE, or FAILED or
+ * MISUSED with a message on stderr. Free it in any case. */
 int solid_make(solid *out, job *j);
 void solid_free(solid *x);
 

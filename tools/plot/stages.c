@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* From here on, in orders of magnitude, a linear scale shows little but the summit. */
+/* For a range above this, in orders of magnitude, a linear scale shows little besides the
+ * maximum. */
 static const double many_decades = 2;
 
 static void find_range(stages *s)
@@ -106,9 +107,9 @@ static bool in_shape(const stages *s, size_t vertex)
     return icc_grid_inside(s->grid)[vertex] && icc_tree_generations(s->tree)[vertex] >= 0;
 }
 
-/* The tree holds them together, so by Euler there are 1 - (vertices - edges + triangles) holes. A
- * vertex brings the edges and triangles of which it is the highest corner; no vertex inside lies on
- * the rim. */
+/* The region is connected by the tree, so by Euler's formula there are 1 - (vertices - edges +
+ * triangles) holes. Each vertex counts the edges and triangles of which it is the highest corner.
+ * No vertex inside lies on the border of the grid. */
 size_t stages_holes(const stages *s)
 {
     const size_t row = s->lattice.shape[0];
@@ -125,8 +126,8 @@ size_t stages_holes(const stages *s)
     return 1 + n_edges - n_vertices - n_triangles;
 }
 
-/* The logarithm of a mean of three numbers that are given by theirs. Towards the outside, where it
- * falls to minus infinity, it is cut off at the last number inside. */
+/* The logarithm of a mean of three numbers that are given by their logarithms. Towards the outside,
+ * where it falls to minus infinity, it is cut off at the last number inside. */
 static double log_mean(const double logs[3], const double shares[3])
 {
     double top = -HUGE_VAL, least = HUGE_VAL, sum = 0;

@@ -1,5 +1,4 @@
-/* A chart, and the stages of methods gradient and field that it was made in, so that they can be
- * drawn. */
+/* A chart, and the stages of methods gradient and field that made it, so that they can be drawn. */
 #ifndef STAGES_H
 #define STAGES_H
 
@@ -10,39 +9,39 @@
 typedef struct stages {
     const icc_domain *domain;
     const icc_chart *chart;
-    const icc_map *map; /* that the chart belongs to; or NULL */
+    const icc_map *map; /* the map to which the chart belongs; or NULL */
     icc_domain_info box;
     icc_chart_info chart_info;
-    /* Methods gradient and field; else NULL. Borrowed from the chart. */
+    /* For methods gradient and field, borrowed from the chart; else NULL. */
     const icc_function *field;
     const icc_tree *tree;
     const icc_grid *grid;
     icc_grid_info lattice;
     icc_function_info field_info;
-    const double *values; /* what is drawn of the function: its values, or their logarithms */
+    const double *values; /* the drawn values of the function, or their logarithms */
     bool logarithmic;
-    double low, high; /* least and largest of them inside */
-    size_t n_edges;   /* in the plane; else none */
+    double low, high; /* the least and largest of them inside */
+    size_t n_edges;   /* in the plane; otherwise 0 */
     uint32_t *edges;  /* n_edges pairs: compression and expansion edges */
     int32_t *kinds;
     size_t n_expansion;
     size_t n_inner_expansion; /* expansion edges whose two triangles are inside */
 } stages;
 
-/* Of the chart that the job has made of the source (side 1), or of its map's source or target (2).
- * Other methods than gradient have no stages; their function is t. */
+/* Makes the stages of the chart that the job made of the source (side 1), or of the map's source or
+ * target (2). Methods other than gradient have no stages; their function is t. */
 int stages_make(stages *out, job *j, int side);
 void stages_free(stages *s);
 
 /* The position of a grid vertex: as many coordinates as the grid has dimensions. */
 void stages_position(const stages *s, uint32_t vertex, double *out);
 
-/* In the plane: around how many holes the triangles lie whose vertices are all inside and in the
- * tree. Each brings a saddle to any function that is lower outside. */
+/* In the plane: the number of holes of the region of triangles whose vertices are all inside and in
+ * the tree. Each hole brings a saddle to any function that is lower outside. */
 size_t stages_holes(const stages *s);
 
-/* The function of method gradient, linear in every triangle, or its logarithm, which is
- * -HUGE_VAL where the function is 0; NaN where it is not defined. */
+/* The function of method gradient, linear in every triangle, or its logarithm, which is -HUGE_VAL
+ * where the function is 0. NaN where it is not defined. */
 double stages_value(const stages *s, const double p[2]);
 
 /* The function of any method at n points. */

@@ -25,14 +25,14 @@ void z_buffer_free(z_buffer *s)
     free(s->rgb);
 }
 
-/* The samples between two coordinates, cut to the picture: low to below high. */
+/* The samples between two coordinates that are in the picture: from low to below high. */
 static void find_range(double lower, double upper, size_t n, size_t range[2])
 {
     range[0] = lower > 0 ? (size_t)fmin(ceil(lower - 0.5), (double)n) : 0;
     range[1] = upper > 0 ? (size_t)fmin(floor(upper + 0.5), (double)n) : 0;
 }
 
-/* Each sample in the bounding box asks for its barycentric coordinates, which step by constants. */
+/* Computes the barycentric coordinates of each sample in the bounding box, by constant steps. */
 void z_buffer_triangle(z_buffer *s, const z_buffer_corner corners[3], z_buffer_paint paint,
                        const void *of)
 {
@@ -85,7 +85,7 @@ void z_buffer_line(z_buffer *s, const double a[3], const double b[3], double rad
         }
 }
 
-/* A sample is on a contour if it is much nearer than one beside it. Depths stay as they are. */
+/* A sample is on a contour if it is much nearer than a neighbour. Depths do not change. */
 void z_buffer_contours(z_buffer *s, size_t radius, double jump, const unsigned char rgb[3])
 {
     for (size_t row = radius; row + radius < s->height; row++)

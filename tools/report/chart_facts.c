@@ -15,7 +15,7 @@
                   .seconds_tree = (own).seconds_tree,                                              \
                   .seconds_function = (own).seconds_function})
 
-/* Those that the structs on meshes share. */
+/* The members that the structs on meshes share. */
 #define MESH_FACTS(own, share, seconds)                                                            \
     ((mesh_facts){.n_vertices = (own).n_mesh_vertices,                                             \
                   .n_boundary = (own).n_mesh_boundary,                                             \

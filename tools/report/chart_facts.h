@@ -1,4 +1,4 @@
-/* What a chart of any method is made of. */
+/* Facts about a chart of any method. */
 #ifndef CHART_FACTS_H
 #define CHART_FACTS_H
 
@@ -21,7 +21,7 @@ typedef struct mesh_facts {
     double seconds_mesh, seconds_solve, seconds_certify;
 } mesh_facts;
 
-/* What the chart does not have is 0. */
+/* Members that a chart does not have are 0. */
 typedef struct chart_facts {
     icc_chart_info common;
     grid_facts grid;
@@ -33,10 +33,10 @@ typedef struct chart_facts {
     bool is_shelling; /* a foliation on the domain's mesh */
 } chart_facts;
 
-/* Of NULL nothing: the method is 0. */
+/* NULL gives method 0 and no facts. */
 chart_facts chart_facts_of(const icc_chart *chart);
 
-/* Whether the chart was made on a grid (methods gradient and field). */
+/* True if the chart was made on a grid (methods gradient and field). */
 bool chart_has_grid(const chart_facts *c);
 
 #endif

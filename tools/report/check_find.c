@@ -1,4 +1,4 @@
-/* The defects of the cages that `libicc check` is given. */
+/* Finds the defects of the cages given to `libicc check`. */
 #include "report/check_job.h"
 
 bool check_is_alone(const check *c)

@@ -8,54 +8,55 @@
 
 typedef struct check {
     job job;
-    defect_list defects[2]; /* in the plane; elsewhere the first defect is all that there is */
+    defect_list defects[2]; /* in the plane; in other dimensions there is only the first defect */
     size_t n_defects;
     size_t n_dropped; /* by --repair: vertices */
     size_t n_filled;  /* by --repair: cells of a mask */
     size_t n_joined;  /* by --repair: vertices of a surface */
     chart_facts charts[2];
-    icc_map_info map;    /* of kind 0 without a target */
-    bool certified;      /* all there is */
-    struct check *parts; /* the other polygons, as many as the job has; their jobs are copies */
+    icc_map_info map;    /* of kind 0 if there is no target */
+    bool certified;      /* everything is certified */
+    struct check *parts; /* the other polygons of the job; their jobs are copies */
 } check;
 
 /* Lists the defects of cages in the plane, and those of the other polygons. */
 int check_find_defects(check *c);
 
-/* Whether there is only a mask or a surface, without a target. */
+/* True if there is only a mask or a surface, without a target. */
 bool check_is_alone(const check *c);
 
-/* Whether only that is checked, and no chart of it: an option may ask for that of a surface. */
+/* True if only that is checked, and no chart of it. For a surface an option may ask for a chart. */
 bool check_domain_only(const check *c);
 
-/* ---- telling ---- */
+/* ---- printing ---- */
 
-/* The answer, in the first line: is it one-to-one, or why is that not proved. Nothing where only a
- * domain is checked. */
+/* Prints the answer in the first line: the map is one-to-one, or why that is not proved. Prints
+ * nothing if only a domain is checked. */
 void check_print_verdict(const check *c);
 void check_print_defects(const check *c);
 void check_print_domains(const check *c);
 void check_print_certificates(const check *c);
 
-/* Why not all is certified, in one line. */
+/* The reason why not everything is certified, in one line. */
 const char *check_reason(char text[240], const check *c);
 
-/* The report of --json. */
+/* Writes the report of --json. */
 int check_report(const check *c);
 
 /* ---- writing ---- */
 
-/* --repair in the plane: drops vertices of both cages alike until none is superfluous, and writes
- * what is left. */
+/* --repair in the plane: drops the same vertices from both cages until none is superfluous, and
+ * writes the rest. */
 int check_repair(check *c);
 
-/* --repair of a surface: joins vertices at one place, and writes it if it is closed then. */
+/* --repair of a surface: joins vertices at one place, and writes the surface if it is then
+ * closed. */
 int check_repair_surface(check *c);
 
 /* --repair of a mask: fills cells where others touch only along edges or corners, and writes it. */
 int check_repair_mask(check *c);
 
-/* --boundary: the vertices of a mask's boundary, to be moved. */
+/* --boundary: writes the vertices of a mask's boundary, which the user then moves. */
 int check_write_boundary(check *c);
 
 #endif

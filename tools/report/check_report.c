@@ -1,4 +1,4 @@
-/* What `libicc check` found, in words and as a report. */
+/* Prints the results of `libicc check` in words and as a report. */
 #include "report/check_job.h"
 #include "report/reason.h"
 
@@ -107,8 +107,8 @@ static void print_chart(const char *file, const char *name, const chart_facts *c
     putchar('\n');
 }
 
-/* Why not all is certified: the map's own reason, or that of the first chart which is not. Never
- * the words "not certified", which begin the reasons further down. */
+/* Prints why not everything is certified: the map's own reason, or that of the first chart that is
+ * not certified. Avoids the words "not certified", with which the reasons further down begin. */
 static void print_why(const check *c)
 {
     char text[REASON_LENGTH];
@@ -179,7 +179,7 @@ const char *check_reason(char text[240], const check *c)
     return text;
 }
 
-/* All polygons. */
+/* True if all polygons are certified. */
 static bool is_certified(const check *c)
 {
     bool all = c->certified;
@@ -188,8 +188,8 @@ static bool is_certified(const check *c)
     return all;
 }
 
-/* What was checked and its certificate, with the reason if there is none; a domain by itself has
- * none. */
+/* Reports what was checked and its certificate, with the reason if there is none. A domain alone
+ * has none. */
 static void report_certificates(const check *c, json *j)
 {
     char text[REASON_LENGTH];

@@ -1,4 +1,4 @@
-/* What `libicc check` writes: repaired cages, and the boundaries of masks. */
+/* Writes the files of `libicc check`: repaired cages, and the boundaries of masks. */
 #include "report/check_job.h"
 
 #include "base/allocate.h"
@@ -21,7 +21,7 @@ static size_t mark_superfluous(const check *c, unsigned char *drop)
             if (kind != ICC_DEFECT_REPEATED && kind != ICC_DEFECT_SPIKE)
                 continue;
             uint32_t vertex =
-                c->defects[side].items[2 * i + 1]; /* of two repeated ones the later */
+                c->defects[side].items[2 * i + 1]; /* the later one of two repeated vertices */
             n += drop[vertex] == 0;
             drop[vertex] = 1;
         }
@@ -40,8 +40,8 @@ static void drop_vertices(cage *c, const unsigned char *drop)
     c->n = kept;
 }
 
-/* Drops vertices in both cages alike, so that they go on to correspond, until none is superfluous:
- * a spike whose tip is gone may leave a repeated vertex behind. */
+/* Drops the same vertices from both cages, so that they still correspond, until none is
+ * superfluous. A spike whose tip is dropped may leave a repeated vertex. */
 static int drop_superfluous(check *c)
 {
     for (;;) {
@@ -126,7 +126,8 @@ static void write_row(FILE *stream, size_t dim, const double *at)
     fputc('\n', stream);
 }
 
-/* A surface as the name says, or as `format`; with neither, and beside space, one vertex per line. */
+/* Writes a surface in the format of the name, or as `format`. With neither, and in other dimensions
+ * than 3, it writes one vertex in a line. */
 static int write_boundary(const cage *c, const char *name, const char *format)
 {
     const char *found = c->dim == 3 ? output_format(name) : NULL;
@@ -142,7 +143,7 @@ static int write_boundary(const cage *c, const char *name, const char *format)
     return outfile_close(&file) ? DONE : FAILED;
 }
 
-/* Writes the boundary of a mask, and says that arrays count rows first but pictures x. */
+/* Writes the boundary of a mask, and prints that arrays count rows first but pictures x. */
 int check_write_boundary(check *c)
 {
     const cage *mask = &c->job.cages[0];

@@ -1,4 +1,4 @@
-/* What `libicc info` found out, and the two ways to print it. */
+/* The results of `libicc info`, and two ways to print them. */
 #ifndef INFO_H
 #define INFO_H
 
@@ -7,12 +7,13 @@
 
 #include <icc/stages.h>
 
-/* What becomes of the area or volume under the map, by its derivative at evenly spread points. */
+/* How areas or volumes change under the map, by its derivative at evenly spread points. */
 typedef struct map_shares {
-    size_t n; /* points; 0: there is no map */
+    size_t n; /* points; 0 if there is no map */
     double without_image, collapsed, inverted;
-    /* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 where neither is the case, both shapes scaled
-     * to the same measure: twice the dimension where the shape of things is kept. */
+    /* The symmetric Dirichlet energy |J|^2 + |J^-1|^2 at points that are neither folded nor
+     * collapsed, with both shapes scaled to the same measure. It is twice the dimension if shape is
+     * preserved. */
     double mean, median, nearly_all; /* 99 % are below the last one */
 } map_shares;
 
@@ -24,11 +25,12 @@ typedef struct info {
     /* Methods gradient and field. */
     icc_grid_info grid;
     icc_function_info field;
-    bool has_critical; /* besides the maximum there are others, the first one here */
+    bool has_critical; /* there are critical points besides the maximum; the first one is here */
     double critical[ICC_MAX_DIM];
     size_t n_order_critical;  /* critical vertices of the tree's own order, besides the maximum */
-    icc_grow_report growth;   /* of an order that falls with the function; beyond the plane */
-    bool grown;               /* whether it got to the end */
+    icc_grow_report growth;   /* of an order that falls with the function; in more than 2
+                                 dimensions */
+    bool grown;               /* true if it reached the end */
     size_t n_holes;           /* of the grid's inside, in the plane */
     size_t n_inner_expansion; /* expansion edges between two triangles inside */
     icc_map_info map;
@@ -38,7 +40,7 @@ typedef struct info {
 /* Samples the map's derivative. */
 int info_measure_map(info *x);
 
-/* Why the function has other critical points than one maximum, for those that have. */
+/* Why the function has critical points besides one maximum, if it has. */
 const char *info_reason(char text[240], const info *x);
 
 /* How the order of the vertices was found, in words. */

@@ -65,8 +65,8 @@ static void print_critical(const info *x)
     printf("            %s\n", info_reason(reason, x));
 }
 
-/* What the methods on grids found; the maximum is where the function is greatest, not where the
- * caller asked for it. */
+/* Prints the results of methods on grids. The maximum is where the function is greatest, which may
+ * not be where the caller asked for it. */
 static void print_grid(const info *x)
 {
     const icc_chart_info *c = &x->chart.common;

@@ -27,7 +27,8 @@ static void report_growth(json *j, const info *x)
     json_close(j, '}');
 }
 
-/* The same as print_grid() as JSON. Names of members are part of the command's interface. */
+/* Writes the contents of print_grid() as JSON. The names of members are part of the command's
+ * interface. */
 static void report_grid(json *j, const info *x)
 {
     const chart_facts *c = &x->chart;
@@ -140,7 +141,7 @@ static void report_mesh_map(json *j, const icc_map_info *m)
     json_close(j, '}');
 }
 
-/* The same as print_map() as JSON. */
+/* Writes the contents of print_map() as JSON. */
 static void report_map(json *j, const icc_map_info *m, const map_shares *s)
 {
     char reason[REASON_LENGTH];

@@ -1,4 +1,4 @@
-/* What becomes of the inside of a shape under a map, by its derivative. */
+/* Measures how the inside of a shape changes under a map, by its derivative. */
 #include "base/allocate.h"
 #include "report/info.h"
 #include "report/sample.h"
@@ -26,8 +26,8 @@ static void summarise(map_shares *s, size_t n, double *energies)
     s->nearly_all = energies[(n - 1) * 99 / 100];
 }
 
-/* Turns a matrix of n rows into its inverse (Gauss and Jordan, with row pivots) and returns its
- * determinant; when that is 0 the rest is undefined. */
+/* Inverts a matrix of n rows (Gauss and Jordan, with row pivots) and returns its determinant. If
+ * that is 0, the rest is undefined. */
 static double invert(size_t n, double *a)
 {
     double inverse[ICC_MAX_DIM * ICC_MAX_DIM] = {0}, det = 1;
@@ -66,10 +66,12 @@ static double squares(size_t n, const double *a)
     return sum;
 }
 
-/* `growth` is the mean change of the measure; the Jacobians are scaled so that it becomes 1. */
+/* Sorts the sampled points into shares. `growth` is the mean change of the measure; the Jacobians
+ * are scaled so that it becomes 1. */
 static void share_out(map_shares *s, size_t dim, double *jacobians, double growth)
 {
-    const double collapse = 1e-9; /* less of the mean change of measure is left than that */
+    const double collapse = 1e-9; /* a point is collapsed if less of the mean change of measure
+                                     is left */
     const double one = 1.0 / (double)s->n, scale = pow(growth, -1.0 / (double)dim);
     double *energies = need(s->n, sizeof *energies);
     size_t n = 0;

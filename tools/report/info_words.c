@@ -1,10 +1,10 @@
-/* What `libicc info` found out, in words that both of its reports use. */
+/* Words for the results of `libicc info`, which both of its reports use. */
 #include "report/info.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Euler's formula: a hole brings a saddle, whatever the function; further critical points are its
+/* By Euler's formula, each hole brings one saddle to any function. Further critical points are its
  * own. */
 static const char *own_reason(const info *x)
 {

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Adds one more, if there is any of it. */
+/* Adds a reason if its count is not 0. */
 static void add(char text[REASON_LENGTH], size_t count, const char *format, ...)
 {
     va_list values;

@@ -1,4 +1,4 @@
-/* Why charts and maps are not certified, in words. */
+/* Words that tell why charts and maps are not certified. */
 #ifndef REASON_H
 #define REASON_H
 
@@ -6,10 +6,10 @@
 
 enum { REASON_LENGTH = 320 };
 
-/* Every reason that there is, the one that matters first; of a chart that is not certified. */
+/* All reasons why a chart is not certified, the most important one first. */
 const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart);
 
-/* Of a map that is not certified. */
+/* All reasons why a map is not certified. */
 const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map);
 
 #endif

@@ -10,7 +10,7 @@
 
 enum { BATCH = 4096, MAX_BATCHES = 1000 };
 
-/* By iteration, which gains a digit or two a step. */
+/* Computes the root by iteration, which gains a digit or two in each step. */
 static double root(size_t dim)
 {
     double g = 1.3;
