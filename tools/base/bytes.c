@@ -1,3 +1,4 @@
+/* Conversion of numbers by shifts, which is independent of the machine's byte order. */
 #include "base/bytes.h"
 
 #include <string.h>

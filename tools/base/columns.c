@@ -1,3 +1,4 @@
+/* Divides lines of tables into cells, and recognises headings. */
 #include "base/columns.h"
 
 #include "base/number.h"

@@ -1,3 +1,4 @@
+/* Whole files in memory, and output files that are replaced in a single step. */
 #include "base/file.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Foreign formats by group, and the remedies that messages name. */
 #include "base/foreign_table.h"
 
 const char *const foreign_remedies[] = {

@@ -1,3 +1,4 @@
+/* Writes JSON with commas and escapes in the right places. */
 #include "base/json.h"
 
 #include <math.h>

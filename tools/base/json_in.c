@@ -1,3 +1,4 @@
+/* Checks JSON values and converts them, with cJSON as the parser. */
 #include "base/json_in.h"
 
 #include "base/allocate.h"

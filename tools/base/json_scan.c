@@ -1,3 +1,4 @@
+/* A scanner for JSON with a stack of brackets instead of recursion. */
 #include "base/json_scan.h"
 
 #include "base/allocate.h"

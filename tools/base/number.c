@@ -1,3 +1,4 @@
+/* Checks the grammar of a number before strtod() converts it. */
 #include "base/number.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Draws and erases the progress bar. */
 #include "base/progress.h"
 
 #include "base/system.h"

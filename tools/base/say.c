@@ -1,3 +1,4 @@
+/* Formats messages, and cleans them of unprintable characters. */
 #include "base/say.h"
 
 #include <stdio.h>

@@ -1,4 +1,12 @@
-/* One line on stderr about what went wrong. */
+/* Messages: one line on stderr about a failure.
+ *
+ * Conventions of tools/
+ * - A function that returns bool fills in a `problem` named `wrong` when it returns false.
+ * - A function that returns int returns DONE, or FAILED or MISUSED after one message on stderr.
+ * - Memory comes from need() and grow() (allocate.h), which end the program when there is none.
+ * - Only system_posix.c and system_windows.c depend on the operating system (system.h).
+ *
+ * Begin with table.h, which shows all of these. */
 #ifndef SAY_H
 #define SAY_H
 

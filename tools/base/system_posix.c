@@ -1,3 +1,4 @@
+/* The functions of system.h for POSIX. */
 #define _XOPEN_SOURCE 700
 
 #include "base/system.h"

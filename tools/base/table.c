@@ -1,3 +1,4 @@
+/* Reads tables line by line. */
 #include "base/table.h"
 
 #include "base/allocate.h"

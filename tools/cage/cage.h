@@ -6,7 +6,16 @@
  *
  * Nothing is reversed or sorted, because source and target correspond by index. A ring's last
  * vertex is dropped if it repeats the first. Holes, lines and points inside a ring are kept apart
- * from it. */
+ * from it.
+ *
+ * Words of this folder
+ * - role: source or target. choice: the shape of a file that is read.
+ * - feature: a hole, a line or a point inside a cage. tie: a path that says on which side a map
+ *   passes features.
+ * - flattening: replacing curves by edges. welding: joining vertices at one place.
+ * - filling: a mesh of the inside, whose boundary is the cage.
+ *
+ * A format is a file cage_NAME.c with one reader (cage_readers.h). Begin with cage_read.c. */
 #ifndef CAGE_H
 #define CAGE_H
 

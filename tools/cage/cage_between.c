@@ -1,3 +1,4 @@
+/* Interpolates between two cages with the same vertices. */
 #include "cage/cage_between.h"
 
 #include "base/allocate.h"

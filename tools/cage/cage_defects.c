@@ -1,3 +1,4 @@
+/* Describes the library's defects by the lines of a cage's file. */
 #include "cage/cage_defects.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Reads, sorts and pairs the features of cages, and puts their names into messages. */
 #include "cage/cage_features.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Finds the ends of ties and compares the ties of two cages. */
 #include "cage/cage_ties.h"
 
 #include "base/allocate.h"

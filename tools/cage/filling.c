@@ -1,3 +1,4 @@
+/* Matches the vertices of a mesh with those of a cage by their places. */
 #include "cage/filling.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Writes one surface in each format. */
 #include "cage/surface_write.h"
 
 #include "base/bytes.h"

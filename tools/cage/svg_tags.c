@@ -1,3 +1,4 @@
+/* A small scanner for XML tags and attributes. */
 #include "cage/svg_tags.h"
 
 #include <string.h>

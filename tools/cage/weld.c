@@ -1,3 +1,4 @@
+/* Finds close vertices with a hash table of cubes. */
 #include "cage/weld.h"
 
 #include "base/allocate.h"

@@ -1,4 +1,7 @@
-/* The commands. Each returns the exit code of the program. */
+/* The commands. Each returns the exit code of the program.
+ *
+ * A command is a file cmd_NAME.c with one function run_NAME() and one row in main.c. Its options
+ * are in job/option_table.c. Begin with cmd_map.c. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 

@@ -1,3 +1,4 @@
+/* Splits pieces of a line in rounds, and maps the check points of all open pieces at once. */
 #include "geo/densify.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Sorts the edits by place and writes them between copied pieces of the text. */
 #include "geo/edits.h"
 
 #include "base/allocate.h"

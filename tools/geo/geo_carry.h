@@ -1,4 +1,17 @@
-/* Maps a GeoJSON text: coordinates and bounding boxes change, and nothing else. */
+/* Maps a GeoJSON text: coordinates and bounding boxes change, and nothing else.
+ *
+ * Words of this folder
+ * - carry: to map geometries and write them in place of the old ones.
+ * - object, span: a GeoJSON object, and its place in the text (geo_index.h).
+ * - shape, path: the coordinates of a geometry; a line or ring of it (geo_shape.h).
+ * - node: a vertex, or a place where a line meets the cage (noding.h).
+ * - policy, fate: the choice for geometries that leave the cage, and its result.
+ *
+ * Ways
+ * - A geometry inside the cage is mapped in place. Others follow the policy: kept, emptied or
+ *   clipped (geo_cut.c, clip.h).
+ *
+ * Begin with geo_carry.c. */
 #ifndef GEO_CARRY_H
 #define GEO_CARRY_H
 

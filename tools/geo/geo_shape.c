@@ -1,3 +1,4 @@
+/* Reads nested lists of positions without recursion. */
 #include "geo/geo_shape.h"
 
 #include "base/allocate.h"

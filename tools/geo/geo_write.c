@@ -1,3 +1,4 @@
+/* Writes positions with the original's brackets, blanks and further numbers. */
 #include "geo/geo_write.h"
 
 #include <math.h>

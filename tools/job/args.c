@@ -1,3 +1,4 @@
+/* Parses the command line by the table of options. */
 #include "job/args.h"
 
 #include "base/guess.h"

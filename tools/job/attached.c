@@ -1,3 +1,4 @@
+/* Derivatives of a map at the vertices of a mesh, for its normals and tangents. */
 #include "job/attached.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Writes cages as text or GeoJSON. */
 #include "job/cage_file.h"
 
 #include "base/file.h"

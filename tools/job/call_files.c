@@ -1,3 +1,4 @@
+/* Lists the files of a call from its options, and compares them. */
 #include "job/call_files.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Compares the vertices and facets of two cages. */
 #include "job/correspond.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Makes domains with a mesh, from a file, by tetgen or by the library. */
 #include "job/fill.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Parses --function and names functions. */
 #include "job/function_choice.h"
 
 #include "job/option_table.h"

@@ -1,3 +1,4 @@
+/* Charts, maps and messages of a job. job_cages.c has the first steps. */
 #include "job/job.h"
 
 #include "base/system.h"

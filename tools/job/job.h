@@ -1,4 +1,15 @@
-/* The first steps of every command: reading the cages, making domains, a chart or a map. */
+/* The first steps of every command: reading the cages, making domains, a chart or a map.
+ *
+ * Words of this folder
+ * - job: one call of a command with its cages, domains, chart and map.
+ * - part: one polygon of several, or the inside of a hole; it has its own map.
+ * - operand: an argument that is no option.
+ * - matched: cages that did not correspond and were given common vertices.
+ *
+ * Steps, each of which does those before it
+ * - job_read_cages(), job_make_domains(), job_make_chart() or job_make_map(), job_end().
+ *
+ * Begin with job.c; args.h has the options. */
 #ifndef JOB_H
 #define JOB_H
 

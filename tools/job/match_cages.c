@@ -1,3 +1,4 @@
+/* Matches two cages and replaces them by cages with common vertices. */
 #include "job/match_cages.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Finds the smallest hole that contains a polygon. */
 #include "job/nesting.h"
 
 #include "base/orientation.h"

@@ -1,3 +1,4 @@
+/* All options and the names that they accept. */
 #include "job/option_table.h"
 
 #include <icc/kernel.h>

@@ -1,3 +1,4 @@
+/* Compares extensions of file names with formats. */
 #include "job/output_name.h"
 
 #include "base/say.h"

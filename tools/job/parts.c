@@ -1,3 +1,4 @@
+/* Divides a job of several polygons into parts. */
 #include "job/parts.h"
 
 #include "base/allocate.h"

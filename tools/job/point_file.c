@@ -1,3 +1,4 @@
+/* Reads and writes tables of points. */
 #include "job/point_file.h"
 
 #include <math.h>

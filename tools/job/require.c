@@ -1,3 +1,4 @@
+/* Compares the certificates of maps with --require. */
 #include "job/require.h"
 
 static bool chart_is_certified(const icc_chart *chart)

@@ -1,3 +1,4 @@
+/* Reads the ties of a map from the library and writes them as GeoJSON. */
 #include "job/ties_file.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Reads the handles' file member by member. */
 #include "kernel/handle_set.h"
 
 #include "base/allocate.h"

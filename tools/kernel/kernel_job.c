@@ -1,3 +1,4 @@
+/* Makes samplings and weights as the options and the handles' file ask. */
 #include "kernel/kernel_job.h"
 
 #include "base/allocate.h"

@@ -1,5 +1,15 @@
 /* The first steps of `weights` and `pose`: reading shape and handles, spreading samples, making
- * weights. */
+ * weights.
+ *
+ * Words of this folder
+ * - handle: a point that the user moves. pose: a transform for each handle.
+ * - weight: the influence of a handle at a point. sampling: the nodes at which weights are
+ *   computed.
+ * - stroke: weights painted by the user. rigid part: a region that keeps its shape.
+ * - binding: points saved with their weights.
+ * - certified pose: a pose replaced by a one-to-one map (pose_certified.c).
+ *
+ * Begin with kernel_job.c. */
 #ifndef KERNEL_JOB_H
 #define KERNEL_JOB_H
 

@@ -1,3 +1,4 @@
+/* Sets the weights at nodes on edges. */
 #include "kernel/linear_edges.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Draws curves of weights along a segment. */
 #include "kernel/weight_plot.h"
 
 #include "base/allocate.h"

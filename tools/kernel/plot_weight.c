@@ -1,3 +1,4 @@
+/* Draws one weight as a raster with the shape on top. */
 #include "kernel/weight_plot.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Cuts an outline where the pose bends it, and checks that the result is simple. */
 #include "kernel/pose_outline.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Spreads places inside a shape where the pose does not fold. */
 #include "kernel/pose_places.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Poses points in batches. */
 #include "kernel/pose_job.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Products and inverses of affine maps. */
 #include "mesh/affine_map.h"
 
 #include <float.h>

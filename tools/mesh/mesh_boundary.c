@@ -1,3 +1,4 @@
+/* Sorts the facets of all elements by their vertices. */
 #include "mesh/mesh_boundary.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Carries the normals of OBJ and PLY. glb_vectors.c does so for glTF. */
 #include "mesh/mesh_carry.h"
 
 #include "base/allocate.h"

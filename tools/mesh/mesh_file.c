@@ -1,3 +1,4 @@
+/* Chooses the reader of a mesh, and writes its text with other coordinates. */
 #include "mesh/mesh_file.h"
 
 #include "base/bytes.h"

@@ -4,7 +4,16 @@
  * The file is kept as it is. Only the first coordinates of each vertex are read and, on writing,
  * replaced, as many as the mesh has dimensions. All elements are known by their kinds. Faces with
  * more than three corners are also listed as fans of triangles. Normals of STL in space are
- * computed again. Transformations of glTF's nodes are applied on reading and undone on writing. */
+ * computed again. Transformations of glTF's nodes are applied on reading and undone on writing.
+ *
+ * Words of this folder
+ * - span: the place of a number, or of a vertex's numbers, in the text of the file.
+ * - kind: a type of element by VTK's number (element_kinds.h).
+ * - carried: normals, tangents and morph targets after they have been mapped (mesh_carry.h).
+ * - tally: counts of elements by the sign of their images (tally.h).
+ * - plan: tables that prove the sign of a curved element (element_plan.h, element_sign.h).
+ *
+ * A format is a file mesh_NAME.c with one reader. Begin with mesh_file.c. */
 #ifndef MESH_FILE_H
 #define MESH_FILE_H
 

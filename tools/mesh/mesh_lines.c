@@ -1,3 +1,4 @@
+/* Words, numbers and elements of text meshes. */
 #include "mesh/mesh_lines.h"
 
 #include "base/allocate.h"

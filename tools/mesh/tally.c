@@ -1,3 +1,4 @@
+/* Counts elements by the sign of their images. */
 #include "mesh/tally.h"
 
 #include "base/allocate.h"

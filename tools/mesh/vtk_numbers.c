@@ -1,3 +1,4 @@
+/* Numbers of legacy VTK as text or bytes. */
 #include "mesh/vtk_numbers.h"
 
 #include "base/bytes.h"

@@ -1,3 +1,4 @@
+/* Counts the pixels inside a shape row by row. */
 #include "plot/coverage.h"
 
 #include "base/allocate.h"

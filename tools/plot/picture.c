@@ -1,3 +1,4 @@
+/* Making, copying and widening pictures. */
 #include "plot/picture.h"
 
 #include "base/allocate.h"

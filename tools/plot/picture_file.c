@@ -1,3 +1,4 @@
+/* Chooses the format of a picture's file. */
 #include "plot/picture_file.h"
 
 #include "base/file.h"

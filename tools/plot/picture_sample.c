@@ -1,3 +1,4 @@
+/* Bilinear interpolation of one sample. */
 #include "plot/picture_sample.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Converts pictures to the library's form and back. */
 #include "plot/picture_warp.h"
 
 #include "base/allocate.h"

@@ -1,4 +1,12 @@
-/* The parts of `libicc plot`. */
+/* The parts of `libicc plot`, and the pictures of all commands.
+ *
+ * Words of this folder
+ * - picture: an array of samples (picture.h). style: how it is written to a file.
+ * - panel: one shape in a drawing. pattern: the checkerboard or the u v map.
+ * - stages: the intermediate results of a chart that are drawn (stages.h).
+ * - sheet: the cut through a solid (solid_cut.h).
+ *
+ * A format is a file NAME_io.c. Begin with plot_shape.c, or with picture_file.h for pictures. */
 #ifndef PLOT_H
 #define PLOT_H
 

@@ -1,3 +1,4 @@
+/* Axes and bounds of a view. */
 #include "plot/solid_view.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Gets the stages of a chart from the library, and evaluates its function. */
 #include "plot/stages.h"
 
 #include "base/allocate.h"

@@ -1,3 +1,4 @@
+/* Writes elements of SVG. */
 #include "plot/svg.h"
 
 #include "base/allocate.h"

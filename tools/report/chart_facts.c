@@ -1,3 +1,4 @@
+/* Gets the facts of a chart from the library, by its method. */
 #include "report/chart_facts.h"
 
 /* The members that the structs of methods gradient and field share. */

@@ -1,4 +1,11 @@
-/* The results of `libicc info`, and two ways to print them. */
+/* The results of `libicc info`, and two ways to print them.
+ *
+ * Words of this folder
+ * - facts: data of a chart that all methods share (chart_facts.h).
+ * - reason: words that tell why a chart or a map is not certified (reason.h).
+ * - report: the JSON of --json. shares: how areas change under a map.
+ *
+ * Begin with check_job.h for `libicc check`, and with this file for `libicc info`. */
 #ifndef INFO_H
 #define INFO_H
 

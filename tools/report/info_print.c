@@ -1,3 +1,4 @@
+/* Prints the results of `libicc info` in words. */
 #include "report/info.h"
 #include "report/reason.h"
 

@@ -1,3 +1,4 @@
+/* Writes the results of `libicc info` as JSON. */
 #include "report/info.h"
 #include "report/reason.h"
 

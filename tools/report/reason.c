@@ -1,3 +1,4 @@
+/* Lists reasons by the counts in the library's info structs. */
 #include "report/reason.h"
 
 #include <stdarg.h>
