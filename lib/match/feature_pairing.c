@@ -86,7 +86,7 @@ static bool runs_against(const pairing *p, const iccp_outline *lines, size_t n)
         sum[1] += b;
         product += a * b;
         along += fabs(b - a);
-        against += fabs(.5 - b - a);
+        against += fabs(0.5 - b - a);
     }
     if (n > 1)
         return product < sum[0] * sum[1] / (double)n;

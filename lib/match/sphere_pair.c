@@ -147,7 +147,7 @@ static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_en
 {
     size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
     iccp_env parts[3];
-    iccp_split(parts, 3, (const double[]){n < n_all ? 1 : 0, n < ENOUGH_PAIRS ? .1 : 0, 2}, env);
+    iccp_split(parts, 3, (const double[]){n < n_all ? 1 : 0, n < ENOUGH_PAIRS ? 0.1 : 0, 2}, env);
     iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};
     iccp_half_edges m[2] = {{.memory = env->memory}, {.memory = env->memory}};
     double *directions[2] = {NULL, NULL};

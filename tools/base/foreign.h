@@ -7,9 +7,8 @@
 
 #include <stdbool.h>
 
-/* True if text[0..n), with text[n] == '\0', begins like a file of a known format that no reader
- * here takes, or that only the reader of pictures or of masks takes. Then `wrong` says so and names
- * the remedy. */
+/* True if text[0..n), with text[n] == '\0', begins like a file of a known format that cannot be
+ * read here, or only as a picture or a mask. Then `wrong` says so and names the remedy. */
 bool foreign_told(const char *text, size_t n, problem *wrong);
 
 /* Does the same where JSON is expected but the file is a table. */

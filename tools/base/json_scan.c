@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What may come next. */
+/* The pieces that may come next. */
 enum { VALUE, VALUE_OR_CLOSE, NAME, NAME_OR_CLOSE, COMMA_OR_CLOSE };
 
 void json_scan_start(json_scan *s, const char *text, size_t n)

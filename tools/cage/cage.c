@@ -1,4 +1,4 @@
-/* What the readers of cages share. */
+/* Functions that the readers of cages share. */
 #include "cage/cage.h"
 
 #include "base/allocate.h"

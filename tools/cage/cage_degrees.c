@@ -50,7 +50,7 @@ static bool all_go_on(const cage *c, problem *wrong)
     return good;
 }
 
-/* Whether the outer ring has an edge along a meridian. */
+/* True if the outer ring has an edge along a meridian. */
 static bool runs_along(const cage *c, double x)
 {
     for (size_t i = 0; i < c->n; i++)

@@ -72,7 +72,7 @@ static void print_tally(const job *j, const mesh_file *m, const tally *t,
     }
 }
 
-/* With --json one object, otherwise lines of text. */
+/* Reports one object with --json, otherwise lines of text. */
 static int report_tally(const job *j, const mesh_file *m, const tally *t, size_t n_failed,
                         const icc_certificate *certificate)
 {

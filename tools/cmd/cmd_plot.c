@@ -248,7 +248,7 @@ static int make_columns(plot *x)
     return result;
 }
 
-/* In the plane. */
+/* Draws figures of the plane. */
 static int plot_plane(plot *x)
 {
     const args *a = x->job.args;

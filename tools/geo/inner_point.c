@@ -1,7 +1,7 @@
 /* Takes the lowest corner v and its neighbours a and b. If no vertex lies in the triangle a v b,
- * its centre is inside. Otherwise the point is in the middle between v and the vertex in the
- * triangle that is farthest from the line a b, because nothing lies between the two (J. O'Rourke,
- * Computational Geometry in C, 1.5). */
+ * its centre is inside. Otherwise it takes the vertex in the triangle that is farthest from the
+ * line a b. The middle between this vertex and v is inside, because nothing lies between the two
+ * (J. O'Rourke, Computational Geometry in C, 1.5). */
 #include "geo/inner_point.h"
 
 #include "base/orientation.h"

@@ -1,6 +1,6 @@
-/* Nodes are shared. A node within `near` of a corner of the cage is at that corner, and a vertex
- * within `near` of an edge is a node of the edge. So crossings are well apart from touching places,
- * and exact signs decide them. */
+/* Nodes are shared. A node within `near` of a corner of the cage is at that corner. A vertex within
+ * `near` of an edge is a node of the edge. So crossings are well apart from touching places, and
+ * exact signs decide them. */
 #include "geo/noding.h"
 
 #include "base/allocate.h"

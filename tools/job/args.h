@@ -37,7 +37,7 @@ typedef struct args {
     double weld;         /* the largest distance of vertices that `welds` joins */
     double maximum[ICC_MAX_DIM], target_maximum[ICC_MAX_DIM];
     size_t n_maximum, n_target_maximum; /* number of their coordinates; 0: not given */
-    /* What the command does with two cages. */
+    /* The command's use of two cages. */
     bool needs_target, may_pair, takes_parts, flips_cages;
     bool constrained, unconstrained;
     /* how weights are made */
@@ -64,7 +64,7 @@ enum { SIDE_SOURCE = 1, SIDE_TARGET, SIDE_BOTH };
 /* The program that fills surfaces in space. */
 enum { MESHER_OWN = 1, MESHER_TETGEN };
 
-/* What to do with parts outside the cage. */
+/* Policies for parts outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
 
 /* What --require demands of a result. */

@@ -8,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A boundary counts as affine if its vertices are no farther from the fitted map than this share of
- * the largest coordinate that the caller gave, on either side. Computed doubles are off by some
+/* A boundary counts as affine if all vertices lie within this distance of the fitted map, on either
+ * side. The unit is the largest coordinate that the caller gave. Computed doubles are off by some
  * 1e-16 of that. A boundary that was bent on purpose is much farther off. */
 static const double ROUNDING = 1e-13;
 

@@ -15,8 +15,8 @@ icc_status iccp_mesh_repair(const iccp_simplices *mesh, double *images, double m
  * the boundary. */
 icc_status iccp_mesh_place(const iccp_simplices *mesh, double *images, const iccp_env *env);
 
-/* Sets tiny coordinates of inner points' images to 0, so that exact signs can be computed. Tiny
- * means next to nothing beside the largest coordinate. */
+/* Sets coordinates of inner points' images to 0 if they are tiny beside the largest one. Exact
+ * signs can then be computed. */
 void iccp_mesh_round(const iccp_simplices *mesh, double *images);
 
 #endif

@@ -1,4 +1,4 @@
-/* What the files that implement map/energy/newton.h share. */
+/* Declarations shared by the files that implement map/energy/newton.h. */
 #ifndef ICCP_NEWTON_PARTS_H
 #define ICCP_NEWTON_PARTS_H
 

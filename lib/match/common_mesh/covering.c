@@ -99,13 +99,13 @@ static double look_at(const iccp_covering *c, const iccp_corners *t, const doubl
     return off2;
 }
 
-/* Returns true if the middles of a triangle and of its first side are close to the surface, and the
- * triangle faces the same way at one of them. Its other sides are first sides of other triangles,
- * or were there before. */
+/* Returns true if a triangle fits: its middle and that of its first side are close to the surface,
+ * and it faces the same way at one of them. Its other sides are first sides of other triangles, or
+ * were there before. */
 static bool fits(const iccp_covering *c, const iccp_corners *t)
 {
     static const double middles[4][3] = {
-        {1 / 3., 1 / 3., 1 / 3.}, {.5, .5, 0}, {0, .5, .5}, {.5, 0, .5}};
+        {1 / 3., 1 / 3., 1 / 3.}, {0.5, 0.5, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}};
     bool faces_so = false;
     double normal[3];
     iccp_triangle_normal(normal, t->at[0], t->at[1], t->at[2]);

@@ -12,7 +12,7 @@
 /* Chord lengths as shares of the perimeter, and weights whose sum is 1. */
 static const double scale[ICCP_SCALES] = {1 / 128.0, 1 / 64.0, 1 / 32.0,
                                           1 / 16.0,  1 / 8.0,  1 / 4.0};
-static const double weight[ICCP_SCALES] = {.5 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5};
+static const double weight[ICCP_SCALES] = {0.5 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5, 1 / 5.5};
 
 void iccp_unit(double *z)
 {

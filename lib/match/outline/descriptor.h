@@ -8,7 +8,7 @@
 enum { ICCP_SCALES = 6 };
 
 /* Weight of tangents in the cost of a pair where they count. The rest is the weight of turns. */
-static const double iccp_tangents = .6;
+static const double iccp_tangents = 0.6;
 
 /* Turns are scaled by the square roots of their weights, whose sum is 1. So the cost of a pair of
  * turns is 2 minus twice their product. The same holds for tangents. */

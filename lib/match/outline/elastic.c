@@ -18,7 +18,7 @@ enum {
 
 /* upright: preference for upright pairings. far: pairings this many samples apart are different.
  * noise: added to costs before they are compared, because small costs differ by sampling alone. */
-static const double upright = .05, far = .05 * N, noise = .05;
+static const double upright = 0.05, far = 0.05 * N, noise = 0.05;
 
 typedef struct elastic {
     iccp_samples samples;
@@ -238,7 +238,7 @@ static bool passes(const iccp_elastic_candidate *c, size_t n, const double *land
     for (size_t k = 0; k < n; ++k) {
         const size_t row = (size_t)(N * iccp_outline_wrap(landmarks[2 * k]));
         const double at = landmarks[2 * k + 1] - (double)c->place[row % N] / N;
-        if (fabs(iccp_outline_wrap(at + .5) - .5) > far / N)
+        if (fabs(iccp_outline_wrap(at + 0.5) - 0.5) > far / N)
             return false;
     }
     return true;

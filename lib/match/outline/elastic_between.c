@@ -60,7 +60,7 @@ static piece piece_of(const double *landmarks, size_t n, size_t k)
     for (int e = 0; e < 2; ++e) {
         out.from[e] = p[e];
         out.width[e] = q[e] + (k + 1 == n ? 1 : 0) - p[e];
-        const double samples = floor(N * out.width[e] + .5);
+        const double samples = floor(N * out.width[e] + 0.5);
         if (samples > out.n)
             out.n = samples < N ? (int32_t)samples : N;
     }
@@ -72,7 +72,7 @@ static void describe(between *w, iccp_descriptor *out, const iccp_outline *outli
 {
     for (int32_t k = 0; k <= p->n; ++k)
         w->share[k] = p->from[side] + p->width[side] * k / p->n;
-    iccp_descriptors(out, outline, (size_t)p->n + 1, w->share, .5 / N);
+    iccp_descriptors(out, outline, (size_t)p->n + 1, w->share, 0.5 / N);
 }
 
 /* Finds the best path through one piece: its knots, and its part of the rotation. */

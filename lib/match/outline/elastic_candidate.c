@@ -34,14 +34,14 @@ typedef struct closeness {
     int rounds;
 } closeness;
 
-static const closeness smooth = {16, 16, .8, 1}, fine = {6, 10, .92, 2};
+static const closeness smooth = {16, 16, 0.8, 1}, fine = {6, 10, 0.92, 2};
 
 /* `bent`: a pairing is refined with local rotations if their mean is shorter than this. On the
  * development pairs (tests/bench/bench_match.c), bent limbs, a swirl and a coast in two projections
  * mostly have 0.95 to 0.966. Pairs that one rotation serves better have 0.978 or more. Up to
  * `perhaps_bent`, the result is kept if it changes widths more evenly by the factor `fairer`. A
  * draw of the swirl with 0.976 has the factor 0.5, and others below 0.99 have 0.98 or more. */
-static const double bent = .97, perhaps_bent = .985, fairer = .7;
+static const double bent = 0.97, perhaps_bent = 0.985, fairer = 0.7;
 
 /* Sets each sample's place: its first column in its row. Rows without one are interpolated. */
 void iccp_elastic_candidate_place(iccp_elastic_candidate *c)
@@ -79,7 +79,7 @@ static int32_t surest(const iccp_samples *s, const iccp_elastic_candidate *c, do
     mean_turns(s->b, &mean);
     double here[N], best = -HUGE_VAL;
     for (int k = 0; k < N; ++k) {
-        const int32_t j = (int32_t)floor((double)c->place[k] + .5);
+        const int32_t j = (int32_t)floor((double)c->place[k] + 0.5);
         here[k] = (double)iccp_descriptor_cost(&s->a[k], &s->b[(j % N + N) % N], rotation[k],
                                                iccp_tangents);
     }
@@ -117,7 +117,7 @@ static double rotations_along(double (*rotation)[2], const iccp_samples *s,
 {
     double turn[N][2] = {{0}}, mean[2] = {0, 0};
     for (int k = 0; k < N; ++k) {
-        const int32_t j = (int32_t)floor((double)c->place[k] + .5);
+        const int32_t j = (int32_t)floor((double)c->place[k] + 0.5);
         iccp_descriptor_turn(turn[k], &s->a[k], &s->b[(j % N + N) % N]);
     }
     for (int k = 0; k < N; ++k) {
@@ -153,7 +153,7 @@ static float patch_cost(const iccp_samples *s, int32_t i, int32_t j)
  * are compared without rotations. */
 static void follow(iccp_samples *s, iccp_elastic_candidate *c, double (*rotation)[2], double share)
 {
-    const int32_t i = surest(s, c, rotation), j = (int32_t)floor((double)c->place[i] + .5);
+    const int32_t i = surest(s, c, rotation), j = (int32_t)floor((double)c->place[i] + 0.5);
     for (int32_t row = 0; row <= N; ++row) {
         float *const cost = s->cost + (size_t)row * (N + 1);
         const int32_t at = (i + row) % N;

@@ -10,7 +10,7 @@
 /* Shares of the outline's diameter. farthest: largest distance of a landmark from the outline.
  * vertex_reach: a vertex this close is meant, unless the landmark lies on the outline up to
  * `rounding`. */
-static const double farthest = .02, vertex_reach = .005, rounding = 1e-9;
+static const double farthest = 0.02, vertex_reach = 0.005, rounding = 1e-9;
 
 typedef struct landmark {
     double share[2];

@@ -17,7 +17,7 @@ static const int32_t step[N_STEPS][2] = {{1, 1}, {1, 2}, {2, 1}, {2, 3}, {3, 2},
 
 /* The cost of stretch, and the extra cost of a step that does not advance on one side. Of 0.25, 0.4
  * and 0.8, the value 0.4 had the least median error on the development pairs. */
-static const double stretch = .4, flat = .05;
+static const double stretch = 0.4, flat = 0.05;
 
 icc_status iccp_lattice_create(iccp_lattice *lattice, int32_t n, const iccp_memory *memory)
 {
@@ -59,7 +59,7 @@ static step_cost cost_of(int32_t k, size_t width)
     for (int32_t m = 0; m < s.n_along; ++m)
         s.behind[m] = (size_t)((2 * m * p + s.n_along) / (2 * s.n_along)) * width +
                       (size_t)((2 * m * q + s.n_along) / (2 * s.n_along));
-    s.weight = (float)(.5 * (p + q) / s.n_along);
+    s.weight = (float)(0.5 * (p + q) / s.n_along);
     s.fixed = (float)(stretch * d * d + (p == 0 || q == 0 ? flat : 0));
     return s;
 }

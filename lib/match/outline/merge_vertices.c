@@ -11,7 +11,7 @@
 /* Vertices are joined within `reach`, as a share of the shorter edge at them on both sides. They
  * are also joined within `least_edge`, as a share of the perimeter, because an edge between them
  * would be lost. */
-static const double reach = .3, least_edge = 1e-9;
+static const double reach = 0.3, least_edge = 1e-9;
 
 /* With a larger `drop`, vertices farther apart are joined. Two neighbouring joins must then not
  * stretch the piece between them by more than this factor, compared with the pairing. */
@@ -88,7 +88,7 @@ static void add_landmarks(iccp_merge_order *w, size_t n, const double *landmarks
             const double *const s = w->outline[e]->share;
             const size_t near = at - s[edge] <= s[edge + 1] - at ? edge : (edge + 1) % w->n[e];
             to->at[e] = w->cut[e] + iccp_outline_wrap(at - w->cut[e]);
-            if (fabs(iccp_outline_wrap(at - s[near] + .5) - .5) < 1e-14) {
+            if (fabs(iccp_outline_wrap(at - s[near] + 0.5) - 0.5) < 1e-14) {
                 to->vertex[e] = (uint32_t)near;
                 to->at[e] = w->place[base + near];
             }

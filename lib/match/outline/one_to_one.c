@@ -49,7 +49,7 @@ static bool has_landmarks(const iccp_outline *source, const iccp_outline *target
                 iccp_outline_edge(outlines[e], landmarks[2 * k + (size_t)e], &along);
             if (along > 1e-9 && along < 1 - 1e-9)
                 return false;
-            vertex[e] = along < .5 ? edge : (edge + 1) % n;
+            vertex[e] = along < 0.5 ? edge : (edge + 1) % n;
         }
         if ((vertex[0] + shift) % n != vertex[1])
             return false;

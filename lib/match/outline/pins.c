@@ -17,7 +17,7 @@ static const double least_corner = 25.0 / 360, alike = 60.0 / 360,
 
 /* arc_share: the weight of arc length in a pairing between pins. least_slope: the smallest slope of
  * steps along one outline alone that results. apart: the least distance of pins. */
-static const double arc_share = .01, least_slope = 1.25e-3, apart = 1e-9;
+static const double arc_share = 0.01, least_slope = 1.25e-3, apart = 1e-9;
 
 typedef struct corner {
     double share, angle;
@@ -46,7 +46,7 @@ static int by_place(const void *a, const void *b)
 /* The difference of two shares, the short way around. */
 static double gap(double a, double b)
 {
-    return iccp_outline_wrap(a - b + .5) - .5;
+    return iccp_outline_wrap(a - b + 0.5) - 0.5;
 }
 
 static double turn_at(const iccp_outline *outline, double share)
@@ -184,7 +184,7 @@ static void blend(iccp_pairing_knots *out, const iccp_pairing_knots *from, const
     const double w[2] = {q[0] - p[0], q[1] - p[1]}, arc = share_of_arc(w);
     double room[2];
     for (int e = 0; e < 2; ++e)
-        room[e] = margin < .3 * w[e] ? margin : .3 * w[e];
+        room[e] = margin < 0.3 * w[e] ? margin : 0.3 * w[e];
     double *last = out->knot + 2 * out->n++;
     memcpy(last, p, 2 * sizeof *p);
     for (int turn = -1; turn <= 2; ++turn)

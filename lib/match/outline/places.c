@@ -116,7 +116,7 @@ void iccp_bends_find(iccp_bend *bends, const iccp_pairing_knots *knots, const ic
         for (size_t c = 0; c < sizeof chords / sizeof *chords; ++c) {
             double p[2][2], q[2][2], share[2];
             for (int end = 0; end < 2; ++end) {
-                const double at = (k + .5) / ICCP_BENDS + (end - .5) * chords[c];
+                const double at = (k + 0.5) / ICCP_BENDS + (end - 0.5) * chords[c];
                 share[end] = iccp_knots_at(knots, at);
                 iccp_outline_at(source, at, p[end]);
                 iccp_outline_at(target, share[end], q[end]);

@@ -8,7 +8,7 @@
 enum { ICCP_CHORD = 4 };
 
 /* A refined pairing may move a place by at most this share of the perimeter. */
-static const double iccp_near = .03;
+static const double iccp_near = 0.03;
 
 /* The parts of a chord: its vector divided by the root of the arc's length, and this root. Lengths
  * are shares of the perimeter. */

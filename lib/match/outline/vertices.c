@@ -1,9 +1,11 @@
-/* Elastic matching at the scale of single edges. Among all pairings close to a given one that take
- * vertices to vertices and are linear between them, it finds the one with the least elastic energy
- * (A. Srivastava et al., Shape analysis of elastic curves in Euclidean spaces, 2011). Chords
- * between the vertices stand for the outlines. So a vertex on a straight edge may stay alone, but a
- * corner that stays alone costs its turn. Directions are compared after the local rotation of the
- * given pairing. */
+/* Elastic matching at the scale of single edges. It considers the pairings close to a given one
+ * that take vertices to vertices and are linear between them. It finds the one with the least
+ * elastic energy (A. Srivastava et al., Shape analysis of elastic curves in Euclidean spaces,
+ * 2011).
+ *
+ * Chords between the vertices stand for the outlines. So a vertex on a straight edge may stay
+ * alone, but a corner that stays alone costs its turn. Directions are compared after the local
+ * rotation of the given pairing. */
 #include "match/outline/vertices.h"
 
 #include "match/outline/pins.h"

@@ -11,7 +11,7 @@
 enum { N = ICCP_MATCH_SAMPLES, BESIDE = 4 };
 
 /* An opposite point lies within 45 degrees of the normal: the squared cosine. */
-static const double least_cosine2 = .5;
+static const double least_cosine2 = 0.5;
 
 /* Finds the nearest sample that lies inside, roughly along the normal, and not beside sample k. */
 static int32_t find_across(double (*point)[2], int32_t k)

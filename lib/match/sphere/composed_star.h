@@ -1,5 +1,5 @@
-/* The star of one vertex of a drawing on the sphere, and how much its triangles are stretched when
- * they are mapped to another surface that is drawn there. */
+/* The star of one vertex of a drawing on the sphere. Measures how much its triangles are stretched
+ * when they are mapped to another surface that is drawn there. */
 #ifndef ICCP_COMPOSED_STAR_H
 #define ICCP_COMPOSED_STAR_H
 

@@ -28,8 +28,8 @@ static inline void iccp_direction_axes(const double p[3], double axis[2][3])
     iccp_vec_cross(p, axis[0], axis[1]);
 }
 
-/* The sign of a . (b x c). It is +1 if the three are counter-clockwise seen from outside and lie in
- * an open half of the sphere, so that they are the corners of a triangle on it. */
+/* The sign of a . (b x c). It is +1 if the three are the corners of a triangle on the sphere:
+ * counter-clockwise seen from outside, and in an open half of the sphere. */
 static inline int iccp_direction_sign(const double a[3], const double b[3], const double c[3])
 {
     static const double centre[3] = {0, 0, 0};
