@@ -1,10 +1,8 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), (3.37) and (3.44). With weights that
- * sum to 1 the image
- *
- *     sum of w_j T_j x  =  x + sum of w_j (T_j x - x),
- *
- * and the right side is what is computed: the rest pose is then exact, and weights that do not
- * quite sum to 1 do not draw anything towards the origin. */
+/* Linear blend skinning. Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), (3.37) and
+ * (3.44). With weights that sum to 1 the image is
+ *      sum of w_j T_j x  =  x + sum of w_j (T_j x - x).
+ * The code computes the right-hand side. So the rest pose is exact, and weights that do not quite
+ * sum to 1 do not pull towards the origin. */
 #include "kernel/pose/pose.h"
 
 #include "base/minmax.h"
@@ -14,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Points in a task. */
+/* Points per task. */
 enum { GRAIN = 512 };
 
 typedef struct posing {
@@ -102,7 +100,7 @@ void iccp_pose_move(size_t dim, double *transform, const double *offset)
         transform[(dim + 1) * r + dim] += offset[r];
 }
 
-/* The matrix of a turn about the origin; in space by O. Rodrigues' formula. */
+/* The matrix of a rotation about the origin; in space by O. Rodrigues' formula. */
 static void turn_matrix(size_t dim, const double *axis, double angle, double matrix[9])
 {
     double z[2];

@@ -1,55 +1,61 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.4: the program (5.35) of all
- * weights near a part at once, from which this differs in five points.
+/* Finds the weights of a rigid part. Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016),
+ * section 5.4: the program (5.35) of all weights near a part at once. It differs from the thesis in
+ * five points.
+ *
  * - The sign of equation 5.35a is +2: with the printed -2 the energy rises.
- * - Unknown are the weights at the part's nodes and at those within the kernel's reach of it, not
- *   the part's coefficients: these move nodes beside the part, handles and edges among them, and
- *   signs there are not in the program. All other nodes keep their weights.
- * - Nodes that are held (handles, edges, lines) keep theirs, too.
- * - The rigidity stands inside the sum 5.16 and may vary.
- * - Lest the weights bend between the part and what is held, the derivatives of the change count a
- *   little at the nodes around the part.
- * So the energy is q(w) = 1/2 |E w - c|^2 with weights for its rows, E as in rigid_slopes.h, and
- * each node's constraints are its own: sums, reproduction and signs, for which the nearest weights
- * are what the quadratic program of one point finds (handles.c).
+ * - The unknowns are the weights at the part's nodes and at those within the kernel's reach of it.
+ *   They are not the part's coefficients, which move nodes beside the part, including handles and
+ *   edges, and whose signs are not in the program. All other nodes keep their weights.
+ * - Nodes that are held (handles, edges, lines) keep their weights, too.
+ * - The rigidity is inside the sum 5.16 and may vary.
+ * - The derivatives of the change also count a little at the nodes around the part. Otherwise the
+ *   weights would bend between the part and held nodes.
  *
- * Minimised by an active set that may change as a whole: a step goes down the gradient and then to
- * the nearest weights that are allowed, which says which of them are 0. With these at 0, conjugate
- * gradients find the least energy among the others, whatever their signs. After a few rounds the
- * weights at 0 are those of the optimum. Where a step ends higher than the last one and is not the
- * shortest, conjugate gradients that stop at 0 follow from there, which never climb: for 1, 2, 4 ..
- * rounds, since they are slower. Nearly the Hessian's inverse is at hand
- * (rigid_hessian.c), and what changes weights at 0 is taken from its products: 1,807 of 2,077 nodes
- * take 68 products with the Hessian, with the Gaussian 90. Accelerated projected gradients, with
- * conjugate gradients after them, took 265 and 603.
+ * So the energy is q(w) = 1/2 |E w - c|^2 with weights for its rows, and E as in rigid_slopes.h.
+ * Each node has its own constraints: sums, reproduction and signs. The nearest weights that satisfy
+ * these are what the quadratic program of one point finds (handles.c).
  *
- * D. Bertsekas, Projected Newton methods for optimization problems with simple constraints, SIAM J.
- * Control Optim. 20, 1982; M. Hintermueller, K. Ito, K. Kunisch, The primal-dual active set
- * strategy as a semismooth Newton method, SIAM J. Optim. 13, 2003; N. Gould, M. Hribar, J. Nocedal,
- * On the solution of equality constrained quadratic programming problems arising in optimization,
- * SIAM J. Sci. Comput. 23, 2001. */
+ * It is minimised by an active set that may change as a whole. A step goes down the gradient and
+ * then to the nearest allowed weights, which tells which of them are 0. With these fixed at 0,
+ * conjugate gradients find the least energy among the others, whatever their signs. After a few
+ * rounds the weights at 0 are those of the optimum. A step may end higher than the last one without
+ * being the shortest. Then conjugate gradients that stop at 0 follow from there, which never climb.
+ * They run for 1, 2, 4 .. rounds, because they are slower.
+ *
+ * An approximate inverse of the Hessian is available (rigid_hessian.c). Components of its products
+ * that would change weights at 0 are removed. 1,807 of 2,077 nodes take 68 products with the
+ * Hessian, and 90 with the Gaussian. Accelerated projected gradients, followed by conjugate
+ * gradients, took 265 and 603.
+ *
+ * Sources: D. Bertsekas, Projected Newton methods for optimization problems with simple
+ * constraints, SIAM J. Control Optim. 20, 1982; M. Hintermueller, K. Ito, K. Kunisch, The
+ * primal-dual active set strategy as a semismooth Newton method, SIAM J. Optim. 13, 2003; N. Gould,
+ * M. Hribar, J. Nocedal, On the solution of equality constrained quadratic programming problems
+ * arising in optimization, SIAM J. Sci. Comput. 23, 2001. */
 #include "base/minmax.h"
 #include "kernel/pose/rigid_program.h"
-#include "kernel/weights/structure.h"
+#include "kernel/weights/rigid_parts.h"
 #include "math/vec.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Of the first step: the last one. The energy is then right to about the square of it times the
- * condition number of the Hessian. */
+/* Length of the last step, in units of the first one. The error of the energy is then about the
+ * square of it times the condition number of the Hessian. */
 static const double RESIDUAL = 1e-8;
-/* Of the size of all weights: what steps change when there is nothing to gain. */
+/* Share of the size of all weights that steps change when there is nothing to gain. */
 static const double ROUNDING = 1e-14;
-/* How much steps get shorter when the energy bends more than was thought. */
+/* Factor by which steps get shorter if the energy curves more than expected. */
 static const double MARGIN = 1.1;
-/* Most of the rounds, as far as progress goes; and when a program is given up. */
+/* Progress reports expect this many rounds; and the limit after which a program is given up. */
 #define TYPICAL 10.0
 enum { MOST_STEPS = 10000 };
-/* Conjugate gradients end where the gradient is so much smaller, or after so many. */
+/* Conjugate gradients end when the gradient is reduced by this factor, or after so many
+ * iterations. */
 static const double REDUCTION = 0.2;
 enum { MOST_CONJUGATE = 200 };
 
-/* The sum of squared derivatives, each as much as it counts. */
+/* Returns the weighted sum of squared derivatives. */
 static double measure(const iccp_rigid *r, size_t n_places, const double *slopes)
 {
     const size_t row = r->nodes->dim * r->nodes->n_handles;
@@ -59,7 +65,7 @@ static double measure(const iccp_rigid *r, size_t n_places, const double *slopes
     return sum;
 }
 
-/* The weights nearest to those given that are allowed. */
+/* Replaces the weights by the nearest allowed ones. */
 static icc_status allow(const iccp_rigid *r, double *weights)
 {
     const size_t dim = r->nodes->dim, m = r->nodes->n_handles;
@@ -73,7 +79,8 @@ static icc_status allow(const iccp_rigid *r, double *weights)
     return ICC_OK;
 }
 
-/* How much the energy bends along `change`; what the gradient changes by goes to `bent`. */
+/* Returns the curvature of the energy along `change`. Writes the change of the gradient to
+ * `bent`. */
 static double find_bend(const iccp_rigid *r)
 {
     const size_t n = iccp_rigid_weights(r);
@@ -82,8 +89,8 @@ static double find_bend(const iccp_rigid *r)
     return length2 > 0 ? iccp_vec_dot(n, r->change, r->bent) / length2 : 0;
 }
 
-/* From x along its gradient by 1 / *bend, to `next`; shorter if the energy bends more
- * than that on the way. Returns the step's length, in units of the gradient. */
+/* Steps from x along its gradient by 1 / *bend, to `next`. The step is shorter if the energy curves
+ * more than that on the way. Returns its length, in units of the gradient. */
 static icc_status step(const iccp_rigid *r, double *bend, double *length)
 {
     const size_t n = iccp_rigid_weights(r);
@@ -106,7 +113,7 @@ static icc_status step(const iccp_rigid *r, double *bend, double *length)
     return ICC_OK;
 }
 
-/* Takes what changes weights that are 0 in `face`, sums or reproduction. */
+/* Removes from `change` what alters weights that are 0 in `face`, sums or reproduction. */
 static void stay_on_face(const iccp_rigid *r, const double *face, double *change)
 {
     const size_t m = r->nodes->n_handles;
@@ -121,8 +128,8 @@ static void copy_state(const iccp_rigid *r, const iccp_rigid_state *from, iccp_r
     memcpy(to->gradient, from->gradient, size);
 }
 
-/* x and its gradient by `length` times change; if `bounded` only as far as no weight becomes
- * negative. False where one has become 0. */
+/* Moves x and its gradient by `length` times `change`. If `bounded`, moves only as far as no weight
+ * becomes negative, and returns false if one has become 0. */
 static bool go_along(const iccp_rigid *r, double length, bool bounded)
 {
     const size_t n = iccp_rigid_weights(r), m = r->nodes->n_handles;
@@ -142,8 +149,9 @@ static bool go_along(const iccp_rigid *r, double length, bool bounded)
     return stop == n;
 }
 
-/* Conjugate gradients from `best` to x, with all weights at 0 that are, until the gradient is
- * `enough`, or REDUCTION of what it was. If `bounded`, what gets to 0 stays, and they restart. */
+/* Runs conjugate gradients from `best` to x, with all weights that are 0 fixed. Ends when the
+ * gradient is `enough`, or REDUCTION of its initial size. If `bounded`, weights that reach 0 stay
+ * there, and the iteration restarts. */
 static icc_status slide(iccp_rigid *r, double enough, bool bounded, const iccp_env *env)
 {
     const size_t n = iccp_rigid_weights(r);
@@ -176,7 +184,7 @@ static icc_status slide(iccp_rigid *r, double enough, bool bounded, const iccp_e
     return ICC_OK;
 }
 
-/* Whether the energy is higher at `next` than at `best`. */
+/* Returns true if the energy is higher at `next` than at `best`. */
 static bool climbs(const iccp_rigid *r)
 {
     double rise = 0;
@@ -186,8 +194,8 @@ static bool climbs(const iccp_rigid *r)
     return rise > 0;
 }
 
-/* Steps, each to `best`, and from there on its face to the next x, until a step is at most RESIDUAL
- * of the first: where it is 0, x satisfies the optimality conditions. */
+/* Repeats steps to `best`, and from there on its face to the next x, until a step is at most
+ * RESIDUAL of the first. If it is 0, x satisfies the optimality conditions. */
 static icc_status minimise(iccp_rigid *r, double *residual, const iccp_env *env)
 {
     const size_t n = iccp_rigid_weights(r);

@@ -1,15 +1,16 @@
-/* Each product with E or E' is a solve with what of the factor these nodes need, and for a small
- * part of a large shape that is far more than the part: the way to the root of the elimination
- * tree. So the matrix is made once, m columns at a time, where it is not too large. */
+/* The Hessian of a rigid part's program. Each product with E or E' needs a solve with those parts
+ * of the factor that its nodes depend on. For a small part of a large shape, that is far more than
+ * the part: the way to the root of the elimination tree. So the matrix is computed once, m columns
+ * at a time, if it is not too large. */
 #include "kernel/pose/rigid_hessian.h"
 
 #include "base/minmax.h"
 
 #include <string.h>
 
-/* A matrix is made that takes as many products as this at most, a program takes 60 to 150; and that
- * has so many entries for each of the kernel's. On the star, with parts of 115 to 4,600 among 2,000
- * and 9,800 nodes, it is then 1.0 to 3 times as fast. */
+/* A matrix is computed if it takes at most this many products; a program takes 60 to 150. It also
+ * must not have more than this many entries per entry of the kernel's. On the star, with parts of
+ * 115 to 4,600 among 2,000 and 9,800 nodes, that is 1.0 to 3 times as fast. */
 enum { MOST_PRODUCTS = 80, MOST_ENTRIES = 16 };
 
 static size_t n_strips(const iccp_hessian *h)
@@ -33,7 +34,8 @@ void iccp_hessian_gather(const iccp_hessian *hessian, double *derivatives, doubl
     iccp_slopes_transpose(&h->map, derivatives, weights);
 }
 
-/* The matrix by columns: these are products with unit vectors, one for each handle: m at once. */
+/* Computes the matrix by columns. These are products with unit vectors, one for each handle, so m
+ * at a time. */
 static icc_status fill(iccp_hessian *h, const iccp_env *env)
 {
     const size_t n = h->map.n_free, m = h->map.m;
@@ -56,11 +58,12 @@ static icc_status fill(iccp_hessian *h, const iccp_env *env)
     return status;
 }
 
-/* Over sigma squared: how much values at nodes that are not free count, some thirty times what
- * derivatives do. And of the greatest entry, what keeps X definite in spite of rounding. */
+/* FIXED over sigma squared is the weight of values at nodes that are not free, some thirty times
+ * that of derivatives. SHIFT, as a share of the greatest entry, keeps X definite in spite of
+ * rounding. */
 static const double FIXED = 100, SHIFT = 1e-14;
-/* Of those of half a product with the Hessian: multiplications that a factor may take, as it saves
- * some hundreds of products. */
+/* Largest cost of a factor, in multiplications of half a product with the Hessian. It saves some
+ * hundreds of products. */
 static const double MOST_WORK = 1000;
 
 static double product_work(const iccp_hessian *h)
@@ -69,11 +72,11 @@ static double product_work(const iccp_hessian *h)
                                (double)h->map.kernel.first[h->map.n_rows]);
 }
 
-/* But for the affine function, E is D K^-1 at the free nodes, and others keep their weights. So the
- * inverse of the Hessian is nearly K_f X^-1 K_f', with rows K_f of K for the free nodes, K_o for
- * others near, and the sparse matrix X = D'CD + FIXED / sigma^2 K_o'K_o. Their product's condition
- * number is 1.4 to 1.9 on the star. There is none where X is not definite in spite of all, or its
- * factor too large. */
+/* Except for the affine function, E is D K^-1 at the free nodes, and other nodes keep their
+ * weights. So the inverse of the Hessian is nearly K_f X^-1 K_f'. K_f has the rows of K for the
+ * free nodes, and K_o those for other nodes nearby. The sparse matrix X is D'CD + FIXED / sigma^2
+ * K_o'K_o. The condition number of the preconditioned Hessian is 1.4 to 1.9 on the star. There is
+ * no inverse if X is not definite in spite of all, or if its factor is too large. */
 static icc_status invert(iccp_hessian *h, const iccp_env *env)
 {
     const iccp_slopes *map = &h->map;
@@ -174,7 +177,7 @@ static size_t columns_at_once(size_t left)
     return left >= ICCP_TILE ? ICCP_TILE : left >= 4 ? 4 : left >= 2 ? 2 : 1;
 }
 
-/* The product with some columns, `width` numbers in every m. */
+/* Multiplies some columns, `width` numbers in every m. */
 static void multiply(const iccp_hessian *h, size_t width, const double *x, double *product)
 {
     const size_t n = h->map.n_free, m = h->map.m;

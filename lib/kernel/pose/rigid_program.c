@@ -1,13 +1,14 @@
-/* Which weights a rigid part may change, which derivatives count, and how much: see rigid.c. */
+/* Sets up the program of a rigid part: which weights may change, and how much each derivative
+ * counts. See rigid.c. */
 #include "kernel/pose/rigid_program.h"
 
 #include <string.h>
 
-/* Of the mean rigidity: how much derivatives around the part count. */
+/* Weight of derivatives around the part, as a share of the mean rigidity. */
 static const double SURROUNDINGS = 0.1;
 
 /* Numbers the places: the part in the caller's order, then the free nodes within the kernel's reach
- * of it, and among all of these those that are free. */
+ * of it. Also numbers those of them that are free. */
 static icc_status find_places(iccp_rigid *r, const uint32_t *part, const bool *held,
                               const iccp_env *env)
 {
@@ -50,7 +51,7 @@ static void count_places(iccp_rigid *r, const double *rigidity)
         r->count[k] = k >= r->n_part ? SURROUNDINGS : rigidity != NULL ? rigidity[k] / r->mean : 1;
 }
 
-/* All arrays of numbers: those of free weights first. */
+/* Number of all arrays of numbers. Those of free weights come first. */
 enum { N_ARRAYS = 12, N_WEIGHTS = 9 };
 
 static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
@@ -62,7 +63,7 @@ static void list_arrays(iccp_rigid *r, double **arrays[N_ARRAYS])
     memcpy(arrays, list, sizeof list);
 }
 
-/* By one table of lengths, so that each array is there or NULL when they are freed. */
+/* One table of lengths, so that each array exists or is NULL when they are freed. */
 static icc_status allocate(iccp_rigid *r, const iccp_env *env)
 {
     const size_t dim = r->nodes->dim, m = r->nodes->n_handles;

@@ -1,10 +1,10 @@
-/* With D the derivatives of the kernels at the places, R those of the affine function, and K, P, Z
- * and S = P'Z as in interpolant.c, weights w have the derivatives
- *
- *     D (K^-1 w - Z t) + R t,  t = S^-1 Z'w,
- *
- * which is D K^-1 w + B Z'w with B = (R - D Z) S^-1. Of K^-1 w only what D reaches is needed, and w
- * is 0 but for the free nodes: both lie near the part, and so does what is read of the factor. */
+/* Derivatives of the interpolant at places, as a linear map. D has the derivatives of the kernels
+ * at the places, R those of the affine function, and K, P, Z and S = P'Z are as in interpolant.c.
+ * Then weights w have the derivatives
+ *      D (K^-1 w - Z t) + R t,  t = S^-1 Z'w,
+ * which is D K^-1 w + B Z'w with B = (R - D Z) S^-1. Only those entries of K^-1 w are needed that D
+ * reaches, and w is 0 except at the free nodes. Both lie near the part, and so do the parts of the
+ * factor that are read. */
 #include "kernel/pose/rigid_slopes.h"
 
 #include "base/compiler.h"
@@ -14,7 +14,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Lists what the places reach, the free nodes first; near[i] for these. Returns their number. */
+/* Lists the nodes that the places reach, the free nodes first, and sets near[i] for them. Returns
+ * their number. */
 static size_t find_near(const iccp_slopes *s, size_t n_places, const uint32_t *places, bool *near)
 {
     const iccp_symmetric *matrix = iccp_collocation_matrix(s->collocation);
@@ -33,7 +34,7 @@ static size_t find_near(const iccp_slopes *s, size_t n_places, const uint32_t *p
     return n;
 }
 
-/* A kernel's own slope at its node is 0 and has no entry. */
+/* A kernel's slope at its own node is 0 and has no entry. */
 static void fill_kernel(iccp_slopes *s, const iccp_nodes *nodes, const uint32_t *places,
                         const bool *near)
 {
@@ -63,7 +64,7 @@ static void fill_kernel(iccp_slopes *s, const iccp_nodes *nodes, const uint32_t 
     out->first[out->n_rows] = n;
 }
 
-/* B, by rows: S is symmetric. */
+/* Computes B by rows. S is symmetric. */
 static void fill_affine(iccp_slopes *s, size_t dim)
 {
     const size_t q = dim + 1;
@@ -79,7 +80,7 @@ static void fill_affine(iccp_slopes *s, size_t dim)
     }
 }
 
-/* All but what is allocated before; `near` is scratch for each node. */
+/* Fills in everything except earlier allocations. `near` is workspace for each node. */
 static icc_status fill(iccp_slopes *s, const iccp_nodes *nodes, size_t n_places,
                        const uint32_t *places, bool *near, const iccp_env *env)
 {
@@ -152,7 +153,7 @@ static ICCP_INLINE void add(size_t m, double factor, const double *row, double *
         out[j] += factor * row[j];
 }
 
-/* Of the affine function, for one column of Z and of B after the other: `work` is free then. */
+/* Adds the part of the affine function, one column of Z and of B at a time. `work` is free then. */
 static void add_affine(const iccp_slopes *s, size_t n_from, size_t n_to, const double *from,
                        bool transposed, double *to)
 {
@@ -174,7 +175,7 @@ static void clear(const iccp_slopes *s)
         memset(s->all + s->m * s->marked[k], 0, s->m * sizeof *s->all);
 }
 
-/* Rows of the kernel, and what they are multiplied by: see iccp_slopes_multiply(). */
+/* Rows of the kernel and their factors: see iccp_slopes_multiply(). */
 typedef struct product {
     const iccp_slopes *s;
     size_t begin, end;
@@ -182,8 +183,8 @@ typedef struct product {
     double *to;
 } product;
 
-/* The inner loops take some handles at a time, a constant number, which stay in registers. Lanes
- * are handles and nothing is contracted: the same bits for all. */
+/* The inner loops take a constant number of handles at a time, which stay in registers. Lanes are
+ * handles, and no products are fused with sums, so all versions give the same bits. */
 static ICCP_INLINE void gather_some(const product *p, size_t begin, size_t width)
 {
     const iccp_sparse *a = &p->s->kernel;

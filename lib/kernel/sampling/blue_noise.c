@@ -1,7 +1,8 @@
-/* Inverse mean shift (thesis, section 6.2.1, equation 6.4): every sample is pushed away from those
- * around it, by a Gaussian of their distance. The thesis starts from random points and takes 4,000
- * to 28,000 steps. Points of the densest lattice (hexagonal, face-centred cubic in 3-D), jittered,
- * are nearly there to begin with: about ten steps are enough.
+/* Evenly spaced random samples by inverse mean shift (thesis, section 6.2.1, equation 6.4). Each
+ * sample is pushed away from those around it by a Gaussian of their distance. The thesis starts
+ * from random points and takes 4,000 to 28,000 steps. Here the start is the densest lattice
+ * (hexagonal, face-centred cubic in 3-D) with jitter. It is nearly evenly spaced already, so about
+ * ten steps suffice.
  *
  * Containment: a sample that stays farther from all walls than the length of a step never crosses
  * one. */
@@ -17,15 +18,15 @@
 #include <math.h>
 #include <string.h>
 
-/* All in spacings; tests/bench/bench_sampling.c shows their effect. */
-static const double JITTER =
-    0.3; /* points of the lattice are moved by up to this along each axis */
-static const double CLEARANCE = 0.4; /* how far samples stay from walls */
+/* All lengths are in spacings. tests/bench/bench_sampling.c shows the effects. */
+static const double JITTER = 0.3;    /* largest shift of lattice points along each axis */
+static const double CLEARANCE = 0.4; /* least distance of samples from walls */
 static const double SCALE = 0.45; /* s of the Gaussian; the thesis has about 1/3, for small steps */
 static const double REACH = 3;    /* in s: beyond it the push is below 6 % of the largest */
 static const double GAIN = 0.7;   /* lambda / s^2 */
-static const double LONGEST_STEP = 0.2; /* less than the clearance: no step leads through a wall */
-static const double TOO_NEAR = 0.55;    /* samples nearer than that are one too many */
+static const double LONGEST_STEP = 0.2; /* less than CLEARANCE, so no step leads through a wall */
+/* Samples nearer to each other than this are one too many */
+static const double TOO_NEAR = 0.55;
 
 /* ----------------------------------------------------------------- lattice */
 
@@ -41,8 +42,8 @@ static double unit(uint64_t *state)
     return (double)(iccp_random(state) >> 11) * 0x1p-53;
 }
 
-/* Rows of points, each row half a spacing aside of the one before; layers of such rows, each above
- * the gaps of the one before. */
+/* Rows of points, each shifted by half a spacing against the previous row. Layers of such rows lie
+ * above the gaps of the previous layer. */
 static void lattice_point(const void *argument, const size_t *at, double *point)
 {
     const lattice *l = argument;
@@ -59,9 +60,9 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 
-/* The start: the densest lattice over the shape's box, jittered, less the points outside or near a
- * wall. It begins and ends outside the box, as offset rows and jitter move its border.
- * Filtered points are the caller's, the list is local. */
+/* The start: the densest lattice over the shape's box, jittered, without the points outside or near
+ * a wall. It extends beyond the box on both sides, because offset rows and jitter move its border.
+ * Filtered points are in the caller's coordinates, and the list is local. */
 static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, double spacing,
                               uint64_t seed, const iccp_env *env)
 {
@@ -99,11 +100,11 @@ typedef struct relaxation {
     size_t dim, n, n_held;
     double spacing;
     double *points, *next;
-    double *clearance; /* of each free sample, at most the true one */
+    double *clearance; /* by free sample: a lower bound of its distance from walls */
     iccp_cells cells;
 } relaxation;
 
-/* The sum of (6.4), without its constants. */
+/* Returns the sum of (6.4), without its constants. */
 static void push_of(const relaxation *r, size_t i, double *push)
 {
     const size_t dim = r->dim;
@@ -129,7 +130,7 @@ static void push_of(const relaxation *r, size_t i, double *push)
         }
 }
 
-/* The distance of the nearest wall, and the direction away from it. */
+/* Returns the distance of the nearest wall, and the direction away from it. */
 static double away_from_wall(const relaxation *r, const double *x, double *away)
 {
     const double *corners[3];
@@ -148,7 +149,7 @@ static double away_from_wall(const relaxation *r, const double *x, double *away)
     return distance;
 }
 
-/* A step that would lead too near to a wall slides along it, or is not taken. */
+/* If a step would lead too near to a wall, it slides along the wall or is not taken. */
 static void contain(relaxation *r, size_t i, const double *x, double *step)
 {
     double *clearance = r->clearance + (i - r->n_held), away[3], there[3];

@@ -6,8 +6,8 @@
 #include "kernel/sampling/shape.h"
 
 /* Adds samples to a list, whose points stay where they are. All are in the shape's local
- * coordinates. No sample comes near a wall or leaves its region. ICC_ERR_RESOLUTION if there would
- * be too many to look at. */
+ * coordinates. No sample comes near a wall or leaves its region. Returns ICC_ERR_RESOLUTION if
+ * there would be too many candidates. */
 icc_status iccp_blue_noise_fill(iccp_point_list *list, const icc_shape *shape, double spacing,
                                 int32_t steps, uint64_t seed, const iccp_env *env);
 

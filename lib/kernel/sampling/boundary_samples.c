@@ -1,24 +1,24 @@
-/* Lines are followed from fork to fork. Corners on the way are samples if they are not too near
- * each other, and the rest is divided evenly by arc length (thesis, section 6.2.1: "the sampling
- * period is approximately equal for distinct edges"). */
+/* Samples on lines. Lines are followed from fork to fork. Corners on the way become samples if they
+ * are not too near each other. The rest is divided evenly by arc length (thesis, section 6.2.1:
+ * "the sampling period is approximately equal for distinct edges"). */
 #include "kernel/sampling/boundary_samples.h"
 
 #include "base/minmax.h"
 
 #include <math.h>
 
-/* A turn beyond this is a corner: 30 degrees, so that circles of 13 vertices and more are round. */
+/* A sharper turn is a corner. At 30 degrees, circles with at least 13 vertices are round. */
 static const double CORNER_COSINE = 0.86602540378443865;
-/* Of the spacing: corners nearer to each other along the line share a sample. */
+/* In spacings: corners nearer to each other along the line share a sample. */
 static const double CORNER_GAP = 0.75;
 
 typedef struct sampler {
     iccp_segment_graph graph;
     double spacing;
-    bool *followed; /* of each segment */
-    bool *sampled;  /* of each vertex */
-    uint32_t *line; /* the vertices of the current line */
-    double *arc;    /* and how far along it they are */
+    bool *followed; /* by segment */
+    bool *sampled;  /* by vertex */
+    uint32_t *line; /* vertices of the current line */
+    double *arc;    /* their arc length from its start */
     size_t n_line;
 } sampler;
 
@@ -33,7 +33,7 @@ static bool is_corner(const iccp_segment_graph *graph, uint32_t a, uint32_t v, u
                      iccp_segment_graph_length(graph, v, b);
 }
 
-/* Whether a line passes through: two segments, without a corner. */
+/* Returns true if a line passes through the vertex: it has two segments and no corner. */
 static bool is_smooth(const iccp_segment_graph *graph, uint32_t v)
 {
     if (iccp_segment_graph_degree(graph, v) != 2)
@@ -43,7 +43,7 @@ static bool is_smooth(const iccp_segment_graph *graph, uint32_t v)
                       iccp_segment_graph_other_end(graph, at[1], v));
 }
 
-/* The line from a vertex along a segment, up to a vertex that is not passed through or back to the
+/* Follows the line from a vertex along a segment, to a vertex where lines end or back to the
  * start. */
 static void follow_line(sampler *r, uint32_t v, uint32_t segment)
 {
@@ -73,7 +73,7 @@ static void add_vertex(sampler *r, uint32_t v, iccp_point_list *list)
     r->sampled[v] = true;
 }
 
-/* Evenly between the stations at positions i and j of the line. */
+/* Adds even samples between the stations at positions i and j of the line. */
 static void divide(const sampler *r, size_t i, size_t j, iccp_point_list *list)
 {
     const double whole = r->arc[j] - r->arc[i];
@@ -93,8 +93,8 @@ static void divide(const sampler *r, size_t i, size_t j, iccp_point_list *list)
     }
 }
 
-/* Stations of the current line: its ends, and corners that are not too near them or each other.
- * With `between`, the samples between stations, else the stations. */
+/* Finds the stations of the current line: its ends, and corners that are not too near to them or to
+ * each other. With `between` it adds the samples between stations, else the stations. */
 static void sample_line(sampler *r, bool between, iccp_point_list *list)
 {
     const size_t last = r->n_line - 1;
@@ -115,8 +115,8 @@ static void sample_line(sampler *r, bool between, iccp_point_list *list)
     }
 }
 
-/* Lines from forks and ends first; what is left then are closed ones, from a corner if there is
- * one. */
+/* Samples the lines from forks and ends first. The remaining lines are closed; they start at a
+ * corner if there is one. */
 static void sample_lines(sampler *r, bool between, iccp_point_list *list)
 {
     for (size_t s = 0; s < r->graph.n_segments; ++s)

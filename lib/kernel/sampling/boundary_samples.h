@@ -6,17 +6,17 @@
 #include "kernel/sampling/shape.h"
 
 /* Adds samples on segments between vertices (dim coordinates each), about `spacing` apart along
- * each line of them: first on ends, forks and corners, and then evenly between these. A closed line
- * without any begins at a vertex. */
+ * each line. Ends, forks and corners come first, then even samples between them. A closed line
+ * without any of these begins at a vertex. */
 icc_status iccp_segments_sample(iccp_point_list *list, const double *vertices, size_t n_vertices,
                                 size_t n_segments, const uint32_t *segments, double spacing,
                                 const iccp_env *env);
 
-/* 3-D: the same on the creases of a shape's walls, where faces meet at 30 degrees and more. */
+/* 3-D: adds samples on the creases of a shape's walls, where faces meet at 30 degrees or more. */
 icc_status iccp_creases_sample(iccp_point_list *list, const icc_shape *shape, double spacing,
                                const iccp_env *env);
 
-/* 3-D: adds random samples on the faces of the walls, many more than wanted, to be thinned out. */
+/* 3-D: adds random samples on the faces of the walls, many more than needed, to be thinned out. */
 icc_status iccp_surface_sample(iccp_point_list *list, const icc_shape *shape, double spacing,
                                uint64_t seed);
 

@@ -1,4 +1,4 @@
-/* Points sorted into the cells of a regular grid by counting: C. Ericson, Real-Time Collision
+/* Sorts points into the cells of a regular grid by counting: C. Ericson, Real-Time Collision
  * Detection, section 7.1. */
 #include "kernel/sampling/cells.h"
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* More cells than this for each point would cost more than they save. */
+/* More cells per point would cost more than they save. */
 static const double CELLS_A_POINT = 4;
 
 static size_t cell_along(const iccp_cells *cells, size_t k, double x)
@@ -25,7 +25,7 @@ static size_t cell_of(const iccp_cells *cells, const double *point)
     return cell;
 }
 
-/* Box, side and shape. The side grows until there are not too many cells. */
+/* Chooses box, side and shape. The side grows until there are not too many cells. */
 static void lay_out(iccp_cells *cells, double side)
 {
     double extent[3] = {0, 0, 0}, longest = 0;
@@ -50,8 +50,7 @@ static void lay_out(iccp_cells *cells, double side)
         cells->shape[k] = k < cells->dim ? (size_t)(extent[k] / cells->side) + 1 : 1;
 }
 
-/* Counts, adds up, and fills in from the end, which leaves each cell's points in ascending
- * order. */
+/* Counts, adds up, and fills in backwards, which leaves each cell's points in ascending order. */
 static void sort_points(iccp_cells *cells, size_t n_cells)
 {
     for (size_t i = 0; i < cells->n; ++i)
@@ -87,7 +86,7 @@ void iccp_cells_free(iccp_cells *cells)
     *cells = (iccp_cells){0};
 }
 
-/* An ulp wider: a point at the radius to rounding must not be missed. */
+/* Widens the radius by an ulp, so that a point at the radius up to rounding is not missed. */
 bool iccp_cells_box(const iccp_cells *cells, const double *place, double radius, iccp_cell_box *box)
 {
     const double wide = radius * (1 + 1e-15);

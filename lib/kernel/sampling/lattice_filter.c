@@ -1,12 +1,12 @@
-/* Neighbours along a row mostly have the same region, and the distance from the walls proves so
- * without looking. */
+/* Keeps the lattice points in a shape. Neighbours along a row mostly have the same region. The
+ * distance from walls often proves that without another query. */
 #include "kernel/sampling/lattice_filter.h"
 
 #include "base/threads.h"
 
 typedef struct sifting {
     const iccp_lattice_filter *filter;
-    uint8_t *stays; /* of each point of the lattice */
+    uint8_t *stays; /* by lattice point */
 } sifting;
 
 static bool passes(const iccp_lattice_filter *filter, const iccp_spot *spot)

@@ -1,3 +1,4 @@
+/* A list of points that grows and can be thinned out. */
 #include "kernel/sampling/point_list.h"
 
 #include "base/threads.h"
@@ -37,8 +38,8 @@ void iccp_point_list_free(iccp_point_list *list)
     *list = (iccp_point_list){0};
 }
 
-/* The nearest point to point i among those that `stays` (all without), below a squared distance, or
- * n. */
+/* Returns the nearest point to point i below a squared distance, or n. If `stays` is not NULL, only
+ * points with stays[] true count. */
 static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, double *best2)
 {
     const double *place = cells->points + cells->dim * i;
@@ -96,7 +97,7 @@ typedef struct measurement {
     double *distance;
 } measurement;
 
-/* Cells hold about one point each: the search widens until it finds one. */
+/* Cells hold about one point each. The search widens until it finds a point. */
 static icc_status measure_chunk(void *argument, size_t begin, size_t end)
 {
     const measurement *m = argument;

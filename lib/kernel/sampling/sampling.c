@@ -1,3 +1,4 @@
+/* Checks samples, measures them, and makes the object. */
 #include "kernel/sampling/sampling.h"
 
 #include "base/error.h"
@@ -27,19 +28,19 @@ void iccp_sampling_release(icc_sampling *sampling)
     iccp_free(&memory, sampling);
 }
 
-/* -------------------------------------------------------------------- look */
+/* ------------------------------------------------------------------ survey */
 
 enum { OUTSIDE, WITHIN, ON_EDGE };
 
-/* What is found out about samples. */
+/* Facts about samples. */
 typedef struct survey {
     const icc_shape *shape;
     size_t n;
     const double *points;
-    double *local;    /* their local coordinates */
-    double *spacing;  /* local distances of their nearest neighbours */
-    uint32_t *region; /* what they are in */
-    uint8_t *where;   /* OUTSIDE, WITHIN, ON_EDGE: a wall or a curve */
+    double *local;    /* local coordinates */
+    double *spacing;  /* local distances of nearest neighbours */
+    uint32_t *region; /* regions of the samples */
+    uint8_t *where;   /* OUTSIDE, WITHIN, or ON_EDGE for a wall or a curve */
 } survey;
 
 static void survey_free(survey *s, const iccp_memory *memory)
@@ -123,7 +124,7 @@ static icc_status check_distinct(const survey *s, bool given, icc_error *err)
 
 /* ------------------------------------------------------------------ finish */
 
-/* Counts and distances; `sigma` and `spacing` are local when they come from here. */
+/* Computes counts and distances. `sigma` and `spacing` are local if they are computed here. */
 static icc_status measure(const survey *s, icc_sampling_info *info, const iccp_env *env)
 {
     const iccp_frame *frame = &s->shape->frame;

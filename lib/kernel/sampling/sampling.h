@@ -1,4 +1,19 @@
-/* Samples of a shape. */
+/* Samples of a shape.
+ *
+ * Legend of lib/kernel/sampling, which prepares kernel coordinates. Begin with shape.h, then this
+ * file. "Thesis" is Sakaridis, Kernel Coordinates (ETH Zurich 2016).
+ * - shape: regions, which are domains, with walls between them, and curves (shape.h).
+ * - wall: a facet of a region's boundary. Curves consist of segments.
+ * - spot: a point with its region, wall and clearance (shape.h).
+ * - clearance: the distance of the nearest wall.
+ * - see: a sees b if what is at b may spread to a. This is not symmetric.
+ * - sample: a point at which the kernels are centred. Edge samples lie on walls and curves.
+ * - spacing: the wanted distance between neighbouring samples.
+ * - sigma: the width of the kernel that suits a sampling (spectrum.h).
+ * - held: a sample that stays where it is when blue noise is relaxed (blue_noise.h).
+ *
+ * Invariants: a seed always gives the same samples. Every sample lies in the shape, or within the
+ * margin that the caller sets. */
 #ifndef ICCP_SAMPLING_H
 #define ICCP_SAMPLING_H
 
@@ -8,22 +23,22 @@ struct icc_sampling {
     iccp_memory memory;
     atomic_size_t references;
     icc_shape *shape;
-    /* n_samples * dim, the caller's coordinates: edge samples first, but for a grid and
-     * caller-supplied points, which keep their order. */
+    /* n_samples * dim, in the caller's coordinates. Edge samples come first, except on a grid and
+     * for the caller's own points, which keep their order. */
     double *points;
-    icc_sampling_info info; /* but for `size` */
+    icc_sampling_info info; /* except `size` */
 };
 
-/* See icc_sampling_create(). Options have been read, and checked but for what depends on the
+/* See icc_sampling_create(). Options have been read, and checked except for what depends on the
  * shape. */
 icc_status iccp_sampling_create(icc_sampling **out, const icc_shape *shape,
                                 const icc_sampling_options *options, const iccp_env *env,
                                 icc_error *err);
 
-/* Makes the object from samples in the caller's coordinates: checks them, and completes the info,
- * of which kind and spacing (0: their mean spacing) are set. ICC_ERR_RESOLUTION if some region has
- * no sample inside, unless they are the caller's own; then ICC_ERR_OUTSIDE if one is not in the
- * shape. */
+/* Makes the object from samples in the caller's coordinates. Checks them and completes the info,
+ * whose kind and spacing are set (0: their mean spacing). Returns ICC_ERR_RESOLUTION if a region
+ * has no sample inside. For the caller's own samples, returns ICC_ERR_OUTSIDE instead if one is not
+ * in the shape. */
 icc_status iccp_sampling_finish(icc_sampling **out, const icc_shape *shape, size_t n,
                                 const double *points, const icc_sampling_info *info,
                                 const iccp_env *env, icc_error *err);

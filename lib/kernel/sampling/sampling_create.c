@@ -1,4 +1,4 @@
-/* Samples on a grid, or as blue noise. */
+/* Makes samples on a grid, or as blue noise. */
 #include "kernel/sampling/sampling.h"
 
 #include "base/error.h"
@@ -12,20 +12,19 @@
 #include <math.h>
 
 static const double MAX_SAMPLES = 16777216; /* 2^24 */
-/* Without the caller's: these shares of the longest side, in 2-D and in 3-D, where the cost of the
- * weights grows with the square of the number of samples. */
+/* Default spacing as a share of the longest side, in 2-D and in 3-D. The cost of the weights grows
+ * with the square of the number of samples. */
 static const double DEFAULT_SPACING[] = {0.01, 0.05};
 static const int32_t DEFAULT_STEPS = 60;
-/* Of the spacing: samples on walls and curves keep this distance, where lines of them meet at sharp
- * angles. */
+/* In spacings: least distance of samples on walls and curves where lines meet at sharp angles. */
 static const double LINE_GAP = 0.55;
-/* On surfaces, where they are spread at random: such a limit leaves about one a square of the
+/* On surfaces, where samples are spread at random. This limit leaves about one per square of the
  * spacing. */
 static const double SURFACE_GAP = 0.75;
-/* In distances at which a point is on a wall: what is inside must be told from what is on the
- * edge. */
+/* Least spacing, in distances at which a point is on a wall. Inside and edge samples must be
+ * distinguishable. */
 static const double FINEST = 16;
-/* Rounding of counts such as 10 / 0.1. */
+/* Covers the rounding of counts such as 10 / 0.1. */
 static const double COUNT_TOLERANCE = 1e-9;
 
 static icc_status fail_many(icc_error *err)
@@ -48,7 +47,7 @@ static double default_spacing(const icc_shape *shape)
 
 typedef struct grid {
     size_t dim;
-    double lower[3], spacing, border; /* points before the lower corner */
+    double lower[3], spacing, border; /* number of points before the lower corner */
 } grid;
 
 static void grid_point(const void *lattice, const size_t *at, double *point)
@@ -58,9 +57,9 @@ static void grid_point(const void *lattice, const size_t *at, double *point)
         point[k] = g->lower[k] + ((double)at[k] - g->border) * g->spacing;
 }
 
-/* The grid has a point at the lower corner of the shape's box, so that samples of one shape at one
- * spacing agree, and goes beyond the box by whole spacings up to the margin. Unlike those of blue
- * noise its points are the caller's coordinates from the start. */
+/* The grid has a point at the lower corner of the shape's box, so samplings of a shape at one
+ * spacing agree. It extends beyond the box by whole spacings, up to the margin. Unlike blue noise,
+ * its points are in the caller's coordinates from the start. */
 static icc_status spread_grid(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)
@@ -69,7 +68,7 @@ static icc_status spread_grid(iccp_point_list *list, const icc_shape *shape,
     grid g = {.dim = shape->dim, .spacing = options->spacing, .border = floor(options->margin)};
     iccp_lattice_filter filter = {
         .shape = shape, .count = {1, 1, 1}, .point = grid_point, .lattice = &g};
-    /* A point at the margin to rounding belongs to it. */
+    /* A point at the margin, up to rounding, belongs to it. */
     filter.margin = options->margin * (1 + COUNT_TOLERANCE) * (options->spacing * in[0] * in[1]);
     double all = 1;
     for (size_t k = 0; k < shape->dim; ++k) {
@@ -104,7 +103,7 @@ static double facet_size(const icc_shape *shape, const iccp_facet_tree *tree, ui
     return 0.5 * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
 }
 
-/* How many samples there will be, roughly; spacing is local. */
+/* Estimates how many samples there will be. The spacing is local. */
 static double expect_samples(const icc_shape *shape, double spacing)
 {
     double inside = 0, n = 0;
@@ -132,7 +131,7 @@ static bool on_edge(const iccp_spot *spot)
     return spot->wall != ICCP_NOWHERE || spot->curve != ICCP_NOWHERE;
 }
 
-/* Fixed points must lie in the shape and differ: two samples at one place would make the kernel's
+/* Fixed points must lie in the shape and differ. Two samples at one place would make the kernel's
  * matrix singular. */
 static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options *options,
                               const iccp_env *env, icc_error *err)
@@ -162,7 +161,7 @@ static icc_status check_fixed(const icc_shape *shape, const icc_sampling_options
     return status;
 }
 
-/* The caller's points on walls and curves, or the others. */
+/* Adds the caller's points on walls and curves, or the other ones. */
 static void add_fixed(iccp_point_list *list, const icc_shape *shape,
                       const icc_sampling_options *options, bool edge)
 {
@@ -173,7 +172,7 @@ static void add_fixed(iccp_point_list *list, const icc_shape *shape,
     }
 }
 
-/* Lines first, then what is left of surfaces. */
+/* Adds samples on lines first, then on surfaces where there is room. */
 static icc_status add_boundary_samples(iccp_point_list *list, const icc_shape *shape,
                                        double spacing, uint64_t seed, const iccp_env *env)
 {
@@ -196,8 +195,8 @@ static icc_status add_boundary_samples(iccp_point_list *list, const icc_shape *s
                             : status;
 }
 
-/* All samples that stay where they are, those on walls and curves first. The caller's were first in
- * the competition for room. */
+/* Adds all samples that stay where they are, those on walls and curves first. When room is scarce,
+ * the caller's points have priority. */
 static icc_status add_held(iccp_point_list *list, const icc_shape *shape,
                            const icc_sampling_options *options, double spacing, const iccp_env *env)
 {
@@ -217,8 +216,8 @@ static icc_status add_held(iccp_point_list *list, const icc_shape *shape,
     return status == ICC_OK && list->failed ? ICC_ERR_MEMORY : status;
 }
 
-/* Refuses what cannot be done before anything large is allocated, then places held samples and
- * relaxes the rest among them. The list is local until the end. */
+/* Refuses impossible requests before it allocates much. Then it places held samples and relaxes the
+ * others among them. The list is local until the end. */
 static icc_status spread_blue(iccp_point_list *list, const icc_shape *shape,
                               const icc_sampling_options *options, const iccp_env *env,
                               icc_error *err)

@@ -1,3 +1,4 @@
+/* Samplings as bytes. */
 #include "kernel/sampling/sampling_file.h"
 
 #include "base/error.h"

@@ -1,3 +1,4 @@
+/* Segments between vertices, and which of them meet at each vertex. */
 #include "kernel/sampling/segment_graph.h"
 
 #include "base/sort.h"

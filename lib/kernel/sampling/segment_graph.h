@@ -1,4 +1,4 @@
-/* Segments between vertices, and which of them meet at each. */
+/* Segments between vertices, and which of them meet at each vertex. */
 #ifndef ICCP_SEGMENT_GRAPH_H
 #define ICCP_SEGMENT_GRAPH_H
 
@@ -16,7 +16,7 @@ typedef struct iccp_segment_graph {
 icc_status iccp_segment_graph_create(iccp_segment_graph *graph, size_t dim, size_t n_vertices,
                                      const double *vertices, size_t n_segments,
                                      const uint32_t *segments, const iccp_memory *memory);
-/* Accepts a graph that is all zero. */
+/* Accepts a graph of all zeros. */
 void iccp_segment_graph_free(iccp_segment_graph *graph);
 
 static inline const double *iccp_segment_graph_vertex(const iccp_segment_graph *graph, uint32_t v)

@@ -1,5 +1,5 @@
-/* All walls stand in one tree, in the coordinates of one frame: exact signs decide what is behind
- * one. */
+/* Makes shapes. All walls are in one tree, in the coordinates of one frame. So exact signs decide
+ * what lies behind a wall. */
 #include "kernel/sampling/shape.h"
 
 #include "base/error.h"
@@ -11,14 +11,14 @@
 #include <math.h>
 #include <string.h>
 
-/* In longest sides of the box: rounding of input files, as for domains. */
+/* In units of the box's longest side: covers rounding of input files, as for domains. */
 static const double WALL_TOLERANCE = 1e-14;
-/* Of the largest coordinate: a point between two vertices is off by so much, or by that of denormal
- * numbers. */
+/* Share of the largest coordinate by which a point between two vertices may be wrong. For denormal
+ * numbers their own gap counts. */
 static const double ROUNDING = 4 * DBL_EPSILON;
 
-/* What the types do not rule out: n_vertices * dim coordinates are finite, n_segments * 2 indices
- * exist, and no segment is a point, which has no direction to follow. */
+/* Checks what the types do not guarantee. The n_vertices * dim coordinates are finite, and the
+ * n_segments * 2 indices exist. No segment is a point, which would have no direction. */
 static icc_status check_curves(size_t dim, size_t n_vertices, const double *vertices,
                                size_t n_segments, const uint32_t *segments, icc_error *err)
 {
@@ -76,8 +76,8 @@ static icc_status allocate(icc_shape *shape, size_t n_all, size_t n_facets)
                : ICC_OK;
 }
 
-/* Everything in the caller's coordinates, where a vertex that belongs to no facet is one that
- * does. */
+/* Collects everything in the caller's coordinates. A vertex that belongs to no facet is replaced by
+ * one that does. */
 static void gather(icc_shape *shape)
 {
     const size_t dim = shape->dim;
@@ -98,7 +98,7 @@ static void gather(icc_shape *shape)
             shape->sticks[dim * s + i] = (uint32_t)n + shape->segments[2 * s + (i > 0)];
 }
 
-/* The box, the frame, and local coordinates. */
+/* Computes the box, the frame, and local coordinates. */
 static icc_status localise(icc_shape *shape, size_t n, icc_error *err)
 {
     const size_t dim = shape->dim;
@@ -174,7 +174,7 @@ static icc_status plant(iccp_facet_tree *tree, const icc_shape *shape, size_t n,
     return tree->boxes != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Everything that follows from the regions and the curves. */
+/* Computes everything that follows from the regions and the curves. */
 static icc_status complete(icc_shape *shape, const double *vertices, const uint32_t *segments,
                            const iccp_env *env, icc_error *err)
 {

@@ -1,8 +1,9 @@
+/* Shapes as part of other objects' bytes. */
 #include "kernel/sampling/shape_file.h"
 
 #include "domain/domain_file.h"
 
-/* What a shape is made from; that of one that is written is its own. */
+/* Data that a shape is made from. When a shape is written, they are its own. */
 typedef struct parts {
     uint64_t dim;
     size_t n_regions, n_vertices, n_segments;
@@ -11,7 +12,7 @@ typedef struct parts {
     uint32_t *segments;
 } parts;
 
-/* Regions follow the counts, each with counts of its own. */
+/* Regions follow the counts, and each has counts of its own. */
 static icc_status visit(iccp_blob *b, parts *p, const iccp_env *env)
 {
     icc_status status = ICC_OK;

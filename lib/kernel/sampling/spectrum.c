@@ -1,8 +1,11 @@
-/* Thesis, sections 3.2 and 6.2.1, figure 6.10: the spectrum of blue noise is an impulse at the
- * origin, a region with next to nothing, and then a rise to a ring. A kernel whose own spectrum
- * stays within that region cannot tell the samples from a continuum. For a grid of spacing T the
- * thesis puts the nearest impulses, at 2 pi / T, at six standard deviations of the Gaussian's
- * spectrum (3.28); here the rise takes their place. */
+/* Finds the kernel width from the spectrum of the samples: thesis, sections 3.2 and 6.2.1, figure
+ * 6.10.
+ *
+ * The spectrum of blue noise is an impulse at the origin, a region with almost nothing, and then a
+ * rise to a ring. A kernel whose own spectrum stays within that region cannot distinguish the
+ * samples from a continuum. For a grid of spacing T, the thesis puts the nearest impulses, at 2 pi
+ * / T, at six standard deviations of the Gaussian's spectrum (3.28). Here the rise takes their
+ * place. */
 #include "kernel/sampling/spectrum.h"
 
 #include "base/memory.h"
@@ -14,22 +17,22 @@
 
 enum { N_DIRECTIONS = 96 };
 
-/* Wave numbers up to here, in 2 pi / spacing: a hexagonal lattice has its ring at 1.15. */
+/* Largest wave number, in 2 pi / spacing. A hexagonal lattice has its ring at 1.15. */
 static const double HIGHEST = 1.5;
-/* The ring of evenly spread points lies above this. */
+/* The ring of evenly spread points lies above this wave number. */
 static const double LOWEST = 0.7;
-/* The power of random points is 1: half of it is the rise. */
+/* The power of random points is 1, and half of it marks the rise. */
 static const double RISE = 0.5;
 static const double DEVIATIONS = 6;
-/* With fewer points the shape would drown the rise; with more, peaks would slip through between the
- * directions. */
+/* Fewer points hide the rise in the shape's own spectrum. More points let peaks fall between the
+ * sampled directions. */
 enum { FEWEST = 200, MOST = 1500 };
 
 static const double TWO_PI = 6.28318530717958648;
 /* The golden angle, (3 - sqrt 5) / 2 turns. */
 static const double GOLDEN = 0.38196601125010515;
 
-/* Directions of half a circle, or half a sphere by a spiral of equal areas. */
+/* Directions cover half a circle, or half a sphere by a spiral of equal areas. */
 static void direction(size_t dim, size_t i, double *u)
 {
     const double share = ((double)i + 0.5) / N_DIRECTIONS;
@@ -110,8 +113,9 @@ static double smooth(const double *power, size_t b)
     return (power[b - 1] + power[b] + power[b + 1]) / 3;
 }
 
-/* The wave number of the rise, in 2 pi over the spacing: downward from the ring, since far below it
- * the shape itself shows where it is narrow. 1, as for a grid, if there is no ring. */
+/* Returns the wave number of the rise, in 2 pi over the spacing. Searches downward from the ring,
+ * because far below it the shape itself shows where it is narrow. Returns 1, as for a grid, if
+ * there is no ring. */
 static double find_rise(const double *power)
 {
     const double bin = HIGHEST / ICCP_SPECTRUM_BINS;
@@ -128,8 +132,9 @@ static double find_rise(const double *power)
     return bin * ((double)(b + 1) - (above - RISE) / (above - below));
 }
 
-/* Copies the points in a box around the one in the middle of the list, at most MOST of them: a
- * piece of the shape as wide as it is high: the list would begin with a strip of it. */
+/* Copies the points in a box around the middle one of the list, at most MOST of them. The box gives
+ * a piece of the shape that is as wide as it is high. The beginning of the list would be a
+ * strip. */
 static size_t cut_out(size_t dim, size_t n, const double *points, double spacing, double *piece)
 {
     const double half = 0.5 * spacing * iccp_pow((double)MOST, 1 / (double)dim);

@@ -1,7 +1,7 @@
-/* Surfaces get more random points than are wanted; thinned out, they are evenly spread: M. Corsini,
- * P. Cignoni, R. Scopigno, Efficient and flexible sampling with blue noise properties of triangular
- * meshes, 2012. Each face gets its share by a running sum of areas, so that faces smaller than one
- * sample are treated fairly. */
+/* Samples on surfaces. They get more random points than needed, and thinning leaves them evenly
+ * spread: M. Corsini, P. Cignoni, R. Scopigno, Efficient and flexible sampling with blue noise
+ * properties of triangular meshes, 2012. Each face gets its share by a running sum of areas, so
+ * faces smaller than one sample are treated fairly. */
 #include "kernel/sampling/boundary_samples.h"
 
 #include "base/random.h"
@@ -9,10 +9,10 @@
 
 #include <math.h>
 
-/* Random points for each square of the spacing: leaves no hole that a sample would fit into, nearly
- * everywhere. */
+/* Random points per square of the spacing. They leave almost no hole in which a sample would
+ * fit. */
 static const double POINTS_A_SQUARE = 12;
-/* cos 30 degrees: faces that meet at more make a crease, which is sampled as a line. */
+/* cos 30 degrees. Faces that meet at a larger angle form a crease, which is sampled as a line. */
 static const double CREASE_COSINE = 0.86602540378443865;
 
 static double unit(uint64_t *state)
@@ -20,7 +20,7 @@ static double unit(uint64_t *state)
     return (double)(iccp_random(state) >> 11) * 0x1p-53;
 }
 
-/* Twice the area, and the unit normal unless NULL. */
+/* Returns twice the area. Writes the unit normal unless `normal` is NULL. */
 static double normal_of(const icc_shape *shape, uint32_t f, double *normal)
 {
     const double *c[3];
@@ -46,7 +46,7 @@ static bool is_crease(const icc_shape *shape, uint32_t f, uint32_t g)
     return !(m[0] * n[0] + m[1] * n[1] + m[2] * n[2] >= CREASE_COSINE);
 }
 
-/* Writes the creases, pairs of vertices, and returns how many there are. */
+/* Writes the creases as pairs of vertices, and returns their number. */
 static size_t find_creases(const icc_shape *shape, const uint32_t *across, uint32_t *creases)
 {
     size_t n = 0;
@@ -81,8 +81,8 @@ icc_status iccp_creases_sample(iccp_point_list *list, const icc_shape *shape, do
     return status;
 }
 
-/* A point on face f of the walls, equally likely everywhere: of two numbers in the unit square
- * those beyond the diagonal are reflected into the triangle. */
+/* Adds a uniformly random point on face f of the walls. Two numbers in the unit square are
+ * reflected into the triangle if they lie beyond the diagonal. */
 static void add_random(iccp_point_list *list, const icc_shape *shape, uint32_t f, uint64_t *state)
 {
     const double *c[3];
@@ -97,7 +97,7 @@ static void add_random(iccp_point_list *list, const icc_shape *shape, uint32_t f
     iccp_point_list_add(list, point);
 }
 
-/* Fisher and Yates' shuffle: in the order of the faces, the thinning would leave stripes. */
+/* Fisher and Yates' shuffle. In the order of the faces, the thinning would leave stripes. */
 static void shuffle(iccp_point_list *list, size_t first, uint64_t *state)
 {
     for (size_t i = list->n; i-- > first + 1;) {

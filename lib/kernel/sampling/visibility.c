@@ -1,5 +1,5 @@
-/* Where points are in a shape, and what they see. Whether a wall is in between is decided by exact
- * signs. */
+/* Where points are in a shape, and what they see. Exact signs decide whether a wall is in
+ * between. */
 #include "kernel/sampling/shape.h"
 
 #include "base/minmax.h"
@@ -11,14 +11,14 @@
 
 #include <math.h>
 
-/* Curves have no inside that points could be taken for: what was meant to be on one is. Of about
- * the box. */
+/* In units of about the box. Curves have no inside, so a point that is meant to be on one gets this
+ * tolerance. */
 static const double CURVE_TOLERANCE = 1e-9;
-/* Of the straight way: points on two legs of a curve see each other down to an angle of 60
+/* In units of the straight way. Points on two legs of a curve see each other down to an angle of 60
  * degrees. */
 static const double LONGEST_DETOUR = 2 * (1 + 1e-12);
 
-/* Of regions around a point that is on no wall, one within another, the smallest. */
+/* Returns the smallest of the nested regions around a point that is on no wall. */
 static uint32_t innermost(const icc_shape *shape, const double *point)
 {
     uint32_t found = ICCP_NOWHERE;
@@ -100,8 +100,7 @@ static bool stands_on(const icc_shape *shape, const iccp_spot *spot, uint32_t wa
     return sqrt(distance2) <= shape->tolerance;
 }
 
-/* Whether a spot is in the plane of a wall, to the precision with which that is known at its
- * distance. */
+/* Returns true if a spot is in the plane of a wall, to the precision known at its distance. */
 static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wall)
 {
     const size_t dim = shape->dim;
@@ -119,8 +118,8 @@ static bool in_plane(const icc_shape *shape, const iccp_spot *spot, uint32_t wal
     return fabs(iccp_orient_value(dim, c)) <= slack * area;
 }
 
-/* A wall that an end stands on is met there and nowhere else, but for rounding. Two points on walls
- * may also have in between, to rounding, what continues theirs straight on. */
+/* The wall on which an end stands is met only there, except for rounding. If both points are on
+ * walls, the segment may also meet, up to rounding, a straight continuation of these walls. */
 static bool passes(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b, uint32_t wall)
 {
     if (stands_on(shape, a, wall) || stands_on(shape, b, wall))
@@ -129,7 +128,8 @@ static bool passes(const icc_shape *shape, const iccp_spot *a, const iccp_spot *
            in_plane(shape, b, wall);
 }
 
-/* Whether a wall crosses the segment between two spots, other than those that passes() excuses. */
+/* Returns true if a wall crosses the segment between two spots, except those that passes()
+ * allows. */
 static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     const size_t dim = shape->dim;
@@ -150,7 +150,7 @@ static bool blocked(const icc_shape *shape, const iccp_spot *a, const iccp_spot 
     return false;
 }
 
-/* The region that a segment runs through which meets no wall between its ends. */
+/* Returns the region of a segment that meets no wall between its ends. */
 static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     double middle[3], point[3];
@@ -164,15 +164,14 @@ static uint32_t region_between(const icc_shape *shape, const iccp_spot *a, const
     return iccp_shape_region(shape, point);
 }
 
-/* The cheap certainties come first: most pairs of neighbours are in one ball that no wall reaches.
- */
+/* Tries the cheap tests first: most pairs of neighbours are in one ball that no wall reaches. */
 static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     if (a->region == ICCP_NOWHERE && a->curve != ICCP_NOWHERE)
         return false;
     if (a->wall != ICCP_NOWHERE && a->wall == b->wall)
         return true;
-    /* Well within a ball without walls. */
+    /* Both are well within a ball without walls. */
     if (iccp_vec_distance(shape->dim, a->at, b->at) <
         iccp_max(a->clearance, b->clearance) - 2 * shape->tolerance)
         return true;
@@ -180,12 +179,12 @@ static bool sees_through_region(const icc_shape *shape, const iccp_spot *a, cons
 }
 
 typedef struct step {
-    uint32_t segment, vertex; /* where it has come from and to */
+    uint32_t segment, vertex; /* where it comes from, and where it goes */
     double way;
 } step;
 
-/* Goes along the curves, at forks along all of them, as long as the way is short. The bounds are
- * never met but in thickets, where a point need not see every other. */
+/* Follows the curves, at forks all of them, as long as the way is short. The limits are reached
+ * only in dense tangles, where a point need not see every other one. */
 static bool sees_along_curve(const icc_shape *shape, const iccp_spot *a, const iccp_spot *b)
 {
     enum { MOST_OPEN = 32, MOST_STEPS = 512 };

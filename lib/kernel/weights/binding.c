@@ -1,3 +1,4 @@
+/* Bindings: points with their weights. */
 #include "kernel/weights/binding.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* Points with their weights. */
+/* Bindings: points with their weights. */
 #ifndef ICCP_BINDING_H
 #define ICCP_BINDING_H
 
@@ -13,11 +13,11 @@ struct icc_binding {
     double *gradients; /* n * n_handles * dim, or NULL */
 };
 
-/* See icc_binding_create(); all points are finite. */
+/* See icc_binding_create(). All points are finite. */
 icc_status iccp_binding_create(icc_binding **out, const icc_weights *weights, size_t n,
                                const double *points, bool derivatives, const iccp_env *env);
 
-/* A binding whose arrays are yet to be filled. */
+/* Makes a binding whose arrays the caller then fills in. */
 icc_status iccp_binding_allocate(icc_binding **out, size_t dim, size_t n, size_t n_handles,
                                  bool derivatives, const iccp_memory *memory);
 void iccp_binding_release(icc_binding *binding);

@@ -8,7 +8,7 @@
 static const char KIND[] = "BIND";
 static const uint32_t VERSION = 1;
 
-/* `head`: the dimension, and whether there are gradients. */
+/* `head` has the dimension, and whether there are gradients. */
 static void visit_sizes(iccp_blob *b, uint32_t head[2], size_t *n_handles, size_t *n)
 {
     iccp_blob_u32(b, 2, head);
@@ -47,7 +47,7 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-/* Handles and points can be finite and weights not: an interpolant overflows far away. */
+/* Handles and points must be finite, but weights need not be: an interpolant overflows far away. */
 static bool is_sound(const iccp_blob *b, const icc_binding *x)
 {
     return iccp_blob_done(b) && are_finite(x->n_handles * x->dim, x->handles) &&

@@ -1,37 +1,38 @@
-/* Based on: Goldfarb and Idnani, A numerically stable dual method for solving strictly convex
- * quadratic programs, Mathematical Programming 27 (1983). From the nearest x that meets the
- * equations, one negative x[p] after the other is raised to 0 by a force on it, and held there.
- * That changes the forces on those that are held; one that would have to pull is let go. The cost
- * grows with every step, so that the method ends: with no negative x[p] left, or with one that
- * nothing can raise.
+/* The nearest point without negative components, by a dual method. Based on: Goldfarb and Idnani, A
+ * numerically stable dual method for solving strictly convex quadratic programs, Mathematical
+ * Programming 27 (1983).
  *
- * The equations are combined so that their rows are orthonormal over the free components. Then all
- * that is asked is a product with one column, and what the columns span stands out from
- * rounding. Everything follows from which components are held and from the force on x[p], and is
- * computed from these anew in every step: nothing accumulates. */
+ * It starts from the nearest x that satisfies the equations. One negative x[p] after another is
+ * raised to 0 by a force on it, and held there. That changes the forces on the held components. A
+ * component whose force would have to pull is released. The cost grows with every step, so the
+ * method ends, either with no negative x[p] or with one that nothing can raise.
+ *
+ * The equations are combined so that their rows are orthonormal over the free components. Then each
+ * question is a product with one column, and rounding cannot hide what the columns span. Everything
+ * follows from the set of held components and the force on x[p]. It is computed from these in every
+ * step, so errors do not accumulate. */
 #include "kernel/weights/dual.h"
 
 #include "base/minmax.h"
 
 #include <math.h>
 
-/* Of the size of the numbers: x[p] is not negative. */
+/* Share of the size of the numbers: x[p] counts as not negative above minus this. */
 static const double ZERO = 1e-13;
-/* Of 1: the share of component p that is not fixed by the equations and the components that are
- * held. */
+/* Least share of component p that neither the equations nor the held components fix. */
 static const double LOOSE = 1e-12;
-/* Of 1: a force changes, or a row is no combination of those before it. */
+/* Smaller changes of a force, and smaller remainders of a row, are rounding. */
 static const double CHANGES = 1e-11;
-/* Per component. */
+/* Steps per component. */
 enum { MOST_STEPS = 20 };
 
 typedef struct state {
     const iccp_nonneg *problem;
     const double *start;
-    double *held;        /* 1 for the components that are, 0 for free ones */
+    double *held;        /* 1 for held components, 0 for free ones */
     double *columns;     /* of the combined equations */
-    double y[ICCP_ROWS]; /* x[j], or minus the force where it is held: start[j] + column j * y */
-    size_t steps;        /* that may still be made */
+    double y[ICCP_ROWS]; /* x[j], or minus the force if it is held: start[j] + column j * y */
+    size_t steps;        /* number of steps left */
 } state;
 
 static double dot(const double *a, const double *b)
@@ -54,7 +55,7 @@ static double value(const state *s, size_t j)
     return s->start[j] + dot(column(s, j), s->y);
 }
 
-/* Product of two rows over the free components. */
+/* Returns the product of two rows over the free components. */
 static double product(const state *s, size_t a, size_t b)
 {
     double sum = 0;
@@ -64,7 +65,7 @@ static double product(const state *s, size_t a, size_t b)
     return sum;
 }
 
-/* Takes `share` of row `from` from row r, and divides that. */
+/* Subtracts `share` of row `from` from row r, and divides the result. */
 static void combine(state *s, double *target, size_t r, size_t from, double share, double divide)
 {
     for (size_t j = 0; j < s->problem->m; ++j) {
@@ -74,7 +75,7 @@ static void combine(state *s, double *target, size_t r, size_t from, double shar
     target[r] = (target[r] - share * target[from]) * divide;
 }
 
-/* The nearest x that meets the equations with those at 0 that are held. */
+/* Finds the nearest x that satisfies the equations, with the held components at 0. */
 static void solve_held(state *s)
 {
     const iccp_nonneg *p = s->problem;
@@ -95,8 +96,8 @@ static void solve_held(state *s)
             s->y[r] -= s->start[j] * column(s, j)[r];
 }
 
-/* The held component whose force vanishes first as `push`, the force on p, grows beyond what it is,
- * and by how much that is; m when there is none. */
+/* Finds the held component whose force vanishes first as `push`, the force on p, grows, and by how
+ * much it grows until then. Returns m if there is none. */
 static size_t first_to_go(const state *s, size_t p, double push, double *growth)
 {
     size_t first = s->problem->m;
@@ -114,7 +115,7 @@ static size_t first_to_go(const state *s, size_t p, double push, double *growth)
     return first;
 }
 
-/* Raises x[p] to 0 and holds it; false when nothing can. */
+/* Raises x[p] to 0 and holds it. Returns false if nothing can. */
 static bool raise_and_hold(state *s, size_t p)
 {
     for (double push = 0; s->steps > 0; --s->steps) {

@@ -1,5 +1,5 @@
-/* From nodes to weights everywhere: Sakaridis, Kernel Coordinates (ETH Zurich 2016), chapters 4 and
- * 6. */
+/* Computes weights at nodes, and their interpolant: Sakaridis, Kernel Coordinates (ETH Zurich
+ * 2016), chapters 4 and 6. */
 #include "kernel/weights/handle_weights.h"
 
 #include "base/clock.h"
@@ -11,12 +11,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes in a task. */
+/* Nodes per task. */
 enum { GRAIN = 256 };
 
 /* ---- initial weights ---- */
 
-/* The sample that is nearest to a node on a line. */
+/* Returns the sample nearest to a node on a line. */
 static size_t nearest_sample(const icc_sampling *s, const double *place)
 {
     const size_t dim = s->shape->dim;
@@ -32,8 +32,8 @@ static size_t nearest_sample(const icc_sampling *s, const double *place)
     return nearest;
 }
 
-/* The caller's weights, sample after sample: a node that is a sample takes its row, a node on a
- * line that of the nearest sample, and handles are set by set_handles(). */
+/* Copies the caller's weights, which are given by sample. A node that is a sample takes its row,
+ * and a node on a line that of the nearest sample. set_handles() sets the handles. */
 static void take_given(const iccp_node_set *set, const double *given)
 {
     for (size_t i = set->n_handles; i < set->n; ++i) {
@@ -45,7 +45,7 @@ static void take_given(const iccp_node_set *set, const double *given)
     }
 }
 
-/* Exactly (4.11) at the handles, and (4.7) on edges. */
+/* Sets exactly (4.11) at the handles, and (4.7) on edges. */
 static void set_handles(const iccp_node_set *set, bool edges)
 {
     const size_t m = set->n_handles;
@@ -62,8 +62,8 @@ static void set_handles(const iccp_node_set *set, bool edges)
     }
 }
 
-/* Initial weights of all nodes by the method asked for. Diffusion starts from what set_handles()
- * holds fixed. */
+/* Sets the initial weights of all nodes by the chosen method. Diffusion starts from the weights
+ * that set_handles() fixes. */
 static icc_status initialise(iccp_node_set *set, const icc_weights_options *options,
                              const iccp_env *env)
 {
@@ -91,8 +91,8 @@ typedef struct optimisation {
     const iccp_memory *memory;
 } optimisation;
 
-/* Weights of nodes [begin, end) of the list, or of all nodes without one. Each is optimised on its
- * own, so tasks share nothing but read-only handles. */
+/* Computes the weights of nodes [begin, end) of the list, or of all nodes if it is NULL. Each node
+ * is optimised by itself, so tasks share only the handles, which are read-only. */
 static icc_status optimise_some(void *argument, size_t begin, size_t end)
 {
     const optimisation *o = argument;
@@ -123,8 +123,8 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
     return status;
 }
 
-/* Ends of lines that no handle or earlier line has are optimised like any node, the nodes between
- * them never. */
+/* Ends of lines that are neither handles nor ends of earlier lines are optimised like other nodes.
+ * The nodes between them never are. */
 static icc_status optimise_ends(icc_weights *weights, const iccp_env *env)
 {
     const iccp_node_set *set = weights->nodes;
@@ -163,7 +163,7 @@ icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env)
     return status;
 }
 
-/* Columns that are the same bit for bit have the same coefficients. */
+/* Columns with the same bits have the same coefficients. */
 icc_status iccp_weights_interpolate(icc_weights *weights, const icc_weights *before,
                                     const iccp_env *env)
 {
@@ -183,7 +183,7 @@ icc_status iccp_weights_interpolate(icc_weights *weights, const icc_weights *bef
 
 /* ---- the object ---- */
 
-/* Everything but what is in the arrays. */
+/* Allocates everything, but does not fill the arrays. */
 static icc_status allocate(icc_weights **out, const iccp_node_set *set, const iccp_env *env)
 {
     const size_t n = set->n, m = set->n_handles;

@@ -9,38 +9,38 @@ struct icc_weights {
     atomic_size_t references;
     iccp_node_set *nodes;
     double *values;        /* n * n_handles */
-    icc_status *status;    /* of each node */
+    icc_status *status;    /* by node */
     double *coefficients;  /* of the interpolant: n + dim + 1 rows of n_handles */
-    icc_weights_info info; /* but for `size` */
+    icc_weights_info info; /* except `size` */
 };
 
-/* See icc_weights_create(); arguments have been checked, but not against each other's geometry. */
+/* See icc_weights_create(). Arguments have been checked, but not against each other's geometry. */
 icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
                                const double *handles, const icc_weights_options *options,
                                const iccp_env *env, icc_error *err);
 icc_weights *iccp_weights_retain(const icc_weights *weights);
 void iccp_weights_release(icc_weights *weights);
 
-/* A copy on the same nodes, with the weights, statuses and coefficients of `from`. */
+/* Makes a copy on the same nodes, with the weights, statuses and coefficients of `from`. */
 icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const iccp_env *env);
 
-/* Optimises the weights of some nodes, which must differ, from where they are; NULL: all n nodes.
- * Those that are held stay as they are. */
+/* Optimises the weights of some nodes, which must differ, starting from their present weights. NULL
+ * means all n nodes. Held nodes keep their weights. */
 icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t *nodes,
                                  const iccp_env *env);
 
-/* Optimises all weights from the initial ones, and lines. */
+/* Optimises all weights from the initial ones, then makes lines straight. */
 icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env);
 
-/* Lets the nodes near line k follow it. */
+/* Adapts the nodes near line k to it. */
 icc_status iccp_weights_follow_line(icc_weights *weights, size_t k, const iccp_env *env);
 
-/* Coefficients for the weights, of the handles whose weights at nodes are not those of `before`;
- * NULL: of all. */
+/* Computes coefficients for those handles whose weights at nodes differ from `before`. NULL: for
+ * all handles. */
 icc_status iccp_weights_interpolate(icc_weights *weights, const icc_weights *before,
                                     const iccp_env *env);
 
-/* See icc_weights_paint() and the functions after it. */
+/* See icc_weights_paint() and the next functions. */
 icc_status iccp_weights_paint(icc_weights **out, const icc_weights *weights, size_t handle,
                               const double *centre, double radius, double amount,
                               const iccp_env *env);
@@ -53,7 +53,8 @@ icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *weights, s
                                 const uint32_t *nodes, const double *rigidity, double energy[2],
                                 const iccp_env *env, icc_error *err);
 
-/* Weights, and gradients unless NULL, at a finite point, all in the caller's coordinates. */
+/* Computes weights at a finite point, and gradients unless NULL, all in the caller's
+ * coordinates. */
 void iccp_weights_at(const icc_weights *weights, const double *point, double *values,
                      double *gradients);
 

@@ -1,12 +1,11 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 4.1, 4.2 and 4.4.
+/* The equations of weights at a point, and their optimisation. Based on: Sakaridis, Kernel
+ * Coordinates (ETH Zurich 2016), sections 4.1, 4.2 and 4.4.
  *
- * Weights w of a point x reproduce it and sum to 1 when A w = (1, x), where the columns of A are
- * the handles. The rows of A are replaced by orthonormal ones, Q, that span the same: A = L Q, and
- * the equations are Q w = L^-1 (1, x). So the nearest w that meets them, (4.4) to (4.6), is
- *
- *     w0 + Q'(L^-1 (1, x) - Q w0),
- *
- * and numbers in the iterative methods are of size 1 wherever the handles are. */
+ * Weights w of a point x reproduce it and sum to 1 if A w = (1, x), where the columns of A are the
+ * handles. The rows of A are replaced by orthonormal rows Q with the same span: A = L Q. So the
+ * equations are Q w = L^-1 (1, x), and the nearest w that satisfies them, (4.4) to (4.6), is
+ *      w0 + Q'(L^-1 (1, x) - Q w0).
+ * The numbers in the iterative methods have size 1, wherever the handles are. */
 #include "base/compiler.h"
 #include "base/error.h"
 #include "base/minmax.h"
@@ -16,33 +15,34 @@
 #include <assert.h>
 #include <math.h>
 
-/* Thickness over extent below which handles are taken to lie in a plane: weights beside it would be
- * wrong by more than this. */
+/* Thickness over extent below which handles count as lying in a plane. Weights beside the plane
+ * would have a larger error than this. */
 static const double THINNEST = 1e-8;
-/* Cost of what lies below 0 where weights must be negative: 1 / SLOPE times that above. Weights
- * jump at the hull by less the smaller it is: by 2e-4 on the star, and by 2e-2 with 1e-3. With
- * 1e-6, Newton's method fails at times. */
+/* Cost of negative values where weights must be negative: 1 / SLOPE times that of positive ones.
+ * The smaller it is, the less weights jump at the hull: by 2e-4 on the star, and by 2e-2 with 1e-3.
+ * With 1e-6, Newton's method fails at times. */
 static const double SLOPE = 1e-5;
-/* Of the length of an equation's row, squared: what is left of it when the other rows are taken
- * away and it follows from them. */
+/* An equation's row follows from the other rows if less than this share of its squared length
+ * remains without them. */
 static const double FLAT = 1e-12;
 
 struct iccp_handles {
     iccp_memory memory;
     size_t dim, m;
     double centre[3];
-    double lower[ICCP_ROWS][ICCP_ROWS]; /* L; rows are 1 and the coordinates about the centre */
-    double *columns;                    /* of Q, ICCP_ROWS each; rows beyond dim are 0 */
-    uint32_t start[ICCP_ROWS];          /* independent columns */
+    /* L; rows are 1 and the coordinates relative to the centre */
+    double lower[ICCP_ROWS][ICCP_ROWS];
+    double *columns;           /* columns of Q, ICCP_ROWS each; rows beyond dim are 0 */
+    uint32_t start[ICCP_ROWS]; /* independent columns */
 };
 
-/* Entry (row, handle j) of A, about the centre. */
+/* Returns entry (row, handle j) of A, relative to the centre. */
 static double entry(const iccp_handles *h, const double *points, size_t row, size_t j)
 {
     return row == 0 ? 1 : points[h->dim * j + row - 1] - h->centre[row - 1];
 }
 
-/* Takes the parts along the rows before from row r of Q. */
+/* Subtracts the components along the previous rows from row r of Q. */
 static void make_orthogonal(iccp_handles *h, size_t r)
 {
     for (size_t k = 0; k < r; ++k) {
@@ -63,8 +63,8 @@ static double row_length(const iccp_handles *h, size_t r)
     return sqrt(sum);
 }
 
-/* Gram and Schmidt's method, twice, which makes rows orthogonal to the last digit. False when the
- * handles lie in a plane. */
+/* Applies Gram and Schmidt's method twice, which makes rows orthogonal to the last digit. Returns
+ * false if the handles lie in a plane. */
 static bool make_rows(iccp_handles *h, const double *points)
 {
     double longest = 0;
@@ -85,8 +85,8 @@ static bool make_rows(iccp_handles *h, const double *points)
     return true;
 }
 
-/* Columns that span a large simplex: each the one with the greatest part that those before leave
- * over. */
+/* Chooses columns that span a large simplex. Each has the largest component that the previous ones
+ * leave. */
 static void choose_start(iccp_handles *h)
 {
     double basis[ICCP_ROWS][ICCP_ROWS] = {{0}};
@@ -171,7 +171,7 @@ static ICCP_INLINE void add_rows(const iccp_handles *h, const double *target, do
     }
 }
 
-/* The nearest weights whose combinations are the target. */
+/* Replaces weights by the nearest ones whose combination is the target. */
 static ICCP_INLINE void meet(const iccp_handles *h, const double *target, double *weights)
 {
     double missing[ICCP_ROWS];
@@ -181,7 +181,7 @@ static ICCP_INLINE void meet(const iccp_handles *h, const double *target, double
     add_rows(h, missing, weights);
 }
 
-/* y, in place of b, with C y = b for a C that is not negative; where C is 0, y is. */
+/* Replaces b by y with C y = b, for a C that is not negative. Where C is 0, y is 0. */
 static void solve_small(double c[ICCP_ROWS][ICCP_ROWS], double *y)
 {
     for (size_t k = 0; k < ICCP_ROWS; ++k)
@@ -250,7 +250,7 @@ static double greatest(size_t m, const double *x)
     return value;
 }
 
-/* L^-1 (1, x), for a constant number of rows. */
+/* Computes L^-1 (1, x) for a constant number of rows. */
 static ICCP_INLINE void solve_lower(const iccp_handles *h, size_t rows, const double *point,
                                     double *target)
 {
@@ -278,8 +278,8 @@ icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const doub
     }
     const bool again = method == ICC_WEIGHTS_EQUALITY || greatest(handles->m, weights) > 1;
     meet(handles, problem.target, weights);
-    /* Large weights leave rounding errors of their size, and many their sum; the iteration sees to
-     * these, too. */
+    /* Large weights leave rounding errors of their size, and many weights leave their sum. The
+     * repetition removes these, too. */
     if (again)
         meet(handles, problem.target, weights);
     if (method == ICC_WEIGHTS_EQUALITY || least(handles->m, weights) >= 0 ||

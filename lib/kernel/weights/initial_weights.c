@@ -1,9 +1,10 @@
-/* Where weights start from: the inverse of the squared distance (Sakaridis, Kernel Coordinates, ETH
- * Zurich 2016, equation 4.10), or diffusion (section 4.6). There a step multiplies the weights by K
- * over a constant, and what is far from the mean density of samples grows or fades with every step.
- * Here the rows of the matrix sum to 1, so that a step takes means: weights stay between those that
- * are held, and still sum to 1 where all of them do. The thesis' kernel also reaches across
- * gaps; see iccp_spot_sees(). */
+/* Initial weights: the inverse of the squared distance (Sakaridis, Kernel Coordinates, ETH Zurich
+ * 2016, equation 4.10), or diffusion (section 4.6).
+ *
+ * In the thesis, a diffusion step multiplies the weights by K over a constant. Where the density of
+ * samples differs from the mean, weights then grow or fade with every step. Here the rows of the
+ * matrix sum to 1, so a step takes means. Weights stay between the held ones, and still sum to 1
+ * where all of them do. The thesis' kernel also reaches across gaps; see iccp_spot_sees(). */
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "kernel/weights/weights.h"
@@ -12,11 +13,11 @@
 
 /* ---- inverse distance ---- */
 
-/* p, of the longest side of the handles' box: in the thesis' example (section 4.7) p = 1 and the
- * side is 10. */
+/* p, as a share of the longest side of the handles' box. In the thesis' example (section 4.7), p =
+ * 1 and the side is 10. */
 static const double REACH = 0.1;
 
-/* Of the handles' box. */
+/* Returns the longest side of the handles' box. */
 static double longest_side(const iccp_nodes *nodes)
 {
     double longest = 0;
@@ -48,16 +49,16 @@ void iccp_initial_inverse(const iccp_nodes *nodes, double *weights)
 
 /* ---- diffusion ---- */
 
-/* Nodes in a task. */
+/* Nodes per task. */
 enum { GRAIN = 256 };
 
 typedef struct diffusion {
     const iccp_nodes *nodes;
     const iccp_symmetric *matrix;
     bool edges;
-    double *share;    /* of the matrix' entries in the mean of their row; 0: not seen */
+    double *share;    /* share of each entry of the matrix in the mean of its row; 0: not seen */
     double *own;      /* the node's own share */
-    iccp_spot *spots; /* NULL: all see each other */
+    iccp_spot *spots; /* NULL: all nodes see each other */
     const double *from;
     double *to;
 } diffusion;
@@ -75,8 +76,8 @@ static icc_status find_spots(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Shares of the neighbours in the mean of their node. A node sees another or not as in
- * iccp_spot_sees(), which is not mutual: rows of `share` follow those of the matrix, but are not
+/* Finds the shares of the neighbours in the mean of their node. Seeing is as in iccp_spot_sees(),
+ * which is not symmetric. So rows of `share` have the pattern of the matrix, but are not
  * symmetric. */
 static icc_status find_shares(void *argument, size_t begin, size_t end)
 {
@@ -99,8 +100,8 @@ static icc_status find_shares(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* One step for nodes [begin, end): a held node keeps its row, any other takes the mean of its
- * neighbours' rows of m weights by their shares. */
+/* Makes one step for nodes [begin, end). A held node keeps its row. Any other node takes the mean
+ * of its neighbours' rows of m weights by their shares. */
 static icc_status take_means(void *argument, size_t begin, size_t end)
 {
     const diffusion *d = argument;
@@ -120,8 +121,8 @@ static icc_status take_means(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Jacobi steps between two arrays of n * n_handles weights, so that the result does not depend on
- * the order of the tasks. Shares are found once, since who sees whom does not change. */
+/* Makes Jacobi steps between two arrays of n * n_handles weights, so that the result does not
+ * depend on the order of the tasks. Shares are found once, because visibility does not change. */
 static icc_status take_steps(diffusion *d, int32_t steps, double *weights, double *other,
                              const iccp_env *env)
 {

@@ -1,11 +1,10 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.5 and 6.1. The affine
- * function beside the kernels is ours: coefficients a of the kernels and t of the function solve
- *
- *     K a + P t = w,  P' a = 0,    rows of P: (1, x),
- *
- * so that affine weights are reproduced exactly. With Z = K^-1 P, found once, t = (P' Z)^-1 Z' w
- * comes first, and K a = w - P t then has a small right side where the weights are nearly affine:
- * nothing cancels. H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
+/* Interpolates weights with kernels and an affine function. Based on: Sakaridis, Kernel Coordinates
+ * (ETH Zurich 2016), sections 3.5 and 6.1. The affine function beside the kernels is ours.
+ * Coefficients a of the kernels and t of the function solve
+ *      K a + P t = w,  P' a = 0,    rows of P: (1, x),
+ * so affine weights are reproduced exactly. Z = K^-1 P is computed once. Then t = (P' Z)^-1 Z' w
+ * comes first. K a = w - P t has a small right-hand side where the weights are nearly affine, so
+ * nothing cancels. Source: H. Wendland, Scattered Data Approximation, 2005, section 8.5. */
 #include "kernel/weights/interpolant.h"
 
 #include "base/compiler.h"
@@ -18,22 +17,23 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Cells of half the reach: half of the points in those that a ball reaches into are in the ball. */
+/* Cells are half the reach wide. Then half of the points in the cells that a ball touches are in
+ * the ball. */
 static const double CELLS_PER_REACH = 2;
 /* Pivots below this share of the greatest are rounding errors. */
 static const double LEAST_PIVOT = 1e-13;
-/* A pivot of P'Z below this share of its diagonal: the nodes lie on a line or in a plane. */
+/* If a pivot of P'Z is below this share of its diagonal, the nodes lie on a line or in a plane. */
 static const double LEAST_SCHUR = 1e-13;
-/* Most right sides in a task: the factor is read once for all of them. */
+/* Most right-hand sides per task. The factor is read once for all of them. */
 enum { SIDES = 32, MOST_TAIL = 4 };
 
 struct iccp_collocation {
     iccp_memory memory;
     atomic_size_t references;
-    size_t dim, n, n_tail; /* n_tail: dim + 1, or 0 */
+    size_t dim, n, n_tail; /* n_tail is dim + 1, or 0 */
     iccp_radial radial;
     double *points;
-    double *sorted; /* the same in the order of the cells */
+    double *sorted; /* `points` in the order of the cells */
     iccp_cells cells;
     iccp_kernel_matrix kernel;
     iccp_ldlt factor;
@@ -49,8 +49,8 @@ static double tail_entry(const iccp_collocation *c, size_t i, size_t k)
     return k == 0 ? 1 : c->points[c->dim * i + k - 1];
 }
 
-/* Cholesky's factorisation of P'Z, (dim + 1) by (dim + 1), in place. False when a pivot is
- * rounding: then the columns of P are dependent at the nodes. */
+/* Computes Cholesky's factorisation of P'Z, (dim + 1) by (dim + 1), in place. Returns false if a
+ * pivot is only rounding: the columns of P are then dependent at the nodes. */
 static bool factorise_schur(iccp_collocation *c)
 {
     const size_t q = c->n_tail;
@@ -77,7 +77,7 @@ static bool factorise_schur(iccp_collocation *c)
     return true;
 }
 
-/* x, q numbers, becomes (P'Z)^-1 x. */
+/* Replaces x, q numbers, by (P'Z)^-1 x. */
 static void solve_schur(const iccp_collocation *c, double *x)
 {
     const size_t q = c->n_tail;
@@ -93,7 +93,7 @@ static void solve_schur(const iccp_collocation *c, double *x)
     }
 }
 
-/* Z = K^-1 P and the factor of P'Z: once for all weights on these nodes. */
+/* Computes Z = K^-1 P and the factor of P'Z, once for all weights on these nodes. */
 static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_error *err)
 {
     const size_t q = c->n_tail = c->dim + 1;
@@ -116,8 +116,8 @@ static icc_status prepare_tail(iccp_collocation *c, const iccp_env *env, icc_err
 
 /* ---- creation ---- */
 
-/* The ratio of the least pivot to the greatest is kept as the measure of definiteness. Wendland's
- * function is positive definite at any width: what fails then is precision. */
+/* Keeps the ratio of the least pivot to the greatest as a measure of definiteness. Wendland's
+ * function is positive definite at any width, so a failure means lack of precision. */
 static icc_status factorise(iccp_collocation *c, const iccp_env *env, icc_error *err)
 {
     icc_status status = iccp_ldlt_analyse(&c->factor, &c->kernel.matrix, 1, env);
@@ -230,10 +230,10 @@ typedef struct solution {
     const double *values;
     double *coefficients;
     size_t n_sides;
-    size_t *sides; /* the columns to solve for */
+    size_t *sides; /* columns to solve for */
 } solution;
 
-/* t of `n_sides` columns, and b becomes what is left of them. */
+/* Computes t of `n_sides` columns, and subtracts the affine function from b. */
 static void split_affine(const iccp_collocation *c, size_t n_sides, double *b, double *tail)
 {
     const size_t q = c->n_tail;
@@ -253,8 +253,8 @@ static void split_affine(const iccp_collocation *c, size_t n_sides, double *b, d
             tail[n_sides * k + r] = t[r][k];
 }
 
-/* Solves for the columns sides[begin] up to sides[end], n values each. They are gathered into rows
- * of `width` first, so that the factor is read once for all of them. */
+/* Solves for the columns sides[begin] up to sides[end], n values each. They are first gathered into
+ * rows of `width`, so that the factor is read once for all of them. */
 static icc_status solve_sides(void *argument, size_t begin, size_t end)
 {
     const solution *s = argument;
@@ -308,7 +308,7 @@ icc_status iccp_collocation_solve(const iccp_collocation *collocation, size_t m,
 
 enum { MOST_NEAR = 256, FOUR = 4 };
 
-/* Numbers side by side; not aligned. */
+/* Several numbers side by side, not aligned. */
 #ifdef __GNUC__
 typedef double four __attribute__((vector_size(8 * FOUR), aligned(8), may_alias));
 #endif
@@ -320,11 +320,11 @@ typedef struct query {
     double *values, *gradients;
 } query;
 
-/* Nodes nearer than the reach, in a fixed order: they are found first, then their kernels' values,
- * then each sum, in registers. */
+/* Nodes nearer than the reach, in a fixed order. First they are found, then their kernels' values
+ * are computed, then each sum, in registers. */
 typedef struct near {
     size_t n;
-    uint32_t place[MOST_NEAR]; /* in the order of the cells */
+    uint32_t place[MOST_NEAR]; /* places in the order of the cells */
     double distance2[MOST_NEAR];
 } near;
 
@@ -341,14 +341,14 @@ static void add_tail(const query *q)
     }
 }
 
-/* The rows of coefficients of the nodes, and what they are multiplied by. */
+/* The nodes' rows of coefficients, and the factors of these. */
 typedef struct terms {
     size_t n;
     const double *row[MOST_NEAR];
     double factor[MOST_NEAR];
 } terms;
 
-/* Adds to m numbers, every stride-th from `sums`, the rows times their factors, row after row. */
+/* Adds the rows times their factors, row by row, to m numbers: every stride-th from `sums` on. */
 static ICCP_INLINE void add_rows(const terms *t, size_t m, double *sums, size_t stride)
 {
     size_t j = 0;
@@ -368,7 +368,7 @@ static ICCP_INLINE void add_rows(const terms *t, size_t m, double *sums, size_t 
             sums[stride * j] += t->factor[i] * t->row[i][j];
 }
 
-/* Twice the slopes of the kernel; `kind` is a constant, so that nothing branches in the loop. */
+/* Computes twice the slopes of the kernel. `kind` is a constant, so the loop has no branches. */
 static ICCP_INLINE void fill_slopes(iccp_radial radial, int32_t kind, const near *h, double *slope)
 {
     radial.kind = kind;
@@ -376,7 +376,7 @@ static ICCP_INLINE void fill_slopes(iccp_radial radial, int32_t kind, const near
         slope[i] = 2 * iccp_radial_slope(&radial, h->distance2[i]);
 }
 
-/* Adds the kernels of the nodes that have been found, and forgets them. */
+/* Adds the kernels of the nodes that were found, and empties the list. */
 static ICCP_INLINE void add_near(const query *q, near *h)
 {
     const iccp_collocation *c = q->c;
@@ -401,7 +401,8 @@ static ICCP_INLINE void add_near(const query *q, near *h)
     h->n = 0;
 }
 
-/* Which of the nodes of a run are near cannot be foreseen, so that nothing branches on it. */
+/* Finds the near nodes of a run. Which ones are near is unpredictable, so nothing branches on
+ * it. */
 static ICCP_INLINE void find_near(const query *q, size_t begin, size_t end, size_t dim, near *h)
 {
     const double *points = q->c->sorted;
@@ -421,7 +422,7 @@ static ICCP_INLINE void find_near(const query *q, size_t begin, size_t end, size
     h->n = n;
 }
 
-/* The same for a run of any length. */
+/* Finds and adds the nodes of a run of any length. */
 static ICCP_INLINE void add_run(const query *q, size_t begin, size_t end, near *h)
 {
     while (begin < end) {
@@ -456,7 +457,7 @@ static void add_kernels_portable(const query *q, const iccp_cell_box *box)
 
 #ifdef ICCP_HAS_SIMD
 
-/* The same bits: lanes are handles or nodes, and nothing is contracted. */
+/* Gives the same bits: lanes are handles or nodes, and no products are fused with sums. */
 ICCP_AVX2 static void add_kernels_avx2(const query *q, const iccp_cell_box *box)
 {
     add_kernels(q, box);
@@ -488,7 +489,7 @@ void iccp_collocation_evaluate(const iccp_collocation *collocation, size_t m,
                                  gradients);
 }
 
-/* ---- for programs on many weights at once ---- */
+/* ---- for programs with many weights at once ---- */
 
 size_t iccp_collocation_dim(const iccp_collocation *collocation)
 {

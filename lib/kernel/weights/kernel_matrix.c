@@ -1,6 +1,6 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1 and 6.1; H. Wendland,
- * Piecewise polynomial, positive definite and compactly supported radial functions of minimal
- * degree, 1995: the function of smoothness C2 for dimensions up to 3. */
+/* Kernels and their matrix. Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), sections 3.1
+ * and 6.1; H. Wendland, Piecewise polynomial, positive definite and compactly supported radial
+ * functions of minimal degree, 1995: the function of smoothness C2 for dimensions up to 3. */
 #include "kernel/weights/kernel_matrix.h"
 
 #include "base/error.h"
@@ -8,12 +8,12 @@
 
 #include <math.h>
 
-/* Wendland's function of this radius, in sigma, has about the width of the Gaussian. */
+/* In sigma: with this radius, Wendland's function is about as wide as the Gaussian. */
 static const double WENDLAND_REACH = 3;
-/* Entries, 12 bytes each, whatever the number of nodes; and for each node, where the default kernel
- * has 26 in 2-D. The matrix may have the greater number of the two. */
+/* Limits of the matrix: entries, 12 bytes each, and entries per node, of which the default kernel
+ * has 26 in 2-D. The larger limit applies. */
 static const size_t MOST_ENTRIES = (size_t)1 << 27, MOST_NEAR = 256;
-/* Rows in a task. */
+/* Rows per task. */
 enum { GRAIN = 1024 };
 
 iccp_radial iccp_radial_make(int32_t kind, double sigma, double cutoff)
@@ -28,7 +28,7 @@ typedef struct assembly {
     bool count_only;
 } assembly;
 
-/* Counts the entries of row i from one run of points, and writes them behind `at`. */
+/* Counts the entries of row i from one run of points, and writes them from `at` on. */
 static size_t scan_run(const assembly *a, size_t i, size_t begin, size_t end, size_t at)
 {
     const size_t dim = a->cells->dim;
@@ -50,7 +50,7 @@ static size_t scan_run(const assembly *a, size_t i, size_t begin, size_t end, si
     return n;
 }
 
-/* The entries of row i, written behind `at` unless only counted. Cells that follow each other
+/* Counts the entries of row i, and writes them from `at` on unless only counting. Consecutive cells
  * along the first axis are one run of points. */
 static size_t scan_row(const assembly *a, size_t i, size_t at)
 {
@@ -86,8 +86,9 @@ static icc_status fill_rows(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Two passes over the cells: the first counts the entries of each row, so that rows have their
- * place and too many are refused before there is memory for them; the second writes them. */
+/* Makes two passes over the cells. The first counts the entries of each row, which determines where
+ * rows begin. It refuses too many entries before memory is allocated. The second writes the
+ * entries. */
 static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
 {
     iccp_kernel_matrix *out = a->out;

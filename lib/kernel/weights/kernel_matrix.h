@@ -9,17 +9,17 @@
 
 #include <math.h>
 
-/* A radial function of finite reach: `ICC_KERNEL_*`. Its value at 0 is 1. */
+/* A radial function of finite reach, of kind `ICC_KERNEL_*`. Its value at 0 is 1. */
 typedef struct iccp_radial {
     int32_t kind;
     double sigma, reach;
 } iccp_radial;
 
-/* `cutoff` in sigma, for the Gaussian. */
+/* Makes a radial function. `cutoff` is in sigma, for the Gaussian. */
 iccp_radial iccp_radial_make(int32_t kind, double sigma, double cutoff);
 
-/* The value at a squared distance below the squared reach, and the derivative by that square (for
- * gradients: k(|x - y|^2) has the derivative 2 k' (x - y)). */
+/* The value at a squared distance below the squared reach, and the derivative with respect to that
+ * square. For gradients: k(|x - y|^2) has the derivative 2 k' (x - y). */
 static inline double iccp_radial_value(const iccp_radial *radial, double distance2)
 {
     if (radial->kind == ICC_KERNEL_GAUSS)
@@ -40,14 +40,14 @@ static inline double iccp_radial_slope(const iccp_radial *radial, double distanc
 
 typedef struct iccp_kernel_matrix {
     iccp_memory memory;
-    iccp_symmetric matrix; /* borrows the four arrays below */
+    iccp_symmetric matrix; /* borrows the next four arrays */
     size_t *first;
     uint32_t *column;
     double *value, *diagonal;
 } iccp_kernel_matrix;
 
-/* The values between all points of the cells that are nearer than the reach. ICC_ERR_SOLVER when so
- * many are near each other that the matrix is all but full. */
+/* Computes the values between all points of the cells that are nearer than the reach. Returns
+ * ICC_ERR_SOLVER if so many are near each other that the matrix would be almost full. */
 icc_status iccp_kernel_matrix_create(iccp_kernel_matrix *out, const iccp_cells *cells,
                                      const iccp_radial *radial, const iccp_env *env,
                                      icc_error *err);

@@ -1,9 +1,11 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.4, equation 4.8, which has
- * many solutions on most points: often every x >= 0 that meets the equations, since these fix the
- * sum of x. That case is tried first. Otherwise the linear program is solved by the simplex method,
- * with dim + 1 rows. By duality, its solutions are those x that meet the equations, are 0 where
- * |column'y| < 1 and have the sign of column'y where that is 1 or -1. Of these, the one with the
- * least sum of squares is found in the same way as in the first case. */
+/* Least sum of absolute values. Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section
+ * 4.4, equation 4.8.
+ *
+ * It has many solutions at most points. Often every x >= 0 that satisfies the equations is one,
+ * because these fix the sum of x. That case is tried first. Otherwise the simplex method solves the
+ * linear program with dim + 1 rows. By duality, its solutions are the x that satisfy the equations
+ * and two more conditions. x is 0 where |column'y| < 1, and has the sign of column'y where that is
+ * 1 or -1. Of these, the one with the least sum of squares is found as in the first case. */
 #include "kernel/weights/l1.h"
 
 #include "base/minmax.h"
@@ -11,22 +13,24 @@
 #include <assert.h>
 #include <math.h>
 
-/* Of 1: |column'y| is 1. Solving for y in columns of length up to 1 loses a few digits. */
+/* Tolerance within which |column'y| counts as 1. Solving for y with columns of length up to 1 loses
+ * a few digits. */
 static const double TIGHT = 1e-9;
-/* Of the target: a basic x is 0. */
+/* A basic x below this share of the target is 0. */
 static const double ZERO = 1e-12;
-/* Steps by the steepest column; after that by the first one, which cannot cycle (Bland). */
+/* Steps by the steepest column. After that the first column is taken, which cannot cycle
+ * (Bland). */
 enum { STEEPEST_STEPS = 50, MOST_STEPS = 1000 };
 
 typedef struct basis {
     uint32_t column[ICCP_ROWS];
-    double sign[ICCP_ROWS]; /* of its x; kept where that is 0 */
+    double sign[ICCP_ROWS]; /* sign of each basic x; kept while x is 0 */
     double x[ICCP_ROWS], y[ICCP_ROWS];
     double lu[ICCP_ROWS][ICCP_ROWS];
-    size_t order[ICCP_ROWS]; /* row of the matrix that is row r of lu */
+    size_t order[ICCP_ROWS]; /* row of the matrix that is row r of `lu` */
 } basis;
 
-/* LU of the matrix whose columns are the basic ones, with partial pivoting. */
+/* Computes the LU factorisation, with partial pivoting, of the matrix of basic columns. */
 static void factorise(const iccp_l1 *p, basis *b)
 {
     const size_t n = p->rows;
@@ -94,7 +98,7 @@ static double slack(const iccp_l1 *p, const double *y, size_t j)
     return sum;
 }
 
-/* The column with the greatest |column'y|, or the first one above 1; m when there is none. */
+/* Returns the column with the greatest |column'y|, or the first one above 1; m if there is none. */
 static size_t entering(const iccp_l1 *p, const double *y, bool first)
 {
     double most = 1 + TIGHT;
@@ -111,7 +115,7 @@ static size_t entering(const iccp_l1 *p, const double *y, bool first)
     return best;
 }
 
-/* Which basic x becomes 0 first as that of column j grows; of several the one with the lowest
+/* Returns which basic x becomes 0 first as that of column j grows; in ties the one with the lowest
  * column. */
 static size_t leaving(const iccp_l1 *p, const basis *b, size_t j, double sign)
 {
@@ -132,7 +136,7 @@ static size_t leaving(const iccp_l1 *p, const basis *b, size_t j, double sign)
     return best;
 }
 
-/* From the basis of the start to one that is optimal. */
+/* Goes from the initial basis to an optimal one. */
 static void optimise(const iccp_l1 *p, basis *b)
 {
     for (size_t k = 0; k < p->rows; ++k)
@@ -149,7 +153,7 @@ static void optimise(const iccp_l1 *p, basis *b)
         const double sign = slack(p, b->y, j) < 0 ? -1 : 1;
         const size_t k = leaving(p, b, j, sign);
         if (k == p->rows)
-            return; /* only by rounding: |x| cannot fall for ever */
+            return; /* happens only by rounding: |x| cannot fall forever */
         b->column[k] = (uint32_t)j;
         b->sign[k] = sign;
         factorise(p, b);
@@ -157,8 +161,8 @@ static void optimise(const iccp_l1 *p, basis *b)
     }
 }
 
-/* Of all solutions the one with the least sum of squares: over the columns where |column'y| = 1,
- * with its sign. */
+/* Finds the solution with the least sum of squares, over the columns where |column'y| = 1, with its
+ * sign. */
 static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *work)
 {
     double *columns = work, *part = work + ICCP_ROWS * p->m;

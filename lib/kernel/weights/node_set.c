@@ -1,7 +1,7 @@
-/* Handles come first, then the nodes on lines, then the samples that are not too near to one of
- * those. Distances between nodes decide how well the kernel's matrix is conditioned, so nothing is
- * placed within half the samples' spacing of anything else, except ends of lines, which stay where
- * the caller put them. */
+/* Chooses the nodes. Handles come first, then the nodes on lines, then the samples that are not too
+ * near to one of those. The distances between nodes determine the condition of the kernel's matrix.
+ * So no node is placed within half the samples' spacing of another one, except ends of lines, which
+ * stay where the caller put them. */
 #include "kernel/weights/node_set.h"
 
 #include "base/error.h"
@@ -12,18 +12,18 @@
 #include <math.h>
 #include <string.h>
 
-/* In spacings: samples nearer than this to a handle or to a node on a line give way to it. */
+/* In spacings: samples nearer than this to a handle or to a node on a line are left out. */
 static const double TOO_NEAR = 0.5;
-/* In spacings: nearer points are the same; callers' numbers may have six digits. */
+/* In spacings: points nearer than this are equal. Callers' numbers may have six digits. */
 static const double SAME = 1e-6;
-/* Local, where the shape's size is about 1: nodes as near as this to an edge are on it. */
+/* Local, where the shape's size is about 1: nodes within this distance of an edge are on it. */
 static const double ON_EDGE = 1e-9;
-/* Sine of the angle between lines that are called parallel. */
+/* Sine of the angle below which lines count as parallel. */
 static const double PARALLEL = 1e-9;
-/* In spacings: kernels narrower than this would be needles at the nodes. */
+/* In spacings: narrower kernels would be needles at the nodes. */
 static const double LEAST_SIGMA = 1e-3;
 static const size_t MOST_NODES = (size_t)1 << 24;
-/* Nodes in a task. */
+/* Nodes per task. */
 enum { GRAIN = 4096 };
 
 static double distance(size_t dim, const double *a, const double *b)
@@ -62,8 +62,7 @@ static void append(iccp_node_set *set, const double *place, uint32_t sample)
     set->sample[set->n++] = sample;
 }
 
-/* How many of the nodes in the cells are as near to a place as this, in spacings; *node is one of
- * them. */
+/* Counts the nodes in the cells that are within `spacings` of a place. *node is one of them. */
 static size_t count_near(const iccp_node_set *set, const iccp_cells *cells, const double *place,
                          double spacings, uint32_t *node)
 {
@@ -73,7 +72,7 @@ static size_t count_near(const iccp_node_set *set, const iccp_cells *cells, cons
     return iccp_cells_near(cells, local, radius, 1, node);
 }
 
-/* Nodes 0 to n - 1. Handles at one place would make two equal rows of the matrix. */
+/* Adds nodes 0 to n - 1. Two handles at one place would make two equal rows of the matrix. */
 static icc_status place_handles(iccp_node_set *set, size_t n, const double *handles, icc_error *err)
 {
     const double same = SAME * set->sampling->info.spacing;
@@ -91,14 +90,14 @@ static icc_status place_handles(iccp_node_set *set, size_t n, const double *hand
     return ICC_OK;
 }
 
-/* The nodes so far, to look up who is near. */
+/* Sorts the present nodes into cells, to find neighbours. */
 static icc_status sort_nodes(const iccp_node_set *set, iccp_cells *cells, const iccp_env *env)
 {
     return iccp_cells_create(cells, set->dim, set->n, set->points,
                              set->sampling->info.spacing * iccp_node_set_scale(set), env);
 }
 
-/* The node at an end of a line: one that is there, or a new one. */
+/* Returns the node at an end of a line: an existing one, or a new one. */
 static size_t place_end(iccp_node_set *set, const iccp_cells *before, const double *place)
 {
     uint32_t node;
@@ -108,8 +107,8 @@ static size_t place_end(iccp_node_set *set, const iccp_cells *before, const doub
     return set->n - 1;
 }
 
-/* What is wrong with line k of the caller's n_lines. Parallel lines must be so before the weights
- * are made: 5.11 transfers the change per length of one line to the other by direction. */
+/* Checks line k of the caller's n_lines. Parallel lines must be parallel before the weights are
+ * made, because 5.11 transfers the change per length of one line to the other by direction. */
 static icc_status check_line(const iccp_node_set *set, size_t k, const icc_line *lines,
                              icc_error *err)
 {
@@ -140,7 +139,7 @@ static icc_status check_line(const iccp_node_set *set, size_t k, const icc_line 
                         k, (long)line->parallel - 1, off);
 }
 
-/* Nodes between the ends of a line, but for those too near to a node in `before`. */
+/* Adds nodes between the ends of a line, except those too near to a node in `before`. */
 static void place_between(iccp_node_set *set, const iccp_cells *before, const icc_line *line,
                           size_t pieces)
 {
@@ -155,15 +154,15 @@ static void place_between(iccp_node_set *set, const iccp_cells *before, const ic
     }
 }
 
-/* How many pieces line k has: no longer than the spacing. */
+/* Returns the number of pieces of line k. They are no longer than the spacing. */
 static double pieces_of(const iccp_node_set *set, const icc_line *line)
 {
     return ceil(distance(set->dim, line->from, line->to) / set->sampling->info.spacing - SAME);
 }
 
-/* Adds the nodes of line k: its ends, shared with a handle or an earlier line where they coincide,
- * and one for each spacing between them. `before` sorts the nodes of handles and earlier lines,
- * which prevail. */
+/* Adds the nodes of line k. Its ends are shared with a handle or an earlier line where they
+ * coincide. Between them there is one node per spacing. `before` has the nodes of handles and
+ * earlier lines, which take precedence. */
 static icc_status place_line(iccp_node_set *set, size_t k, const icc_line *lines,
                              const iccp_env *env, icc_error *err)
 {
@@ -210,7 +209,8 @@ static icc_status place_samples(iccp_node_set *set, const iccp_env *env)
 
 /* ---- edges ---- */
 
-/* Whether a point is on the edge between two others, not at its ends, and where. */
+/* Returns true if a point lies on the edge between two others, not at its ends, and returns its
+ * position as a share. */
 static bool is_on_edge(size_t dim, const double *a, const double *b, const double *x, double *share)
 {
     double along = 0, length2 = 0, off = 0;
@@ -250,7 +250,7 @@ static icc_status find_edges(void *argument, size_t begin, size_t end)
 
 /* ---- the object ---- */
 
-/* Room for all nodes that there can be. */
+/* Makes room for the largest possible number of nodes. */
 static icc_status make_room(iccp_node_set *set, size_t n_handles,
                             const icc_weights_options *options, icc_error *err)
 {
@@ -301,8 +301,8 @@ static icc_status connect(iccp_node_set *set, const icc_weights_options *options
     return status;
 }
 
-/* Fills in a set that is all zero but for its sampling. The factorisation comes last, since it
- * takes most of the time and everything else can be refused before. */
+/* Fills in a set that is all zeros except for its sampling. The factorisation comes last, because
+ * it takes most of the time and all errors can be found before. */
 static icc_status create(iccp_node_set *set, size_t n_handles, const double *handles,
                          const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {

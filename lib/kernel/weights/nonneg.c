@@ -1,11 +1,14 @@
-/* Based on: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.1. The quadratic program of
- * a point has as many unknowns as there are handles, but only dim + 1 equations. Its dual has one
- * unknown per equation and no inequality: with x = max(0, start + C'y) minimise the convex function
- * |x|^2 / 2 - target'y, whose derivative g = Cx - target is piecewise linear. Newton's method on it
- * ends after a few steps: it is exact once the set of positive x is the right one.
+/* The nearest point without negative components, by Newton's method on the dual. Based on:
+ * Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 4.1.
+ *
+ * The quadratic program of a point has as many unknowns as there are handles, but only dim + 1
+ * equations. Its dual has one unknown per equation and no inequality. With x = max(0, start + C'y)
+ * it minimises the convex function |x|^2 / 2 - target'y, whose derivative g = Cx - target is
+ * piecewise linear. Newton's method on it ends after a few steps, because it is exact once the set
+ * of positive x is right.
  *
  * On the faces of the handles' hull the matrix of the pieces is singular, and undamped steps do not
- * get there. So a multiple of |g| is added to its diagonal, and steps that go too far are
+ * reach them. So a multiple of |g| is added to its diagonal, and steps that go too far are
  * shortened. */
 #include "kernel/weights/nonneg.h"
 
@@ -15,20 +18,20 @@
 #include <float.h>
 #include <math.h>
 
-/* Of |g|: added to the diagonal. */
+/* Multiple of |g| that is added to the diagonal. */
 static const double DAMPING = 1e-6;
-/* Of the size of the numbers: g is rounding. */
+/* Share of the size of the numbers: a smaller g is rounding. */
 static const double TIGHT = 16 * DBL_EPSILON;
-/* The same: the target lies outside what the columns reach. */
+/* Likewise: with a larger remainder the target lies outside the reach of the columns. */
 static const double OUTSIDE = 1e-11;
-/* Of the slope at the start of a step: at its end. */
+/* Largest slope at the end of a step, as a share of that at its start. */
 static const double STEEP = 0.5;
-/* Without a solution after so many steps, and half as many as there are components, the sure way is
- * taken. */
+/* If there is no solution after FEW_STEPS plus half as many steps as components, the reliable
+ * method takes over. */
 enum { FEW_STEPS = 12, MOST_STEPS = 100, MOST_CUTS = 20 };
 
-/* What follows is compiled for three and for four equations: `rows` is a constant wherever it is a
- * parameter, loops of a fixed length are unrolled, and numbers stay in registers. */
+/* The code below is compiled for three and for four equations. `rows` is a constant wherever it is
+ * a parameter, loops of a fixed length are unrolled, and numbers stay in registers. */
 
 typedef struct state {
     double y[ICCP_ROWS];
@@ -41,7 +44,7 @@ static ICCP_INLINE double dot(const double *a, const double *b)
     return (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
 }
 
-/* All at y: the columns pass once. `first`: y is 0. */
+/* Computes everything at y in one pass over the columns. `first` says that y is 0. */
 static ICCP_INLINE void evaluate(const iccp_nonneg *p, size_t rows, double slope,
                                  const double *start, state *s, bool first)
 {
@@ -66,13 +69,14 @@ static ICCP_INLINE void evaluate(const iccp_nonneg *p, size_t rows, double slope
             s->h[r][k] = h[r][k];
 }
 
-/* A pivot: below the shift there is only rounding. */
+/* Returns a pivot. Below the shift there is only rounding. */
 static ICCP_INLINE double pivot_of(double x, double shift)
 {
     return iccp_max(x, shift);
 }
 
-/* step = -(h + shift)^-1 g, by LDL^T; written out, since compilers do not unroll triangles. */
+/* Computes step = -(h + shift)^-1 g by LDL^T. The code is written out, because compilers do not
+ * unroll triangles. */
 static ICCP_INLINE void newton_step(const state *s, size_t rows, double shift, double *step)
 {
     const double(*h)[ICCP_ROWS] = s->h, *g = s->g;
@@ -96,7 +100,7 @@ static ICCP_INLINE void newton_step(const state *s, size_t rows, double shift, d
     step[0] = y0 / d0 - l10 * step[1] - l20 * step[2] - l30 * step[3];
 }
 
-/* Goes along the step to where the dual function rises no longer steeply: all of it, or less. */
+/* Goes along the step to where the dual function no longer rises steeply: all of it, or less. */
 static ICCP_INLINE void advance(const iccp_nonneg *p, size_t rows, double slope,
                                 const double *start, const double *step, state *s)
 {
@@ -112,7 +116,8 @@ static ICCP_INLINE void advance(const iccp_nonneg *p, size_t rows, double slope,
             return;
         if (rise > 0) {
             high = share;
-            /* Where the rise would be 0 if it were linear, but not too near to the ends. */
+            /* The place where the rise would be 0 if it were linear, but not too near to the
+             * ends. */
             share = low + (high - low) * iccp_min(iccp_max(low_rise / (low_rise - rise), 0.1), 0.9);
         } else {
             low = share;
@@ -122,9 +127,9 @@ static ICCP_INLINE void advance(const iccp_nonneg *p, size_t rows, double slope,
     }
 }
 
-/* Whether a direction shows that no x meets the equations: the target lies farther along it than
- * all columns, times the total, by more than rounding. Where there is no solution, steps turn into
- * such a direction: they become normal to the columns with positive x. */
+/* Tests whether a direction proves that no x satisfies the equations. That is so if the target lies
+ * farther along it than all columns times the total, by more than rounding. If there is no
+ * solution, steps turn into such a direction: they become normal to the columns with positive x. */
 static ICCP_INLINE bool separates(const iccp_nonneg *p, const double *step, double tolerance)
 {
     const double target = dot(step, p->target) - tolerance * sqrt(dot(step, step));
@@ -136,9 +141,10 @@ static ICCP_INLINE bool separates(const iccp_nonneg *p, const double *step, doub
 
 typedef enum outcome { SOLVED, UNSOLVED, UNSOLVABLE } outcome;
 
-/* Newton's method on the dual of one point, from y = 0; x, of m components, is the start and, if
- * SOLVED, the solution. With slope > 0 negative components are allowed at 1 / slope times the
- * cost. A step along which the dual function falls without end shows that there is no solution. */
+/* Runs Newton's method on the dual of one point, from y = 0. x, of m components, is the start and,
+ * if the result is SOLVED, the solution. With slope > 0, negative components are allowed at 1 /
+ * slope times the cost. If the dual function falls without end along a step, there is no
+ * solution. */
 static ICCP_INLINE outcome iterate_rows(const iccp_nonneg *p, size_t rows, double slope,
                                         size_t steps, double *x)
 {

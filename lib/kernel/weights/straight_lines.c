@@ -1,12 +1,12 @@
-/* Lines that stay straight: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.3. Weights
- * that are linear along a line keep it straight under translations of the handles (5.3.1). Two
- * lines stay parallel when their weights change by the same vector per length (5.3.2). Both kinds
- * of weights sum to 1 and reproduce their points when those of the ends do.
+/* Lines that stay straight: Sakaridis, Kernel Coordinates (ETH Zurich 2016), section 5.3. If
+ * weights are linear along a line, the line stays straight when the handles are translated (5.3.1).
+ * Two lines stay parallel if their weights change by the same vector per length (5.3.2). Both kinds
+ * of weights sum to 1 and reproduce their points if those of the ends do.
  *
- * Nodes beside a line follow it, which section 5.3.3 asks for without saying how. Weights on a line
- * are not those that would have been optimised there. This change keeps sums and reproduction, so
- * any multiple of it may be added to the weights of a node near by: all of it on the line, nothing
- * at some distance, and no more than keeps weights from becoming negative. */
+ * Nodes beside a line follow it. Section 5.3.3 asks for this without a method. Weights on a line
+ * differ from those that would have been optimised there. This change keeps sums and reproduction,
+ * so any multiple of it may be added to the weights of a nearby node. The code adds all of it on
+ * the line, nothing at some distance, and never so much that a weight becomes negative. */
 #include "kernel/weights/handle_weights.h"
 
 #include "base/minmax.h"
@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-/* How far along from -> to the node lies, as a share of that. */
+/* Returns the position of the node between `from` and `to`, as a share. */
 static double share_of(const iccp_nodes *nodes, size_t from, size_t to, size_t node)
 {
     double along = 0, length2 = 0;
@@ -27,7 +27,8 @@ static double share_of(const iccp_nodes *nodes, size_t from, size_t to, size_t n
     return along / length2;
 }
 
-/* The length of one line over that of another, negative when they point in opposite directions. */
+/* Returns the length of one line over that of another. It is negative if they point in opposite
+ * directions. */
 static double ratio_of(const iccp_nodes *nodes, const iccp_line_nodes *line,
                        const iccp_line_nodes *other)
 {
@@ -64,14 +65,14 @@ void iccp_straighten(const iccp_nodes *nodes, const iccp_line_nodes *line,
 
 /* ---- nodes beside a line ---- */
 
-/* In sigma: how far a line changes its surroundings. */
+/* In sigma: the distance up to which a line changes its surroundings. */
 static const double REACH = 5;
 
 typedef struct change {
     const iccp_node_set *nodes;
     const iccp_line_nodes *line;
     size_t n;       /* count + 2: the nodes of the line from end to end */
-    double *share;  /* how far along it they are */
+    double *share;  /* their positions along the line */
     double *change; /* n * n_handles */
 } change;
 
@@ -80,7 +81,8 @@ static size_t node_of(const iccp_line_nodes *line, size_t k)
     return k == 0 ? line->from : k <= line->count ? line->first + k - 1 : line->to;
 }
 
-/* The nearest point of the segment between the ends: its share, and the squared distance. */
+/* Finds the nearest point of the segment between the ends. Returns the squared distance, and the
+ * position as a share. */
 static double nearest(const iccp_node_set *set, const iccp_line_nodes *line, const double *x,
                       double *share)
 {
@@ -98,7 +100,8 @@ static double nearest(const iccp_node_set *set, const iccp_line_nodes *line, con
     return distance2;
 }
 
-/* What the line changes, node by node: what its weights are minus what they would be without it. */
+/* Computes the change at each node of the line: its weights minus those that it would have without
+ * the line. */
 static void find_change(const icc_weights *weights, const change *c, double *work)
 {
     const iccp_node_set *set = c->nodes;
@@ -116,7 +119,7 @@ static void find_change(const icc_weights *weights, const change *c, double *wor
     }
 }
 
-/* Adds the change at a share of the line, times `strength`, or less. */
+/* Adds the change at a share of the line, times `strength` or less. */
 static void add_change(const change *c, double share, double strength, double *weights, double *row)
 {
     const size_t m = c->nodes->n_handles;
@@ -134,8 +137,8 @@ static void add_change(const change *c, double share, double strength, double *w
         weights[j] += strength * row[j];
 }
 
-/* Changes every free sample within reach of the line by a share that falls smoothly from 1 on it
- * to 0 at the reach. Nodes on lines come before samples and keep theirs. */
+/* Changes every free sample within reach of the line by a factor that falls smoothly from 1 on the
+ * line to 0 at the reach. Nodes on lines come before samples and keep their weights. */
 static void bend(icc_weights *weights, const change *c, double *row)
 {
     const iccp_node_set *set = c->nodes;

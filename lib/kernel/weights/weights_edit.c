@@ -1,4 +1,4 @@
-/* Weights made from others at the same nodes: what the thesis' window offers (section 6.3.1), and
+/* Weights made from others at the same nodes: the edits of the thesis' window (section 6.3.1), and
  * rigid parts (5.4). */
 #include "kernel/weights/handle_weights.h"
 
@@ -14,7 +14,7 @@ static void give_up(icc_weights **out)
     *out = NULL;
 }
 
-/* Optimises some nodes of a copy, whose weights have been set to those given. */
+/* Optimises some nodes of a copy whose weights have been set. */
 static icc_status optimise_changed(icc_weights *copy, const icc_weights *before, size_t n,
                                    const uint32_t *nodes, const iccp_env *env)
 {
@@ -58,7 +58,7 @@ icc_status iccp_weights_paint(icc_weights **out, const icc_weights *weights, siz
     return status;
 }
 
-/* Two threads would work on a node named twice. */
+/* If a node were listed twice, two threads would work on it. */
 static icc_status check_nodes(const iccp_node_set *set, size_t n, const uint32_t *nodes,
                               const iccp_env *env, icc_error *err)
 {

@@ -1,4 +1,4 @@
-/* Weights at caller-supplied points, and how good they are. */
+/* Computes weights at the caller's points, and measures their quality. */
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "kernel/weights/handle_weights.h"
@@ -7,11 +7,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Points in a task. */
+/* Points per task. */
 enum { GRAIN = 256 };
 /* Places along an edge where weights are compared with linear ones. */
 enum { EDGE_PLACES = 64 };
-/* Weights below this are negative, others may be so by rounding. */
+/* Weights below this are negative. Others may be negative by rounding. */
 static const double NEGATIVE = -1e-9;
 
 void iccp_weights_at(const icc_weights *weights, const double *point, double *values,
@@ -118,7 +118,7 @@ icc_status iccp_weights_dual(const icc_weights *weights, size_t node, size_t n,
 
 /* ---- report ---- */
 
-/* What is measured at one point. */
+/* Measurements at one point. */
 typedef struct quality {
     double unity, reproduction, least;
 } quality;
@@ -127,10 +127,11 @@ typedef struct measurement {
     const icc_weights *weights;
     const iccp_memory *memory;
     const double *points;
-    quality *quality; /* of each point */
+    quality *quality; /* by point */
 } measurement;
 
-/* How far m weights are from summing to 1 and reproducing their point, in the caller's unit. */
+/* Measures how far m weights are from summing to 1 and reproducing their point, in the caller's
+ * units. */
 static quality measure(const icc_weights *weights, const double *point, double *values)
 {
     const iccp_node_set *set = weights->nodes;
@@ -164,8 +165,8 @@ static icc_status measure_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The greatest deviation at a place from weights 1 - share and share of two handles, and 0 of the
- * others. */
+/* Returns the greatest deviation at a place from weights 1 - share and share of two handles, and 0
+ * of the others. */
 static double deviation(const icc_weights *weights, const double *place, const uint32_t ends[2],
                         double share, double *values)
 {
@@ -178,8 +179,8 @@ static double deviation(const icc_weights *weights, const double *place, const u
     return worst;
 }
 
-/* At handles weights are to be 1 and 0, along edges linear between those of the ends, which is
- * looked at between them, at EDGE_PLACES - 1 points an edge. */
+/* At handles, weights should be 1 and 0. Along edges they should be linear, which is tested at
+ * EDGE_PLACES - 1 points between the ends. */
 static void measure_handles(const icc_weights *weights, icc_weights_report *report, double *values)
 {
     const iccp_node_set *set = weights->nodes;
@@ -200,7 +201,7 @@ static void measure_handles(const icc_weights *weights, icc_weights_report *repo
     }
 }
 
-/* The worst of n points, and the mean deviation. */
+/* Finds the worst of n points, and the mean deviation. */
 static void summarise(size_t n, const quality *q, icc_weights_report *report)
 {
     report->least_weight = n > 0 ? HUGE_VAL : 0;

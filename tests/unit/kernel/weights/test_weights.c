@@ -1,6 +1,6 @@
 /* Weights of single points: every method against what defines its solution. */
 #include "kernel/weights/dual.h"
-#include "kernel/weights/structure.h"
+#include "kernel/weights/rigid_parts.h"
 #include "kernel/weights/weights.h"
 
 #include "../../../random.h"
