@@ -63,7 +63,7 @@ static void put_maximum(int32_t dim, iccp_coords *coords)
 
 bool iccp_chart_is_shelling(const icc_chart *chart)
 {
-    return chart->info.method == ICC_METHOD_FOLIATION && chart->mesh == NULL;
+    return chart->ops->number == ICC_METHOD_FOLIATION && chart->ops->needs_mesh;
 }
 
 /* The maximum comes before the boundary: it may lie in a corridor so narrow that all of it counts

@@ -48,6 +48,22 @@ typedef struct iccp_chart_place {
 
 /* All points are local. `path` is scratch. */
 typedef struct iccp_chart_ops {
+    int32_t number;  /* ICC_METHOD_... */
+    uint64_t format; /* what the method is called in bytes (docs/formats.md) */
+    bool is_planar;  /* for domains of dimension 2 alone */
+    bool needs_mesh; /* for domains that have a mesh of their inside, all of those given */
+
+    /* The chart of one domain, or those of two that correspond: with the same cuts of the boundary
+     * and paired maxima. The options are complete and differ in `maximum` only. On failure all are
+     * NULL, and of two err->side says which one failed. */
+    icc_status (*create)(size_t n, icc_chart **out, const icc_domain *const *domain,
+                         const icc_chart_options *options, const iccp_env *env, icc_error *err);
+    /* What `save` has written. ICC_ERR_FORMAT or ICC_ERR_CERTIFICATE if it is no chart,
+     * ICC_ERR_VERSION, with its reason, if it comes out otherwise than before. */
+    icc_status (*read)(icc_chart **out, const icc_domain *domain, iccp_blob *r, const iccp_env *env,
+                       icc_error *err);
+    void (*save)(const icc_chart *chart, iccp_blob *w);
+
     /* ICC_INSIDE, with the place; ICC_BOUNDARY, with facet and barycentric coordinates in `coords`;
      * or ICC_OUTSIDE. NULL for methods that need no place: the domain is asked. */
     int32_t (*locate)(const icc_chart *chart, const double *point, iccp_chart_place *place,
@@ -81,8 +97,6 @@ typedef struct iccp_chart_ops {
     /* Makes what encode or decode makes when it is first asked: who asks in parallel does so first.
      * ICC_OK or ICC_ERR_MEMORY. NULL for methods that have all they need. */
     icc_status (*ready)(const icc_chart *chart, bool decodes);
-    /* What the method's loader wants, without the domain (method/load.h). */
-    void (*save)(const icc_chart *chart, iccp_blob *w);
     void (*free_state)(icc_chart *chart);
 } iccp_chart_ops;
 

@@ -7,6 +7,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/minmax.h"
+#include "field/field_charts.h"
 #include "field/field_measure.h"
 #include "field/field_state.h"
 #include "gradient/function/critical_points.h"
@@ -236,7 +237,11 @@ static void save(const icc_chart *chart, iccp_blob *w)
     iccp_chart_parameters_write(&state->parameters, chart->domain->dim, digest_of(chart), w);
 }
 
-static const iccp_chart_ops OPS = {
+const iccp_chart_ops iccp_field_ops = {
+    .number = ICC_METHOD_FIELD,
+    .format = ICC_METHOD_FIELD,
+    .create = iccp_field_charts_create,
+    .read = iccp_chart_field_read,
     .locate = iccp_field_locate,
     .encode = iccp_field_encode,
     .decode = iccp_field_decode,
@@ -262,7 +267,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
-    chart->ops = &OPS;
+    chart->ops = &iccp_field_ops;
     chart->info.method = ICC_METHOD_FIELD;
     iccp_field_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;

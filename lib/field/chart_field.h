@@ -6,6 +6,8 @@
 #include "chart/chart.h"
 #include "gradient/function/function.h"
 
+extern const iccp_chart_ops iccp_field_ops;
+
 /* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the
  * options say, or NULL. */
 icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "foliation/certificate.h"
+#include "foliation/harmonic_charts.h"
 #include "foliation/harmonic_file.h"
 #include "math/predicates.h"
 
@@ -278,7 +279,12 @@ static void save(const icc_chart *chart, iccp_blob *w)
     iccp_blob_f64(w, 2 * state->mesh.n_vertices, state->image);
 }
 
-static const iccp_chart_ops OPS = {
+const iccp_chart_ops iccp_disc_ops = {
+    .number = ICC_METHOD_DISC,
+    .format = ICC_METHOD_DISC,
+    .is_planar = true,
+    .create = iccp_harmonic_charts_create,
+    .read = iccp_chart_disc_read,
     .encode = encode,
     .encode_vertex = encode_vertex,
     .decode = decode,
@@ -347,7 +353,7 @@ static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmoni
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
-    chart->ops = &OPS;
+    chart->ops = &iccp_disc_ops;
     chart->info.method = ICC_METHOD_DISC;
     chart->info.certified = 1;
     iccp_harmonic_describe(base, domain, &chart->info);
@@ -395,8 +401,9 @@ static bool are_in_disc(size_t n, const double *numbers)
 
 /* The mesh is certified as it is read. */
 icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
-                                const iccp_env *env)
+                                const iccp_env *env, icc_error *err)
 {
+    (void)err;
     iccp_harmonic base;
     *out = NULL;
     icc_status status = iccp_harmonic_read(&base, domain, r, env);

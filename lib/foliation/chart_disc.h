@@ -5,6 +5,8 @@
 #include "chart/chart.h"
 #include "foliation/harmonic.h"
 
+extern const iccp_chart_ops iccp_disc_ops;
+
 /* Makes the chart from the base's map to the disc (`image`, as iccp_harmonic_disc() gives it), and
  * takes the mesh and the image over on success. ICC_ERR_CERTIFICATE when the map is not
  * one-to-one. */
@@ -13,6 +15,6 @@ icc_status iccp_chart_disc_create(icc_chart **out, const icc_domain *domain, icc
 
 /* What the chart has saved, certified anew: ICC_ERR_FORMAT or ICC_ERR_CERTIFICATE if that fails. */
 icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
-                                const iccp_env *env);
+                                const iccp_env *env, icc_error *err);
 
 #endif

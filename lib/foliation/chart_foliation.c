@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "foliation/certificate.h"
+#include "foliation/harmonic_charts.h"
 #include "foliation/harmonic_file.h"
 #include "foliation/leaf2.h"
 #include "foliation/psi_file.h"
@@ -348,7 +349,12 @@ static void save(const icc_chart *chart, iccp_blob *w)
     iccp_psi_write(&state->psi, &state->mesh, w);
 }
 
-static const iccp_chart_ops OPS = {
+const iccp_chart_ops iccp_foliation_ops = {
+    .number = ICC_METHOD_FOLIATION,
+    .format = ICC_METHOD_FOLIATION,
+    .is_planar = true,
+    .create = iccp_harmonic_charts_create,
+    .read = iccp_chart_foliation_read,
     .encode = encode,
     .decode = decode,
     .trace = trace,
@@ -406,7 +412,7 @@ static icc_status begin(icc_chart **out, const icc_domain *domain, const iccp_ha
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
-    chart->ops = &OPS;
+    chart->ops = &iccp_foliation_ops;
     chart->info.method = ICC_METHOD_FOLIATION;
     iccp_harmonic_describe(base, domain, &chart->info);
     chart->own.foliation = (icc_foliation_info){.n_mesh_vertices = base->mesh.n_vertices,
@@ -468,8 +474,9 @@ static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob 
 }
 
 icc_status iccp_chart_foliation_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
-                                     const iccp_env *env)
+                                     const iccp_env *env, icc_error *err)
 {
+    (void)err;
     iccp_harmonic base;
     double share;
     *out = NULL;

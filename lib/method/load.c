@@ -2,42 +2,29 @@
 
 #include "base/budget.h"
 #include "domain/domain_file.h"
-#include "field/chart_field.h"
-#include "foliation/chart_disc.h"
-#include "foliation/chart_foliation.h"
-#include "gradient/coordinates/chart_gradient.h"
-#include "shelling/shelling_file.h"
+#include "method/methods.h"
 
 static const char KIND[] = "CHRT";
 static const uint32_t VERSION = 1;
 
-/* The format's own number for ICC_METHOD_FOLIATION on the domain's mesh. */
-enum { ON_MESH = 5 };
-
 void iccp_chart_write(const icc_chart *chart, iccp_blob *w)
 {
-    uint64_t method = iccp_chart_is_shelling(chart) ? ON_MESH : (uint64_t)chart->info.method;
-    iccp_blob_u64(w, 1, &method);
+    uint64_t format = chart->ops->format;
+    iccp_blob_u64(w, 1, &format);
     chart->ops->save(chart, w);
 }
 
 icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                            const iccp_env *env, icc_error *err)
 {
-    uint64_t method;
-    iccp_blob_u64(r, 1, &method);
+    uint64_t format;
+    iccp_blob_u64(r, 1, &format);
+    const iccp_chart_ops *method = iccp_method_of_format(format);
     *out = NULL;
-    if (method == ICC_METHOD_GRADIENT)
-        return iccp_chart_gradient_read(out, domain, r, env, err);
-    if (method == ICC_METHOD_FIELD)
-        return iccp_chart_field_read(out, domain, r, env, err);
-    if (method == ICC_METHOD_FOLIATION && domain->dim == 2)
-        return iccp_chart_foliation_read(out, domain, r, env);
-    if (method == ICC_METHOD_DISC && domain->dim == 2)
-        return iccp_chart_disc_read(out, domain, r, env);
-    if (method == ON_MESH && domain->mesh != NULL)
-        return iccp_chart_shelling_read(out, domain, r, env);
-    return ICC_ERR_FORMAT;
+    if (method == NULL || (method->is_planar && domain->dim != 2) ||
+        (method->needs_mesh && domain->mesh == NULL))
+        return ICC_ERR_FORMAT;
+    return method->read(out, domain, r, env, err);
 }
 
 void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)

@@ -130,8 +130,9 @@ static void copy_story(icc_shelling_info *info, const icc_shelling_info *story)
 }
 
 icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob *b,
-                                    const iccp_env *env)
+                                    const iccp_env *env, icc_error *err)
 {
+    (void)err;
     icc_shelling_info story = {0};
     iccp_simplices *own;
     uint64_t centre;

@@ -4,6 +4,8 @@
 
 #include "base/minmax.h"
 #include "domain/domain_file.h"
+#include "shelling/chart_shelling.h"
+#include "shelling/shelling_file.h"
 
 #include <assert.h>
 #include <math.h>
@@ -268,7 +270,15 @@ static void save(const icc_chart *chart, iccp_blob *b)
     }
 }
 
+/* The format's own number: ICC_METHOD_FOLIATION is that of method foliation without a mesh. */
+enum { ON_MESH = 5 };
+
 const iccp_chart_ops iccp_shelling_ops = {
+    .number = ICC_METHOD_FOLIATION,
+    .format = ON_MESH,
+    .needs_mesh = true,
+    .create = iccp_chart_shelling_create,
+    .read = iccp_chart_shelling_read,
     .locate = locate,
     .encode = encode,
     .decode = decode,

@@ -4,6 +4,7 @@
 
 #include "base/clock.h"
 #include "base/error.h"
+#include "base/threads.h"
 #include "gradient/coordinates/gradient_boundary.h"
 #include "gradient/coordinates/gradient_jet.h"
 #include "gradient/coordinates/gradient_measure.h"
@@ -307,24 +308,14 @@ static void save(const icc_chart *chart, iccp_blob *w)
                                 iccp_digest_field(state->field), w);
 }
 
-static const iccp_chart_ops OPS = {
-    .encode = encode,
-    .decode = decode,
-    .trace = trace,
-    .measure = iccp_gradient_measure,
-    .save = save,
-    .free_state = free_state,
-};
-
-icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
-                                      const icc_chart_options *options, const iccp_env *env,
-                                      icc_error *err)
+static icc_status create(icc_chart **out, const icc_domain *domain,
+                         const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
     icc_status status = iccp_chart_new(out, domain, env);
     if (status != ICC_OK)
         return status;
     icc_chart *chart = *out;
-    chart->ops = &OPS;
+    chart->ops = &iccp_gradient_ops;
     chart->info.method = ICC_METHOD_GRADIENT;
     chart->info.reason = ICC_REASON_GRADIENT;
     chart->own.gradient.function = options->function;
@@ -348,8 +339,38 @@ icc_status iccp_chart_gradient_create(icc_chart **out, const icc_domain *domain,
     return status;
 }
 
-icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
-                                    const iccp_env *env, icc_error *err)
+typedef struct gradient_job {
+    size_t n;
+    icc_chart **out;
+    const icc_domain *const *domain;
+    const icc_chart_options *options;
+} gradient_job;
+
+static icc_status create_chart(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    const gradient_job *job = argument;
+    const icc_status status =
+        iccp_explain(err, create(&job->out[k], job->domain[k], &job->options[k], env, err));
+    if (status != ICC_OK)
+        job->out[k] = NULL;
+    return status == ICC_OK || job->n < 2 ? status : iccp_fail_side(err, status, (int32_t)k + 1);
+}
+
+static icc_status create_charts(size_t n, icc_chart **out, const icc_domain *const *domain,
+                                const icc_chart_options *options, const iccp_env *env,
+                                icc_error *err)
+{
+    gradient_job job = {n, out, domain, options};
+    const icc_status status = iccp_side_by_side(env, n, create_chart, &job, err);
+    for (size_t k = 0; status != ICC_OK && k < n; ++k) {
+        iccp_chart_release(out[k]);
+        out[k] = NULL;
+    }
+    return status;
+}
+
+static icc_status read_chart(icc_chart **out, const icc_domain *domain, iccp_blob *r,
+                             const iccp_env *env, icc_error *err)
 {
     iccp_chart_parameters parameters;
     uint64_t wanted, digest = 0;
@@ -358,10 +379,23 @@ icc_status iccp_chart_gradient_read(icc_chart **out, const icc_domain *domain, i
     if (status != ICC_OK)
         return status;
     parameters.options.maximum = iccp_chart_parameters_maximum(&parameters);
-    status = iccp_chart_gradient_create(out, domain, &parameters.options, env, NULL);
+    status = create(out, domain, &parameters.options, env, NULL);
     if (status == ICC_OK) {
         const iccp_gradient_state *state = (*out)->state;
         digest = iccp_digest_field(state->field);
     }
     return iccp_chart_check_rebuilt(out, status, wanted, digest, err);
 }
+
+const iccp_chart_ops iccp_gradient_ops = {
+    .number = ICC_METHOD_GRADIENT,
+    .format = ICC_METHOD_GRADIENT,
+    .create = create_charts,
+    .read = read_chart,
+    .encode = encode,
+    .decode = decode,
+    .trace = trace,
+    .measure = iccp_gradient_measure,
+    .save = save,
+    .free_state = free_state,
+};

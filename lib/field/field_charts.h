@@ -1,0 +1,12 @@
+/* Charts of method field, of one domain or of two that correspond. */
+#ifndef ICCP_FIELD_CHARTS_H
+#define ICCP_FIELD_CHARTS_H
+
+#include "chart/chart.h"
+
+/* See iccp_chart_ops. */
+icc_status iccp_field_charts_create(size_t n, icc_chart **out, const icc_domain *const *domain,
+                                    const icc_chart_options *options, const iccp_env *env,
+                                    icc_error *err);
+
+#endif

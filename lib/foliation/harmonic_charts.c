@@ -1,0 +1,173 @@
+/* Harmonic maps to the disc start both methods, so what two domains need of one another is settled
+ * here: the cuts of their boundaries and where their maxima go. */
+#include "foliation/harmonic_charts.h"
+
+#include "base/error.h"
+#include "base/threads.h"
+#include "foliation/chart_disc.h"
+#include "foliation/chart_foliation.h"
+
+/* How often a chart that cannot be certified is tried again on a mesh with cells half as large. */
+enum { REFINEMENTS = 2 };
+
+/* One or two domains on their way to harmonic charts. */
+typedef struct harmonic_job {
+    size_t n;
+    const icc_domain *const *domain;
+    const icc_chart_options *options;
+    int32_t cells;
+    uint32_t *pieces; /* of each facet, while the meshes are made */
+    double *turns;    /* of each boundary vertex, while the images are made */
+    iccp_harmonic base[2];
+    double *image[2]; /* in the disc; only where needed */
+    uint32_t centre[2];
+    icc_chart **out;
+} harmonic_job;
+
+/* Says which of two domains is at fault. */
+static icc_status blame(const harmonic_job *job, size_t k, icc_status status, icc_error *err)
+{
+    return job->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
+}
+
+static icc_status make_base(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    const icc_status status =
+        iccp_harmonic_create(&job->base[k], job->domain[k], job->pieces, job->cells, env, err);
+    return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
+}
+
+/* The meshes of the domains and their equations. Domains of a pair cut corresponding facets into
+ * the same number of pieces, so that their boundary vertices correspond. */
+static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
+    job->pieces = iccp_alloc(&env->memory, job->domain[0]->n_facets, sizeof *job->pieces);
+    if (job->pieces == NULL)
+        return ICC_ERR_MEMORY;
+    iccp_planar_pieces(job->pieces, job->domain[0], other, job->cells);
+    const icc_status status = iccp_side_by_side(env, job->n, make_base, job, err);
+    iccp_free(&env->memory, job->pieces);
+    return status;
+}
+
+static icc_status make_image(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    (void)err;
+    job->image[k] = iccp_alloc(&env->memory, job->base[k].mesh.n_vertices, 2 * sizeof(double));
+    return job->image[k] != NULL ? iccp_harmonic_disc(&job->base[k], job->turns, job->image[k], env)
+                                 : ICC_ERR_MEMORY;
+}
+
+/* Both meshes to one circle, each boundary vertex to the mean of its two arc-length parameters. */
+static icc_status make_images(harmonic_job *job, const iccp_env *env)
+{
+    job->turns = iccp_alloc_zero(&env->memory, job->base[0].mesh.n_boundary, sizeof *job->turns);
+    if (job->turns == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t k = 0; k < job->n; ++k)
+        iccp_add_arc_length(&job->base[k].mesh, 1.0 / (double)job->n, job->turns);
+    const icc_status status = iccp_side_by_side(env, job->n, make_image, job, NULL);
+    iccp_free(&env->memory, job->turns);
+    return status;
+}
+
+static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
+{
+    const double *maximum = job->options[k].maximum;
+    const iccp_planar *mesh = &job->base[k].mesh;
+    double local[2];
+    iccp_frame_in(&job->domain[k]->frame, 2, maximum, local);
+    if (iccp_domain_locate(job->domain[k], local, true, NULL, NULL) != ICC_INSIDE) {
+        (void)iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum (%g, %g) is not inside the domain",
+                        maximum[0], maximum[1]);
+        return blame(job, k, ICC_ERR_OUTSIDE, err);
+    }
+    job->centre[k] = iccp_nearest_vertex(mesh, mesh->points, local);
+    return ICC_OK;
+}
+
+/* The source's maximum is the vertex deepest inside; the target's is the vertex nearest to where
+ * the maps to the disc, composed, take it: left alone, the two may end in different limbs. */
+static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    icc_status status = ICC_OK;
+    if (job->options[0].maximum != NULL)
+        status = choose_given(job, 0, err);
+    else
+        job->centre[0] = iccp_deepest_vertex(&job->base[0].mesh, job->domain[0]);
+    if (status != ICC_OK || job->n < 2)
+        return status;
+    if (job->options[1].maximum != NULL)
+        return choose_given(job, 1, err);
+    status = make_images(job, env);
+    if (status == ICC_OK)
+        job->centre[1] = iccp_nearest_vertex(&job->base[1].mesh, job->image[1],
+                                             job->image[0] + 2 * (size_t)job->centre[0]);
+    return status;
+}
+
+static icc_status finish(void *argument, size_t k, const iccp_env *env, icc_error *err)
+{
+    harmonic_job *job = argument;
+    const icc_status status =
+        job->options[0].method == ICC_METHOD_DISC
+            ? iccp_chart_disc_create(&job->out[k], job->domain[k], &job->base[k], &job->image[k],
+                                     env, err)
+            : iccp_chart_foliation_create(&job->out[k], job->domain[k], &job->base[k],
+                                          job->centre[k], env, err);
+    iccp_harmonic_free(&job->base[k]);
+    return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
+}
+
+/* One try at a resolution: meshes, then the images in the disc or the centres, then the charts.
+ * All or nothing: if one fails, none is left. */
+static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){6, 1, 2}, env);
+    icc_status status = make_bases(job, &part[0], err);
+    if (status == ICC_OK)
+        status = job->options[0].method == ICC_METHOD_DISC ? make_images(job, &part[1])
+                                                           : choose_centres(job, &part[1], err);
+    if (status == ICC_OK)
+        status = iccp_side_by_side(&part[2], job->n, finish, job, err);
+    for (size_t k = 0; k < job->n; ++k) {
+        iccp_harmonic_free(&job->base[k]);
+        iccp_free(&env->memory, job->image[k]);
+        job->image[k] = NULL;
+        if (status != ICC_OK) {
+            iccp_chart_release(job->out[k]);
+            job->out[k] = NULL;
+        }
+    }
+    return status;
+}
+
+/* Certificates fail where a mesh is too coarse for its corners, so that finer ones are tried. */
+static icc_status create(harmonic_job *job, const iccp_env *env, icc_error *err)
+{
+    static const double COST[REFINEMENTS + 1] = {8, 1, 1};
+    iccp_env part[REFINEMENTS + 1];
+    iccp_split(part, REFINEMENTS + 1, COST, env);
+    job->cells = job->options[0].cells;
+    icc_status status = try_harmonic(job, &part[0], err);
+    for (int k = 0;
+         k < REFINEMENTS && status == ICC_ERR_CERTIFICATE && job->cells <= ICCP_MAX_CELLS / 2;
+         ++k) {
+        job->cells *= 2;
+        iccp_log(env, "the chart cannot be certified: trying %ld cells", (long)job->cells);
+        status = try_harmonic(job, &part[k + 1], err);
+    }
+    return iccp_explain(err, status);
+}
+
+icc_status iccp_harmonic_charts_create(size_t n, icc_chart **out, const icc_domain *const *domain,
+                                       const icc_chart_options *options, const iccp_env *env,
+                                       icc_error *err)
+{
+    harmonic_job job = {.n = n, .domain = domain, .options = options, .out = out};
+    return create(&job, env, err);
+}
