@@ -1,3 +1,4 @@
+/* Measures time for reports. */
 #define _POSIX_C_SOURCE 200809L
 #include "base/clock.h"
 

@@ -1,5 +1,5 @@
-/* Parallel loops over chunks of a range. The chunks do not depend on the number of threads, so a
- * loop whose chunks write disjoint results gives the same bits for every number of threads. */
+/* Parallel loops over chunks of a range. The chunks do not depend on the number of threads. So if
+ * chunks write disjoint results, a loop gives the same bits for every number of threads. */
 #ifndef ICCP_THREADS_H
 #define ICCP_THREADS_H
 

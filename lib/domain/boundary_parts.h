@@ -21,10 +21,10 @@ icc_status iccp_boundary_parts_create(iccp_boundary_parts *boundary, const iccp_
                                       size_t n_vertices, const iccp_env *env, icc_error *err);
 void iccp_boundary_parts_free(iccp_boundary_parts *boundary);
 
-/* Returns ICC_ERR_BOUNDARY if a part of the boundary meets itself or another part, or if the
- * boundary does not wind around every point once or not at all. If the check passes, positive
- * simplices do not overlap. Exact. `points` are the local coordinates of all of the caller's
- * vertices. */
+/* Returns ICC_ERR_BOUNDARY if a part of the boundary meets itself or another part. Also returns it
+ * if the boundary does not wind around every point once or not at all. If the check passes,
+ * positive simplices do not overlap. Exact. `points` are the local coordinates of all of the
+ * caller's vertices. */
 icc_status iccp_boundary_parts_check(const iccp_boundary_parts *boundary, const double *points,
                                      const iccp_env *env, icc_error *err);
 

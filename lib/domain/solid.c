@@ -3,8 +3,8 @@
  * et al., A 4D Counter-Example Showing that DWCness Does not Imply CWCness in nD, 2020). So here
  * the cells around every corner, edge, .. must form a ball.
  *
- * Holes of dimensions 1 to n - 2 remain to be counted, because a connected solid with a connected
- * outside has none of dimension n - 1 (Alexander duality). In the plane there are no others. In
+ * A connected solid with a connected outside has no holes of dimension n - 1 (Alexander duality).
+ * So those of dimensions 1 to n - 2 remain to be counted. In the plane there are no others. In
  * space the Euler characteristic is 1 minus their number. Without holes the boundary is a sphere
  * and the solid a ball (Alexander's theorem). */
 #include "domain/solid.h"

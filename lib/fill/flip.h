@@ -9,8 +9,9 @@ enum { ICCP_MOST_RING = 10 };
 /* How to triangulate the link of edge pq anew. Each triangle forms a tetrahedron with p and one
  * with q. */
 typedef struct iccp_removal {
-    /* Returns the worth of triangle (x, y, z), with tetrahedra (x, y, z, q) and (y, x, z, p), and
-     * of side xz if that is an inner one. Returns -HUGE_VAL if the triangle is forbidden. */
+    /* Returns the worth of triangle (x, y, z), which forms the tetrahedra (x, y, z, q) and (y, x,
+     * z, p). If side xz is an inner one, its worth is included. Returns -HUGE_VAL if the triangle
+     * is forbidden. */
     double (*worth)(void *context, uint32_t x, uint32_t y, uint32_t z, bool inner_xz);
     void *context;
     bool sum; /* true: the worths of all triangles are added; false: the least one counts */

@@ -2,8 +2,8 @@
  *
  * Project the ring along an axis. Suppose that all shadows have the same orientation and go around
  * the vertex once. Then the shadow of the ring nowhere covers itself, so the triangles share only
- * the sides between them. The shadows go around once if exactly one of them leads from below the
- * vertex to above, because two sides of a shadow are less than half a turn apart.
+ * the sides between them. Two sides of a shadow are less than half a turn apart. So the shadows go
+ * around once if exactly one of them leads from below the vertex to above.
  *
  * This is the test of P. Volino, N. Magnenat Thalmann, Efficient self-collision detection on
  * smoothly discretized surface animations using geometrical shape regularity, 1994, for the

@@ -7,7 +7,7 @@
  * log: x = 2^e m with m in [1, 2). The interval of m, one of 64, gives a quotient q with 7 bits
  * near 1 / m. Then r = q m - 1 is below 2^-6 and an exact double. So log x = e ln 2 - log q + log(1
  * + r), where the last term is a Taylor polynomial of degree 9. From m = 1.42 on, e is one larger
- * and q twice as large, so that both e ln 2 and log q are 0 near x = 1. */
+ * and q twice as large. So both e ln 2 and log q are 0 near x = 1. */
 #include "math/elementary.h"
 
 #include "math/expansion.h"

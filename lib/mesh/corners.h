@@ -25,9 +25,9 @@ void iccp_flip_edge(iccp_corners *corners, uint32_t corner);
 void iccp_collapse_edge(iccp_corners *corners, uint32_t corner);
 
 /* Finds the twins of the corners of triangles from their vertices, which are smaller than
- * n_vertices. All triangles must be counter-clockwise. *is_manifold is false if an edge belongs to
- * two triangles on the same side, or if a triangle's vertices are not all different;
- * `corners->twin` is then undefined. O(n). */
+ * n_vertices. All triangles must be counter-clockwise. *is_manifold becomes false if an edge
+ * belongs to two triangles on the same side, or if a triangle contains a vertex twice. Then
+ * `corners->twin` is undefined. O(n). */
 icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
                            const iccp_env *env);
 

@@ -26,8 +26,9 @@
 /* See icc_triangulate(). The points are local (geometry/frame.h), with non-zero magnitudes in
  * [2^-200, 2^200]. There are at most ICCP_TRIMESH_MAX_POINTS (2^28).
  *
- * Returns ICC_ERR_BOUNDARY if the polygon is not simple, ICC_ERR_OUTSIDE if the point `index` lies
- * outside or on the polygon, and ICC_ERR_ARGUMENT if it repeats another inner point. */
+ * Returns ICC_ERR_BOUNDARY if the polygon is not simple. Returns ICC_ERR_OUTSIDE if the point
+ * `index` lies outside or on the polygon, and ICC_ERR_ARGUMENT if it repeats another inner
+ * point. */
 icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,
                             uint32_t *triangles, const iccp_env *env, icc_error *err);
 

@@ -1,9 +1,9 @@
 /* Finds compression and expansion edges. Based on: L. Huynh, Bijective Deformations in R^n via
  * Integral Curve Coordinates, thesis, 2013, chapter 5 and section 6.4.
  *
- * The gradient in a triangle points to one of its edges if the opposite corner, the apex, lies
- * lower than the foot of its perpendicular on the edge. In the triangles of the grid that foot is
- * an end of the edge, or the middle of a diagonal. So signs of differences decide. */
+ * The apex of an edge in a triangle is the opposite corner. The gradient points to the edge if the
+ * apex lies lower than the foot of its perpendicular on the edge. In the triangles of the grid that
+ * foot is an end of the edge, or the middle of a diagonal. So signs of differences decide. */
 #include "gradient/function/edges.h"
 
 #include "math/expansion.h"

@@ -4,8 +4,8 @@
  * irregular domains, J. Comput. Phys. 176, 2002. */
 #include "gradient/function/extrapolate.h"
 
-/* Calls an action for each pair of an outside vertex and an unknown beside it, with the share of
- * the way from the unknown at which the function is 0. */
+/* Calls an action for each pair of an outside vertex and an unknown beside it. The action also gets
+ * the share of the way from the unknown at which the function is 0. */
 static void for_ends(icc_function *function, const iccp_unknowns *unknowns, double *weight,
                      void (*act)(icc_function *, double *, uint32_t, uint32_t, double))
 {

@@ -159,8 +159,8 @@ static size_t find_beyond(const plate *p, size_t from, size_t to, int64_t stride
     return unknown < p->unknowns.n ? unknown : to;
 }
 
-/* Moves the load. Steps grow as long as G(r, r) of the loaded unknown r does, because in a limb
- * that widens slowly the greatest value is always near the load. With f = 1 at each load, G(s, s) /
+/* Moves the load. Steps grow as long as G(r, r) of the loaded unknown r grows. In a limb that
+ * widens slowly, the greatest value is always near the load. With f = 1 at each load, G(s, s) /
  * G(r, r) = f_r(s) / f_s(r). */
 static icc_status follow_loads(plate *p, size_t *unknown, const iccp_env *env)
 {

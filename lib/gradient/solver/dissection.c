@@ -5,10 +5,10 @@
  * as one more coordinate. So the unknowns with one value of a coordinate separate those below it
  * from those above it. Parts that are thin along the tree are eliminated from their far end.
  *
- * A separator in the middle of a long limb would be joined with the limb's ends by entries that
- * underflow, and the values beyond it would be lost. So the unknowns are first cut into bands.
- * Within each band, values fall by a bounded factor along paths from the root. The farthest band
- * comes first. */
+ * Entries of the factor would join a separator in the middle of a long limb with the limb's ends.
+ * They would underflow, and the values beyond would be lost. So the unknowns are first cut into
+ * bands. Within each band, values fall by a bounded factor along paths from the root. The farthest
+ * band comes first. */
 #include "gradient/solver/dissection.h"
 
 #include "base/minmax.h"

@@ -1,6 +1,7 @@
 /* Newton's method for the quadratic program of qp.h. With slacks s and multipliers y, each step
  * solves
- *     A'A df - G' dy = -dual,   G df + (s / y) dy = -product / y - primal
+ *     A'A df - G' dy = -dual,   G df + (s / y) dy = -product / y - primal.
+ *
  * It eliminates dy, which leaves A'A + G'WG with W = y / s. When an inequality becomes active, W
  * grows without bound and drowns A'A. So W = 1 / (s / y + softness) is factorised instead, and the
  * residuals of the two equations correct the step. Source: M. Friedlander, D. Orban, A primal-dual

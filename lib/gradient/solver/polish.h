@@ -15,10 +15,9 @@ typedef struct iccp_candidate {
 
 /* Solves with the inequalities for which active[i] != 0 as equations, and corrects this set, which
  * is overwritten. Ends when nothing is wrong by more than `enough`, when several corrections in a
- * row have not helped, or when `most` systems have been solved. `by_rows` says that the set is
- * right except at the ends of rows of inequalities that are active together, which may then be
- * corrected a row at a time. Replaces the candidate by any better one. Adds to `info`
- * (n_iterations, work, seconds_*). */
+ * row have not helped, or when `most` systems have been solved. `by_rows` says that only the ends
+ * of rows of active inequalities are wrong, so they may be corrected a row at a time. Replaces the
+ * candidate by any better one. Adds to `info` (n_iterations, work, seconds_*). */
 icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
                        iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
 

@@ -59,8 +59,8 @@ static bool has_values(const iccp_walkn *w, double *f)
     return true;
 }
 
-/* Returns true if the gradient of the place's simplex leads from its face into the simplex, or into
- * one of its faces, whose corners it then returns. */
+/* Returns true if the gradient of the place's simplex leads from its face into the simplex or into
+ * one of its faces. Writes the corners of that face. */
 static bool leads_in(const iccp_walkn *w, const double *f, unsigned *corners)
 {
     const int dim = grid_of(w)->dim;

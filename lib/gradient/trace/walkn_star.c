@@ -302,10 +302,10 @@ static void add_others(assembly *a, const hinge *h, bool below)
     }
 }
 
-/* Puts the axes of the new simplex in order. First come unused axes that lie below because there is
- * no room above, then the chain down from its far end, the chains between the corners of the face,
- * the chain up, and the remaining axes. The point stays where it is: y is 1 on axes below the face,
- * 0 on those above, and unchanged between. */
+/* Puts the axes of the new simplex in order. Unused axes that lie below, because there is no room
+ * above, come first. The chain down follows from its far end, then the chains between the corners
+ * of the face, the chain up, and the remaining axes. The point stays where it is: y is 1 on axes
+ * below the face, 0 on those above, and unchanged between. */
 static void assemble(assembly *a, const hinge *h)
 {
     iccp_place *place = a->place;

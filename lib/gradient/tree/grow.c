@@ -5,9 +5,10 @@
  *
  * In dimensions above 2, the tree's order (Algorithm 2) has critical vertices. Here it only sets
  * the priority. A set grows from the root. Among the vertices that touch it, it takes the first one
- * in that order whose neighbours in the set, and so also the others, are contractible
- * (gradient/grid/kuhn.h). Any other vertex has to wait until the set has taken another neighbour of
- * it. When all vertices are taken, only the root is critical, whatever the shape.
+ * in that order whose neighbours in the set are contractible. Its other neighbours are then
+ * contractible, too (gradient/grid/kuhn.h). Any other vertex has to wait until the set has taken
+ * another neighbour of it. When all vertices are taken, only the root is critical, whatever the
+ * shape.
  *
  * If growth gets stuck, the set of all vertices is thinned in the same way. The last vertex whose
  * neighbours in the set are contractible is removed, except the root, and the order is read

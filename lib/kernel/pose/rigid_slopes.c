@@ -1,8 +1,9 @@
 /* Derivatives of the interpolant at places, as a linear map. D has the derivatives of the kernels
- * at the places, R those of the affine function, and K, P, Z and S = P'Z are as in interpolant.c.
+ * at the places, and R those of the affine function. K, P, Z and S = P'Z are as in interpolant.c.
  * Then weights w have the derivatives
- *      D (K^-1 w - Z t) + R t,  t = S^-1 Z'w,
- * which is D K^-1 w + B Z'w with B = (R - D Z) S^-1. Only those entries of K^-1 w are needed that D
+ *      D (K^-1 w - Z t) + R t,  t = S^-1 Z'w.
+ *
+ * This is D K^-1 w + B Z'w with B = (R - D Z) S^-1. Only those entries of K^-1 w are needed that D
  * reaches, and w is 0 except at the free nodes. Both lie near the part, and so do the parts of the
  * factor that are read. */
 #include "kernel/pose/rigid_slopes.h"

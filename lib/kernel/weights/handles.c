@@ -3,8 +3,9 @@
  *
  * Weights w of a point x reproduce it and sum to 1 if A w = (1, x), where the columns of A are the
  * handles. The rows of A are replaced by orthonormal rows Q with the same span: A = L Q. So the
- * equations are Q w = L^-1 (1, x), and the nearest w that satisfies them, (4.4) to (4.6), is
+ * equations are Q w = L^-1 (1, x). The nearest w that satisfies them, (4.4) to (4.6), is
  *      w0 + Q'(L^-1 (1, x) - Q w0).
+ *
  * The numbers in the iterative methods have size 1, wherever the handles are. */
 #include "base/compiler.h"
 #include "base/error.h"

@@ -3,9 +3,9 @@
  *
  * The quadratic program of a point has as many unknowns as there are handles, but only dim + 1
  * equations. Its dual has one unknown per equation and no inequality. With x = max(0, start + C'y)
- * it minimises the convex function |x|^2 / 2 - target'y, whose derivative g = Cx - target is
- * piecewise linear. Newton's method on it ends after a few steps, because it is exact once the set
- * of positive x is right.
+ * it minimises the convex function |x|^2 / 2 - target'y. The derivative of that is g = Cx - target,
+ * which is piecewise linear. Newton's method on it ends after a few steps, because it is exact once
+ * the set of positive x is right.
  *
  * On the faces of the handles' hull the matrix of the pieces is singular, and undamped steps do not
  * reach them. So a multiple of |g| is added to its diagonal, and steps that go too far are
