@@ -10,6 +10,7 @@
 
 #include "../hard_shapes.h"
 #include "../share.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <gmp.h>
@@ -364,7 +365,7 @@ static void walk(const foliation *f, crossing *c, const vec *p,
 static void encode(const foliation *f, const vec *p, coords *out)
 {
     crossing down, up;
-    bool in_star;
+    bool in_star = false;
     mpq_t length[2];
     double arc[2] = {0, 0};
     for (int k = 0; k < 2; ++k)
@@ -572,9 +573,5 @@ int main(void)
     tcase_set_timeout(tests, 200);
     tcase_add_loop_test(tests, points_come_back_exactly, 0, 3);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,6 +3,8 @@
 #include <icc/icc.h>
 
 #include "../../share.h"
+#include "../../suite.h"
+#include "../../surface_domains.h"
 #include "../../surfaces.h"
 
 #include <check.h>
@@ -28,15 +30,6 @@ static void egg(surface *s, int splits, double turn)
         p[1] = .8 * more * (cos(turn) * y - sin(turn) * z);
         p[2] = .6 * more * (sin(turn) * y + cos(turn) * z);
     }
-}
-
-static icc_domain *domain_of(const surface *s)
-{
-    icc_domain *domain = NULL;
-    ck_assert_int_eq(
-        icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces, NULL, NULL),
-        ICC_OK);
-    return domain;
 }
 
 /* The landmarks are vertices of both results, in one place of their lists. */
@@ -65,7 +58,7 @@ static void check_landmarks(const icc_match *match, size_t n, const double *land
 static double match_at(size_t n, const uint32_t *const at[2])
 {
     double landmarks[6 * MOST];
-    icc_domain *const source = domain_of(&one), *const target = domain_of(&two);
+    icc_domain *const source = domain_of_surface(&one), *const target = domain_of_surface(&two);
     icc_match *match = NULL;
     icc_match_info info = {.size = sizeof info};
     icc_error err = {.size = sizeof err};
@@ -115,7 +108,7 @@ START_TEST(one_to_three)
     egg(&two, 2, .4);
     for (int trial = 0; trial < share_of(3); ++trial)
         for (size_t n = 1; n <= 3; ++n) {
-            uint32_t at[2][3];
+            uint32_t at[2][3] = {{0}};
             for (size_t k = 0; k < n; ++k) { /* far from the others, each at its own vertex */
                 at[0][k] = (uint32_t)(k * 22 + (size_t)random_below(&r, 22));
                 at[1][k] = partner_of(at[0][k]);
@@ -213,9 +206,5 @@ int main(void)
     tcase_add_test(tests, joined_by_an_edge);
     tcase_add_test(tests, all_vertices);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }
