@@ -6,17 +6,11 @@
 #include "domain/domain.h"
 #include "shelling/centres.h"
 
+#include "default_env.h"
 #include "faulty.h"
 #include "meshes.h"
 
 #include <stdbool.h>
-
-/* Check writes a record of every assertion: too slow for every side of a mesh. */
-#define FLUX_ASSERT(condition, ...)                                                                \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            ck_abort_msg(__VA_ARGS__);                                                             \
-    } while (0)
 
 typedef struct flux_case {
     char name[64];
@@ -24,13 +18,6 @@ typedef struct flux_case {
     const iccp_simplices *mesh;
     uint32_t centre;
 } flux_case;
-
-static inline iccp_env flux_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* A corridor, wide at neither end. */
 static inline int flux_in_corridor(int32_t dim, const size_t *cell)
@@ -80,7 +67,7 @@ static inline flux_case flux_number(int k)
     static const size_t FINE[4] = {12, 6, 4, 3}, LONG[4] = {60, 30, 8, 4};
     const int32_t dim = 2 + k / FLUX_KINDS;
     const int kind = k % FLUX_KINDS;
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     random_source r = {(uint64_t)k};
     icc_error err = {.size = sizeof err};
     flux_case c;
@@ -135,14 +122,14 @@ static inline void flux_check(const flux_case *c, const double *inflow, const do
         const uint32_t other = c->mesh->across[s];
         const bool in_star = flux_in_star(c, iccp_simplex_of(c->mesh, s));
         if ((other & ICCP_ON_BOUNDARY) != 0)
-            FLUX_ASSERT(flux[s] == -inflow[other & ~ICCP_ON_BOUNDARY], "%s: inflow", c->name);
+            ck_assert_msg(flux[s] == -inflow[other & ~ICCP_ON_BOUNDARY], "%s: inflow", c->name);
         else
-            FLUX_ASSERT(flux[s] == -flux[other], "%s: sides differ", c->name);
+            ck_assert_msg(flux[s] == -flux[other], "%s: sides differ", c->name);
         if (in_star && c->mesh->corners[s] != c->centre)
-            FLUX_ASSERT(!(fabs(flux[s]) > 0), "%s: flux within the star", c->name);
+            ck_assert_msg(!(fabs(flux[s]) > 0), "%s: flux within the star", c->name);
         arrived -= in_star ? flux[s] : 0;
     }
-    FLUX_ASSERT(fabs(arrived - 1) < 1e-8, "%s: %g arrive", c->name, arrived);
+    ck_assert_msg(fabs(arrived - 1) < 1e-8, "%s: %g arrive", c->name, arrived);
 }
 
 #endif

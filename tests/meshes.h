@@ -178,6 +178,15 @@ static inline test_mesh mesh_ball(int32_t dim, size_t n, double amount, random_s
     return m;
 }
 
+/* A move of points in space that is not affine. */
+static inline void mesh_bend(int32_t dim, const double *x, double *y)
+{
+    (void)dim;
+    y[0] = x[0] + 0.3 * sin(x[1]);
+    y[1] = x[1] + 0.25 * x[2] * x[0] / 3;
+    y[2] = 1.5 * x[2] - 0.2 * x[0] * x[1] / 3;
+}
+
 /* ---- polygons ---- */
 
 /* A counter-clockwise polygon with the points of a lattice of the given width that lie inside, away

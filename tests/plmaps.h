@@ -5,6 +5,7 @@
 #include "map/compatible/plmap.h"
 #include "mesh/planar.h"
 
+#include "default_env.h"
 #include "hard_shapes.h"
 
 #include <check.h>
@@ -12,13 +13,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-static inline iccp_env default_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 typedef void image_function(const double p[2], double image[2]);
 

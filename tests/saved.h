@@ -57,6 +57,54 @@ static inline void repair_bytes(bytes *b, const char *kind)
     iccp_blob_end(&w, &n);
 }
 
+static inline void put64(bytes *b, size_t at, uint64_t value)
+{
+    for (size_t i = 0; i < 8 && at + i < b->n; ++i)
+        b->data[at + i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Copies the bytes with content that is made up: one number or one bit is another, and the checksum
+ * is right. */
+static inline void make_up_content(bytes *changed, const bytes *b, const char *kind,
+                                   random_source *r)
+{
+    static const uint64_t VALUES[] = {0,
+                                      1,
+                                      UINT64_MAX,
+                                      (uint64_t)1 << 32,
+                                      (uint64_t)1 << 63,
+                                      0x7ff8000000000000u,
+                                      0x7ff0000000000000u,
+                                      0x7fefffffffffffffu,
+                                      0x3ff0000000000000u,
+                                      1000000};
+    const size_t at = 24 + 4 * (size_t)random_below(r, (int)(b->n - 24) / 4);
+    memcpy(changed->data, b->data, b->n);
+    if (random_below(r, 2) == 0)
+        put64(changed, at, VALUES[random_below(r, 10)]);
+    else
+        changed->data[at + (size_t)random_below(r, 4)] ^= (unsigned char)(1 << random_below(r, 8));
+    repair_bytes(changed, kind);
+}
+
+/* Loads an object, and frees it. */
+typedef icc_status load_call(const bytes *b, icc_error *err);
+
+/* Neither a part of the bytes is loaded, nor what has another bit. */
+static inline void check_damage(bytes *b, load_call *load)
+{
+    icc_error err = {.size = sizeof err};
+    for (size_t n = 0; n < b->n; n += n < 100 ? 1 : 37)
+        ck_assert_int_eq(load(&(bytes){n, b->data}, &err), ICC_ERR_FORMAT);
+    for (size_t i = 0; i < b->n; ++i) {
+        b->data[i] ^= 0x10;
+        err.message[0] = '\0';
+        ck_assert_int_eq(load(b, &err), ICC_ERR_FORMAT);
+        ck_assert(err.message[0] != '\0');
+        b->data[i] ^= 0x10;
+    }
+}
+
 static inline void ck_assert_same(const void *a, const void *b, size_t size, const char *what)
 {
     ck_assert_msg(memcmp(a, b, size) == 0, "%s differs", what);

@@ -150,4 +150,32 @@ static inline shape shape_number(int k)
     }
 }
 
+/* Pairs with the same number of vertices. */
+enum { N_SHAPE_PAIRS = 5 };
+
+static inline void shape_pair(int k, shape *source, shape *target)
+{
+    switch (k) {
+    case 0:
+        *source = shape_square();
+        *target = shape_dart();
+        break;
+    case 1:
+        *source = shape_l();
+        *target = shape_star(3, 0.45, 0.2);
+        break;
+    case 2:
+        *source = shape_star(5, 0.4, 0.1);
+        *target = shape_star(5, 0.7, 0.5);
+        break;
+    case 3:
+        *source = shape_worm(12, 0.8, 0.2);
+        *target = shape_worm(12, 0.9, -0.5);
+        break;
+    default:
+        *source = shape_e();
+        *target = shape_star(6, 0.6, 0.3);
+    }
+}
+
 #endif

@@ -1,5 +1,7 @@
 /* What a program compiled against these headers relies on. A number that changes here breaks every
  * program that is not recompiled: see docs/abi.md. */
+#include "../suite.h"
+
 #include <check.h>
 #include <icc/kernel.h>
 #include <icc/stages.h>
@@ -569,9 +571,5 @@ int main(void)
     TCase *tests = tcase_create("all");
     tcase_add_test(tests, the_version_is_that_of_the_headers);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Every function that allocates, with every one of its allocations failing once. */
 #include "../share.h"
+#include "../suite.h"
 #include "objects.h"
 
 typedef struct counter {
@@ -145,9 +146,5 @@ int main(void)
     tcase_add_test(tests, failed_allocations_are_reported);
     tcase_add_test(tests, objects_are_freed_in_any_order);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

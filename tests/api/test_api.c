@@ -1,6 +1,8 @@
 /* Bad arguments, and the rules of structs that begin with their size. */
 #include "objects.h"
 
+#include "../suite.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -1220,9 +1222,5 @@ int main(void)
     tcase_add_test(tests, errors_may_be_older_or_newer);
     tcase_add_test(tests, everything_has_a_name);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

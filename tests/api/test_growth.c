@@ -3,6 +3,7 @@
 #include <icc/icc.h>
 
 #include "../random.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -298,9 +299,5 @@ int main(void)
     tcase_set_timeout(tests, 300);
     tcase_add_loop_test(tests, time_is_in_proportion, 0, N_SUBJECTS);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

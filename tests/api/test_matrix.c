@@ -1,5 +1,7 @@
 /* Every operation on every kind of map and chart, however it came about: it works, or it says by
  * name and with a message why not. */
+#include "../suite.h"
+
 #include <check.h>
 #include <icc/stages.h>
 #include <math.h>
@@ -662,9 +664,5 @@ int main(void)
     tcase_add_loop_test(tests, retargeted_to_every_size, SURFACE, TETRAHEDRA + 1);
     tcase_add_loop_test(tests, every_operation_on_every_chart, 0, N_SHAPES);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

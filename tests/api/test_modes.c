@@ -1,6 +1,7 @@
 /* Results are the same in every floating-point environment of the caller, which gets it back as it
  * was; and callbacks run in the usual one. */
 #include "../share.h"
+#include "../suite.h"
 #include "objects.h"
 
 #include <fenv.h>
@@ -149,9 +150,5 @@ int main(void)
     tcase_add_loop_test(tests, results_are_the_same_bits, 0, N_METHODS);
     tcase_add_loop_test(tests, messages_are_the_same, 0, N_MODES);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,8 @@
  * stages have names that icc/base.h lists. */
 #include "objects.h"
 
+#include "../suite.h"
+
 #include <stdbool.h>
 
 static const char *const STAGES[] = {"check",  "repair",  "mesh",  "grid",    "tree",
@@ -171,9 +173,5 @@ int main(void)
     tcase_add_test(tests, a_long_call_tells_how_far_it_is);
     tcase_add_test(tests, pictures_are_warped_bit_by_bit);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

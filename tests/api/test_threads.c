@@ -1,6 +1,7 @@
 /* Results do not depend on threads, objects may be shared, progress stays on its thread and
  * cancels. */
 #include "../share.h"
+#include "../suite.h"
 #include "objects.h"
 
 #include <pthread.h>
@@ -369,9 +370,5 @@ int main(void)
     tcase_add_loop_test(progress, every_long_call_can_be_cancelled, 0, N_METHODS);
     tcase_add_loop_test(progress, progress_stays_on_the_calling_thread, 0, N_METHODS);
     suite_add_tcase(suite, progress);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

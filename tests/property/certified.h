@@ -8,6 +8,7 @@
 #include "mesh/planar.h"
 
 #include "../hard_shapes.h"
+#include "../shape_domains.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -25,13 +26,6 @@ static inline icc_chart_options method_options(int32_t cells)
     return (icc_chart_options){.size = sizeof(icc_chart_options), .method = METHOD, .cells = cells};
 }
 
-static inline icc_domain *domain_of(const shape *s)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
-
 /* Of the mesh that the chart is on. */
 static inline size_t n_triangles(const icc_chart *chart)
 {
@@ -46,7 +40,7 @@ static inline subject subject_of(const shape *outline, const icc_chart_options *
 {
     subject s = {.shape = {.size = sizeof s.shape}, .info = {.size = sizeof s.info}};
     icc_error err = {.size = sizeof err};
-    s.domain = domain_of(outline);
+    s.domain = domain_of_shape(outline);
     if (icc_chart_create(&s.chart, s.domain, options, NULL, &err) != ICC_OK)
         ck_abort_msg("no chart: %s", err.message);
     (void)icc_domain_get_info(s.domain, &s.shape);
@@ -456,7 +450,7 @@ static inline subject source_of(const icc_map *map, const icc_domain *source)
 
 static inline void check_map(const shape *from, const shape *to, int32_t cells, int n)
 {
-    icc_domain *source = domain_of(from), *target = domain_of(to);
+    icc_domain *source = domain_of_shape(from), *target = domain_of_shape(to);
     icc_map *map = map_of(source, target, cells);
     const subject s = source_of(map, source), s_target = source_of(map, target);
     const double width[2] = {s.width, s_target.width};
@@ -481,31 +475,11 @@ static inline void check_map(const shape *from, const shape *to, int32_t cells, 
 }
 
 /* Pairs of shapes with the same number of vertices. */
-enum { N_PAIRS = 8 };
+enum { N_PAIRS = N_SHAPE_PAIRS + 3 };
 
 static inline void pair_number(int k, shape *source, shape *target)
 {
     switch (k) {
-    case 0:
-        *source = shape_square();
-        *target = shape_dart();
-        break;
-    case 1:
-        *source = shape_l();
-        *target = shape_star(3, 0.45, 0.2);
-        break;
-    case 2:
-        *source = shape_star(5, 0.4, 0.1);
-        *target = shape_star(5, 0.7, 0.5);
-        break;
-    case 3:
-        *source = shape_worm(12, 0.8, 0.2);
-        *target = shape_worm(12, 0.9, -0.5);
-        break;
-    case 4:
-        *source = shape_e();
-        *target = shape_star(6, 0.6, 0.3);
-        break;
     case 5:
         *source = shape_wild(30, 2);
         *target = shape_wild(30, 3);
@@ -514,10 +488,56 @@ static inline void pair_number(int k, shape *source, shape *target)
         *source = shape_dumbbell(0.05);
         *target = shape_wild(12, 8);
         break;
-    default:
+    case 7:
         *source = shape_spiral(20, 1.5);
         *target = shape_worm(20, 0.3, 0.2);
+        break;
+    default:
+        shape_pair(k, source, target);
     }
+}
+
+/* ---- what every method promises ---- */
+
+/* Either way round and at several resolutions. */
+START_TEST(every_shape_has_coordinates)
+{
+    static const int32_t CELLS[] = {2, 5, 20, 50};
+    const shape s = shape_number(_i), reversed = shape_reversed(&s);
+    for (int k = 0; k < 4; ++k) {
+        check_chart(&s, CELLS[k], 100, 1e-12, 1e-9);
+        check_chart(&reversed, CELLS[k], 100, 1e-12, 1e-9);
+    }
+}
+END_TEST
+
+START_TEST(places_and_orders_do_not_matter)
+{
+    const shape s = shape_number(_i), reversed = shape_reversed(&s);
+    check_places(&s, 20);
+    check_places(&reversed, 11);
+    check_shuffled(&s, 20);
+    check_shuffled(&reversed, 11);
+}
+END_TEST
+
+START_TEST(maps_are_one_to_one)
+{
+    shape source, target;
+    pair_number(_i, &source, &target);
+    check_map(&source, &target, 30, 300);
+    source = shape_reversed(&source);
+    target = shape_reversed(&target);
+    check_map(&source, &target, 11, 300);
+    check_map(&target, &source, 50, 100);
+}
+END_TEST
+
+static inline void add_certified_tests(TCase *tests)
+{
+    tcase_add_loop_test(tests, every_shape_has_coordinates, 0, N_SHAPES);
+    tcase_add_loop_test(tests, places_and_orders_do_not_matter, 0, N_SHAPES);
+    tcase_add_loop_test(tests, maps_are_one_to_one, 0, N_PAIRS);
 }
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "../feature_pairs.h"
 #include "../shapes.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -272,9 +273,5 @@ int main(void)
     tcase_add_test(tests, ties_are_kept);
     tcase_add_test(tests, nearly_affine);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

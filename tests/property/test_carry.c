@@ -8,15 +8,9 @@
 #include <string.h>
 
 #include "../faulty.h"
+#include "../mesh_domains.h"
 #include "../meshes.h"
-
-static icc_domain *domain_of(const test_mesh *m)
-{
-    icc_error err = {.size = sizeof err};
-    icc_domain *domain;
-    ck_assert_msg(mesh_domain(&domain, m, NULL, &err) == ICC_OK, "%s", err.message);
-    return domain;
-}
+#include "../suite.h"
 
 /* Another position of the vertices of a domain's boundary. */
 static icc_domain *moved_domain(const icc_domain *domain, void (*move)(const double *x, double *y))
@@ -162,7 +156,8 @@ START_TEST(balls_are_certified_and_repaired)
     for (size_t n = 3; n <= 9; ++n)
         for (int kind = 0; kind < 2; ++kind) {
             test_mesh m = mesh_ball(3, n, 0.1, &r);
-            icc_domain *source = domain_of(&m), *target = moved_domain(source, kind ? bend : lean);
+            icc_domain *source = domain_of_mesh(&m),
+                       *target = moved_domain(source, kind ? bend : lean);
             icc_map *map = map_between(source, target, ICC_METHOD_FIELD, 12);
             bool *on_rim = list_rim(n);
             result got = carry(map, &m);
@@ -195,7 +190,7 @@ START_TEST(listing_does_not_matter)
 {
     random_source r = {2};
     test_mesh m = mesh_ball(3, 5, 0.1, &r);
-    icc_domain *source = domain_of(&m), *target = moved_domain(source, bend);
+    icc_domain *source = domain_of_mesh(&m), *target = moved_domain(source, bend);
     icc_map *map = map_between(source, target, ICC_METHOD_FIELD, 12);
     result a = carry(map, &m);
     for (size_t s = 0; s < m.n_simplices; ++s) {
@@ -223,7 +218,7 @@ START_TEST(vertices_without_an_image)
 {
     random_source r = {3};
     test_mesh m = mesh_ball(3, 8, 0.1, &r);
-    icc_domain *source = domain_of(&m), *target = moved_domain(source, bend);
+    icc_domain *source = domain_of_mesh(&m), *target = moved_domain(source, bend);
     icc_map *map = map_between(source, target, ICC_METHOD_GRADIENT, 4);
     result got = carry(map, &m);
     ck_assert_msg(got.before.n_no_image > 0, "%zu %zu", got.before.n_no_image,
@@ -251,7 +246,7 @@ START_TEST(meshes_that_are_none)
 {
     random_source r = {4};
     test_mesh ball = mesh_ball(3, 4, 0.1, &r);
-    icc_domain *source = domain_of(&ball), *target = moved_domain(source, bend);
+    icc_domain *source = domain_of_mesh(&ball), *target = moved_domain(source, bend);
     icc_map *map = map_between(source, target, ICC_METHOD_FIELD, 12);
     for (int kind = 0; kind < 4; ++kind) {
         test_mesh m = mesh_copy(&ball);
@@ -286,7 +281,7 @@ START_TEST(bad_arguments_are_refused)
 {
     random_source r = {5};
     test_mesh m = mesh_cube(3, 2, 0.1, &r), m4 = mesh_cube(4, 1, 0, &r);
-    icc_domain *d = domain_of(&m), *d4 = domain_of(&m4), *t4 = moved_domain(d4, stay);
+    icc_domain *d = domain_of_mesh(&m), *d4 = domain_of_mesh(&m4), *t4 = moved_domain(d4, stay);
     icc_map *map = map_between(d, d, ICC_METHOD_FIELD, 8);
     icc_map *map4 = map_between(d4, t4, ICC_METHOD_GRADIENT, 4);
     double *images = mesh_alloc(4 * m4.n_vertices + 3 * m.n_vertices, sizeof *images);
@@ -346,7 +341,7 @@ START_TEST(failures_leave_nothing_behind)
 {
     random_source r = {6};
     job j = {.m = mesh_ball(3, 6, 0.1, &r)};
-    icc_domain *source = domain_of(&j.m), *target = moved_domain(source, bend);
+    icc_domain *source = domain_of_mesh(&j.m), *target = moved_domain(source, bend);
     j.map = map_between(source, target, ICC_METHOD_GRADIENT, 4);
     j.images = mesh_alloc(3 * j.m.n_vertices, sizeof *j.images);
     faulty_sweep(run_job, &j);
@@ -370,7 +365,7 @@ START_TEST(real_pairs)
         if (!mesh_of_data(&m, NAMES[k / 2], "src", "test_carry"))
             continue;
         ck_assert(mesh_of_data(&to, NAMES[k / 2], "tgt", "test_carry"));
-        icc_domain *source = domain_of(&m), *target = domain_of(&to);
+        icc_domain *source = domain_of_mesh(&m), *target = domain_of_mesh(&to);
         icc_domain_info info = {.size = sizeof info};
         ck_assert_int_eq(icc_domain_get_info(target, &info), ICC_OK);
         icc_map *map = map_between(source, target, METHODS[k % 2], 0);
@@ -407,9 +402,5 @@ int main(void)
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, real_pairs);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -5,6 +5,7 @@
 #include "../random.h"
 #include "../shapes.h"
 #include "../share.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -575,9 +576,5 @@ int main(void)
     tcase_add_test(tests, the_caller_may_choose_the_maximum);
     tcase_add_test(tests, measures_are_shares);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -8,6 +8,8 @@
 #include "../obj.h"
 #include "../random.h"
 #include "../share.h"
+#include "../suite.h"
+#include "../surface_domains.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -42,15 +44,6 @@ static icc_chart_options options_of(int32_t function, int32_t cells)
 static int has_box_cell(int x, int y, int z)
 {
     return x >= 0 && y >= 0 && z >= 0 && x < 3 && y < 2 && z < 2;
-}
-
-static icc_domain *domain_of_surface(const surface *s)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(
-        icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces, NULL, NULL),
-        ICC_OK);
-    return domain;
 }
 
 static icc_domain *box(void)
@@ -570,9 +563,5 @@ int main(void)
     tcase_add_test(tests, results_do_not_depend_on_the_number_of_threads);
     tcase_add_test(tests, every_failure_is_reported);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -4,7 +4,9 @@
 #include "gradient/grid/kuhn.h"
 #include "icc/stages.h"
 
+#include "../grids.h"
 #include "../random.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <stdbool.h>
@@ -148,41 +150,6 @@ START_TEST(shapes_in_5_by_4)
 }
 END_TEST
 
-/* Random shapes without holes: vertices are added as long as what they touch stays contractible. */
-static void grow(random_source *r, const iccp_kuhn *kuhn, const size_t *sides, size_t rounds,
-                 uint8_t *inside)
-{
-    size_t n = 1, stride[ICC_MAX_DIM];
-    for (int32_t k = 0; k < kuhn->dim; ++k) {
-        stride[k] = n;
-        n *= sides[k];
-    }
-    memset(inside, 0, n);
-    inside[n / 2] = 1;
-    for (size_t round = 0; round < rounds; ++round) {
-        const size_t v = (size_t)random_below(r, (int)n);
-        iccp_link_set touched = {{0, 0}};
-        bool along_axis = false;
-        for (int i = 0; i < kuhn->n_neighbours; ++i) {
-            size_t u = v;
-            int steps = 0;
-            bool in_grid = true;
-            for (int32_t k = 0; k < kuhn->dim; ++k) {
-                const size_t step = (size_t)kuhn->step[i][k];
-                in_grid = in_grid && v / stride[k] % sides[k] + step < sides[k];
-                u += step * stride[k];
-                steps += step != 0;
-            }
-            if (!in_grid || !inside[u])
-                continue;
-            iccp_link_add(&touched, i);
-            along_axis = along_axis || steps == 1;
-        }
-        if (along_axis && iccp_kuhn_regular(kuhn, &touched))
-            inside[v] = 1;
-    }
-}
-
 static tally try_random(int32_t dim, const size_t *sides, size_t rounds, int n_shapes)
 {
     static iccp_kuhn kuhn;
@@ -194,7 +161,7 @@ static tally try_random(int32_t dim, const size_t *sides, size_t rounds, int n_s
         n *= sides[k];
     iccp_kuhn_init(&kuhn, dim);
     for (int i = 0; i < n_shapes; ++i) {
-        grow(&r, &kuhn, sides, rounds, inside);
+        grid_grow_ball(&r, &kuhn, sides, rounds, inside);
         icc_grid *grid;
         ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
         uint32_t root;
@@ -242,9 +209,5 @@ int main(void)
     tcase_add_test(tests, random_shapes_in_the_plane);
     tcase_add_test(tests, random_shapes_in_space);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -1,18 +1,7 @@
 /* What holds for disc coordinates of every shape. */
 #define METHOD ICC_METHOD_DISC
+#include "../suite.h"
 #include "certified.h"
-
-/* Everything of certified.h, either way round and at several resolutions. */
-START_TEST(every_shape_has_coordinates)
-{
-    static const int32_t CELLS[] = {2, 5, 20, 50};
-    const shape s = shape_number(_i), reversed = shape_reversed(&s);
-    for (int k = 0; k < 4; ++k) {
-        check_chart(&s, CELLS[k], 100, 1e-12, 1e-9);
-        check_chart(&reversed, CELLS[k], 100, 1e-12, 1e-9);
-    }
-}
-END_TEST
 
 /* Vertices of the mesh need not be looked for. */
 START_TEST(vertices_have_the_coordinates_of_their_points)
@@ -57,42 +46,14 @@ START_TEST(hard_shapes_have_coordinates)
 }
 END_TEST
 
-START_TEST(places_and_orders_do_not_matter)
-{
-    const shape s = shape_number(_i), reversed = shape_reversed(&s);
-    check_places(&s, 20);
-    check_places(&reversed, 11);
-    check_shuffled(&s, 20);
-    check_shuffled(&reversed, 11);
-}
-END_TEST
-
-START_TEST(maps_are_one_to_one)
-{
-    shape source, target;
-    pair_number(_i, &source, &target);
-    check_map(&source, &target, 30, 300);
-    source = shape_reversed(&source);
-    target = shape_reversed(&target);
-    check_map(&source, &target, 11, 300);
-    check_map(&target, &source, 50, 100);
-}
-END_TEST
-
 int main(void)
 {
     Suite *suite = suite_create("disc");
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 120);
-    tcase_add_loop_test(tests, every_shape_has_coordinates, 0, N_SHAPES);
+    add_certified_tests(tests);
     tcase_add_loop_test(tests, vertices_have_the_coordinates_of_their_points, 0, N_SHAPES);
     tcase_add_loop_test(tests, hard_shapes_have_coordinates, 0, N_HARD_SHAPES);
-    tcase_add_loop_test(tests, places_and_orders_do_not_matter, 0, N_SHAPES);
-    tcase_add_loop_test(tests, maps_are_one_to_one, 0, N_PAIRS);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

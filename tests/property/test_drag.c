@@ -6,6 +6,7 @@
 #include "../dragging.h"
 #include "../faulty.h"
 #include "../hard_shapes.h"
+#include "../suite.h"
 
 static icc_map *made(icc_status status, icc_map *map, const icc_error *err)
 {
@@ -160,9 +161,5 @@ int main(void)
     tcase_add_test(tests, points_that_meet_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

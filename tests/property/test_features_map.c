@@ -3,6 +3,7 @@
 
 #include "../feature_mixes.h"
 #include "../share.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -106,9 +107,5 @@ int main(void)
     tcase_add_test(tests, improved);
     tcase_add_test(tests, the_same_bits_on_many_threads);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -9,9 +9,12 @@
 #include "map/curves/curves.h"
 
 #include "../determinant.h"
+#include "../domains.h"
+#include "../infos.h"
 #include "../npy.h"
 #include "../obj.h"
 #include "../random.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 enum { N_POINTS = 150 };
@@ -87,18 +90,6 @@ static void pair_of_mask(pair *p, int32_t dim, const size_t *shape, const uint8_
     make_target(p);
 }
 
-static void random_inside(random_source *r, const icc_domain *domain, double *point)
-{
-    icc_domain_info info = {.size = sizeof info};
-    int32_t where = ICC_OUTSIDE;
-    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    while (where != ICC_INSIDE) {
-        for (int32_t k = 0; k < info.dim; ++k)
-            point[k] = random_between(r, info.lower[k], info.upper[k]);
-        ck_assert_int_eq(icc_domain_locate(domain, 1, point, &where, NULL, NULL, NULL), ICC_OK);
-    }
-}
-
 static icc_map *make_map(const pair *p, int32_t cells)
 {
     icc_error err = {.size = sizeof err};
@@ -129,7 +120,7 @@ static size_t count_lost(random_source *r, const pair *p, const icc_map *map, do
     int32_t where[N_POINTS];
     size_t lost = 0;
     for (size_t i = 0; i < N_POINTS; ++i)
-        random_inside(r, p->source, points + dim * i);
+        domain_random_point(r, p->source, points + dim * i);
     ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_locate(p->target, N_POINTS, images, where, NULL, NULL, NULL),
@@ -164,13 +155,6 @@ static void check_boundary(random_source *r, const pair *p, const icc_map *map)
     }
 }
 
-static icc_chart_info info_of(const icc_chart *chart)
-{
-    icc_chart_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
-    return info;
-}
-
 static icc_field_info field_info_of(const icc_chart *chart)
 {
     icc_field_info info = {.size = sizeof info};
@@ -185,7 +169,7 @@ static bool is_certified(const icc_map *map)
     icc_map_info whole = {.size = sizeof whole};
     bool both = true;
     for (int k = 0; k < 2; ++k) {
-        const icc_chart_info info = info_of(charts[k]);
+        const icc_chart_info info = info_of_chart(charts[k]);
         const icc_field_info own = field_info_of(charts[k]);
         ck_assert_int_eq(info.method, ICC_METHOD_FIELD);
         ck_assert(info.certified ==
@@ -234,7 +218,7 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
         /* Curves come together uphill: a place there tells less about where it came from. */
         ck_assert(last > 0.9 || largest_difference((size_t)dim, start, from) < 1e-6);
     }
-    const icc_chart_info info = info_of(chart);
+    const icc_chart_info info = info_of_chart(chart);
     ck_assert(largest_difference((size_t)dim, info.maximum, curve + (size_t)dim * (n - 1)) < 1e-12);
 }
 
@@ -247,7 +231,7 @@ static void check_jacobians(random_source *r, const pair *p, const icc_map *map)
     for (int i = 0; i < N_POINTS; ++i) {
         double x[ICC_MAX_DIM], jacobian[ICC_MAX_DIM * ICC_MAX_DIM], worst = 0, largest = 0;
         icc_status status;
-        random_inside(r, p->source, x);
+        domain_random_point(r, p->source, x);
         ck_assert_int_eq(icc_map_jacobian(map, 1, x, jacobian, &status, NULL, NULL), ICC_OK);
         ck_assert_int_eq(status, ICC_OK);
         ck_assert(determinant(p->dim, jacobian) > 0);
@@ -276,7 +260,7 @@ static void check_certified_map(random_source *r, const pair *p, const icc_map *
     check_jacobians(r, p, map);
     for (int i = 0; i < 5; ++i) {
         double x[ICC_MAX_DIM];
-        random_inside(r, p->source, x);
+        domain_random_point(r, p->source, x);
         check_curve(icc_map_source_chart(map), x, p->dim);
     }
 }
@@ -291,7 +275,7 @@ static void check_bulk(random_source *r, const pair *p, const icc_map *map)
     iccp_env env;
     iccp_path path;
     for (size_t i = 0; i < N_POINTS; ++i)
-        random_inside(r, p->source, points + dim * i);
+        domain_random_point(r, p->source, points + dim * i);
     points[dim * 20] = NAN;
     points[dim * 30] = 1e3;
     memcpy(points + dim * 40, p->from, dim * sizeof *points);
@@ -349,12 +333,12 @@ START_TEST(identity)
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
     icc_map *map;
     ck_assert_int_eq(icc_map_create(&map, p.source, p.source, &options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(info_of(icc_map_source_chart(map)).method, ICC_METHOD_FIELD);
-    const icc_chart_info a = info_of(icc_map_source_chart(map));
-    const icc_chart_info b = info_of(icc_map_target_chart(map));
+    ck_assert_int_eq(info_of_chart(icc_map_source_chart(map)).method, ICC_METHOD_FIELD);
+    const icc_chart_info a = info_of_chart(icc_map_source_chart(map));
+    const icc_chart_info b = info_of_chart(icc_map_target_chart(map));
     for (int i = 0; i < N_POINTS; ++i) {
         double x[3], y[3];
-        random_inside(&r, p.source, x);
+        domain_random_point(&r, p.source, x);
         ck_assert_int_eq(icc_map_apply(map, 1, x, y, NULL, NULL, NULL), ICC_OK);
         ck_assert(memcmp(a.maximum, b.maximum, sizeof a.maximum) != 0 ||
                   largest_difference(3, x, y) < 1e-10);
@@ -381,7 +365,7 @@ START_TEST(orientation_does_not_matter)
     ck_assert(is_certified(a) == is_certified(b));
     for (int i = 0; i < N_POINTS; ++i) {
         double x[3], y[3], z[3];
-        random_inside(&r, p.source, x);
+        domain_random_point(&r, p.source, x);
         ck_assert_int_eq(icc_map_apply(a, 1, x, y, NULL, NULL, NULL), ICC_OK);
         ck_assert_int_eq(icc_map_apply(b, 1, x, z, NULL, NULL, NULL), ICC_OK);
         ck_assert(largest_difference(3, y, z) < 1e-9);
@@ -505,7 +489,8 @@ START_TEST(thin_gaps)
     icc_chart_report measures = {.size = sizeof measures};
     ck_assert_int_eq(icc_chart_get_report(chart, 1000, &measures, NULL, NULL), ICC_OK);
     ck_assert(measures.unreachable <= 0.02 && measures.not_inward <= 0.05);
-    ck_assert(info_of(chart).certified || (measures.n_points > 100 && measures.n_boundary == 1000));
+    ck_assert(info_of_chart(chart).certified ||
+              (measures.n_points > 100 && measures.n_boundary == 1000));
     ck_assert(measures.uncovered <= 0 && measures.collapsed <= 0);
     icc_map_free(map);
     pair_free(&p);
@@ -538,7 +523,7 @@ START_TEST(what_is_not_available_is_named)
     const double inside[3] = {0.2, 0.1, -0.1};
     const icc_chart_options right = {.size = sizeof right, .maximum = inside, .cells = 20};
     ck_assert_int_eq(icc_chart_create(&chart, p.source, &right, NULL, &err), ICC_OK);
-    const icc_chart_info info = info_of(chart);
+    const icc_chart_info info = info_of_chart(chart);
     ck_assert(largest_difference(3, info.maximum, inside) <= 0.5 * info.spacing + 1e-12);
     ck_assert_ptr_nonnull(icc_chart_function(chart));
     icc_chart_free(chart);
@@ -714,9 +699,5 @@ int main(void)
     tcase_add_test(tests, real_shapes);
     tcase_add_test(tests, other_grids_are_tried);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

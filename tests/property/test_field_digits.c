@@ -10,6 +10,7 @@
 
 #include "../determinant.h"
 #include "../random.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 enum { N_POINTS = 400, N_DERIVATIVES = 60, N_OUTLINE = 120 };
@@ -238,9 +239,5 @@ int main(void)
     tcase_add_test(tests, ellipses);
     tcase_add_test(tests, rods);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

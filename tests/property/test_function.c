@@ -1,6 +1,8 @@
 /* What holds for Laplace's and the bi-Laplace function of every mask: the equations, the
  * inequalities and the conditions of optimality, all found anew from the public interface. */
 #include "../functions.h"
+#include "../infos.h"
+#include "../suite.h"
 
 #include "../faulty.h"
 #include "../random.h"
@@ -49,16 +51,9 @@ static icc_function_info info_of(const icc_function *field)
     return info;
 }
 
-static icc_function_report report_of(const icc_function *field)
-{
-    icc_function_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_OK);
-    return report;
-}
-
 static void check_regular(const icc_function *field)
 {
-    const icc_function_report report = report_of(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 0);
@@ -209,7 +204,7 @@ static long euler_characteristic(const ground *g)
 /* No critical points that constraints could remove. */
 static void check_not_needed(const ground *g, const icc_function *field)
 {
-    const icc_function_report report = report_of(field);
+    const icc_function_report report = report_of_function(field);
     const long holes = g->info.dim == 2 ? 1 - euler_characteristic(g) : 0;
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
@@ -229,7 +224,7 @@ static void check_choice(const ground *g, const icc_function_options *options)
         check_inequalities(g, field, options->function);
     else
         ck_assert(options->function == ICC_FUNCTION_CLAMPED || icc_function_logs(field) != NULL);
-    const icc_function_report report = report_of(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_ge(report.n_maxima, 1);
     if (options->constraints == ICC_CONSTRAINTS_NEEDED && !info.constrained)
         check_not_needed(g, field);
@@ -384,7 +379,7 @@ static icc_function *ring_field(const ground *g, int32_t function)
     ck_assert_int_eq(icc_function_create(&field, g->tree, &options, &env, NULL), ICC_OK);
     ck_assert_int_eq(info_of(field).solver, ICC_SOLVER_DIRECT);
     ck_assert_int_eq(n_lines, 0); /* it would tell of a change of the solver */
-    const icc_function_report report = report_of(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 1);
@@ -762,7 +757,7 @@ START_TEST(the_drum_has_two_saddles)
 {
     ground g = ground_on(thin_drum, 3, 48);
     icc_function *field = field_of(&g, ICC_FUNCTION_LAPLACE, ICC_CONSTRAINTS_NONE, 0);
-    const icc_function_report report = report_of(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 2);
@@ -1227,9 +1222,5 @@ int main(void)
     tcase_add_test(tests, curves_run_where_doubles_end);
     tcase_add_test(tests, charts_hand_out_the_function_of_the_stages);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -1,7 +1,9 @@
 /* Random surfaces that are hard to fill: all but one in a thousand are filled, as they are, and the
  * others named. */
+#include "../domains.h"
 #include "../hard_bodies.h"
 #include "../share.h"
+#include "../suite.h"
 #include "icc/icc.h"
 
 #include <check.h>
@@ -9,20 +11,13 @@
 
 static surface body;
 
-static icc_domain_info info_of(const icc_domain *domain)
-{
-    icc_domain_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    return info;
-}
-
 /* That the mesh has the surface's vertices and faces, bit by bit; icc_domain_create_mesh() has
  * checked that it is one. */
 static void check_filled(const icc_domain *filled)
 {
     static double vertices[3 * SURFACE_VERTICES];
     static uint32_t faces[3 * SURFACE_FACES];
-    const icc_domain_info info = info_of(filled);
+    const icc_domain_info info = info_of_domain(filled);
     ck_assert_uint_gt(info.n_mesh_simplices, 0);
     ck_assert_uint_eq(info.n_vertices, body.n_vertices);
     ck_assert_uint_eq(info.n_facets, body.n_faces);
@@ -74,9 +69,5 @@ int main(void)
     tcase_set_timeout(tests, 36000);
     tcase_add_test(tests, nearly_all_are_filled);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,7 @@
 /* Laplace's function with its zeros on the boundary itself. */
+#include "../domains.h"
 #include "../shapes.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -8,13 +10,6 @@
 
 /* Corners of a convex shape, anticlockwise. */
 static const double QUAD[8] = {0, 0, 2, 0.3, 1.9, 1.7, -0.2, 1.2};
-
-static icc_domain *domain_of(size_t n, const double *xy)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
 
 static icc_chart *chart_of(const icc_domain *domain, int32_t function, int32_t constraints,
                            int32_t cells)
@@ -54,7 +49,7 @@ static double leave(const double *p, double x, double y)
  * boundary is taken where it comes first. */
 START_TEST(solves_the_equation_of_cut_edges)
 {
-    icc_domain *domain = domain_of(4, QUAD);
+    icc_domain *domain = domain_of_polygon(4, QUAD);
     icc_chart *chart = chart_of(domain, ICC_FUNCTION_HARMONIC, ICC_CONSTRAINTS_NONE, 40);
     const icc_function *function = icc_chart_function(chart);
     const icc_tree *tree = icc_function_tree(function);
@@ -93,7 +88,7 @@ END_TEST
 START_TEST(satisfies_the_inequalities_where_they_are_imposed)
 {
     const shape outline = shape_l();
-    icc_domain *domain = domain_of(outline.n, outline.xy);
+    icc_domain *domain = domain_of_polygon(outline.n, outline.xy);
     icc_chart *chart = chart_of(domain, ICC_FUNCTION_HARMONIC, ICC_CONSTRAINTS_ALL, 60);
     const icc_function *function = icc_chart_function(chart);
     const uint32_t *parent = icc_tree_parents(icc_function_tree(function));
@@ -171,7 +166,7 @@ START_TEST(less_is_uncovered_on_finer_grids)
         xy[2 * i] = 1.91 * cos(angle) - 0.296 * sin(angle);
         xy[2 * i + 1] = 0.592 * cos(angle) + 0.955 * sin(angle);
     }
-    icc_domain *domain = domain_of(120, xy);
+    icc_domain *domain = domain_of_polygon(120, xy);
     for (int i = 0; i < 2; ++i)
         for (int k = 0; k < 3; ++k) {
             icc_chart *chart =
@@ -195,7 +190,7 @@ END_TEST
 START_TEST(reaches_the_end_of_a_long_limb)
 {
     static const double LIMB[8] = {0, 0, 700, 3, 699.99, 4, -0.01, 1.1};
-    icc_domain *domain = domain_of(4, LIMB);
+    icc_domain *domain = domain_of_polygon(4, LIMB);
     const double end[2] = {3, 0.5};
     icc_chart *chart;
     const icc_chart_options options = {.size = sizeof options,
@@ -226,9 +221,5 @@ int main(void)
     tcase_add_test(tests, reaches_the_end_of_a_long_limb);
     Suite *suite = suite_create("harmonic");
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_run(suite);
 }

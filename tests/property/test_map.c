@@ -3,18 +3,13 @@
 #include "map/map.h"
 
 #include "../random.h"
+#include "../shape_domains.h"
 #include "../shapes.h"
 #include "../share.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
-
-static icc_domain *domain_of(const shape *s)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
 
 /* A map whose domains are kept alive by the charts alone. */
 static icc_map *map_of(const shape *source, const shape *target, int32_t cells, int32_t function)
@@ -22,7 +17,7 @@ static icc_map *map_of(const shape *source, const shape *target, int32_t cells, 
     const icc_chart_options chart = {
         .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = cells, .function = function};
     const icc_map_options options = {.size = sizeof options, .chart = &chart};
-    icc_domain *a = domain_of(source), *b = domain_of(target);
+    icc_domain *a = domain_of_shape(source), *b = domain_of_shape(target);
     icc_map *map;
     ck_assert_int_eq(icc_map_create(&map, a, b, &options, NULL, NULL), ICC_OK);
     icc_domain_free(a);
@@ -30,33 +25,13 @@ static icc_map *map_of(const shape *source, const shape *target, int32_t cells, 
     return map;
 }
 
-enum { N_PAIRS = 8 };
+enum { N_PAIRS = N_SHAPE_PAIRS + 3 };
 
 /* Pairs with the same number of vertices. */
 static void pair_number(int k, shape *source, shape *target)
 {
     random_source r = {50 + (uint64_t)k};
     switch (k) {
-    case 0:
-        *source = shape_square();
-        *target = shape_dart();
-        break;
-    case 1:
-        *source = shape_l();
-        *target = shape_star(3, 0.45, 0.2);
-        break;
-    case 2:
-        *source = shape_star(5, 0.4, 0.1);
-        *target = shape_star(5, 0.7, 0.5);
-        break;
-    case 3:
-        *source = shape_worm(12, 0.8, 0.2);
-        *target = shape_worm(12, 0.9, -0.5);
-        break;
-    case 4:
-        *source = shape_e();
-        *target = shape_star(6, 0.6, 0.3);
-        break;
     case 5:
         *source = shape_dart();
         *target = shape_of(4, (double[]){1e9, 3, 1e9 + 40, 3, 1e9 + 40, 35, 1e9 + 8, 43});
@@ -66,11 +41,14 @@ static void pair_number(int k, shape *source, shape *target)
         *target = shape_moved(source, 0x1p-900, 0, 0);
         target->xy[0] *= 1.1;
         break;
-    default:
+    case 7:
         *source = shape_star(6, 0.5, 0.4);
         *target = shape_star(6, 0.3, 0.4);
         for (size_t i = 0; i < 2 * target->n; ++i)
             target->xy[i] += 0.05 * random_unit(&r);
+        break;
+    default:
+        shape_pair(k, source, target);
     }
 }
 
@@ -301,7 +279,7 @@ START_TEST(facets_may_come_in_any_order)
         icc_map_free(plain);
         /* Another order in the target does not correspond. */
         icc_error err = {.size = sizeof err};
-        icc_domain *other = domain_of(&s[1]);
+        icc_domain *other = domain_of_shape(&s[1]);
         ck_assert_int_eq(icc_map_create(&map, domain[0], other, &options, NULL, &err),
                          ICC_ERR_BOUNDARY);
         ck_assert(map == NULL && err.side == 2 && err.status == ICC_ERR_BOUNDARY && err.index >= 0);
@@ -315,7 +293,8 @@ END_TEST
 START_TEST(boundaries_that_do_not_correspond_are_refused)
 {
     const shape square = shape_square(), l = shape_l(), clockwise = shape_reversed(&square);
-    icc_domain *a = domain_of(&square), *b = domain_of(&l), *c = domain_of(&clockwise);
+    icc_domain *a = domain_of_shape(&square), *b = domain_of_shape(&l),
+               *c = domain_of_shape(&clockwise);
     icc_domain *bad[2] = {b, c};
     for (int k = 0; k < 2; ++k) {
         icc_map *map = (icc_map *)&map;
@@ -343,7 +322,7 @@ START_TEST(errors_name_the_side)
 {
     const shape needle = shape_of(3, (double[]){0, 0, 1, 1e-9, 0, 1e-3});
     const shape triangle = shape_of(3, (double[]){0, 0, 1, 0, 0, 1});
-    icc_domain *good = domain_of(&triangle), *bad = domain_of(&needle);
+    icc_domain *good = domain_of_shape(&triangle), *bad = domain_of_shape(&needle);
     const double outside[2] = {5, 5}, inside[2] = {0.25, 0.25};
     const icc_chart_options chart = {
         .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = 10, .maximum = outside};
@@ -519,9 +498,5 @@ int main(void)
     tcase_add_test(tests, jacobians_are_derivatives);
     tcase_add_test(tests, boundary_and_maximum_have_no_derivative);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -5,6 +5,7 @@
 
 #include "../faulty.h"
 #include "../random.h"
+#include "../suite.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -253,9 +254,5 @@ int main(void)
     tcase_set_timeout(tests, 600);
     tcase_add_test(tests, matched_and_mapped);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,9 +1,12 @@
 /* Bi-Laplace functions without inequalities are highest beside a root that is not in the middle:
  * charts move their maximum there, functions on a given tree say so. */
 #include "../faulty.h"
+#include "../infos.h"
 #include "../random.h"
 #include "../saved.h"
+#include "../shape_domains.h"
 #include "../shapes.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 #include <check.h>
@@ -12,14 +15,6 @@
 #include <stdlib.h>
 
 enum { MOST_VERTICES = 4096 };
-
-static icc_domain *polygon(const shape *outline)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, outline->n, outline->xy, 0, NULL, NULL, NULL),
-                     ICC_OK);
-    return domain;
-}
 
 static icc_chart *make_chart(const icc_domain *domain, const icc_chart_options *options)
 {
@@ -39,13 +34,6 @@ static icc_chart_options options_of(int32_t function, int32_t constraints, int32
                                .constraints = constraints};
 }
 
-static icc_chart_info info_of(const icc_chart *chart)
-{
-    icc_chart_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
-    return info;
-}
-
 static icc_gradient_info gradient_info_of(const icc_chart *chart)
 {
     icc_gradient_info info = {.size = sizeof info};
@@ -60,7 +48,7 @@ static void check_maximum(const icc_chart *chart, const double *asked)
     const icc_function *field = icc_chart_function(chart);
     const icc_tree *tree = icc_function_tree(field);
     const icc_grid *grid = icc_tree_grid(tree);
-    const icc_chart_info info = info_of(chart);
+    const icc_chart_info info = info_of_chart(chart);
     icc_function_info solved = {.size = sizeof solved};
     icc_grid_info lattice = {.size = sizeof lattice};
     ck_assert_int_eq(icc_function_get_info(field, &solved), ICC_OK);
@@ -120,7 +108,7 @@ START_TEST(the_maximum_is_where_the_function_is_greatest)
     size_t n_moved = 0;
     for (int k = 0; k < 24; ++k) {
         const shape outline = shape_number(k);
-        icc_domain *domain = polygon(&outline);
+        icc_domain *domain = domain_of_shape(&outline);
         double asked[2];
         pick(domain, &r, asked);
         for (int i = 0; i < 4; ++i) {
@@ -142,7 +130,7 @@ START_TEST(curves_reach_the_moved_maximum)
 {
     const shape outlines[] = {shape_l(), shape_dart(), shape_star(3, 0.4, 0.3)};
     for (size_t k = 0; k < 3; ++k) {
-        icc_domain *domain = polygon(&outlines[k]);
+        icc_domain *domain = domain_of_shape(&outlines[k]);
         const double corner[2] = {
             outlines[k].xy[0] * 0.7 + outlines[k].xy[2] * 0.15 + outlines[k].xy[4] * 0.15,
             outlines[k].xy[1] * 0.7 + outlines[k].xy[3] * 0.15 + outlines[k].xy[5] * 0.15};
@@ -171,7 +159,7 @@ START_TEST(inequalities_hold_the_maximum)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
-    icc_domain *domain = polygon(&outline);
+    icc_domain *domain = domain_of_shape(&outline);
     for (int32_t constraints = ICC_CONSTRAINTS_NEEDED; constraints <= ICC_CONSTRAINTS_ALL;
          ++constraints)
         for (int i = 0; i < 2; ++i) {
@@ -206,7 +194,7 @@ START_TEST(a_function_says_that_it_is_greatest_beside_the_root)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
-    icc_domain *domain = polygon(&outline);
+    icc_domain *domain = domain_of_shape(&outline);
     icc_grid *grid;
     uint32_t root;
     size_t n_beside = 0;
@@ -242,15 +230,15 @@ START_TEST(a_moved_maximum_stays)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
-    icc_domain *domain = polygon(&outline);
+    icc_domain *domain = domain_of_shape(&outline);
     for (int i = 0; i < 2; ++i) {
         icc_chart_options options = options_of(PLATES[i], ICC_CONSTRAINTS_NONE, 120, asked);
         icc_chart *first = make_chart(domain, &options);
-        const icc_chart_info before = info_of(first);
+        const icc_chart_info before = info_of_chart(first);
         ck_assert_double_gt(gradient_info_of(first).moved, 0);
         options.maximum = before.maximum;
         icc_chart *again = make_chart(domain, &options);
-        const icc_chart_info after = info_of(again);
+        const icc_chart_info after = info_of_chart(again);
         ck_assert_double_eq(gradient_info_of(again).moved, 0);
         ck_assert_mem_eq(after.maximum, before.maximum, sizeof after.maximum);
         icc_chart_free(first);
@@ -264,7 +252,7 @@ START_TEST(saved_charts_have_the_same_maximum)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
-    icc_domain *domain = polygon(&outline);
+    icc_domain *domain = domain_of_shape(&outline);
     for (int i = 0; i < 2; ++i) {
         const icc_chart_options options = options_of(PLATES[i], ICC_CONSTRAINTS_NONE, 90, asked);
         icc_chart *chart = make_chart(domain, &options), *loaded;
@@ -329,7 +317,7 @@ START_TEST(both_charts_of_a_map_move_theirs)
     double points[2 * 200], places[2 * 200];
     target.xy[2] += 0.4;
     target.xy[11] += 0.3;
-    icc_domain *domains[2] = {polygon(&source), polygon(&target)};
+    icc_domain *domains[2] = {domain_of_shape(&source), domain_of_shape(&target)};
     const icc_chart_options chart =
         options_of(ICC_FUNCTION_BILAPLACE, ICC_CONSTRAINTS_NONE, 150, asked);
     const icc_map_options options = {.size = sizeof options,
@@ -359,7 +347,7 @@ START_TEST(failures_leave_nothing_behind)
 {
     const shape outline = shape_l();
     const double asked[2] = {2.6, 0.3};
-    icc_domain *domain = polygon(&outline);
+    icc_domain *domain = domain_of_shape(&outline);
     for (int i = 0; i < 3; ++i) {
         icc_chart_options options = options_of(PLATES[i / 2], ICC_CONSTRAINTS_NEEDED, 12, asked);
         options.solver = i == 1 ? ICC_SOLVER_ITERATIVE : ICC_SOLVER_DIRECT;
@@ -440,9 +428,5 @@ int main(void)
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, it_is_so_for_real_outlines);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -8,10 +8,14 @@
 #include <string.h>
 
 #include "../determinant.h"
+#include "../domains.h"
 #include "../faulty.h"
+#include "../infos.h"
+#include "../mesh_domains.h"
 #include "../meshes.h"
 #include "../random.h"
 #include "../share.h"
+#include "../suite.h"
 
 enum { N_POINTS = 300, MAX = ICC_MAX_DIM };
 
@@ -33,14 +37,6 @@ static void deform(int32_t dim, const double *x, double *y)
         y[k] = x[k] + 0.1 * sin(x[0]);
 }
 
-static icc_domain *domain_of(const test_mesh *m)
-{
-    icc_error err = {.size = sizeof err};
-    icc_domain *domain;
-    ck_assert_msg(mesh_domain(&domain, m, NULL, &err) == ICC_OK, "%s", err.message);
-    return domain;
-}
-
 static double diagonal_of(const icc_domain *domain)
 {
     icc_domain_info info = {.size = sizeof info};
@@ -54,7 +50,8 @@ static double diagonal_of(const icc_domain *domain)
 /* Takes the meshes over. */
 static pair pair_of(test_mesh source, test_mesh target)
 {
-    pair p = {.dim = source.dim, .source = domain_of(&source), .target = domain_of(&target)};
+    pair p = {
+        .dim = source.dim, .source = domain_of_mesh(&source), .target = domain_of_mesh(&target)};
     p.diagonal = fmax(diagonal_of(p.source), diagonal_of(p.target));
     mesh_free(&source);
     mesh_free(&target);
@@ -76,25 +73,6 @@ static void pair_free(pair *p)
     icc_domain_free(p->target);
 }
 
-static void random_inside(random_source *r, const icc_domain *domain, double *point)
-{
-    icc_domain_info info = {.size = sizeof info};
-    int32_t where = ICC_OUTSIDE;
-    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    while (where != ICC_INSIDE) {
-        for (int32_t k = 0; k < info.dim; ++k)
-            point[k] = random_between(r, info.lower[k], info.upper[k]);
-        ck_assert_int_eq(icc_domain_locate(domain, 1, point, &where, NULL, NULL, NULL), ICC_OK);
-    }
-}
-
-static icc_chart_info info_of(const icc_chart *chart)
-{
-    icc_chart_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_chart_get_info(chart, &info), ICC_OK);
-    return info;
-}
-
 /* Through the charts, which are what is tested. */
 static const icc_map_options CURVES = {.size = sizeof CURVES, .kind = ICC_MAP_CURVES};
 
@@ -109,7 +87,7 @@ static icc_map *make_map(const pair *p)
     ck_assert(info.certified == 1 && info.kind == ICC_MAP_CURVES);
     for (int k = 0; k < 2; ++k) {
         const icc_chart *chart = k == 0 ? icc_map_source_chart(map) : icc_map_target_chart(map);
-        const icc_chart_info common = info_of(chart);
+        const icc_chart_info common = info_of_chart(chart);
         icc_shelling_info own = {.size = sizeof own};
         ck_assert(common.certified == 1 && common.method == ICC_METHOD_FOLIATION);
         ck_assert_int_eq(icc_chart_get_shelling_info(chart, &own), ICC_OK);
@@ -135,7 +113,7 @@ static void check_round_trip(random_source *r, const pair *p, const icc_map *map
     int32_t where[N_POINTS];
     size_t n_failed = 1;
     for (size_t i = 0; i < N_POINTS; ++i)
-        random_inside(r, p->source, points + dim * i);
+        domain_random_point(r, p->source, points + dim * i);
     ck_assert_int_eq(icc_map_apply(map, N_POINTS, points, images, NULL, &n_failed, NULL), ICC_OK);
     ck_assert_uint_eq(n_failed, 0);
     ck_assert_int_eq(icc_map_apply_inverse(map, N_POINTS, images, back, NULL, &n_failed, NULL),
@@ -193,7 +171,7 @@ static void check_jacobians(random_source *r, const pair *p, const icc_map *map)
     for (int i = 0; i < N_POINTS; ++i) {
         double x[MAX], jacobian[MAX * MAX], worst = 0, largest = 0;
         icc_status status;
-        random_inside(r, p->source, x);
+        domain_random_point(r, p->source, x);
         ck_assert_int_eq(icc_map_jacobian(map, 1, x, jacobian, &status, NULL, NULL), ICC_OK);
         ck_assert_int_eq(status, ICC_OK);
         ck_assert_double_gt(determinant(p->dim, jacobian), 0);
@@ -244,7 +222,7 @@ static void check_curve(const icc_chart *chart, const double *point, int32_t dim
                   distance(dim, start, curve) < 1e-9 * diagonal);
     }
     ck_assert_double_le(nearest, 1e-13 * diagonal);
-    const icc_chart_info info = info_of(chart);
+    const icc_chart_info info = info_of_chart(chart);
     ck_assert_double_le(distance(dim, info.maximum, curve + (size_t)dim * (n - 1)),
                         1e-14 * diagonal);
 }
@@ -257,7 +235,7 @@ static void check_pair(random_source *r, pair p)
     check_jacobians(r, &p, map);
     for (int i = 0; i < 10; ++i) {
         double x[MAX];
-        random_inside(r, p.source, x);
+        domain_random_point(r, p.source, x);
         check_curve(icc_map_source_chart(map), x, p.dim, p.diagonal);
     }
     icc_map_free(map);
@@ -316,7 +294,7 @@ START_TEST(identity)
         icc_map *map = make_map(&p);
         for (int i = 0; i < N_POINTS; ++i) {
             double x[3], y[3];
-            random_inside(&r, p.source, x);
+            domain_random_point(&r, p.source, x);
             ck_assert_int_eq(icc_map_apply(map, 1, x, y, NULL, NULL, NULL), ICC_OK);
             ck_assert_double_le(distance(3, x, y), 1e-12 * p.diagonal);
         }
@@ -365,7 +343,7 @@ START_TEST(ends)
 {
     random_source r = {6};
     test_mesh m = mesh_cube(3, 4, 0, &r);
-    icc_domain *domain = domain_of(&m);
+    icc_domain *domain = domain_of_mesh(&m);
     icc_error err = {.size = sizeof err};
     const double wish[3] = {1.1, 2.9, 2.2}, outside[3] = {1, 1, -1e-9}, corner[3] = {4, 4, 4};
     const icc_chart_options options = {.size = sizeof options, .maximum = wish};
@@ -375,7 +353,7 @@ START_TEST(ends)
     icc_status status;
     ck_assert_msg(icc_chart_create(&chart, domain, &options, NULL, &err) == ICC_OK, "%s",
                   err.message);
-    const icc_chart_info info = info_of(chart);
+    const icc_chart_info info = info_of_chart(chart);
     ck_assert(info.maximum[0] == 1 && info.maximum[1] == 3 && info.maximum[2] == 2);
     ck_assert_int_eq(
         icc_chart_encode(chart, 1, info.maximum, &facet, bary, &t, &status, NULL, NULL), ICC_OK);
@@ -507,7 +485,7 @@ START_TEST(threads)
     enum { N = 2000 };
     static double points[3 * N], images[2][3 * N];
     for (size_t i = 0; i < N; ++i)
-        random_inside(&r, p.source, points + 3 * i);
+        domain_random_point(&r, p.source, points + 3 * i);
     for (int k = 0; k < 2; ++k) {
         const icc_env env = {.size = sizeof env, .threads = k == 0 ? 1 : 4};
         icc_map *map;
@@ -554,9 +532,5 @@ int main(void)
     tcase_add_test(tests, threads);
     tcase_add_test(tests, surfaces);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -10,6 +10,7 @@
 #include "../faulty.h"
 #include "../saved.h"
 #include "../share.h"
+#include "../suite.h"
 #include "../surfaces.h"
 
 /* ---- shapes ---- */
@@ -283,9 +284,5 @@ int main(void)
     tcase_add_test(tcase, random_pairs);
     tcase_add_test(tcase, failures);
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -4,6 +4,7 @@
 
 #include "../random.h"
 #include "../share.h"
+#include "../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -352,9 +353,5 @@ int main(void)
     tcase_add_test(tests, test_signs_at_zero);
     tcase_add_test(tests, test_kinds);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? 0 : 1;
+    return suite_run(suite);
 }

@@ -9,6 +9,8 @@
 #include "base/threads.h"
 #include "base/version.h"
 
+#include "../../suite.h"
+
 #include <check.h>
 #include <math.h>
 #include <pthread.h>
@@ -867,9 +869,5 @@ int main(void)
     tcase_add_test(tests, the_first_task_that_fails_decides);
     tcase_add_test(tests, tasks_can_be_cancelled);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

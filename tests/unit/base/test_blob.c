@@ -1,6 +1,8 @@
 /* Objects as bytes. */
 #include "base/blob.h"
 
+#include "../../suite.h"
+
 #include <check.h>
 #include <stdlib.h>
 #include <string.h>
@@ -307,9 +309,5 @@ int main(void)
     tcase_add_test(c, counts_are_believed_only_if_the_bytes_are_there);
     tcase_add_test(c, a_failing_allocation_is_remembered);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

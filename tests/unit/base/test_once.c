@@ -2,6 +2,7 @@
 #include "base/once.h"
 
 #include "../../share.h"
+#include "../../suite.h"
 #include "../../together.h"
 
 #include <stdlib.h>
@@ -92,9 +93,5 @@ int main(void)
     tcase_add_test(tests, zeros_are_nothing_yet);
     tcase_add_test(tests, threads_agree);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -5,22 +5,17 @@
 #include "map/map.h"
 #include "method/chart_create.h"
 
+#include "../../default_env.h"
 #include "../../hard_shapes.h"
 #include "../../shapes.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
 
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
-
 static icc_chart *chart_of(const shape *s, int32_t cells)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const icc_chart_options options = {.method = ICC_METHOD_GRADIENT, .cells = cells};
     icc_domain *domain;
     icc_chart *chart;
@@ -65,7 +60,7 @@ static const icc_map_options ANY_KIND = {0};
 START_TEST(methods_do_not_mix)
 {
     const shape s = shape_square();
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_chart *a = chart_of(&s, 5), *b = chart_of(&s, 5);
     icc_map *map;
     icc_error err = {.size = sizeof err};
@@ -81,7 +76,7 @@ END_TEST
 START_TEST(dimensions_do_not_mix)
 {
     const shape s = shape_square();
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_chart *a = chart_of(&s, 5), *b = chart_of(&s, 5);
     icc_map *map;
     icc_error err = {.size = sizeof err};
@@ -188,7 +183,7 @@ END_TEST
 /* A foliation of a dumbbell whose maximum lies in the corridor. */
 static icc_chart *chart_of_corridor(const icc_domain *domain, int32_t cells)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_harmonic base = {0};
     icc_chart *chart;
     uint32_t pieces[12];
@@ -207,7 +202,7 @@ static icc_chart *chart_of_corridor(const icc_domain *domain, int32_t cells)
 START_TEST(the_maximum_may_lie_on_the_boundary)
 {
     for (int k = 0; k < 9; ++k) {
-        const iccp_env env = plain_env();
+        const iccp_env env = default_env();
         const shape s = shape_dumbbell(ldexp(1, -46 - k / 3));
         icc_domain *domain;
         ck_assert_int_eq(iccp_domain_create(&domain, 2, s.n, s.xy, 0, NULL, &env, NULL), ICC_OK);
@@ -254,9 +249,5 @@ int main(void)
     tcase_add_test(tests, curves_from_a_grid_line_go_into_the_domain);
     tcase_add_test(tests, inward_is_inward);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -13,13 +13,6 @@
 
 enum { MAX_FEATURES = 8, MAX_CHAIN = 8, SIDE = 24 };
 
-/* ck_assert() makes a system call each time; in inner loops this does the same. */
-#define REQUIRE(condition)                                                                         \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            ck_abort_msg("%s", #condition);                                                        \
-    } while (0)
-
 typedef struct spot {
     int64_t x, y;
 } spot;

@@ -3,6 +3,7 @@
 #include "features.h"
 
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,7 +23,7 @@ static bool read_part(const char *text, bool *is_vertex, int *number)
 static chain part_of(const chain *c, bool is_vertex, int number)
 {
     chain part = {.kind = is_vertex ? ICC_FEATURE_POINT : ICC_FEATURE_LINE, .n = is_vertex ? 1 : 2};
-    REQUIRE(number >= 0 && number < (is_vertex ? c->n : count_edges(c)));
+    ck_assert(number >= 0 && number < (is_vertex ? c->n : count_edges(c)));
     part.at[0] = corner(c, number);
     part.at[1] = corner(c, number + 1);
     return part;
@@ -33,21 +34,21 @@ static void check_outside(const picture *p, const char *message, const char *res
 {
     bool is_vertex[2];
     int number[2], other = -1;
-    REQUIRE(read_part(rest, &is_vertex[0], &number[0]));
+    ck_assert(read_part(rest, &is_vertex[0], &number[0]));
     const chain part = part_of(own, is_vertex[0], number[0]);
     const char *what = strchr(rest, ',') + 2;
     if (strncmp(what, "lies on the", 11) == 0) {
-        REQUIRE(where_in_ring(&p->chains[0], part.at[0]) == ICC_BOUNDARY);
+        ck_assert(where_in_ring(&p->chains[0], part.at[0]) == ICC_BOUNDARY);
     } else if (strncmp(what, "lies outside the", 16) == 0) {
-        REQUIRE(where_in_ring(&p->chains[0], part.at[0]) == ICC_OUTSIDE);
+        ck_assert(where_in_ring(&p->chains[0], part.at[0]) == ICC_OUTSIDE);
     } else if (sscanf(what, "lies in feature %d", &other) == 1) {
-        REQUIRE(other >= 0 && other < p->n && p->chains[other + 1].kind == ICC_FEATURE_HOLE);
-        REQUIRE(where_in_ring(&p->chains[other + 1], part.at[0]) == ICC_INSIDE);
+        ck_assert(other >= 0 && other < p->n && p->chains[other + 1].kind == ICC_FEATURE_HOLE);
+        ck_assert(where_in_ring(&p->chains[other + 1], part.at[0]) == ICC_INSIDE);
     } else {
         ck_assert_msg(strstr(what, "the outer ring, edge") != NULL, "%s", message);
-        REQUIRE(read_part(strstr(what, "ring, ") + 6, &is_vertex[1], &number[1]));
+        ck_assert(read_part(strstr(what, "ring, ") + 6, &is_vertex[1], &number[1]));
         const chain ring_edge = part_of(&p->chains[0], false, number[1]);
-        REQUIRE(!is_vertex[0] && chains_meet(&part, &ring_edge));
+        ck_assert(!is_vertex[0] && chains_meet(&part, &ring_edge));
     }
 }
 
@@ -59,9 +60,9 @@ static void check_pair(const picture *p, const char *message, const char *rest, 
     int number[2], other = -1;
     const char *second = strstr(rest, "feature ");
     ck_assert_msg(second != NULL && sscanf(second, "feature %d", &other) == 1, "%s", message);
-    REQUIRE(other >= 0 && other < feature);
-    REQUIRE(read_part(rest, &is_vertex[0], &number[0]));
-    REQUIRE(read_part(strstr(second, "), ") + 3, &is_vertex[1], &number[1]));
+    ck_assert(other >= 0 && other < feature);
+    ck_assert(read_part(rest, &is_vertex[0], &number[0]));
+    ck_assert(read_part(strstr(second, "), ") + 3, &is_vertex[1], &number[1]));
     const chain a = part_of(own, is_vertex[0], number[0]),
                 b = part_of(&p->chains[other + 1], is_vertex[1], number[1]);
     ck_assert_msg(chains_meet(&a, &b), "%s", message);
@@ -76,10 +77,10 @@ static void check_report(const picture *p, icc_status status, const icc_error *e
 {
     int feature = -1, length = 0;
     static const char *const names[] = {"", "(a hole)", "(a line)", "(a point)"};
-    REQUIRE(status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE);
+    ck_assert(status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE);
     if (err->item != ICC_ITEM_FEATURE) {
-        REQUIRE(status == ICC_ERR_BOUNDARY && strstr(err->message, "feature") == NULL);
-        REQUIRE(meets_itself(&p->chains[0]));
+        ck_assert(status == ICC_ERR_BOUNDARY && strstr(err->message, "feature") == NULL);
+        ck_assert(meets_itself(&p->chains[0]));
         return;
     }
     ck_assert_msg(sscanf(err->message, "feature %d (a %*[a-z])%n", &feature, &length) == 1 &&
@@ -103,7 +104,7 @@ static icc_status check_picture(const picture *p, bool expected, double scale, d
     icc_error err;
     request_picture(&q, p, scale, x, y);
     const icc_status status = create(&domain, &q, NULL, &err);
-    REQUIRE((domain != NULL) == (status == ICC_OK));
+    ck_assert((domain != NULL) == (status == ICC_OK));
     ck_assert_msg((status == ICC_OK) == expected, "status %d: %s", (int)status, err.message);
     if (status != ICC_OK)
         check_report(p, status, &err);
@@ -394,9 +395,5 @@ int main(void)
     tcase_set_timeout(checks, 120);
     Suite *suite = suite_create("features");
     suite_add_tcase(suite, checks);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

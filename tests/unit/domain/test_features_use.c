@@ -8,6 +8,7 @@
 #include "icc/stages.h"
 
 #include "../../faulty.h"
+#include "../../suite.h"
 
 #include <float.h>
 #include <math.h>
@@ -150,8 +151,8 @@ static void check_points(const icc_domain *domain, const picture *doubled, doubl
     static double vertices[2 * MAX_CHAIN * (MAX_FEATURES + 1)];
     static uint32_t facets[2 * MAX_CHAIN * (MAX_FEATURES + 1)];
     icc_domain_info info = {.size = sizeof info};
-    REQUIRE(icc_domain_get_info(domain, &info) == ICC_OK);
-    REQUIRE(icc_domain_get_boundary(domain, vertices, facets) == ICC_OK);
+    ck_assert(icc_domain_get_info(domain, &info) == ICC_OK);
+    ck_assert(icc_domain_get_boundary(domain, vertices, facets) == ICC_OK);
     for (int i = -2; i < 2 * SIDE + 3; ++i)
         for (int j = -2; j < 2 * SIDE + 3; ++j) {
             const double p[2] = {scale * i + x, scale * j + y};
@@ -159,9 +160,9 @@ static void check_points(const icc_domain *domain, const picture *doubled, doubl
             int32_t where[2];
             uint32_t facet;
             double bary[2], nearest = HUGE_VAL, at[2];
-            REQUIRE(icc_domain_locate(domain, 1, p, &where[0], &facet, bary, NULL) == ICC_OK);
-            REQUIRE(icc_domain_locate(domain, 1, p, &where[1], NULL, NULL, NULL) == ICC_OK);
-            REQUIRE(where[0] == expected && where[1] == expected && facet < info.n_facets);
+            ck_assert(icc_domain_locate(domain, 1, p, &where[0], &facet, bary, NULL) == ICC_OK);
+            ck_assert(icc_domain_locate(domain, 1, p, &where[1], NULL, NULL, NULL) == ICC_OK);
+            ck_assert(where[0] == expected && where[1] == expected && facet < info.n_facets);
             for (size_t f = 0; f < info.n_facets; ++f)
                 nearest = fmin(nearest, distance_to(vertices + 2 * facets[2 * f],
                                                     vertices + 2 * facets[2 * f + 1], p));
@@ -169,7 +170,7 @@ static void check_points(const icc_domain *domain, const picture *doubled, doubl
                 at[k] = bary[0] * vertices[2 * facets[2 * facet] + (uint32_t)k] +
                         bary[1] * vertices[2 * facets[2 * facet + 1] + (uint32_t)k];
             const double tolerance = 1e-13 * (scale * SIDE + fabs(x) * 1e-2);
-            REQUIRE(fabs(hypot(at[0] - p[0], at[1] - p[1]) - nearest) <= tolerance);
+            ck_assert(fabs(hypot(at[0] - p[0], at[1] - p[1]) - nearest) <= tolerance);
         }
 }
 
@@ -302,12 +303,12 @@ START_TEST(forged)
                 again[at + (size_t)byte] = (unsigned char)(values[i] >> (8 * byte));
             const bool same_bytes = memcmp(again + HEADER, bytes + HEADER, n - HEADER) == 0;
             const icc_status status = load(&other, again, n, true);
-            REQUIRE(status == ICC_OK || status == ICC_ERR_FORMAT || status == ICC_ERR_BOUNDARY ||
-                    status == ICC_ERR_OUTSIDE);
-            REQUIRE((other != NULL) == (status == ICC_OK));
-            REQUIRE(status == ICC_OK || !same_bytes);
+            ck_assert(status == ICC_OK || status == ICC_ERR_FORMAT || status == ICC_ERR_BOUNDARY ||
+                      status == ICC_ERR_OUTSIDE);
+            ck_assert((other != NULL) == (status == ICC_OK));
+            ck_assert(status == ICC_OK || !same_bytes);
             /* A line of three vertices may become a hole, but counts are what they are. */
-            REQUIRE(status != ICC_OK || same_bytes || at >= HEADER + 8 + 16);
+            ck_assert(status != ICC_OK || same_bytes || at >= HEADER + 8 + 16);
             icc_domain_free(other);
         }
     for (size_t size = HEADER; size < n; ++size) {
@@ -629,9 +630,5 @@ int main(void)
     tcase_set_timeout(checks, 120);
     Suite *suite = suite_create("features_use");
     suite_add_tcase(suite, checks);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -8,6 +8,7 @@
 #include "../../npy.h"
 #include "../../random.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -865,9 +866,5 @@ int main(void)
     tcase_add_test(tests, every_failure_is_reported);
     tcase_add_test(tests, wrong_arguments);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

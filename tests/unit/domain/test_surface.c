@@ -3,6 +3,7 @@
 #include "../../faulty.h"
 #include "../../obj.h"
 #include "../../share.h"
+#include "../../suite.h"
 #include "../../surfaces.h"
 #include "base/error.h"
 #include "domain/domain.h"
@@ -19,13 +20,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-
-/* ck_assert() makes a system call each time; in inner loops this does the same. */
-#define REQUIRE(condition)                                                                         \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            ck_abort_msg("%s", #condition);                                                        \
-    } while (0)
 
 /* Where the sets of real surfaces are, if they are there at all. */
 static const char *shared(void)
@@ -52,7 +46,7 @@ static int32_t where_is(const icc_domain *domain, double x, double y, double z)
 {
     const double p[3] = {x, y, z};
     int32_t where;
-    REQUIRE(icc_domain_locate(domain, 1, p, &where, NULL, NULL, NULL) == ICC_OK);
+    ck_assert(icc_domain_locate(domain, 1, p, &where, NULL, NULL, NULL) == ICC_OK);
     return where;
 }
 
@@ -371,8 +365,8 @@ START_TEST(triangles_agree_with_integers)
             }
         }
         const bool met = slow_meet(a, b, n_shared);
-        REQUIRE(iccp_triangles_meet(vertices, first, second) == met);
-        REQUIRE(iccp_triangles_meet(vertices, second, first) == met);
+        ck_assert(iccp_triangles_meet(vertices, first, second) == met);
+        ck_assert(iccp_triangles_meet(vertices, second, first) == met);
         n_met[n_shared] += met;
         ++n_all[n_shared];
     }
@@ -407,11 +401,11 @@ START_TEST(soups_are_searched)
                 met |= iccp_triangles_meet(vertices, faces + 3 * i, faces + 3 * j);
         iccp_facet_tree tree;
         iccp_facet_tree_create(&tree, 3, vertices, N, faces, &env.memory);
-        REQUIRE(tree.boxes != NULL);
-        REQUIRE(iccp_triangles_find(&tree, 3 * N, pair, &env) == ICC_OK);
-        REQUIRE((pair[0] != pair[1]) == met);
+        ck_assert(tree.boxes != NULL);
+        ck_assert(iccp_triangles_find(&tree, 3 * N, pair, &env) == ICC_OK);
+        ck_assert((pair[0] != pair[1]) == met);
         if (met)
-            REQUIRE(iccp_triangles_meet(vertices, faces + 3 * pair[0], faces + 3 * pair[1]));
+            ck_assert(iccp_triangles_meet(vertices, faces + 3 * pair[0], faces + 3 * pair[1]));
         iccp_facet_tree_free(&tree, &env.memory);
         n_found += met;
     }
@@ -464,7 +458,7 @@ START_TEST(fans_are_safe)
         make_cones(n, turns, &r, vertices, faces);
         iccp_facet_tree_create(&tree, 3, vertices, 2 * n, faces, &env.memory);
         uint8_t *good = iccp_fans_find(&tree, n + 2, &env.memory);
-        REQUIRE(tree.boxes != NULL && good != NULL);
+        ck_assert(tree.boxes != NULL && good != NULL);
         for (uint32_t p = 2 * n; p-- > 0;)
             for (uint32_t q = 2 * n; --q > p;) {
                 const uint32_t f = tree.order[p], g = tree.order[q];
@@ -473,12 +467,12 @@ START_TEST(fans_are_safe)
                 first[0] = f < g ? f : g;
                 first[1] = f < g ? g : f;
                 for (uint32_t i = 0; i < 9; ++i)
-                    REQUIRE(faces[3 * f + i / 3] != faces[3 * g + i % 3] ||
-                            !good[faces[3 * f + i / 3]]);
+                    ck_assert(faces[3 * f + i / 3] != faces[3 * g + i % 3] ||
+                              !good[faces[3 * f + i / 3]]);
             }
-        REQUIRE(iccp_triangles_find(&tree, n + 2, pair, &env) == ICC_OK);
-        REQUIRE(pair[0] == first[0] && pair[1] == first[1]);
-        REQUIRE(turns != 2 || !good[n]);
+        ck_assert(iccp_triangles_find(&tree, n + 2, pair, &env) == ICC_OK);
+        ck_assert(pair[0] == first[0] && pair[1] == first[1]);
+        ck_assert(turns != 2 || !good[n]);
         n_good += good[n];
         n_met += first[0] != first[1];
         iccp_free(&env.memory, good);
@@ -518,8 +512,8 @@ static bool needles_meet(const double *vertices, size_t n_vertices, const uint32
     for (uint32_t p = 0; p < n && !slow.met; ++p)
         for (uint32_t q = 0; q < p && !slow.met; ++q)
             (void)compare_needles(&slow, p, q);
-    REQUIRE(iccp_needles_compare(&tree, n_vertices, compare_needles, &fast, &env) == ICC_OK);
-    REQUIRE(fast.met == slow.met);
+    ck_assert(iccp_needles_compare(&tree, n_vertices, compare_needles, &fast, &env) == ICC_OK);
+    ck_assert(fast.met == slow.met);
     *n_compared += fast.n_compared;
     iccp_facet_tree_free(&tree, &env.memory);
     return fast.met;
@@ -573,7 +567,7 @@ static icc_status search_cones(const icc_env *caller, icc_error *err, void *argu
     iccp_facet_tree tree;
     needles all = {.tree = &tree};
     (void)argument;
-    REQUIRE(iccp_env_read(&env, caller, err) == ICC_OK);
+    ck_assert(iccp_env_read(&env, caller, err) == ICC_OK);
     for (uint32_t i = 0; i < N; ++i) {
         const double angle = 6.283185307179586 * i / N;
         const double rim[3] = {cos(angle), sin(angle), i % 2 == 0 ? -0.1 : 0.1};
@@ -645,22 +639,22 @@ static void check_distance(const icc_domain *domain, const double *p, const uint
     int32_t where;
     uint32_t facet;
     double bary[3], best = HUGE_VAL, ignored[3], found = 0;
-    REQUIRE(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
+    ck_assert(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
     for (size_t f = 0; f < n_faces; ++f) {
         const double *corners[3];
         for (int i = 0; i < 3; ++i)
             corners[i] = vertices + 3 * faces[3 * f + (size_t)i];
         best = fmin(best, iccp_simplex_nearest(3, 3, corners, p, ignored));
     }
-    REQUIRE(bary[0] >= 0 && bary[1] >= 0 && bary[2] >= 0);
-    REQUIRE(fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);
+    ck_assert(bary[0] >= 0 && bary[1] >= 0 && bary[2] >= 0);
+    ck_assert(fabs(bary[0] + bary[1] + bary[2] - 1) < 1e-15);
     for (int k = 0; k < 3; ++k) {
         double x = -p[k];
         for (int i = 0; i < 3; ++i)
             x += bary[i] * vertices[3 * faces[3 * facet + (uint32_t)i] + (uint32_t)k];
         found += x * x;
     }
-    REQUIRE(fabs(sqrt(found) - sqrt(best)) < 1e-14);
+    ck_assert(fabs(sqrt(found) - sqrt(best)) < 1e-14);
 }
 
 static void check_points(const icc_domain *domain, const surface *of, int n, random_source *r)
@@ -670,7 +664,7 @@ static void check_points(const icc_domain *domain, const surface *of, int n, ran
         for (int k = 0; k < 3; ++k)
             p[k] = 2.4 * random_unit(r) - 1.2;
         const double turns = fabs(winding(of->n_faces, of->faces, of->vertices, p));
-        REQUIRE(where_is(domain, p[0], p[1], p[2]) == (turns > 0.5 ? ICC_INSIDE : ICC_OUTSIDE));
+        ck_assert(where_is(domain, p[0], p[1], p[2]) == (turns > 0.5 ? ICC_INSIDE : ICC_OUTSIDE));
         check_distance(domain, p, of->faces, of->vertices, of->n_faces);
     }
 }
@@ -688,16 +682,16 @@ static void check_own_points(const icc_domain *domain, const surface *of, random
             int32_t where;
             uint32_t facet;
             double bary[3];
-            REQUIRE(icc_domain_locate(domain, 1, v, &where, &facet, bary, NULL) == ICC_OK);
+            ck_assert(icc_domain_locate(domain, 1, v, &where, &facet, bary, NULL) == ICC_OK);
             int corner = 0;
             while (corner < 3 && !(bary[corner] == 1))
                 ++corner;
-            REQUIRE(where == ICC_BOUNDARY && corner < 3);
-            REQUIRE(of->faces[3 * facet + (uint32_t)corner] == of->faces[3 * f + (size_t)i]);
+            ck_assert(where == ICC_BOUNDARY && corner < 3);
+            ck_assert(of->faces[3 * facet + (uint32_t)corner] == of->faces[3 * f + (size_t)i]);
             for (int k = 0; k < 3; ++k)
                 p[k] += weights[i] / sum * v[k];
         }
-        REQUIRE(where_is(domain, p[0], p[1], p[2]) == ICC_BOUNDARY);
+        ck_assert(where_is(domain, p[0], p[1], p[2]) == ICC_BOUNDARY);
     }
 }
 
@@ -741,8 +735,8 @@ START_TEST(orientation_is_exact)
         icc_domain_info info = {.size = sizeof info};
         ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
         const double expect = volume(&s);
-        REQUIRE((expect > 0) == (info.orientation > 0) && fabs(expect) > 0.1);
-        REQUIRE(fabs(info.measure - fabs(expect)) < 1e-13);
+        ck_assert((expect > 0) == (info.orientation > 0) && fabs(expect) > 0.1);
+        ck_assert(fabs(info.measure - fabs(expect)) < 1e-13);
         icc_domain_free(domain);
         ++n_made;
     }
@@ -779,21 +773,21 @@ START_TEST(lattice_points_are_placed)
             ++all;
         }
         const int32_t expect = n == 0 ? ICC_OUTSIDE : n == all ? ICC_INSIDE : ICC_BOUNDARY;
-        REQUIRE(where_is(domain, 0.5 * at[0], 0.5 * at[1], 0.5 * at[2]) == expect);
+        ck_assert(where_is(domain, 0.5 * at[0], 0.5 * at[1], 0.5 * at[2]) == expect);
         double p[3] = {0.5 * at[0], 0.5 * at[1], 0.5 * at[2]}, local[3];
         iccp_frame_in(&domain->frame, 3, p, local);
         for (int axis = 0; axis < 3; ++axis) {
             iccp_line_crossing crossings[64];
             const size_t n_crossings = iccp_domain_line(domain, axis, local, 64, crossings);
-            REQUIRE(n_crossings % 2 == 0 && n_crossings <= 64);
+            ck_assert(n_crossings % 2 == 0 && n_crossings <= 64);
             size_t n_before = 0;
             for (size_t i = 0; i < n_crossings; ++i) {
-                REQUIRE(i == 0 || crossings[i - 1].at <= crossings[i].at);
+                ck_assert(i == 0 || crossings[i - 1].at <= crossings[i].at);
                 n_before += crossings[i].at < local[axis];
             }
             if (expect != ICC_BOUNDARY)
-                REQUIRE((n_before % 2 == 1) == (expect == ICC_INSIDE));
-            REQUIRE(iccp_domain_line(domain, axis, local, 1, crossings) == n_crossings);
+                ck_assert((n_before % 2 == 1) == (expect == ICC_INSIDE));
+            ck_assert(iccp_domain_line(domain, axis, local, 1, crossings) == n_crossings);
         }
     }
     icc_domain_free(domain);
@@ -819,14 +813,14 @@ START_TEST(segments_do_not_slip_through)
         }
         for (int k = 0; k < 3; ++k)
             end[k] = 1.5 * target[k] / sum;
-        REQUIRE(iccp_domain_cross(domain, origin, end, &share, &facet, bary));
-        REQUIRE(fabs(share - 1 / 1.5) < 1e-14);
+        ck_assert(iccp_domain_cross(domain, origin, end, &share, &facet, bary));
+        ck_assert(fabs(share - 1 / 1.5) < 1e-14);
         iccp_domain_facet_point(domain, facet, bary, at);
         for (int k = 0; k < 3; ++k) {
-            REQUIRE(fabs(at[k] - target[k] / sum) < 1e-14);
+            ck_assert(fabs(at[k] - target[k] / sum) < 1e-14);
             end[k] = 0.5 * target[k] / sum;
         }
-        REQUIRE(!iccp_domain_cross(domain, origin, end, &share, &facet, bary));
+        ck_assert(!iccp_domain_cross(domain, origin, end, &share, &facet, bary));
     }
     icc_domain_free(domain);
 }
@@ -953,14 +947,14 @@ static void check_lines(const icc_domain *domain, int dim, const double *p, int 
         sum += fabs(p[k]);
     const double half = one - (sum - fabs(p[axis]));
     const size_t n = iccp_domain_line(domain, axis, p, 2, line);
-    REQUIRE(n == 2 || (n == 0 && half < 1e-14));
+    ck_assert(n == 2 || (n == 0 && half < 1e-14));
     if (n == 2 && half > 1e-9)
-        REQUIRE(fabs(line[0].at + half) < 1e-13 && fabs(line[1].at - half) < 1e-13);
+        ck_assert(fabs(line[0].at + half) < 1e-13 && fabs(line[1].at - half) < 1e-13);
     if (fabs(sum - one) < 1e-13)
         return;
     const bool out = iccp_domain_cross(domain, origin, p, &share, &facet, bary);
-    REQUIRE(out == (sum > one));
-    REQUIRE(!out || fabs(share - one / sum) < 1e-13);
+    ck_assert(out == (sum > one));
+    ck_assert(!out || fabs(share - one / sum) < 1e-13);
 }
 
 static void check_cross_polytope(const icc_domain *domain, int dim, random_source *r)
@@ -973,16 +967,16 @@ static void check_cross_polytope(const icc_domain *domain, int dim, random_sourc
             p[k] = i % 2 ? (random_below(r, 9) - 4) / 8.0 : 1.5 * random_unit(r) - 0.75;
             sum += fabs(p[k]);
         }
-        REQUIRE(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
-        REQUIRE(where == (fabs(sum - 1) < 1e-14 ? ICC_BOUNDARY
-                          : sum < 1             ? ICC_INSIDE
-                                                : ICC_OUTSIDE));
+        ck_assert(icc_domain_locate(domain, 1, p, &where, &facet, bary, NULL) == ICC_OK);
+        ck_assert(where == (fabs(sum - 1) < 1e-14 ? ICC_BOUNDARY
+                            : sum < 1             ? ICC_INSIDE
+                                                  : ICC_OUTSIDE));
         iccp_domain_facet_point(domain, facet, bary, at);
         iccp_frame_out(&domain->frame, dim, at, at);
         for (int k = 0; k < dim; ++k)
             distance2 += (at[k] - p[k]) * (at[k] - p[k]);
         if (where != ICC_OUTSIDE) /* the nearest facet is the one of p's own orthant */
-            REQUIRE(fabs(sqrt(distance2) - fabs(1 - sum) / sqrt(dim)) < 1e-13);
+            ck_assert(fabs(sqrt(distance2) - fabs(1 - sum) / sqrt(dim)) < 1e-13);
         iccp_frame_in(&domain->frame, dim, p, local);
         check_lines(domain, dim, local, i % dim);
     }
@@ -1071,22 +1065,22 @@ START_TEST(nearest_points_are_nearest)
             p[k] = (k == 0 ? 1 : thin) * (2 * random_unit(&r) - 0.5);
         const double distance2 = iccp_simplex_nearest(dim, n, corners, p, bary);
         for (size_t i = 0; i < n; ++i) {
-            REQUIRE(bary[i] >= 0);
+            ck_assert(bary[i] >= 0);
             sum += bary[i];
             for (size_t k = 0; k < dim; ++k)
                 x[k] += bary[i] * v[i][k];
         }
-        REQUIRE(fabs(sum - 1) < 1e-15);
+        ck_assert(fabs(sum - 1) < 1e-15);
         for (size_t k = 0; k < dim; ++k)
             away2 += (p[k] - x[k]) * (p[k] - x[k]);
-        REQUIRE(fabs(sqrt(away2) - sqrt(distance2)) < 1e-14);
+        ck_assert(fabs(sqrt(away2) - sqrt(distance2)) < 1e-14);
         for (size_t i = 0; i < n; ++i) {
             double product = 0, length2 = 0;
             for (size_t k = 0; k < dim; ++k) {
                 product += (p[k] - x[k]) * (v[i][k] - x[k]);
                 length2 += (v[i][k] - x[k]) * (v[i][k] - x[k]);
             }
-            REQUIRE(product <= 0 || product * product <= length2 * (1e-15 * distance2 + 1e-31));
+            ck_assert(product <= 0 || product * product <= length2 * (1e-15 * distance2 + 1e-31));
             n_inner += product > -1e-13;
         }
     }
@@ -1189,8 +1183,8 @@ START_TEST(polygons_answer_too)
         for (size_t k = 0; k < n; ++k)
             n_before += line[k].at < p[0];
         const bool inside = iccp_domain_locate(domain, p, true, NULL, NULL) == ICC_INSIDE;
-        REQUIRE(n % 2 == 0 && (n_before % 2 == 1) == inside);
-        REQUIRE(iccp_domain_cross(domain, origin, p, &share, &facet, bary) || inside);
+        ck_assert(n % 2 == 0 && (n_before % 2 == 1) == inside);
+        ck_assert(iccp_domain_cross(domain, origin, p, &share, &facet, bary) || inside);
     }
     icc_domain_free(domain);
 }
@@ -1222,7 +1216,8 @@ START_TEST(real_surfaces_are_accepted)
             for (int a = 0; a < 3; ++a)
                 p[a] = random_between(&r, info.lower[a], info.upper[a]);
             const double turns = winding(o.n_faces, o.faces, o.vertices, p);
-            REQUIRE(where_is(domain, p[0], p[1], p[2]) == (turns > 0.5 ? ICC_INSIDE : ICC_OUTSIDE));
+            ck_assert(where_is(domain, p[0], p[1], p[2]) ==
+                      (turns > 0.5 ? ICC_INSIDE : ICC_OUTSIDE));
         }
         icc_domain_free(domain);
         obj_free(&o);
@@ -1316,9 +1311,5 @@ int main(void)
     tcase_add_test(tests, real_surfaces_are_accepted);
     tcase_add_test(tests, bad_files_are_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -6,6 +6,7 @@
 #include "gradient/grid/rasterise.h"
 
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -547,9 +548,5 @@ int main(void)
     tcase_add_test(tests, hopeless_walks_end);
     tcase_add_test(tests, many_curves_are_as_if_alone);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -3,6 +3,7 @@
 #include "field/flow_exit.h"
 
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -85,9 +86,5 @@ int main(void)
     TCase *tests = tcase_create("flow_exit");
     tcase_add_test(tests, the_first_root_is_the_exit);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -2,8 +2,10 @@
 #include "field/incidence.h"
 #include "gradient/grid/rasterise.h"
 
+#include "../../default_env.h"
 #include "../../random.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -13,13 +15,6 @@
 enum { MAX_CELLS = 256 };
 
 static const double NEAR = 1e-9;
-
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* A box with boxes cut out of it, tried until it is one piece without holes. */
 static icc_domain *random_mask(random_source *r, int32_t dim)
@@ -182,7 +177,7 @@ static void check_against(const iccp_incidence *mask, const iccp_incidence *any)
 
 START_TEST(facets_of_masks_are_noted_where_they_pass)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {1};
     for (int round = 0; round < 6; ++round) {
         const int32_t dim = 2 + round % 3;
@@ -213,7 +208,7 @@ END_TEST
 /* Vertices of the grid may have been given up: then only simplices that lie in the mask count. */
 START_TEST(vertices_given_up_have_no_facets)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     static const size_t SHAPE[3] = {2, 2, 2};
     static const uint8_t CELLS[8] = {1, 1, 1, 1, 1, 1, 1, 1};
     icc_domain *domain;
@@ -251,7 +246,7 @@ enum { N_LATTICE = 6 };
 /* A tetrahedron with its corners on the lattice, in a grid without vertices inside. */
 static icc_domain *random_tetrahedron(random_source *r, icc_grid **grid, const uint32_t *order)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
     static const size_t SHAPE[3] = {N_LATTICE, N_LATTICE, N_LATTICE};
     uint32_t faces[12];
@@ -275,7 +270,7 @@ static icc_domain *random_tetrahedron(random_source *r, icc_grid **grid, const u
 START_TEST(the_order_of_the_facets_does_not_matter)
 {
     static const uint32_t ORDERS[2][4] = {{0, 1, 2, 3}, {3, 2, 1, 0}};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     for (uint64_t seed = 0; seed < (uint64_t)share_of(2000); ++seed) {
         iccp_incidence incidence[2];
         icc_domain *domain[2];
@@ -312,9 +307,5 @@ int main(void)
     tcase_add_test(tests, vertices_given_up_have_no_facets);
     tcase_add_test(tests, the_order_of_the_facets_does_not_matter);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

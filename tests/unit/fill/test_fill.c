@@ -1,8 +1,10 @@
 /* Filling surfaces: the surface stays as it is, what comes out is a mesh, and what cannot be filled is
  * named; and the exact signs that all this rests on. */
+#include "../../domains.h"
 #include "../../faulty.h"
 #include "../../hard_bodies.h"
 #include "../../obj.h"
+#include "../../suite.h"
 #include "domain/domain.h"
 #include "fill/fixed.h"
 #include "fill/points.h"
@@ -21,16 +23,9 @@ static icc_domain *make(const surface *s)
     return domain;
 }
 
-static icc_domain_info info_of(const icc_domain *domain)
-{
-    icc_domain_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_domain_get_info(domain, &info), ICC_OK);
-    return info;
-}
-
 static double volume_of(const icc_domain *domain)
 {
-    const icc_domain_info info = info_of(domain);
+    const icc_domain_info info = info_of_domain(domain);
     double *x = malloc(3 * info.n_mesh_vertices * sizeof *x);
     uint32_t *t = malloc(4 * info.n_mesh_simplices * sizeof *t);
     ck_assert_int_eq(icc_domain_get_mesh(domain, x, t), ICC_OK);
@@ -58,7 +53,7 @@ static icc_domain *fill(const surface *s, const icc_fill_options *options)
     icc_error err = {.size = sizeof err};
     ck_assert_msg(icc_domain_fill(&filled, domain, options, NULL, &err) == ICC_OK, "%s",
                   err.message);
-    const icc_domain_info info = info_of(filled);
+    const icc_domain_info info = info_of_domain(filled);
     ck_assert_uint_eq(info.n_vertices, s->n_vertices);
     ck_assert_uint_eq(info.n_facets, s->n_faces);
     double *vertices = malloc(3 * info.n_vertices * sizeof *vertices);
@@ -119,8 +114,8 @@ START_TEST(a_tetrahedron_is_one)
     memcpy(shape.vertices, corners, sizeof corners);
     memcpy(shape.faces, faces, sizeof faces);
     icc_domain *filled = fill(&shape, &options);
-    ck_assert_uint_eq(info_of(filled).n_mesh_simplices, 1);
-    ck_assert_uint_eq(info_of(filled).n_mesh_vertices, 4);
+    ck_assert_uint_eq(info_of_domain(filled).n_mesh_simplices, 1);
+    ck_assert_uint_eq(info_of_domain(filled).n_mesh_vertices, 4);
     icc_domain_free(filled);
 }
 END_TEST
@@ -209,9 +204,9 @@ START_TEST(the_same_bits_again)
     random_source r = {5};
     surface_star(&shape, 3, 0.7, &r);
     icc_domain *a = fill(&shape, NULL), *b = fill(&shape, NULL);
-    const icc_domain_info info = info_of(a);
-    ck_assert_uint_eq(info.n_mesh_vertices, info_of(b).n_mesh_vertices);
-    ck_assert_uint_eq(info.n_mesh_simplices, info_of(b).n_mesh_simplices);
+    const icc_domain_info info = info_of_domain(a);
+    ck_assert_uint_eq(info.n_mesh_vertices, info_of_domain(b).n_mesh_vertices);
+    ck_assert_uint_eq(info.n_mesh_simplices, info_of_domain(b).n_mesh_simplices);
     const size_t n = 3 * info.n_mesh_vertices;
     double *x = malloc(2 * n * sizeof *x);
     ck_assert_int_eq(icc_domain_get_mesh(a, x, NULL), ICC_OK);
@@ -242,7 +237,7 @@ START_TEST(arguments_are_checked)
     ck_assert_ptr_null(out);
     ck_assert_int_eq(icc_domain_get_mesh(domain, NULL, NULL), ICC_ERR_UNSUPPORTED);
     ck_assert_int_eq(icc_domain_get_mesh(NULL, NULL, NULL), ICC_ERR_ARGUMENT);
-    ck_assert_uint_eq(info_of(domain).n_mesh_vertices, 0);
+    ck_assert_uint_eq(info_of_domain(domain).n_mesh_vertices, 0);
     icc_domain_free(domain);
     icc_domain_free(filled);
     icc_domain_free(flat);
@@ -255,7 +250,7 @@ START_TEST(few_points_suffice)
     surface_star(&shape, 3, 0, &r);
     icc_fill_options options = {.size = sizeof options, .max_points = 10};
     icc_domain *filled = fill(&shape, &options);
-    ck_assert_uint_le(info_of(filled).n_mesh_vertices, shape.n_vertices + 10);
+    ck_assert_uint_le(info_of_domain(filled).n_mesh_vertices, shape.n_vertices + 10);
     icc_domain_free(filled);
 }
 END_TEST
@@ -354,9 +349,5 @@ int main(void)
     tcase_add_test(tests, few_points_suffice);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -4,6 +4,7 @@
 
 #include "../../hard_shapes.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -345,9 +346,5 @@ int main(void)
     tcase_add_loop_test(tests, stress_meshes_are_certified, 0, 56);
     tcase_add_test(tests, what_cannot_be_certified_is_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

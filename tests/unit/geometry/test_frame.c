@@ -2,6 +2,9 @@
 #include "geometry/frame.h"
 #include "math/predicates.h"
 
+#include "../../random.h"
+#include "../../suite.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdint.h>
@@ -10,27 +13,11 @@
 
 enum { N = 16 };
 
-/* ck_assert() makes a system call each time; in inner loops this does the same. */
-#define REQUIRE(condition)                                                                         \
-    do {                                                                                           \
-        if (!(condition))                                                                          \
-            ck_abort_msg("%s", #condition);                                                        \
-    } while (0)
-
-static uint64_t state = 1;
-
-/* SplitMix64. */
-static uint64_t next(void)
-{
-    uint64_t z = state += 0x9e3779b97f4a7c15u;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    return z ^ (z >> 31);
-}
+static random_source source = {1};
 
 static int64_t between(int64_t low, int64_t high)
 {
-    return low + (int64_t)(next() % (uint64_t)(high - low + 1));
+    return low + (int64_t)(random_bits(&source) % (uint64_t)(high - low + 1));
 }
 
 static double largest_local(const iccp_frame *frame, size_t n, const double *points, double *local)
@@ -62,19 +49,19 @@ static void check_integers(int64_t span, const int64_t offset[2], int exponent)
     iccp_frame frame;
     iccp_frame_fit(&frame, 2, N, points);
     const double largest = largest_local(&frame, N, points, local);
-    REQUIRE(largest == 0 || (largest >= 0.5 && largest <= 1));
+    ck_assert(largest == 0 || (largest >= 0.5 && largest <= 1));
     for (int i = 0; i < N; ++i) {
-        REQUIRE(iccp_frame_holds(&frame, 2, points + 2 * i));
+        ck_assert(iccp_frame_holds(&frame, 2, points + 2 * i));
         iccp_frame_out(&frame, 2, local + 2 * i, back);
-        REQUIRE(back[0] == points[2 * i] && back[1] == points[2 * i + 1]);
+        ck_assert(back[0] == points[2 * i] && back[1] == points[2 * i + 1]);
         for (int k = 0; k < 2; ++k) {
             const double unit = ldexp(1, exponent) * frame.in[0] * frame.in[1];
-            REQUIRE(local[2 * i + k] - local[k] == (double)(grid[2 * i + k] - grid[k]) * unit);
+            ck_assert(local[2 * i + k] - local[k] == (double)(grid[2 * i + k] - grid[k]) * unit);
         }
     }
     for (int i = 0; i + 2 < N; ++i)
-        REQUIRE(iccp_orient2d(local + 2 * i, local + 2 * i + 2, local + 2 * i + 4) ==
-                exact_turn(grid + 2 * i, grid + 2 * i + 2, grid + 2 * i + 4));
+        ck_assert(iccp_orient2d(local + 2 * i, local + 2 * i + 2, local + 2 * i + 4) ==
+                  exact_turn(grid + 2 * i, grid + 2 * i + 2, grid + 2 * i + 4));
 }
 
 START_TEST(test_exact)
@@ -86,7 +73,7 @@ START_TEST(test_exact)
         for (int i = 0; i < OFFSETS; ++i)
             for (int j = 0; j < OFFSETS; ++j) {
                 const int64_t offset[2] = {offsets[i], offsets[j]};
-                check_integers(1 + (int64_t)(next() % 8), offset, exponent);
+                check_integers(1 + (int64_t)(random_bits(&source) % 8), offset, exponent);
                 check_integers(1 << 20, offset, exponent);
             }
 }
@@ -97,13 +84,13 @@ START_TEST(test_shift)
 {
     int n_shifted = 0;
     for (int round = 0; round < 20000; ++round) {
-        const double sign = next() % 2 == 0 ? 1 : -1,
-                     ratio = 1 + 3 * ldexp((double)(next() >> 11), -53);
-        const double lowest = sign * (1 + ldexp((double)(next() >> 11), -53));
+        const double sign = random_bits(&source) % 2 == 0 ? 1 : -1,
+                     ratio = 1 + 3 * random_unit(&source);
+        const double lowest = sign * (1 + random_unit(&source));
         double points[2 * N], local[2 * N], back[2];
         double low = HUGE_VAL, high = 0;
         for (int i = 0; i < 2 * N; ++i) {
-            points[i] = lowest * (1 + (ratio - 1) * ldexp((double)(next() >> 11), -53));
+            points[i] = lowest * (1 + (ratio - 1) * random_unit(&source));
             if (i % 2 == 0) {
                 low = fmin(low, fabs(points[i]));
                 high = fmax(high, fabs(points[i]));
@@ -112,11 +99,11 @@ START_TEST(test_shift)
         iccp_frame frame;
         iccp_frame_fit(&frame, 2, N, points);
         (void)largest_local(&frame, N, points, local);
-        REQUIRE(frame.shift[0] == (high <= 2 * low ? sign * low : 0));
+        ck_assert(frame.shift[0] == (high <= 2 * low ? sign * low : 0));
         n_shifted += high <= 2 * low;
         for (int i = 0; i < N; ++i) {
             iccp_frame_out(&frame, 2, local + 2 * i, back);
-            REQUIRE(back[0] == points[2 * i] && back[1] == points[2 * i + 1]);
+            ck_assert(back[0] == points[2 * i] && back[1] == points[2 * i + 1]);
         }
     }
     ck_assert(n_shifted > 4000 && n_shifted < 16000);
@@ -247,9 +234,5 @@ int main(void)
     tcase_add_test(frame, test_identity);
     Suite *suite = suite_create("frame");
     suite_add_tcase(suite, frame);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -7,6 +7,7 @@
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "../../shapes.h"
+#include "../../suite.h"
 #include "../../surfaces.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"
@@ -771,9 +772,5 @@ int main(void)
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, meshes_by_tetgen);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

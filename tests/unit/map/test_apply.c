@@ -6,6 +6,8 @@
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
 #include "../../saved.h"
+#include "../../shape_domains.h"
+#include "../../suite.h"
 #include "../../together.h"
 
 #include <check.h>
@@ -14,13 +16,6 @@
 #include <stdlib.h>
 
 /* ---- where points lie ---- */
-
-static icc_domain *domain_of(const shape *s)
-{
-    icc_domain *domain = NULL;
-    (void)icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL);
-    return domain;
-}
 
 /* Where it is: as it is; so far away that the band is as wide as the doubles there are apart; far
  * away along one axis only. */
@@ -126,7 +121,7 @@ START_TEST(points_near_the_boundary_are_located_by_it)
             t.xy[2 * k] += 0.3 * t.xy[2 * k + 1];
         place(&s, where);
         place(&t, where);
-        icc_domain *source = domain_of(&s), *target = domain_of(&t);
+        icc_domain *source = domain_of_shape(&s), *target = domain_of_shape(&t);
         icc_map *map = NULL;
         if (source != NULL && target != NULL)
             (void)icc_map_create(&map, source, target, &options, NULL, NULL);
@@ -167,8 +162,8 @@ static fixture set_up(int32_t method)
     random_source r = {7};
     t.xy[4] += 0.4;
     t.xy[7] -= 0.3;
-    f.source = domain_of(&s);
-    f.target = domain_of(&t);
+    f.source = domain_of_shape(&s);
+    f.target = domain_of_shape(&t);
     ck_assert_int_eq(icc_map_create(&map, f.source, f.target, &options, NULL, NULL), ICC_OK);
     f.saved = map_bytes(map);
     icc_map_free(map);
@@ -328,7 +323,7 @@ static bytes follow(const icc_map *map, double x, const icc_env *env, icc_map **
     shape t = shape_l();
     t.xy[4] += 0.4 + x;
     t.xy[7] -= 0.3;
-    icc_domain *target = domain_of(&t);
+    icc_domain *target = domain_of_shape(&t);
     icc_map *own = NULL;
     ck_assert_int_eq(icc_map_retarget(&own, map, target, 0, env, NULL), ICC_OK);
     icc_domain_free(target);
@@ -440,9 +435,5 @@ int main(void)
     tcase_add_test(tests, following_survives_failures);
     tcase_add_test(tests, threads_may_follow_at_once);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

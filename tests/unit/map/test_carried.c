@@ -7,17 +7,12 @@
 #include "map/plane/plane_kind.h"
 #include "mesh/planar.h"
 
+#include "../../default_env.h"
 #include "../../feature_pairs.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <stdlib.h>
-
-static iccp_env default_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* A square with a hole and two points. */
 static plan pins(void)
@@ -190,9 +185,5 @@ int main(void)
     tcase_add_test(c, followed);
     tcase_add_test(c, followed_to_other_sizes);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "../../shapes.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <icc/icc.h>
@@ -421,9 +422,5 @@ int main(void)
     tcase_add_test(tests, bad_meshes_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
  * in several pieces. */
 #include "../../faulty.h"
 #include "../../meshes.h"
+#include "../../suite.h"
 
 #include "domain/boundary_parts.h"
 #include "domain/mesh_domain.h"
@@ -371,9 +372,5 @@ int main(void)
     tcase_add_test(tests, each_point_lies_in_one_simplex_at_most);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

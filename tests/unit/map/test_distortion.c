@@ -4,6 +4,7 @@
 #include "map/energy/untangling.h"
 
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -526,9 +527,5 @@ int main(void)
     tcase_add_test(tests, singular_values_and_vectors);
     tcase_add_test(tests, chi_stands_for_the_determinant);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

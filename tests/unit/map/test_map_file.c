@@ -1,26 +1,19 @@
 /* Maps as bytes: what is loaded is what was saved, goes on as that would, and nothing else is
  * loaded. */
+#include "../../domains.h"
 #include "../../faulty.h"
 #include "../../feature_pairs.h"
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
 #include "../../saved.h"
+#include "../../shape_domains.h"
 #include "../../share.h"
+#include "../../suite.h"
 #include "../../surfaces.h"
 
 static const int32_t METHODS[] = {ICC_METHOD_FOLIATION, ICC_METHOD_DISC, ICC_METHOD_GRADIENT,
                                   ICC_METHOD_FIELD};
 enum { N_METHODS = 4 };
-
-typedef struct pair {
-    icc_domain *source, *target;
-} pair;
-
-static void free_pair(pair *p)
-{
-    icc_domain_free(p->source);
-    icc_domain_free(p->target);
-}
 
 /* Somewhat bent, by an amount. */
 static void bend(shape *s, double amount)
@@ -33,21 +26,14 @@ static void bend(shape *s, double amount)
     }
 }
 
-static icc_domain *polygon(const shape *s)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
-
-static pair bent_pair(const shape *s)
+static domain_pair bent_pair(const shape *s)
 {
     shape moved = *s;
     bend(&moved, 0.2);
-    return (pair){polygon(s), polygon(&moved)};
+    return (domain_pair){domain_of_shape(s), domain_of_shape(&moved)};
 }
 
-static icc_map *map_of(const pair *p, int32_t kind, int32_t method, int32_t cells,
+static icc_map *map_of(const domain_pair *p, int32_t kind, int32_t method, int32_t cells,
                        int32_t iterations)
 {
     const icc_chart_options chart = {.size = sizeof chart, .method = method, .cells = cells};
@@ -90,12 +76,12 @@ START_TEST(curves)
     for (int turn = 0; turn < 2; ++turn)
         for (int m = 0; m < N_METHODS; ++m) {
             const shape l = shape_l(), other = shape_reversed(&l);
-            pair p = bent_pair(turn == 0 ? &l : &other);
+            domain_pair p = bent_pair(turn == 0 ? &l : &other);
             icc_map *map = map_of(&p, ICC_MAP_CURVES, METHODS[m], 14, 0);
             ck_assert_int_eq(map_story(map).kind, ICC_MAP_CURVES);
             check_map(map, p.source);
             icc_map_free(map);
-            free_pair(&p);
+            domain_pair_free(&p);
         }
 }
 END_TEST
@@ -105,11 +91,11 @@ START_TEST(plane_meshes)
     for (int k = 0; k < N_SHAPES - 1; ++k)
         for (int m = 0; m < 2; ++m) {
             const shape s = shape_number(k), r = shape_reversed(&s);
-            pair p = bent_pair(k % 2 == 0 ? &s : &r);
+            domain_pair p = bent_pair(k % 2 == 0 ? &s : &r);
             icc_map *map = map_of(&p, ICC_MAP_MESH, METHODS[m], 0, k % 3 == 0 ? -1 : 3);
             check_map(map, p.source);
             icc_map_free(map);
-            free_pair(&p);
+            domain_pair_free(&p);
         }
 }
 END_TEST
@@ -122,7 +108,7 @@ START_TEST(hard_meshes)
         const shape s = shape_hard(k);
         const icc_map_options options = {
             .size = sizeof options, .kind = ICC_MAP_MESH, .iterations = 2};
-        pair p = {polygon(&s), NULL};
+        domain_pair p = {domain_of_shape(&s), NULL};
         icc_map *map = NULL;
         shape moved = shape_moved(&s, 3, 1, 2);
         if (k % 2 == 1)
@@ -133,7 +119,7 @@ START_TEST(hard_meshes)
             n += map_story(map).kind == ICC_MAP_MESH;
             icc_map_free(map);
         }
-        free_pair(&p);
+        domain_pair_free(&p);
     }
     ck_assert_int_gt(n, 8);
 }
@@ -148,23 +134,23 @@ START_TEST(far_meshes)
         round.xy[2 * k] = cos(6.283185307179586 * (double)k / (double)s.n);
         round.xy[2 * k + 1] = sin(6.283185307179586 * (double)k / (double)s.n);
     }
-    pair p = {polygon(&s), polygon(&round)};
+    domain_pair p = {domain_of_shape(&s), domain_of_shape(&round)};
     icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 2);
     ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
     check_map(map, p.source);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
-static pair feature_pair(int k)
+static domain_pair feature_pair(int k)
 {
     plan source, target;
     plans_number(k, &source, &target);
-    return (pair){plan_domain(&source), plan_domain(&target)};
+    return (domain_pair){plan_domain(&source), plan_domain(&target)};
 }
 
-static icc_map *feature_map(const pair *p, int32_t iterations)
+static icc_map *feature_map(const domain_pair *p, int32_t iterations)
 {
     const icc_map_options options = {.size = sizeof options, .iterations = iterations};
     icc_map *map;
@@ -179,12 +165,12 @@ START_TEST(features)
 {
     for (int k = 0; k < N_PLANS; ++k)
         for (int turn = 0; turn < 2; ++turn) {
-            pair p = feature_pair(k);
-            const pair used = turn == 0 ? p : (pair){p.target, p.source};
+            domain_pair p = feature_pair(k);
+            const domain_pair used = turn == 0 ? p : (domain_pair){p.target, p.source};
             icc_map *map = feature_map(&used, k % 2 == 0 ? 0 : -1);
             check_map(map, used.source);
             icc_map_free(map);
-            free_pair(&p);
+            domain_pair_free(&p);
         }
 }
 END_TEST
@@ -195,7 +181,7 @@ START_TEST(features_go_on)
     for (int k = 0; k < N_PLANS; ++k) {
         plan source, target;
         plans_number(k, &source, &target);
-        pair p = {plan_domain(&source), plan_domain(&target)};
+        domain_pair p = {plan_domain(&source), plan_domain(&target)};
         icc_map *map = feature_map(&p, 0), *better[2], *next[2];
         bytes b = map_bytes(map);
         icc_map *loaded = load(&b);
@@ -218,7 +204,7 @@ START_TEST(features_go_on)
         icc_map_free(loaded);
         icc_map_free(map);
         icc_domain_free(further);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -229,9 +215,9 @@ START_TEST(it_goes_on)
     for (int turn = 0; turn < 2; ++turn) {
         const shape e = shape_e(), back = shape_reversed(&e);
         shape further = turn == 0 ? e : back;
-        pair p = bent_pair(&further);
+        domain_pair p = bent_pair(&further);
         bend(&further, 0.23);
-        icc_domain *target = polygon(&further);
+        icc_domain *target = domain_of_shape(&further);
         icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 8, -1), *next[2], *better[2];
         bytes b = map_bytes(map);
         icc_map *loaded = load(&b);
@@ -254,7 +240,7 @@ START_TEST(it_goes_on)
         icc_map_free(loaded);
         icc_map_free(map);
         icc_domain_free(target);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -269,12 +255,12 @@ static void twist(int32_t dim, const double *x, double *y)
         y[k] = 1.5 * x[k] - 0.07 * x[0] * x[1];
 }
 
-static pair filled_pair(int32_t dim, size_t n)
+static domain_pair filled_pair(int32_t dim, size_t n)
 {
     random_source r = {1};
     test_mesh before = mesh_cube(dim, n, 0.1, &r), other = mesh_cube(dim, n, 0.1, &r);
     test_mesh after = mesh_moved(&other, twist);
-    pair p;
+    domain_pair p;
     ck_assert_int_eq(mesh_domain(&p.source, &before, NULL, NULL), ICC_OK);
     ck_assert_int_eq(mesh_domain(&p.target, &after, NULL, NULL), ICC_OK);
     mesh_free(&before);
@@ -286,12 +272,12 @@ static pair filled_pair(int32_t dim, size_t n)
 START_TEST(filled)
 {
     for (int32_t dim = 2; dim <= 4; ++dim) {
-        pair p = filled_pair(dim, 3);
+        domain_pair p = filled_pair(dim, 3);
         icc_map *map = map_of(&p, 0, 0, 0, 0);
         ck_assert_int_eq(map_story(map).kind, dim == 3 ? ICC_MAP_MESH : ICC_MAP_CURVES);
         check_map(map, p.source);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -319,7 +305,7 @@ static icc_domain *dented_cube(const icc_domain *cube)
 START_TEST(cut_chords)
 {
     test_mesh cube = mesh_cells(3, 1, NULL);
-    pair p;
+    domain_pair p;
     ck_assert_int_eq(mesh_domain(&p.source, &cube, NULL, NULL), ICC_OK);
     p.target = dented_cube(p.source);
     icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 0);
@@ -339,7 +325,7 @@ START_TEST(cut_chords)
     ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
     free(b.data);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
     mesh_free(&cube);
 }
 END_TEST
@@ -348,7 +334,7 @@ START_TEST(surfaces)
 {
     static surface s;
     random_source r = {3};
-    pair p;
+    domain_pair p;
     surface_octahedron(&s);
     surface_star(&s, 1, 0.2, &r);
     for (int m = 2; m < N_METHODS; ++m) {
@@ -363,7 +349,7 @@ START_TEST(surfaces)
         icc_map *map = map_of(&p, 0, METHODS[m], 10, 0);
         check_map(map, p.source);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -372,7 +358,7 @@ END_TEST
 
 enum { N_SMALL = 5 };
 
-static icc_map *small_map(int k, pair *p)
+static icc_map *small_map(int k, domain_pair *p)
 {
     const shape s = shape_dart();
     if (k == 3) {
@@ -394,24 +380,25 @@ static icc_map *small_map(int k, pair *p)
     return next;
 }
 
-START_TEST(damage_is_noticed)
+static icc_status load_map(const bytes *b, icc_error *err)
 {
     icc_map *loaded;
+    const icc_status status = icc_map_load(&loaded, b->n, b->data, NULL, err);
+    ck_assert((loaded != NULL) == (status == ICC_OK));
+    icc_map_free(loaded);
+    return status;
+}
+
+START_TEST(damage_is_noticed)
+{
     for (int k = 0; k < N_SMALL; ++k) {
-        pair p;
+        domain_pair p;
         icc_map *map = small_map(k, &p);
         bytes b = map_bytes(map);
-        for (size_t n = 0; n < b.n; n += n < 100 ? 1 : 37)
-            ck_assert_int_eq(icc_map_load(&loaded, n, b.data, NULL, NULL), ICC_ERR_FORMAT);
-        for (size_t i = 0; i < b.n; ++i) {
-            b.data[i] ^= 0x10;
-            ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_ERR_FORMAT);
-            ck_assert_ptr_null(loaded);
-            b.data[i] ^= 0x10;
-        }
+        check_damage(&b, load_map);
         free(b.data);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -420,7 +407,7 @@ END_TEST
 START_TEST(versions)
 {
     for (int k = 0; k < N_SMALL; ++k) {
-        pair p;
+        domain_pair p;
         icc_map *map = small_map(k, &p), *again;
         bytes b = map_bytes(map);
         for (uint32_t version = 0; version < 4; ++version) {
@@ -437,7 +424,7 @@ START_TEST(versions)
         }
         free(b.data);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -463,37 +450,19 @@ static void check_harmless(const bytes *b, const icc_domain *source)
 
 START_TEST(content_is_checked)
 {
-    static const uint64_t VALUES[] = {0,
-                                      1,
-                                      UINT64_MAX,
-                                      (uint64_t)1 << 32,
-                                      (uint64_t)1 << 63,
-                                      0x7ff8000000000000u,
-                                      0x7ff0000000000000u,
-                                      0x7fefffffffffffffu,
-                                      0x3ff0000000000000u,
-                                      1000000};
     random_source r = {6};
     for (int k = 0; k < N_SMALL; ++k) {
-        pair p;
+        domain_pair p;
         icc_map *map = small_map(k, &p);
         bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
         for (int i = 0; i < share_of(k == 1 ? 200 : 3000); ++i) {
-            const size_t at = 24 + 4 * (size_t)random_below(&r, (int)(b.n - 32) / 4);
-            memcpy(changed.data, b.data, b.n);
-            if (i % 2 == 0)
-                for (size_t j = 0; j < 8; ++j)
-                    changed.data[at + j] = (unsigned char)(VALUES[i / 2 % 10] >> 8 * j);
-            else
-                changed.data[at + (size_t)random_below(&r, 8)] ^=
-                    (unsigned char)(1 << random_below(&r, 8));
-            repair_bytes(&changed, "MAP_");
+            make_up_content(&changed, &b, "MAP_", &r);
             check_harmless(&changed, p.source);
         }
         free(b.data);
         free(changed.data);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
@@ -502,7 +471,7 @@ END_TEST
  * triangles. */
 START_TEST(false_meshes_are_refused)
 {
-    pair p;
+    domain_pair p;
     icc_map *map = small_map(0, &p), *loaded;
     const icc_map_info info = map_story(map);
     const size_t n_boundary = 2 * info.n_vertices - info.n_simplices - 2;
@@ -534,14 +503,14 @@ START_TEST(false_meshes_are_refused)
     free(changed.data);
     free(b.data);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 /* The last image is moved out of the target: tetrahedra are inverted. */
 START_TEST(false_images_in_space_are_refused)
 {
-    pair p;
+    domain_pair p;
     icc_map *map = small_map(3, &p), *loaded;
     bytes b = map_bytes(map);
     for (size_t i = 0; i < 3; ++i) {
@@ -558,7 +527,7 @@ START_TEST(false_images_in_space_are_refused)
     icc_map_free(loaded);
     free(b.data);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -577,20 +546,20 @@ static icc_status load_bytes(const icc_env *env, icc_error *err, void *argument)
 START_TEST(no_memory_and_no_patience)
 {
     for (int k = 0; k < N_SMALL; ++k) {
-        pair p;
+        domain_pair p;
         icc_map *map = small_map(k, &p);
         bytes b = map_bytes(map);
         faulty_sweep(load_bytes, &b);
         free(b.data);
         icc_map_free(map);
-        free_pair(&p);
+        domain_pair_free(&p);
     }
 }
 END_TEST
 
 START_TEST(arguments)
 {
-    pair p;
+    domain_pair p;
     icc_map *map = small_map(0, &p), *loaded = map;
     bytes b = map_bytes(map);
     size_t n;
@@ -604,7 +573,7 @@ START_TEST(arguments)
     ck_assert_ptr_null(loaded);
     free(b.data);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -630,9 +599,5 @@ int main(void)
     tcase_add_test(c, no_memory_and_no_patience);
     tcase_add_test(c, arguments);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,6 +3,7 @@
 #include <icc/icc.h>
 
 #include "../../faulty.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -196,9 +197,5 @@ int main(void)
     tcase_add_loop_test(tests, failures_on_threads_leave_nothing_behind, 0, 2);
     tcase_add_test(tests, the_side_at_fault_is_named);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

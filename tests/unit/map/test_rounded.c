@@ -1,5 +1,6 @@
 /* The mesh of a map as it is handed out, in doubles, far from the origin. */
 #include "../../meshes.h"
+#include "../../suite.h"
 
 #include "math/orient.h"
 
@@ -180,9 +181,5 @@ int main(void)
     tcase_add_test(tests, tetrahedra_too);
     tcase_add_test(tests, certificates_are_about_what_is_handed_out);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,7 +1,9 @@
 #include <icc/icc.h>
 
+#include "../../domains.h"
 #include "../../faulty.h"
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -26,18 +28,11 @@ static void cut_key(double *xy, size_t first, double turn, double scale, bool is
     }
 }
 
-static icc_domain *domain_of(size_t n, const double *xy)
-{
-    icc_domain *domain = NULL;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
-
 static icc_status match_of(icc_match **match, size_t n, const double *a, size_t m, const double *b,
                            size_t n_landmarks, const double *landmarks,
                            const icc_match_options *options, icc_error *err)
 {
-    icc_domain *source = domain_of(n, a), *target = domain_of(m, b);
+    icc_domain *source = domain_of_polygon(n, a), *target = domain_of_polygon(m, b);
     const icc_status status =
         icc_match_create(match, source, target, n_landmarks, landmarks, options, NULL, err);
     icc_domain_free(source);
@@ -488,7 +483,7 @@ static icc_status make_one(const icc_env *env, icc_error *err, void *argument)
 {
     double a[2 * N_CUT];
     cut_key(a, 5, 0, 1, false);
-    icc_domain *source = domain_of(N_KEY, key), *target = domain_of(N_CUT, a);
+    icc_domain *source = domain_of_polygon(N_KEY, key), *target = domain_of_polygon(N_CUT, a);
     icc_match *match = NULL;
     const size_t *const n = argument;
     const double landmark[] = {0, 0, 3, -5};
@@ -527,9 +522,5 @@ int main(void)
     tcase_add_test(tests, matched_outlines_stay);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed != 0;
+    return suite_run(suite);
 }

@@ -1,6 +1,7 @@
 #include <icc/icc.h>
 
 #include "../../faulty.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -350,9 +351,5 @@ int main(void)
     tcase_add_test(tests, passes_through_landmarks_inside);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed != 0;
+    return suite_run(suite);
 }

@@ -1,6 +1,7 @@
 /* Points of one boundary of a match are taken to the other, and a match is saved and loaded. */
 #include "../../faulty.h"
 #include "../../saved.h"
+#include "../../suite.h"
 #include "../../surfaces.h"
 
 #include <math.h>
@@ -388,9 +389,5 @@ int main(void)
     tcase_add_test(tests, what_does_not_correspond_is_refused);
     tcase_add_test(tests, loading_fails_cleanly);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -2,6 +2,8 @@
 #include <icc/icc.h>
 
 #include "../../faulty.h"
+#include "../../suite.h"
+#include "../../surface_domains.h"
 #include "../../surfaces.h"
 
 #include <check.h>
@@ -12,21 +14,11 @@ static const double rounding = 1e-14;
 
 static surface one, two;
 
-static icc_domain *domain_of(const surface *s)
-{
-    icc_domain *domain = NULL;
-    icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces,
-                                    NULL, &err) == ICC_OK,
-                  "%s", err.message);
-    return domain;
-}
-
 /* Landmarks: vertices k of both. */
 static icc_status match_both(icc_match **match, double tolerance, size_t n_landmarks,
                              const icc_env *env, icc_error *err)
 {
-    icc_domain *source = domain_of(&one), *target = domain_of(&two);
+    icc_domain *source = domain_of_surface(&one), *target = domain_of_surface(&two);
     const icc_match_options options = {
         .size = sizeof options, .tolerance = tolerance, .keep_source = 1};
     double landmarks[6 * 12];
@@ -104,7 +96,7 @@ static void check_source(const icc_match *match)
 static void check_off(const surface *from, const surface *to, double most)
 {
     const size_t n = from->n_vertices, n_all = n + from->n_faces;
-    icc_domain *const domain = domain_of(to);
+    icc_domain *const domain = domain_of_surface(to);
     double *const p = malloc(3 * n_all * sizeof *p), *const weight = malloc(3 * n_all * sizeof *p);
     uint32_t *const facet = malloc(n_all * sizeof *facet);
     int32_t *const where = malloc(n_all * sizeof *where);
@@ -313,9 +305,5 @@ int main(void)
     tcase_add_test(tests, only_0_and_1_are_options);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,8 @@
 #include <icc/icc.h>
 
 #include "../../faulty.h"
+#include "../../suite.h"
+#include "../../surface_domains.h"
 #include "../../surfaces.h"
 #include "match/common_mesh/intersections.h"
 #include "match/common_mesh/simplify_apart.h"
@@ -11,20 +13,10 @@
 
 static surface one, two;
 
-static icc_domain *domain_of(const surface *s)
-{
-    icc_domain *domain = NULL;
-    icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_domain_create(&domain, 3, s->n_vertices, s->vertices, s->n_faces, s->faces,
-                                    NULL, &err) == ICC_OK,
-                  "%s", err.message);
-    return domain;
-}
-
 static icc_status match_both(icc_match **match, double tolerance, const icc_env *env,
                              icc_error *err)
 {
-    icc_domain *source = domain_of(&one), *target = domain_of(&two);
+    icc_domain *source = domain_of_surface(&one), *target = domain_of_surface(&two);
     const icc_match_options options = {.size = sizeof options, .tolerance = tolerance};
     const icc_status status = icc_match_create(match, source, target, 0, NULL, &options, env, err);
     icc_domain_free(source);
@@ -72,7 +64,7 @@ static void check_common(const icc_match *match, const icc_match_info *info)
             n_joined += s == 0 && origin[1][v] != UINT32_MAX;
         }
         free(x);
-        icc_domain *const before = domain_of(given[s]);
+        icc_domain *const before = domain_of_surface(given[s]);
         icc_domain_info was = {.size = sizeof was};
         ck_assert_int_eq(icc_domain_get_info(before, &was), ICC_OK);
         ck_assert_double_eq_tol(size[s].measure / was.measure, 1, info->off > 0 ? .02 : 1e-12);
@@ -303,7 +295,7 @@ START_TEST(what_cannot_be_matched_is_refused)
 {
     static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
     surface_octahedron(&one);
-    icc_domain *const solid = domain_of(&one);
+    icc_domain *const solid = domain_of_surface(&one);
     icc_domain *flat = NULL;
     icc_match *match = NULL;
     icc_error err = {.size = sizeof err};
@@ -341,7 +333,7 @@ START_TEST(landmarks_without_room_are_named)
     icc_match *match = NULL;
     icc_error err = {.size = sizeof err};
     surface_star(&one, 1, .2, &r);
-    icc_domain *const solid = domain_of(&one);
+    icc_domain *const solid = domain_of_surface(&one);
     ck_assert_uint_eq(one.n_vertices, 18);
     for (size_t v = 0; v < 18; ++v) {
         memcpy(pairs + 6 * v, one.vertices + 3 * v, 3 * sizeof *pairs);
@@ -383,7 +375,7 @@ START_TEST(landmarks_go_to_their_partners)
                 memcpy(landmarks + 6 * k + 3 * s, given[s]->vertices + 3 * (size_t)at[s][k],
                        3 * sizeof *landmarks);
             }
-        icc_domain *source = domain_of(&one), *target = domain_of(&two);
+        icc_domain *source = domain_of_surface(&one), *target = domain_of_surface(&two);
         icc_match *match = NULL;
         ck_assert_msg(icc_match_create(&match, source, target, n, landmarks, NULL, NULL, &err) ==
                           ICC_OK,
@@ -422,7 +414,7 @@ static icc_status match_once(const icc_env *env, icc_error *err, void *argument)
 
 static icc_status match_landmarks_once(const icc_env *env, icc_error *err, void *argument)
 {
-    icc_domain *source = domain_of(&one), *target = domain_of(&two);
+    icc_domain *source = domain_of_surface(&one), *target = domain_of_surface(&two);
     icc_match *match = NULL;
     double landmarks[6 * 5];
     for (size_t k = 0; k < 5; ++k) {
@@ -468,9 +460,5 @@ int main(void)
     tcase_add_test(tests, landmarks_without_room_are_named);
     tcase_add_test(tests, fails_cleanly);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

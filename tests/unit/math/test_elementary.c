@@ -1,6 +1,7 @@
 /* The elementary functions against sums of their series in GMP's long floating-point numbers. */
 #include "../../random.h"
 #include "../../share.h"
+#include "../../suite.h"
 #include "math/elementary.h"
 
 #include <check.h>
@@ -565,10 +566,7 @@ int main(void)
     tcase_add_test(tests, functions_rise_where_they_should);
     tcase_add_test(tests, bits_are_the_same_everywhere);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
+    const int status = suite_run(suite);
     finish();
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return status;
 }

@@ -4,9 +4,11 @@
 #include "math/ldlt.h"
 #include "math/subtrees.h"
 
+#include "../../default_env.h"
 #include "../../faulty.h"
 #include "../../random.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -80,13 +82,6 @@ static uint32_t *random_order(size_t n, random_source *r)
         order[j] = i;
     }
     return order;
-}
-
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
 }
 
 /* Numbers of very different size. */
@@ -249,7 +244,7 @@ static void check_panels(const iccp_ldlt *l, bool fill[MOST][MOST])
 START_TEST(analysis_predicts_the_factor)
 {
     static bool given[MOST][MOST], own[MOST][MOST];
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {2};
     for (int k = 0; k < 300; ++k) {
         const size_t n = 1 + (size_t)random_below(&r, k % 10 == 0 ? MOST : 40);
@@ -309,7 +304,7 @@ static double solve_error(const matrix *a, const iccp_ldlt *l, random_source *r)
 
 START_TEST(factors_are_those_of_dense_elimination)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {3};
     double pivot[MOST];
     for (int k = 0; k < 120; ++k) {
@@ -337,7 +332,7 @@ END_TEST
 /* A second factorisation gives the same bits, also after one of another matrix or a failed one. */
 START_TEST(factorising_again_changes_nothing)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {4};
     for (int k = 0; k < 40; ++k) {
         const size_t n = 2 + (size_t)random_below(&r, MOST - 1);
@@ -364,7 +359,7 @@ END_TEST
 
 START_TEST(wrong_signs_are_refused)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {5};
     for (int k = 0; k < 60; ++k) {
         const size_t n = 1 + (size_t)random_below(&r, 60), row = (size_t)random_below(&r, (int)n);
@@ -473,7 +468,7 @@ static int32_t check_components(const lattice *g, const iccp_ldlt *l, size_t sou
 {
     const iccp_scaled x = {malloc(g->n * sizeof(double)), malloc(g->n * sizeof(int32_t))};
     const iccp_scaled work = {malloc(g->n * sizeof(double)), malloc(g->n * sizeof(int32_t))};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     int32_t lowest = 0;
     for (size_t i = 0; i < g->n; ++i)
         iccp_scaled_set(&x, i, i == source, 0);
@@ -496,7 +491,7 @@ static int32_t check_components(const lattice *g, const iccp_ldlt *l, size_t sou
 
 START_TEST(mazes_are_solved_in_every_component)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     lattice g = make_lattice(MAZES[_i].width, MAZES[_i].height, MAZES[_i].depth, MAZES[_i].is_in);
     iccp_ldlt l;
     const icc_status status = iccp_ldlt_analyse(&l, &g.m, 1, &env);
@@ -544,7 +539,7 @@ static uint32_t *falling_distance(const lattice *g, uint32_t source)
 /* A ring has no end to begin with, and orders by degree join its two sides. */
 START_TEST(rings_are_solved_in_order_of_distance)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     lattice g = make_lattice(400, 400, 1, in_ring);
     const uint32_t source = (uint32_t)(g.n / 3);
     uint32_t *order = falling_distance(&g, source);
@@ -566,7 +561,7 @@ START_TEST(stored_zeros_carry_nothing)
     const uint32_t column[] = {2, 2, 0, 1}, order[] = {0, 1, 2};
     const double tie = -0x1p-900, value[] = {tie, tie, tie, tie}, diagonal[] = {1, 1, 1};
     const iccp_symmetric m = {3, first, column, value, diagonal};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     double fraction[3], work_fraction[3];
     int32_t exponent[3], work_exponent[3];
     const iccp_scaled x = {fraction, exponent}, work = {work_fraction, work_exponent};
@@ -598,7 +593,7 @@ START_TEST(marked_rows_are_solved_alone)
 {
     enum { SIDE = 40, CORNER = 5, SIDES = 7, ROWS = SIDE * SIDE };
     lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {8};
     iccp_ldlt l;
     ck_assert_int_eq(iccp_ldlt_analyse(&l, &g.m, 1, &env), ICC_OK);
@@ -760,7 +755,7 @@ static uint32_t *dissection_of(uint32_t side)
 START_TEST(groups_are_analysed_as_their_rows)
 {
     enum { SIDE = 30, BLOCK = 3, N = BLOCK * SIDE * SIDE };
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
     size_t *first = malloc((N + 1) * sizeof *first), k = 0;
     uint32_t *column = malloc((size_t)N * 5 * BLOCK * sizeof *column);
@@ -834,7 +829,7 @@ static void check_runs(const iccp_subtrees *t, const iccp_supernodes *nodes, dou
 /* And those of an inner level lie within those of the outer one. */
 START_TEST(subtrees_are_independent)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     lattice g = make_lattice(90, 90, 1, everywhere);
     uint32_t *order = dissection_of(90);
     iccp_ldlt l;
@@ -949,7 +944,7 @@ START_TEST(factors_beyond_the_address_space_are_refused)
     enum { N = 70000 };
     static size_t first[N + 1];
     static uint32_t column[2 * N], order[N];
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_ldlt l;
     for (uint32_t i = 0; i < N; ++i) {
         order[i] = i;
@@ -1005,7 +1000,7 @@ START_TEST(nothing_is_factorised)
 {
     const size_t first[1] = {0};
     const iccp_symmetric none = {0, first, NULL, NULL, NULL};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_ldlt l;
     double x = 0;
     ck_assert_int_eq(iccp_ldlt_analyse_ordered(&l, &none, &(uint32_t){0}, &env), ICC_OK);
@@ -1044,9 +1039,5 @@ int main(void)
     tcase_add_test(tests, failures_in_subtrees_leave_nothing_behind);
     tcase_add_test(tests, nothing_is_factorised);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -4,8 +4,10 @@
 #include "math/ldlt.h"
 #include "math/ordering.h"
 
+#include "../../default_env.h"
 #include "../../faulty.h"
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdbool.h>
@@ -52,16 +54,9 @@ static void clear(graph *g)
     free(g->column);
 }
 
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
-
 static uint32_t *order_of(const graph *g)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     uint32_t *order = malloc((g->n + 1) * sizeof *order);
     bool *seen = calloc(g->n + 1, sizeof *seen);
     ck_assert_int_eq(iccp_ordering(&g->m, order, &env), ICC_OK);
@@ -76,7 +71,7 @@ static uint32_t *order_of(const graph *g)
 /* Entries of the factor below the diagonal. */
 static size_t entries_by(const graph *g, const uint32_t *order)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_ldlt factor;
     ck_assert_int_eq(iccp_ldlt_analyse_ordered(&factor, &g->m, order, &env), ICC_OK);
     const size_t n_entries = factor.n_entries;
@@ -380,7 +375,7 @@ START_TEST(too_many_entries_are_refused)
 {
     const size_t first[2] = {0, (size_t)1 << 31};
     const iccp_symmetric m = {1, first, NULL, NULL, NULL};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     uint32_t order[1];
     ck_assert_int_eq(iccp_ordering(&m, order, &env), ICC_ERR_RESOLUTION);
 }
@@ -399,9 +394,5 @@ int main(void)
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, too_many_entries_are_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,6 +1,7 @@
 /* The exact predicates against GMP's rationals on inputs made to be degenerate or nearly so. */
 #include "../../random.h"
 #include "../../share.h"
+#include "../../suite.h"
 #include "math/expansion.h"
 #include "math/predicates.h"
 
@@ -494,9 +495,5 @@ int main(void)
     tcase_add_test(tests, incircle_is_exact);
     tcase_add_test(tests, orientation_in_space_is_exact);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Numbers as fraction and exponent: the two functions that split and join them are those of C. */
 #include "../../random.h"
+#include "../../suite.h"
 
 #include "math/scaled.h"
 
@@ -45,9 +46,5 @@ int main(void)
     TCase *numbers = tcase_create("numbers");
     tcase_add_test(numbers, numbers_are_split_and_joined_as_in_c);
     suite_add_tcase(suite, numbers);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

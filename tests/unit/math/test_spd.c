@@ -5,9 +5,11 @@
 #include "math/spd.h"
 #include "mesh/laplacian.h"
 
+#include "../../default_env.h"
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -157,13 +159,6 @@ static double residual(const iccp_symmetric *m, const double *x, const double *b
     return worst;
 }
 
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
-
 static double *random_sides(size_t n, random_source *r)
 {
     double *b = malloc((n + 1) * sizeof *b);
@@ -206,7 +201,7 @@ static icc_status solve_with(const iccp_symmetric *m, bool iterative, size_t n_r
 
 static void solve(const iccp_symmetric *m, bool iterative, const double *b, size_t n_rhs, double *x)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     memcpy(x, b, m->n * n_rhs * sizeof *x);
     ck_assert_int_eq(solve_with(m, iterative, n_rhs, x, &env), ICC_OK);
 }
@@ -348,7 +343,7 @@ START_TEST(extreme_weights_are_solved_or_refused)
     int n_solved = 0;
     for (int k = 0; k < 40; ++k) {
         equations s = random_system(50 + (size_t)random_below(&r, 200), 12, &r);
-        const iccp_env env = plain_env();
+        const iccp_env env = default_env();
         double *b = random_sides(s.m.n, &r), *x = malloc(s.m.n * sizeof *x);
         solve(&s.m, false, b, 1, x);
         ck_assert_double_le(backward_error(&s.m, x, b, 1), 1e-12);
@@ -368,7 +363,7 @@ END_TEST
 START_TEST(mesh_laplacians_are_solved)
 {
     const shape s = shape_hard(_i);
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {4};
     uint32_t pieces[SHAPE_MAX];
     icc_domain *domain;
@@ -421,7 +416,7 @@ END_TEST
 
 static icc_status try_to_solve(const iccp_symmetric *m, bool iterative, const double *b, double *x)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     memcpy(x, b, m->n * sizeof *x);
     return solve_with(m, iterative, 1, x, &env);
 }
@@ -511,7 +506,7 @@ static void scaled_clear(iccp_scaled *v)
 
 static iccp_ldlt factorised(const iccp_symmetric *m)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_ldlt factor;
     ck_assert_int_eq(iccp_ldlt_analyse(&factor, m, 1, &env), ICC_OK);
     ck_assert_int_eq(iccp_ldlt_factorise(&factor, m, &env), ICC_OK);
@@ -521,7 +516,7 @@ static iccp_ldlt factorised(const iccp_symmetric *m)
 /* b * 2^exponent in, the solution out. */
 static iccp_scaled solve_scaled(const iccp_ldlt *factor, const double *b, int32_t exponent)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_scaled x = scaled_vector(factor->n), work = scaled_vector(factor->n);
     for (size_t i = 0; i < factor->n; ++i)
         iccp_scaled_set(&x, i, b[i], exponent);
@@ -640,9 +635,5 @@ int main(void)
     tcase_add_test(tests, long_chains_do_not_underflow);
     tcase_add_test(tests, scaled_zeros_stay_zero);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

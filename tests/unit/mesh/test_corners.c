@@ -3,6 +3,7 @@
 #include "mesh/corners.h"
 
 #include "../../random.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdbool.h>
@@ -287,9 +288,5 @@ int main(void)
     tcase_add_test(tests, four_turns_change_nothing);
     tcase_add_test(tests, a_boundary_may_be_cut_again_and_again);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

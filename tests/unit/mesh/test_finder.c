@@ -5,6 +5,7 @@
 
 #include "../../faulty.h"
 #include "../../hard_shapes.h"
+#include "../../suite.h"
 #include "../../together.h"
 
 #include <check.h>
@@ -252,9 +253,5 @@ int main(void)
     tcase_add_test(tests, threads_may_ask_at_once);
     tcase_add_test(tests, large_grids_need_a_budget);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

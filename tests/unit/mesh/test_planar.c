@@ -6,6 +6,7 @@
 
 #include "../../hard_shapes.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -257,9 +258,5 @@ int main(void)
     tcase_add_test(tests, random_shapes_are_meshed);
     tcase_add_test(tests, pieces_suit_both_domains);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Constrained Delaunay triangulations of many shapes, and of data that has none. */
 #include "../../random.h"
+#include "../../suite.h"
 #include "../../triangulation.h"
 #include "base/env.h"
 #include "mesh/triangulate.h"
@@ -646,9 +647,5 @@ int main(void)
     tcase_add_test(tests, can_be_cancelled);
     tcase_add_test(tests, refusals_name_the_culprit);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,18 +3,13 @@
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
 #include "../../saved.h"
+#include "../../shape_domains.h"
+#include "../../suite.h"
 #include "../../surfaces.h"
 
 static const int32_t METHODS[] = {ICC_METHOD_FOLIATION, ICC_METHOD_DISC, ICC_METHOD_GRADIENT,
                                   ICC_METHOD_FIELD};
 enum { N_METHODS = 4 };
-
-static icc_domain *polygon(const shape *s)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, s->n, s->xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
 
 static icc_chart *chart_of(const icc_domain *domain, const icc_chart_options *options)
 {
@@ -61,9 +56,9 @@ START_TEST(polygons)
         for (int m = 0; m < N_METHODS; ++m) {
             const shape s = shape_number(k), r = shape_reversed(&s),
                         far = shape_moved(&s, 10, 1e9, -1e9);
-            check_chart(chart_with(polygon(&s), METHODS[m], 24));
-            check_chart(chart_with(polygon(&r), METHODS[m], 17));
-            check_chart(chart_with(polygon(&far), METHODS[m], 20));
+            check_chart(chart_with(domain_of_shape(&s), METHODS[m], 24));
+            check_chart(chart_with(domain_of_shape(&r), METHODS[m], 17));
+            check_chart(chart_with(domain_of_shape(&far), METHODS[m], 20));
         }
 }
 END_TEST
@@ -75,7 +70,7 @@ START_TEST(hard_polygons)
         for (int m = 0; m < 2; ++m) {
             const shape s = shape_hard(k);
             const icc_chart_options options = {.size = sizeof options, .method = METHODS[m]};
-            icc_domain *domain = polygon(&s);
+            icc_domain *domain = domain_of_shape(&s);
             icc_chart *chart;
             if (icc_chart_create(&chart, domain, &options, NULL, NULL) == ICC_OK) {
                 check_chart(chart);
@@ -108,7 +103,7 @@ START_TEST(all_options)
 {
     static const double MAXIMUM[2] = {0.6, 2.2};
     const shape s = shape_l();
-    icc_domain *domain = polygon(&s);
+    icc_domain *domain = domain_of_shape(&s);
     for (int32_t function = 1; function <= ICC_FUNCTION_HARMONIC; ++function)
         for (int32_t tree = 1; tree <= ICC_TREE_PAPER; ++tree) {
             const icc_chart_options o = {.size = sizeof o,
@@ -258,11 +253,11 @@ static icc_chart *small_chart(int k)
     icc_domain *domain;
     switch (k) {
     case 0:
-        return chart_with(polygon(&s), ICC_METHOD_FOLIATION, 4);
+        return chart_with(domain_of_shape(&s), ICC_METHOD_FOLIATION, 4);
     case 1:
-        return chart_with(polygon(&s), ICC_METHOD_DISC, 4);
+        return chart_with(domain_of_shape(&s), ICC_METHOD_DISC, 4);
     case 2:
-        return chart_with(polygon(&s), ICC_METHOD_GRADIENT, 6);
+        return chart_with(domain_of_shape(&s), ICC_METHOD_GRADIENT, 6);
     case 3:
         ck_assert_int_eq(icc_domain_create_mask(&domain, 2, SHAPE, CELLS, NULL, NULL), ICC_OK);
         return chart_with(domain, ICC_METHOD_FIELD, 8);
@@ -273,22 +268,21 @@ static icc_chart *small_chart(int k)
     }
 }
 
-START_TEST(damage_is_noticed)
+static icc_status load_chart(const bytes *b, icc_error *err)
 {
     icc_chart *loaded;
-    icc_error err = {.size = sizeof err};
+    const icc_status status = icc_chart_load(&loaded, b->n, b->data, NULL, err);
+    ck_assert((loaded != NULL) == (status == ICC_OK));
+    icc_chart_free(loaded);
+    return status;
+}
+
+START_TEST(damage_is_noticed)
+{
     for (int k = 0; k < N_SMALL; ++k) {
         icc_chart *chart = small_chart(k);
         bytes b = chart_bytes(chart);
-        for (size_t n = 0; n < b.n; n += n < 100 ? 1 : 37)
-            ck_assert_int_eq(icc_chart_load(&loaded, n, b.data, NULL, NULL), ICC_ERR_FORMAT);
-        for (size_t i = 0; i < b.n; ++i) {
-            b.data[i] ^= 0x10;
-            ck_assert_int_eq(icc_chart_load(&loaded, b.n, b.data, NULL, &err), ICC_ERR_FORMAT);
-            ck_assert_ptr_null(loaded);
-            ck_assert(err.message[0] != '\0');
-            b.data[i] ^= 0x10;
-        }
+        check_damage(&b, load_chart);
         free(b.data);
         icc_chart_free(chart);
     }
@@ -348,39 +342,16 @@ static void check_harmless(const bytes *b)
     icc_chart_free(loaded);
 }
 
-static void put64(bytes *b, size_t at, uint64_t value)
-{
-    for (size_t i = 0; i < 8 && at + i < b->n; ++i)
-        b->data[at + i] = (unsigned char)(value >> 8 * i);
-}
-
 /* Content that has been made up, with the checksum put right. */
 START_TEST(content_is_checked)
 {
-    static const uint64_t VALUES[] = {0,
-                                      1,
-                                      UINT64_MAX,
-                                      (uint64_t)1 << 32,
-                                      (uint64_t)1 << 63,
-                                      0x7ff8000000000000u,
-                                      0x7ff0000000000000u,
-                                      0x7fefffffffffffffu,
-                                      0x3ff0000000000000u,
-                                      1000000};
     random_source r = {6};
     for (int k = 0; k < N_SMALL; ++k) {
         icc_chart *chart = small_chart(k);
         bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
         const int n = k == 2 || k == 3 ? 300 : 3000;
         for (int i = 0; i < n; ++i) {
-            const size_t at = 24 + 4 * (size_t)random_below(&r, (int)(b.n - 24) / 4);
-            memcpy(changed.data, b.data, b.n);
-            if (i % 2 == 0)
-                put64(&changed, at, VALUES[random_below(&r, 10)]);
-            else
-                changed.data[at + (size_t)random_below(&r, 4)] ^=
-                    (unsigned char)(1 << random_below(&r, 8));
-            repair_bytes(&changed, "CHRT");
+            make_up_content(&changed, &b, "CHRT", &r);
             check_harmless(&changed);
         }
         free(b.data);
@@ -644,9 +615,5 @@ int main(void)
     tcase_add_test(c, no_memory_and_no_patience);
     tcase_add_test(c, arguments);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

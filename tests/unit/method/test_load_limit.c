@@ -2,6 +2,7 @@
  * has made up with a checksum that is right, and time with it. */
 #include "../../meshes.h"
 #include "../../saved.h"
+#include "../../suite.h"
 
 #include "base/budget.h"
 
@@ -301,9 +302,5 @@ int main(void)
     tcase_add_test(tests, meshes_take_a_multiple_of_their_bytes);
     tcase_add_test(tests, budgets_are_kept);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

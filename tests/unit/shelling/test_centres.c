@@ -4,6 +4,7 @@
 #include "shelling/centres.h"
 
 #include "../../fluxes.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -76,7 +77,7 @@ START_TEST(pairs_are_deep)
 {
     for (int32_t dim = 2; dim <= 4; ++dim)
         for (int bent = 0; bent < 2; ++bent) {
-            const iccp_env env = flux_env();
+            const iccp_env env = default_env();
             random_source r = {(uint64_t)dim}, other = {99};
             const size_t n = dim == 2 ? 14 : dim == 3 ? 7 : 4;
             test_mesh a = mesh_cube(dim, n, 0.1, &r), b = mesh_cube(dim, n, 0.1, &other);
@@ -105,7 +106,7 @@ END_TEST
 START_TEST(given_centres_are_kept)
 {
     for (int k = 0; k < 2 * FLUX_KINDS; ++k) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         flux_case c = flux_number(k);
         const icc_domain *const domains[2] = {c.domain, c.domain};
         const iccp_simplices *const meshes[2] = {c.mesh, c.mesh};
@@ -131,7 +132,7 @@ START_TEST(no_image_is_inside)
     static const double SQUARE[] = {0, 0, 1, 0, 1, 1, 0, 1, 0.5, 0.5};
     static const double DART[] = {0, 0, 1, 0, 0.3, 0.3, 0, 1, 0.1, 0.1};
     static const uint32_t FAN[] = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     icc_domain *domain[2];
     uint32_t centre[2];
     ck_assert_int_eq(icc_domain_create_mesh(&domain[0], 2, 5, SQUARE, 4, FAN, 0, NULL, NULL, NULL),
@@ -182,9 +183,5 @@ int main(void)
     tcase_add_test(test, no_image_is_inside);
     tcase_add_test(test, failures_leave_nothing);
     suite_add_tcase(suite, test);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

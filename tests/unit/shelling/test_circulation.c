@@ -4,6 +4,7 @@
 #include "shelling/circulation.h"
 
 #include "../../fluxes.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -101,7 +102,7 @@ typedef struct setting {
 
 static setting set_up(int k)
 {
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     setting s = {.c = flux_number(k)};
     const iccp_simplices *mesh = s.c.mesh;
     s.inflow = mesh_alloc(mesh->n_facets, sizeof(double));
@@ -150,7 +151,7 @@ static void check_flux(const setting *s, const char *when)
         const uint32_t here = s->rank[iccp_simplex_of(mesh, side)];
         const uint32_t there = s->rank[iccp_simplex_of(mesh, other)];
         if (here > there)
-            FLUX_ASSERT(s->flux[side] > 0, "%s, %s: flux %g", s->c.name, when, s->flux[side]);
+            ck_assert_msg(s->flux[side] > 0, "%s, %s: flux %g", s->c.name, when, s->flux[side]);
     }
     const double divergence = iccp_circulation_divergence(&s->circulation, s->flux);
     ck_assert_msg(divergence <= 2e-15, "%s, %s: divergence %g", s->c.name, when, divergence);
@@ -235,7 +236,7 @@ START_TEST(rings_are_cycles)
     size_t n_links = 0;
     for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         iccp_links links;
         double *balance = calloc(c.mesh->n_simplices, sizeof *balance);
         ck_assert_ptr_nonnull(balance);
@@ -244,7 +245,7 @@ START_TEST(rings_are_cycles)
                       count_links(&c));
         for (size_t r = 0; r < links.n; ++r) {
             double star = 0;
-            FLUX_ASSERT(links.first[r + 1] - links.first[r] >= 2, "%s: ring %zu", c.name, r);
+            ck_assert_msg(links.first[r + 1] - links.first[r] >= 2, "%s: ring %zu", c.name, r);
             for (int pass = 0; pass < 2; ++pass)
                 for (size_t p = links.first[r]; p < links.first[r + 1]; ++p) {
                     const uint32_t side = links.side[links.step[p] / 2],
@@ -252,18 +253,18 @@ START_TEST(rings_are_cycles)
                     const double on = links.step[p] % 2 == 0 ? 1 : -1;
                     const size_t t[2] = {iccp_simplex_of(c.mesh, side),
                                          iccp_simplex_of(c.mesh, other)};
-                    FLUX_ASSERT(side < other, "%s: ring %zu", c.name, r);
+                    ck_assert_msg(side < other, "%s: ring %zu", c.name, r);
                     for (int i = 0; i < 2; ++i) {
                         const double amount = i == 0 ? on : -on;
                         if (pass == 1)
-                            FLUX_ASSERT(!(fabs(balance[t[i]]) > 0) || flux_in_star(&c, t[i]),
-                                        "%s: ring %zu", c.name, r);
+                            ck_assert_msg(!(fabs(balance[t[i]]) > 0) || flux_in_star(&c, t[i]),
+                                          "%s: ring %zu", c.name, r);
                         else
                             balance[t[i]] += amount;
                         star += pass == 0 && flux_in_star(&c, t[i]) ? amount : 0;
                     }
                 }
-            FLUX_ASSERT(!(fabs(star) > 0), "%s: ring %zu", c.name, r);
+            ck_assert_msg(!(fabs(star) > 0), "%s: ring %zu", c.name, r);
             for (size_t p = links.first[r]; p < links.first[r + 1]; ++p) {
                 const uint32_t side = links.side[links.step[p] / 2];
                 balance[iccp_simplex_of(c.mesh, side)] = 0;
@@ -286,7 +287,7 @@ START_TEST(fluxes_are_positive_and_without_sources)
     const double spreads[] = {0, 2, 6};
     int n_orders = 0;
     for (int k = 0; k < FLUX_CASES; ++k) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         setting s = set_up(k);
         random_source r = {(uint64_t)k};
         for (int i = 0; i < 3; ++i) {
@@ -311,7 +312,7 @@ START_TEST(energy_never_rises)
 {
     double fallen = 0;
     for (int k = 0; k < FLUX_CASES; ++k) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         setting s = set_up(k);
         random_source r = {(uint64_t)k + 7};
         if (draw_order(&s, 2, &r)) {
@@ -341,7 +342,7 @@ START_TEST(reference_is_found_again)
 {
     int n_found = 0;
     for (int k = 0; k < FLUX_CASES; ++k) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         setting s = set_up(k);
         const iccp_simplices *mesh = s.c.mesh;
         const size_t n_corners = mesh->dim + 1;
@@ -391,7 +392,7 @@ END_TEST
 START_TEST(sweeps_end_at_the_least_energy)
 {
     for (int k = FLUX_CUBE; k < FLUX_CASES; k += FLUX_KINDS) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         setting s = set_up(k);
         random_source r = {3};
         const iccp_links *links = &s.circulation.links;
@@ -466,9 +467,5 @@ int main(void)
     tcase_add_test(test, sweeps_end_at_the_least_energy);
     tcase_add_test(test, failures_leave_nothing);
     suite_add_tcase(suite, test);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

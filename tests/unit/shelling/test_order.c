@@ -7,22 +7,17 @@
 #include "shelling/best_order.h"
 #include "shelling/reverse.h"
 
+#include "../../default_env.h"
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
 #include <string.h>
 
 #define NONE UINT32_MAX
-
-/* For inner loops: Check writes a line for each of its own. */
-static void must(bool holds)
-{
-    if (!holds)
-        ck_abort();
-}
 
 /* ------------------------------------------------------------------ meshes */
 
@@ -222,7 +217,7 @@ static void check_sphere(const iccp_simplices *m, const catalogue *c, const uint
         }
     }
     for (size_t f = 0; f < c->n_faces; ++f)
-        must(c->size[f] != 2 || count[f] == 0 || count[f] == 2);
+        ck_assert(c->size[f] != 2 || count[f] == 0 || count[f] == 2);
     ck_assert_int_eq(euler, 2);
     free(count);
 }
@@ -240,21 +235,21 @@ static void check_order(const iccp_simplices *m, const catalogue *c, uint32_t ce
         bool has_centre = false;
         for (size_t i = 0; i <= m->dim; ++i)
             has_centre = has_centre || m->corners[(m->dim + 1) * s + i] == centre;
-        must(has_centre == (rank[s] == 0));
+        ck_assert(has_centre == (rank[s] == 0));
         n_centre += has_centre;
         if (has_centre) {
             add_simplex(m, c, s, in_union, true, &euler);
         } else {
-            must(rank[s] <= m->n_simplices && at[rank[s]] == NONE);
+            ck_assert(rank[s] <= m->n_simplices && at[rank[s]] == NONE);
             at[rank[s]] = (uint32_t)s;
         }
     }
     ck_assert_int_eq(euler, 1);
     const size_t n = m->n_simplices - n_centre;
     for (uint32_t k = 1; k <= n; ++k) {
-        must(at[k] != NONE);
-        must(add_simplex(m, c, at[k], in_union, false, &euler));
-        must(euler == 1);
+        ck_assert(at[k] != NONE);
+        ck_assert(add_simplex(m, c, at[k], in_union, false, &euler));
+        ck_assert(euler == 1);
         if (m->dim == 3 && k % (n / 3 + 1) == n / 4)
             check_sphere(m, c, rank, k);
     }
@@ -274,17 +269,10 @@ typedef struct problem {
     uint32_t *rank;
 } problem;
 
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
-
 /* The mesh is ended. */
 static problem begin(test_mesh mesh)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_error err = {.size = sizeof err};
     problem p = {.domain = NULL};
     ck_assert_msg(mesh_domain(&p.domain, &mesh, NULL, &err) == ICC_OK, "%s", err.message);
@@ -371,7 +359,7 @@ static void prefer_anything(problem *p, random_source *r)
 /* What charts ask for. */
 static void prefer_flux(problem *p, uint32_t centre)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     ck_assert_int_eq(iccp_inflow(p->mesh, centre, 0.5, p->inflow, &env), ICC_OK);
     ck_assert_int_eq(iccp_reference_flux(p->mesh, centre, p->inflow, p->flux, p->potential, &env),
                      ICC_OK);
@@ -382,7 +370,7 @@ static size_t left_by(problem *p, uint32_t centre, double beta, bool peel)
 {
     const iccp_order_priority priority = {p->mesh,      &p->faces, centre, p->flux,
                                           p->potential, beta,      NULL};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     size_t n_left = 0, n_without = 0;
     ck_assert_int_eq((peel ? iccp_order_peel : iccp_order_grow)(&priority, p->rank, &n_left, &env),
                      ICC_OK);
@@ -412,10 +400,10 @@ START_TEST(faces_are_numbered_by_their_vertices)
                     continue;
                 const uint32_t mine = iccp_face(&p.faces, s, set),
                                its = c->number[n_sets * s + set];
-                must(mine < p.faces.n_faces);
+                ck_assert(mine < p.faces.n_faces);
                 n_faces += other[its] == 0;
-                must(other[its] == 0 || other[its] == mine + 1);
-                must(back[mine] == 0 || back[mine] == its + 1);
+                ck_assert(other[its] == 0 || other[its] == mine + 1);
+                ck_assert(back[mine] == 0 || back[mine] == its + 1);
                 other[its] = mine + 1;
                 back[mine] = its + 1;
             }
@@ -446,7 +434,7 @@ START_TEST(heap_gives_out_the_least)
             for (int i = 0; i < N; ++i)
                 if (in[i] && (least < 0 || key[i] < key[least]))
                     least = i;
-            must(iccp_heap_pop(&heap) == (uint32_t)least);
+            ck_assert(iccp_heap_pop(&heap) == (uint32_t)least);
             in[least] = false;
         }
     }
@@ -559,7 +547,7 @@ static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
 {
     const iccp_order_priority priority = {p->mesh,      &p->faces, centre, p->flux,
                                           p->potential, 8,         NULL};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const iccp_simplices *m = p->mesh;
     uint32_t *before = room(m->n_simplices, sizeof *before);
     size_t n_changed = 0, n_left = 0, said;
@@ -573,7 +561,7 @@ static size_t turn_order(problem *p, uint32_t centre, size_t *n_turned)
         const size_t there = iccp_simplex_of(m, m->across[side]);
         const bool left_by = before[here] > before[there],
                    is_left_by = p->rank[here] > p->rank[there];
-        must(!left_by || is_left_by || p->flux[side] < 0);
+        ck_assert(!left_by || is_left_by || p->flux[side] < 0);
         n_changed += left_by && !is_left_by;
         n_left += is_left_by && p->flux[side] < 0;
     }
@@ -610,7 +598,7 @@ END_TEST
 static void check_contest(problem *p, uint32_t centre, const iccp_best_order_info *info,
                           const double *flux)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const size_t n_sides = p->mesh->dim + 1;
     size_t n_reversed = 0;
     iccp_circulation c;
@@ -618,11 +606,11 @@ static void check_contest(problem *p, uint32_t centre, const iccp_best_order_inf
     for (size_t side = 0; side < n_sides * p->mesh->n_simplices; ++side) {
         const uint32_t across = p->mesh->across[side];
         if (across >= ICCP_ON_BOUNDARY) {
-            must(flux[side] < 0);
+            ck_assert(flux[side] < 0);
             continue;
         }
         const uint32_t here = p->rank[side / n_sides], there = p->rank[across / n_sides];
-        must(here == there ? flux[side] == 0 : (flux[side] > 0) == (here > there));
+        ck_assert(here == there ? flux[side] == 0 : (flux[side] > 0) == (here > there));
         n_reversed += here > there && p->flux[side] < 0;
     }
     ck_assert_uint_eq(info->n_reversed, n_reversed);
@@ -684,7 +672,7 @@ START_TEST(contests_are_won_by_the_best)
         prefer_flux(&p, centre);
         iccp_best_order_info info = {0}, other;
         for (int way = 0; way < 3; ++way) {
-            iccp_env env = plain_env();
+            iccp_env env = default_env();
             env.threads = way == 1 ? 3 : 1;
             env.parallel_for = way == 2 ? backwards : NULL;
             other = (iccp_best_order_info){0};
@@ -712,7 +700,7 @@ START_TEST(houses_end_in_an_order_or_an_error)
 {
     problem p = begin(mesh_cells(3, 22, in_house_2));
     random_source r = {9};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     double *flux = room(4 * p.mesh->n_simplices, sizeof *flux);
     for (int trial = 0; trial < 2; ++trial) {
         const uint32_t centre = random_centre(&p, &r);
@@ -752,9 +740,9 @@ START_TEST(star_is_complete_at_once)
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, false), 0);
         ck_assert_uint_eq(left_by(&p, (uint32_t)p.mesh->n_boundary, 8, true), 0);
         for (size_t s = 0; s < p.mesh->n_simplices; ++s)
-            must(p.rank[s] == 0);
+            ck_assert(p.rank[s] == 0);
         double *flux = room(p.mesh->n_simplices * (p.mesh->dim + 1), sizeof *flux);
-        const iccp_env env = plain_env();
+        const iccp_env env = default_env();
         iccp_best_order_info info;
         prefer_flux(&p, (uint32_t)p.mesh->n_boundary);
         ck_assert_int_eq(iccp_best_order(p.mesh, (uint32_t)p.mesh->n_boundary, p.inflow, p.flux,
@@ -826,9 +814,5 @@ int main(void)
     tcase_add_test(tests, houses_end_in_an_order_or_an_error);
     tcase_add_test(tests, star_is_complete_at_once);
     tcase_add_test(tests, every_failure_is_survived);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed != 0;
+    return suite_run(suite);
 }

@@ -8,6 +8,7 @@
 #include "shelling/reference.h"
 
 #include "../../fluxes.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -33,7 +34,7 @@ static void fluxes_free(fluxes *f)
 
 static fluxes solve(const flux_case *c, double harmonic)
 {
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     fluxes f = room_for(c->mesh);
     ck_assert_int_eq(iccp_inflow(c->mesh, c->centre, harmonic, f.inflow, &env), ICC_OK);
     ck_assert_int_eq(iccp_reference_flux(c->mesh, c->centre, f.inflow, f.flux, f.potential, &env),
@@ -60,22 +61,22 @@ START_TEST(geometry_of_simplices)
                 double square = 0;
                 for (size_t d = 0; d < dim; ++d)
                     square += gradient[dim * i + d] * gradient[dim * i + d];
-                FLUX_ASSERT(fabs(area / ((double)dim * volume * sqrt(square)) - 1) < 1e-9,
-                            "%s: area", c.name);
+                ck_assert_msg(fabs(area / ((double)dim * volume * sqrt(square)) - 1) < 1e-9,
+                              "%s: area", c.name);
                 for (size_t j = 0; j <= dim; ++j) {
                     double along = (double)(j == dim) - (double)(j == i);
                     for (size_t d = 0; d < dim; ++d)
                         along += gradient[dim * j + d] * (corner[d] - last[d]);
-                    FLUX_ASSERT(fabs(along) < 1e-9, "%s: gradient", c.name);
+                    ck_assert_msg(fabs(along) < 1e-9, "%s: gradient", c.name);
                 }
                 if ((other & ICCP_ON_BOUNDARY) != 0)
                     continue;
-                FLUX_ASSERT(fabs(iccp_element_area(c.mesh, other) / area - 1) < 1e-12, "%s",
-                            c.name);
-                FLUX_ASSERT(fabs(iccp_element_conductance(c.mesh, other) /
-                                     iccp_element_conductance(c.mesh, side) -
-                                 1) < 1e-12,
-                            "%s: wire", c.name);
+                ck_assert_msg(fabs(iccp_element_area(c.mesh, other) / area - 1) < 1e-12, "%s",
+                              c.name);
+                ck_assert_msg(fabs(iccp_element_conductance(c.mesh, other) /
+                                       iccp_element_conductance(c.mesh, side) -
+                                   1) < 1e-12,
+                              "%s: wire", c.name);
             }
         }
         flux_free(&c);
@@ -87,7 +88,7 @@ static void check_inflow(const flux_case *c, const double *inflow)
 {
     double sum = 0;
     for (size_t f = 0; f < c->mesh->n_facets; ++f) {
-        FLUX_ASSERT(inflow[f] > 0, "%s: nothing through facet %zu", c->name, f);
+        ck_assert_msg(inflow[f] > 0, "%s: nothing through facet %zu", c->name, f);
         sum += inflow[f];
     }
     ck_assert_msg(fabs(sum - 1) < 1e-12, "%s: %g enters", c->name, sum);
@@ -99,7 +100,7 @@ START_TEST(inflow_is_positive)
     for (int k = 0; k < FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         for (int i = 0; i < 3; ++i) {
-            const iccp_env env = flux_env();
+            const iccp_env env = default_env();
             fluxes f = room_for(c.mesh);
             ck_assert_int_eq(iccp_inflow(c.mesh, c.centre, shares[i], f.inflow, &env), ICC_OK);
             check_inflow(&c, f.inflow);
@@ -115,12 +116,12 @@ START_TEST(uniform_inflow_goes_by_area)
 {
     for (int32_t dim = 2; dim <= 5; ++dim) {
         flux_case c = flux_number(FLUX_KINDS * (dim - 2) + FLUX_CUBE);
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         fluxes f = room_for(c.mesh);
         ck_assert_int_eq(iccp_inflow(c.mesh, c.centre, 0, f.inflow, &env), ICC_OK);
         for (size_t i = 0; i < c.mesh->n_facets; ++i)
-            FLUX_ASSERT(fabs(f.inflow[i] * (double)c.mesh->n_facets - 1) < 1e-12, "%s: facet %zu",
-                        c.name, i);
+            ck_assert_msg(fabs(f.inflow[i] * (double)c.mesh->n_facets - 1) < 1e-12, "%s: facet %zu",
+                          c.name, i);
         fluxes_free(&f);
         flux_free(&c);
     }
@@ -135,7 +136,7 @@ START_TEST(harmonic_inflow_falls_along_a_corridor)
     icc_domain *domain;
     ck_assert_int_eq(mesh_domain(&domain, &m, NULL, NULL), ICC_OK);
     const iccp_simplices *mesh = domain->mesh;
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     const double point[2] = {domain->lower[0], 0};
     const uint32_t centre = iccp_nearest_centre(mesh, point);
     fluxes f = room_for(mesh);
@@ -173,9 +174,10 @@ START_TEST(flux_has_no_sources)
                 size += fabs(f.flux[s]);
             }
             if (flux_in_star(&c, t))
-                FLUX_ASSERT(!(fabs(f.potential[t]) > 0), "%s: potential", c.name);
+                ck_assert_msg(!(fabs(f.potential[t]) > 0), "%s: potential", c.name);
             else
-                FLUX_ASSERT(fabs(sum) <= 1e-6 * size, "%s: source of %g of %g", c.name, sum, size);
+                ck_assert_msg(fabs(sum) <= 1e-6 * size, "%s: source of %g of %g", c.name, sum,
+                              size);
         }
         fluxes_free(&f);
         flux_free(&c);
@@ -248,13 +250,13 @@ START_TEST(flux_has_least_energy)
     for (int k = 0; k <= FLUX_CASES; ++k) {
         flux_case c = flux_number(k);
         fluxes f = solve(&c, 0.5);
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         iccp_links links;
         ck_assert_int_eq(iccp_links_create(&links, c.mesh, c.centre, &env), ICC_OK);
         for (size_t r = 0; r < links.n; ++r) {
             double size;
             const double s = slope(&c, &links, r, f.flux, &size);
-            FLUX_ASSERT(fabs(s) <= 1e-7 * size, "%s: ring %zu: %g of %g", c.name, r, s, size);
+            ck_assert_msg(fabs(s) <= 1e-7 * size, "%s: ring %zu: %g of %g", c.name, r, s, size);
         }
         n_links += links.n;
         iccp_links_free(&links);
@@ -336,7 +338,7 @@ START_TEST(flat_simplices_do_no_harm)
     for (int32_t dim = 2; dim <= 4; ++dim)
         for (double height = 1e-4; height > 1e-12; height /= 10) {
             const size_t n = FINE[dim - 2];
-            const iccp_env env = flux_env();
+            const iccp_env env = default_env();
             flux_case c = {.name = "flat simplex"};
             icc_status status = ICC_ERR_BOUNDARY;
             /* Until no other is turned over. */
@@ -372,7 +374,7 @@ START_TEST(harmonic_inflow_of_a_disc)
     }
     test_mesh m = mesh_polygon(N, xy, 0.06);
     const double origin[2] = {0, 0};
-    const iccp_env env = flux_env();
+    const iccp_env env = default_env();
     icc_domain *domain;
     double windows[4] = {0};
     ck_assert_int_eq(mesh_domain(&domain, &m, NULL, NULL), ICC_OK);
@@ -397,7 +399,7 @@ END_TEST
 START_TEST(arranged_meshes_are_the_same)
 {
     for (int k = 0; k < FLUX_CASES; ++k) {
-        const iccp_env env = flux_env();
+        const iccp_env env = default_env();
         flux_case c = flux_number(k);
         const size_t n = c.mesh->dim + 1, n_sides = flux_sides(c.mesh);
         iccp_arranged a;
@@ -494,9 +496,5 @@ int main(void)
     tcase_add_test(test, iterations_take_little_memory);
     tcase_add_test(test, failures_leave_nothing);
     suite_add_tcase(suite, test);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -8,6 +8,7 @@
 #include "../../faulty.h"
 #include "../../meshes.h"
 #include "../../share.h"
+#include "../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -421,9 +422,5 @@ int main(void)
     tcase_add_test(tests, centre);
     tcase_add_test(tests, failures);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

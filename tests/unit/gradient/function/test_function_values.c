@@ -4,8 +4,10 @@
 #include "icc/stages.h"
 
 #include "../../../faulty.h"
+#include "../../../infos.h"
 #include "../../../random.h"
 #include "../../../shapes.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -31,13 +33,6 @@ static icc_function *field_on(const icc_tree *tree, int32_t function)
     icc_function *field;
     ck_assert_int_eq(icc_function_create(&field, tree, &options, NULL, NULL), ICC_OK);
     return field;
-}
-
-static icc_function_report report_on(const icc_function *field)
-{
-    icc_function_report report = {.size = sizeof report};
-    ck_assert_int_eq(icc_function_get_report(field, &report, NULL, NULL), ICC_OK);
-    return report;
 }
 
 /* All inside, so that any values can be written into the field. */
@@ -105,7 +100,7 @@ START_TEST(values_fall_however_deep_the_tree)
     for (size_t v = 1; v < N; ++v)
         ck_assert(f[v] < f[v - 1]);
     ck_assert(f[13000] > 0 && f[N - 1] < 0);
-    const icc_function_report report = report_on(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_eq(report.n_saddles, 0);
@@ -160,7 +155,7 @@ START_TEST(values_go_on_beyond_doubles)
     ck_assert(f[N + 1] == 0 && f[1] == 0 && u[1] == -HUGE_VAL); /* 2^-3980 */
     ck_assert(f[0] == -f[2]);                                   /* beyond the zero: mirrored */
     ck_assert_double_eq(field->info.least_log, u[N + 1]);
-    const icc_function_report report = report_on(field);
+    const icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
     icc_function_free(field);
@@ -375,7 +370,7 @@ START_TEST(critical_points_in_the_plane)
         for (size_t v = 0; round % 2 == 1 && v < tree->grid->n_vertices; ++v)
             if (!isnan(field->values[v]))
                 field->values[v] = random_below(&r, 5);
-        const icc_function_report found = report_on(field), expected = count_turns(field);
+        const icc_function_report found = report_of_function(field), expected = count_turns(field);
         ck_assert_uint_eq(found.n_maxima, expected.n_maxima);
         ck_assert_uint_eq(found.n_minima, expected.n_minima);
         ck_assert_uint_eq(found.n_saddles, expected.n_saddles);
@@ -412,7 +407,7 @@ START_TEST(one_peak_in_a_box)
                 if (field->values[v] == 0)
                     field->tree->root = v;
             }
-            const icc_function_report report = report_on(field);
+            const icc_function_report report = report_of_function(field);
             ck_assert_uint_eq(report.n_maxima, 1);
             ck_assert_uint_eq(report.n_minima, 0);
             ck_assert_uint_eq(report.n_saddles, 0);
@@ -427,15 +422,15 @@ START_TEST(critical_points_in_space)
     icc_function *field = full_field(3, (size_t[]){5, 5, 5});
     for (uint32_t v = 0; v < 125; ++v)
         field->values[v] = -(double)v;
-    ck_assert_uint_eq(report_on(field).n_maxima, 1);
+    ck_assert_uint_eq(report_of_function(field).n_maxima, 1);
     field->values[62] = -1000; /* the middle: a pit, and with it a saddle */
-    icc_function_report report = report_on(field);
+    icc_function_report report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 1);
     ck_assert_uint_eq(report.n_minima, 1);
     ck_assert_uint_ge(report.n_saddles, 1);
     ck_assert_uint_le(report.critical, 62);
     field->values[62] = 1000; /* a second peak */
-    report = report_on(field);
+    report = report_of_function(field);
     ck_assert_uint_eq(report.n_maxima, 2);
     ck_assert_uint_eq(report.n_minima, 0);
     ck_assert_uint_ge(report.n_saddles, 1);
@@ -456,7 +451,7 @@ START_TEST(decay_on_boxes_is_clean)
             const uint32_t root = (uint32_t)random_below(&r, (int)n);
             icc_tree *tree = tree_on(dim, sides, inside, root, 0);
             icc_function *field = field_on(tree, 0);
-            const icc_function_report report = report_on(field);
+            const icc_function_report report = report_of_function(field);
             ck_assert_uint_eq(report.n_maxima, 1);
             ck_assert_uint_eq(report.n_minima + report.n_saddles, 0);
             ck_assert_uint_eq(report.critical, UINT32_MAX);
@@ -476,7 +471,7 @@ START_TEST(threads_do_not_change_the_report)
     icc_function *field = field_on(tree, 0);
     for (size_t v = 0; v < SIDE * SIDE; ++v)
         field->values[v] = random_unit(&r);
-    const icc_function_report one = report_on(field);
+    const icc_function_report one = report_of_function(field);
     ck_assert_uint_gt(one.n_saddles, 1000);
     for (int32_t threads = 2; threads <= 8; ++threads) {
         const icc_env env = {.size = sizeof env, .threads = threads};
@@ -633,9 +628,5 @@ int main(void)
     tcase_add_test(tests, every_failure_is_reported);
     tcase_add_test(tests, wrong_arguments);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -5,10 +5,13 @@
 #include "gradient/grid/rasterise.h"
 #include "math/predicates.h"
 
+#include "../../../domains.h"
 #include "../../../faulty.h"
+#include "../../../grids.h"
 #include "../../../random.h"
 #include "../../../shapes.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 #include "../../../surfaces.h"
 
 #include <check.h>
@@ -17,13 +20,6 @@
 #include <string.h>
 
 enum { MAX_N = 64, MAX_VERTICES = 4096 };
-
-static icc_grid *grid_of(int32_t dim, const size_t *sides, const uint8_t *inside)
-{
-    icc_grid *grid;
-    ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
-    return grid;
-}
 
 /* Shapes of every dimension, axes of one vertex among them. */
 static int32_t random_shape(random_source *r, size_t *sides)
@@ -136,13 +132,6 @@ START_TEST(nearest_is_the_first_of_the_nearest)
 END_TEST
 
 /* ---------------------------------------------------------- rasterisation */
-
-static icc_domain *domain_of(size_t n, const double *xy)
-{
-    icc_domain *domain;
-    ck_assert_int_eq(icc_domain_create(&domain, 2, n, xy, 0, NULL, NULL, NULL), ICC_OK);
-    return domain;
-}
 
 static icc_grid *grid_in(const icc_domain *domain, int32_t cells)
 {
@@ -286,7 +275,7 @@ START_TEST(boundaries_through_grid_vertices)
         if (round % 3 == 1)
             for (size_t i = 0; i < s.n; ++i) /* slanted edges through vertices */
                 s.xy[2 * i + 1] += s.xy[2 * i];
-        icc_domain *domain = domain_of(s.n, s.xy);
+        icc_domain *domain = domain_of_polygon(s.n, s.xy);
         icc_grid *grid = grid_in(domain, cells);
         n_on += check_against_brute_force(domain, grid);
         icc_grid_free(grid);
@@ -299,7 +288,7 @@ END_TEST
 START_TEST(extreme_shapes)
 {
     const double needle[8] = {0, 0, 1e12, 0, 1e12, 1, 0, 1};
-    icc_domain *domain = domain_of(4, needle);
+    icc_domain *domain = domain_of_polygon(4, needle);
     icc_grid *grid = grid_in(domain, 50);
     ck_assert_uint_eq(grid->shape[0], 54);
     ck_assert_uint_eq(grid->shape[1], 5);
@@ -310,7 +299,7 @@ START_TEST(extreme_shapes)
         shape s = shape_star(5, 0.4, 0.1);
         for (size_t i = 0; i < 2 * s.n; ++i)
             s.xy[i] = ldexp(s.xy[i], exponent);
-        domain = domain_of(s.n, s.xy);
+        domain = domain_of_polygon(s.n, s.xy);
         grid = grid_in(domain, 30);
         check_against_brute_force(domain, grid);
         icc_grid_info info = {.size = sizeof info};
@@ -325,7 +314,7 @@ END_TEST
 START_TEST(info_is_in_the_callers_coordinates)
 {
     const double square[8] = {1e6, -3, 1e6 + 64, -3, 1e6 + 64, 29, 1e6, 29};
-    icc_domain *domain = domain_of(4, square);
+    icc_domain *domain = domain_of_polygon(4, square);
     icc_grid *grid = grid_in(domain, 32);
     icc_grid_info info = {.size = sizeof info};
     ck_assert_int_eq(icc_grid_get_info(grid, &info), ICC_OK);
@@ -346,7 +335,7 @@ END_TEST
 START_TEST(no_grid_without_vertices_inside)
 {
     const double thin[12] = {0, 0, 1, 0, 1, .01, .01, .01, .01, 1, 0, 1};
-    icc_domain *domain = domain_of(6, thin);
+    icc_domain *domain = domain_of_polygon(6, thin);
     icc_grid *grid = (icc_grid *)&grid;
     icc_error err = {.size = sizeof err};
     ck_assert_int_eq(icc_grid_create(&grid, domain, 10, NULL, &err), ICC_ERR_RESOLUTION);
@@ -356,7 +345,7 @@ START_TEST(no_grid_without_vertices_inside)
     icc_domain_free(domain);
 
     const shape s = shape_square();
-    domain = domain_of(s.n, s.xy);
+    domain = domain_of_polygon(s.n, s.xy);
     ck_assert_int_eq(icc_grid_create(&grid, domain, 16384, NULL, &err), ICC_ERR_RESOLUTION);
     ck_assert_ptr_nonnull(strstr(err.message, "more than 268435456 vertices"));
     icc_domain_free(domain);
@@ -565,7 +554,7 @@ END_TEST
 START_TEST(the_maximum_of_polygons)
 {
     const shape square = shape_square(), l = shape_l();
-    icc_domain *domain = domain_of(square.n, square.xy);
+    icc_domain *domain = domain_of_polygon(square.n, square.xy);
     icc_grid *grid = grid_in(domain, 51);
     uint32_t vertex, rounds;
     ck_assert_int_eq(icc_grid_find_maximum(grid, &vertex, &rounds, NULL, NULL), ICC_OK);
@@ -574,14 +563,14 @@ START_TEST(the_maximum_of_polygons)
     icc_grid_free(grid);
     icc_domain_free(domain);
     /* Four vertices tie in the middle: the one with the smallest index. */
-    domain = domain_of(square.n, square.xy);
+    domain = domain_of_polygon(square.n, square.xy);
     grid = grid_in(domain, 50);
     ck_assert_int_eq(icc_grid_find_maximum(grid, &vertex, NULL, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(vertex, (2 + 24) * (1 + grid->shape[0]));
     icc_grid_free(grid);
     icc_domain_free(domain);
     /* In the corner of the L, on its axis of symmetry. */
-    domain = domain_of(l.n, l.xy);
+    domain = domain_of_polygon(l.n, l.xy);
     grid = grid_in(domain, 60);
     ck_assert_int_eq(icc_grid_find_maximum(grid, &vertex, NULL, NULL, NULL), ICC_OK);
     ck_assert_uint_eq(vertex % grid->shape[0], vertex / grid->shape[0]);
@@ -780,7 +769,7 @@ static icc_status make_mask_and_burn(const icc_env *env, icc_error *err, void *u
 START_TEST(every_failure_is_reported)
 {
     const shape s = shape_star(5, 0.4, 0.1);
-    icc_domain *domain = domain_of(s.n, s.xy);
+    icc_domain *domain = domain_of_polygon(s.n, s.xy);
     faulty_sweep(make_and_burn, domain);
     faulty_sweep(make_mask_and_burn, NULL);
     icc_domain_free(domain);
@@ -796,7 +785,7 @@ END_TEST
 START_TEST(wrong_arguments)
 {
     const shape s = shape_square();
-    icc_domain *domain = domain_of(s.n, s.xy);
+    icc_domain *domain = domain_of_polygon(s.n, s.xy);
     icc_grid *grid = (icc_grid *)&grid;
     const uint8_t inside = 1;
     const size_t sides[ICC_MAX_DIM + 1] = {1, 1, 0};
@@ -854,9 +843,5 @@ int main(void)
     tcase_add_test(tests, every_failure_is_reported);
     tcase_add_test(tests, wrong_arguments);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

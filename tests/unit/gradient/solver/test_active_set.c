@@ -9,6 +9,7 @@
 #include "../../../hard_masks.h"
 #include "../../../random.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -647,9 +648,5 @@ int main(void)
     tcase_add_test(tcase, root_alone);
     Suite *suite = suite_create("constrained");
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -7,10 +7,12 @@
 #include "gradient/solver/nested.h"
 #include "gradient/solver/polish.h"
 
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../hard_masks.h"
 #include "../../../random.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -23,16 +25,9 @@ typedef struct problem {
     iccp_scaled f;
 } problem;
 
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
-
 static problem problem_on(int32_t dim, const size_t *sides, const uint8_t *inside, uint32_t root)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     problem p;
     icc_grid *grid;
     ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
@@ -187,7 +182,7 @@ static const int32_t FUNCTIONS[2] = {ICC_FUNCTION_BILAPLACE, ICC_FUNCTION_CLAMPE
 START_TEST(small_minima_are_those_of_a_dense_solver)
 {
     random_source r = {1};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     for (int round = 0; round < share_of(200); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         for (int k = 0; k < 2; ++k) {
@@ -213,7 +208,7 @@ END_TEST
 /* The iterative solver agrees with the direct one, or knows that it cannot. */
 START_TEST(both_solvers_agree)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     int n_solved = 0;
     for (int s = 0; s < N_MASKS; ++s) {
         const int32_t dim = mask_number(s).dim == 3 ? 3 : 2;
@@ -241,7 +236,7 @@ END_TEST
 
 START_TEST(nothing_underflows)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     problem p = problem_of(mask_serpentine, 2, 500);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
@@ -421,7 +416,7 @@ START_TEST(small_constrained_minima_have_the_least_energy)
 {
     static const double ETAS[] = {1e-6, 1e-3, 0.01}, LEAVES[] = {1e-9, 1e-4, 0.01};
     random_source r = {2};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     for (int round = 0; round < share_of(120); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = ETAS[random_below(&r, 3)], leaf = LEAVES[random_below(&r, 3)];
@@ -475,7 +470,7 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
 
 START_TEST(both_ways_lead_to_the_same_function)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const int shapes[] = {0, 2, 3, 4, 8, 9, 10};
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
         for (int k = 0; k < 2; ++k) {
@@ -522,7 +517,7 @@ static icc_status solve_nested(const problem *p, int32_t function, size_t coarse
 
 START_TEST(coarse_to_fine_leads_there_too)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const int shapes[] = {0, 2, 3, 4};
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
         for (int k = 0; k < 2; ++k) {
@@ -547,7 +542,7 @@ END_TEST
 START_TEST(grids_that_lose_the_shape_are_not_used)
 {
     enum { N = 41 };
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     static uint8_t inside[N * N];
     for (size_t v = 0; v < sizeof inside; ++v)
         inside[v] = v / N == 20 || v % N % 2 == 1;
@@ -565,7 +560,7 @@ END_TEST
 /* As large as needs coarser grids within iccp_bilaplace_constrained(). */
 START_TEST(large_problems_hold_every_inequality)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     problem p = problem_of(mask_c, 2, 330);
     icc_function_info info = {.size = sizeof info};
     ck_assert_uint_ge(p.n, 50000);
@@ -584,7 +579,7 @@ END_TEST
 
 START_TEST(a_letter_c_has_one_critical_point)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     problem p = problem_of(mask_c, 2, 200);
     icc_function_info info = {.size = sizeof info};
     ck_assert_int_eq(
@@ -687,9 +682,5 @@ int main(void)
     tcase_add_test(tests, bounds_without_room_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

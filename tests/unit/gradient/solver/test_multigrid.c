@@ -4,23 +4,18 @@
 #include "gradient/solver/mg_cg.h"
 #include "gradient/solver/tied.h"
 
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../hard_masks.h"
 #include "../../../random.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <string.h>
 
 /* Largest problems for dense elimination. */
 enum { DENSE = 400 };
-
-static iccp_env default_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* A grid with its tree, and everything that a solver wants. */
 typedef struct problem {
@@ -605,9 +600,5 @@ int main(void)
     tcase_add_test(tests, gives_up_cleanly);
     tcase_add_test(tests, any_guess_will_do);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

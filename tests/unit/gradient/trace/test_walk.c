@@ -2,6 +2,7 @@
 #include "gradient/trace/walk2.h"
 
 #include "../../../random.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -852,9 +853,5 @@ int main(void)
     tcase_add_test(tests, running_out_of_memory_is_reported);
     tcase_add_test(tests, long_descents_need_memory);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -6,6 +6,7 @@
 
 #include "../../../random.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 #include "../../../surfaces.h"
 
 #include <check.h>
@@ -785,9 +786,5 @@ int main(void)
     tcase_add_test(tests, cells_of_the_cage_are_those_at_the_boundary);
     tcase_add_test(tests, no_step_slips_through_the_cage);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

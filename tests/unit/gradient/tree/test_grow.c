@@ -9,8 +9,10 @@
 #include "gradient/tree/ranks.h"
 
 #include "../../../faulty.h"
+#include "../../../grids.h"
 #include "../../../random.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -102,47 +104,11 @@ static icc_grid *random_ball(random_source *r, int32_t dim, size_t side, size_t 
     static uint8_t inside[MAX_VERTICES];
     static iccp_kuhn kuhn;
     iccp_kuhn_init(&kuhn, dim);
-    size_t shape[ICC_MAX_DIM], stride[ICC_MAX_DIM], n = 1;
-    for (int32_t k = 0; k < dim; ++k) {
-        stride[k] = n;
-        n *= shape[k] = side;
-    }
-    memset(inside, 0, n);
-    inside[n / 2] = 1;
-    for (size_t round = 0; round < rounds; ++round) {
-        const size_t v = (size_t)random_below(r, (int)n);
-        iccp_link_set touched = {{0, 0}};
-        bool along_axis = false;
-        for (int i = 0; i < kuhn.n_neighbours; ++i) {
-            size_t u = v;
-            int steps = 0;
-            bool in_grid = true;
-            for (int32_t k = 0; k < dim; ++k) {
-                const size_t step = (size_t)kuhn.step[i][k];
-                in_grid = in_grid && v / stride[k] % side + step < side;
-                u += step * stride[k];
-                steps += step != 0;
-            }
-            if (!in_grid || !inside[u])
-                continue;
-            iccp_link_add(&touched, i);
-            along_axis = along_axis || steps == 1;
-        }
-        if (along_axis && iccp_kuhn_regular(&kuhn, &touched))
-            inside[v] = 1;
-    }
-    icc_grid *grid;
-    ck_assert_int_eq(icc_grid_create_mask(&grid, dim, shape, inside, NULL, NULL), ICC_OK);
-    return grid;
-}
-
-static uint32_t random_inside(random_source *r, const icc_grid *grid)
-{
-    uint32_t v;
-    do
-        v = (uint32_t)random_below(r, (int)grid->n_vertices);
-    while (!grid->inside[v]);
-    return v;
+    size_t sides[ICC_MAX_DIM];
+    for (int32_t k = 0; k < dim; ++k)
+        sides[k] = side;
+    grid_grow_ball(r, &kuhn, sides, rounds, inside);
+    return grid_of(dim, sides, inside);
 }
 
 static icc_tree *tree_of(const icc_grid *grid, uint32_t root)
@@ -346,7 +312,7 @@ START_TEST(a_house_with_thick_walls)
     for (size_t cuts = 1; cuts <= 3; ++cuts) {
         icc_grid *grid = closed_grid(&h, cuts);
         for (int i = 0; i < 12; ++i) {
-            icc_tree *tree = tree_of(grid, random_inside(&r, grid));
+            icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid));
             const icc_grow_report report = grow(tree, NULL, rank);
             n_stuck += report.n_unplaced > 0;
             n_thinned += report.n_unplaced > 0 && report.n_remaining == 0;
@@ -371,7 +337,7 @@ START_TEST(random_balls)
         size_t n_irregular = 0;
         for (int i = 0; i < kinds[k].n_shapes; ++i) {
             icc_grid *grid = random_ball(&r, kinds[k].dim, kinds[k].side, kinds[k].rounds);
-            icc_tree *tree = tree_of(grid, random_inside(&r, grid));
+            icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid));
             ck_assert_uint_eq(tree->n_inside, grid->n_inside);
             const icc_grow_report report = grow(tree, NULL, rank);
             ck_assert_uint_eq(report.n_remaining, 0);
@@ -395,7 +361,7 @@ START_TEST(given_values)
     size_t n_turned = 0, n_vertices = 0;
     for (int round = 0; round < 40; ++round) {
         icc_grid *grid = random_ball(&r, 3, 10, 10000);
-        const uint32_t root = random_inside(&r, grid);
+        const uint32_t root = grid_random_inside(&r, grid);
         icc_tree *tree = tree_of(grid, root);
         for (uint32_t v = 0; v < grid->n_vertices; ++v) {
             double square = 0;
@@ -458,7 +424,7 @@ START_TEST(values_fall_with_the_ranks)
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
     for (int round = 0; round < 20; ++round) {
         icc_grid *grid = random_ball(&r, 2 + round % 3, 8, 4000);
-        icc_tree *tree = tree_of(grid, random_inside(&r, grid));
+        icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid));
         ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         const double gap = round % 2 == 0 ? 1e-3 : 0.25;
         for (uint32_t v = 0; v < grid->n_vertices; ++v)
@@ -501,7 +467,7 @@ START_TEST(refined_grids)
             }
         ck_assert_uint_eq(fine->n_inside, grid->n_inside + n_edges);
         ck_assert(2 * fine->spacing == grid->spacing);
-        icc_tree *tree = tree_of(fine, random_inside(&r, fine));
+        icc_tree *tree = tree_of(fine, grid_random_inside(&r, fine));
         ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         icc_tree_free(tree);
         icc_grid_free(fine);
@@ -576,7 +542,7 @@ START_TEST(the_verifier_sees_spoilt_orders)
     size_t n_seen = 0;
     for (int round = 0; round < 40; ++round) {
         icc_grid *grid = random_ball(&r, 3, 8, 4000);
-        icc_tree *tree = tree_of(grid, random_inside(&r, grid));
+        icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid));
         ck_assert_uint_eq(grow(tree, NULL, rank).n_remaining, 0);
         const uint32_t last = tree->order[tree->n_inside - 1];
         rank[last] = 0;
@@ -678,9 +644,5 @@ int main(void)
     tcase_add_test(tests, every_failure_is_reported);
     tcase_add_test(tests, wrong_arguments);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

@@ -4,20 +4,15 @@
 #include "icc/stages.h"
 
 #include "../../../faulty.h"
+#include "../../../grids.h"
 #include "../../../random.h"
 #include "../../../shapes.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <string.h>
 
 enum { MAX_VERTICES = 4096 };
-
-static icc_grid *grid_of(int32_t dim, const size_t *sides, const uint8_t *inside)
-{
-    icc_grid *grid;
-    ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
-    return grid;
-}
 
 static icc_tree *tree_of(const icc_grid *grid, uint32_t root, int32_t form,
                          const int32_t *axis_order)
@@ -48,15 +43,6 @@ static icc_grid *random_grid(random_source *r, int32_t dim)
         inside[v] = random_below(r, 10) < density;
     inside[random_below(r, (int)n)] = 1;
     return grid_of(dim, sides, inside);
-}
-
-static uint32_t random_inside(random_source *r, const icc_grid *grid)
-{
-    uint32_t v;
-    do
-        v = (uint32_t)random_below(r, (int)grid->n_vertices);
-    while (!grid->inside[v]);
-    return v;
 }
 
 static void random_order(random_source *r, int32_t dim, int32_t *order)
@@ -132,7 +118,7 @@ START_TEST(inside_the_tree_is_the_printed_one)
     for (int round = 0; round < 3000; ++round) {
         const int32_t dim = 1 + round % ICC_MAX_DIM;
         icc_grid *grid = random_grid(&r, dim);
-        const uint32_t root = random_inside(&r, grid);
+        const uint32_t root = grid_random_inside(&r, grid);
         int32_t order[ICC_MAX_DIM];
         random_order(&r, dim, order);
         for (int32_t form = ICC_TREE_THESIS; form <= ICC_TREE_PAPER; ++form) {
@@ -163,7 +149,7 @@ START_TEST(round_boxes_the_whole_tree_is_the_printed_one)
             for (int x = x0; x <= x1; ++x)
                 inside[x + 20 * y] = 1;
         icc_grid *grid = grid_of(2, (size_t[]){20, 20}, inside);
-        const uint32_t root = random_inside(&r, grid);
+        const uint32_t root = grid_random_inside(&r, grid);
         const int32_t order[2] = {round % 2, 1 - round % 2};
         run_printed(&p, grid, root, ICC_TREE_THESIS, order);
         icc_tree *tree = tree_of(grid, root, ICC_TREE_THESIS, order);
@@ -292,7 +278,7 @@ START_TEST(two_layers_outside)
     for (int round = 0; round < 1500; ++round) {
         const int32_t dim = 1 + round % 4;
         icc_grid *grid = random_grid(&r, dim);
-        const uint32_t root = random_inside(&r, grid);
+        const uint32_t root = grid_random_inside(&r, grid);
         for (int32_t form = ICC_TREE_THESIS; form <= ICC_TREE_PAPER; ++form) {
             icc_tree *tree = tree_of(grid, root, form, NULL);
             check_outside(tree);
@@ -385,7 +371,7 @@ START_TEST(the_verifier_counts_what_the_definition_says)
     size_t n_violations = 0;
     for (int round = 0; round < 2000; ++round) {
         icc_grid *grid = random_grid(&r, 2 + round % 5);
-        icc_tree *tree = tree_of(grid, random_inside(&r, grid), 0, NULL);
+        icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid), 0, NULL);
         const icc_tree_report found = report_on(tree), expected = count_pairs(tree);
         ck_assert_uint_eq(found.n_pairs, expected.n_pairs);
         ck_assert_uint_eq(found.n_cousin_violations, expected.n_cousin_violations);
@@ -440,7 +426,7 @@ START_TEST(boxes_obey_the_rule)
                 sides[k] = (size_t)(1 + random_below(&r, dim > 4 ? 4 : 6));
             random_order(&r, dim, order);
             icc_grid *grid = grid_of(dim, sides, inside);
-            const uint32_t root = random_inside(&r, grid);
+            const uint32_t root = grid_random_inside(&r, grid);
             icc_tree *tree = tree_of(grid, root, ICC_TREE_PAPER, order);
             const icc_tree_report report = report_on(tree);
             ck_assert_uint_eq(report.n_cousin_violations, 0);
@@ -511,7 +497,7 @@ START_TEST(threads_do_not_change_the_report)
         inside[v] = random_below(&r, 10) < 8;
     inside[0] = 1;
     icc_grid *grid = grid_of(2, (size_t[]){SIDE, SIDE}, inside);
-    icc_tree *tree = tree_of(grid, random_inside(&r, grid), 0, NULL);
+    icc_tree *tree = tree_of(grid, grid_random_inside(&r, grid), 0, NULL);
     const icc_tree_report one = report_on(tree);
     ck_assert_uint_gt(one.n_pairs, 10000);
     ck_assert_uint_gt(one.n_cousin_violations, 0);
@@ -582,9 +568,5 @@ int main(void)
     tcase_add_test(tests, threads_do_not_change_the_report);
     tcase_add_test(tests, wrong_arguments);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

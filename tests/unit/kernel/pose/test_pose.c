@@ -1,5 +1,6 @@
 /* Poses: their derivatives, affine maps, and turns of handles. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -138,9 +139,5 @@ int main(void)
     tcase_add_loop_test(tests, poses_are_affine_when_all_handles_agree, 0, 2);
     tcase_add_test(tests, handles_turn_about_themselves);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
 #include "kernel/pose/rigid_hessian.h"
 
 #include "../../../random.h"
+#include "../../../suite.h"
 #include "base/error.h"
 #include "math/vec.h"
 
@@ -170,9 +171,5 @@ int main(void)
     tcase_add_test(tests, products_can_nearly_be_divided);
     tcase_add_test(tests, large_parts_make_no_matrix);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,8 +1,10 @@
 /* Samplings: grids, blue noise, the caller's points, bytes. */
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../gaussians.h"
 #include "../../../random.h"
 #include "../../../regions.h"
+#include "../../../suite.h"
 #include "base/blob.h"
 #include "kernel/sampling/point_list.h"
 #include "kernel/sampling/sampling.h"
@@ -10,13 +12,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 static icc_sampling *sample(const icc_shape *shape, const icc_sampling_options *options)
 {
@@ -140,7 +135,7 @@ END_TEST
 /* How far a place in the star or the square can be from all samples. */
 static double largest_hole(const icc_sampling *sampling)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const icc_sampling_info info = info_of(sampling);
     iccp_cells cells;
     uint32_t near[64];
@@ -218,7 +213,7 @@ END_TEST
 START_TEST(blue_noise_has_its_spectrum)
 {
     enum { N = 3000 };
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_shape *shape = square_shape(1);
     const icc_sampling_options options = blue(0.04, 3);
     icc_sampling *sampling = sample(shape, &options);
@@ -743,9 +738,5 @@ int main(void)
     tcase_add_test(c, hostile_content_is_safe);
     tcase_add_test(c, every_allocation_and_report_may_fail);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

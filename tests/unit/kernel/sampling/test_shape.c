@@ -1,20 +1,15 @@
 /* Shapes: regions, walls and curves; cells. */
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../random.h"
 #include "../../../regions.h"
+#include "../../../suite.h"
 #include "geometry/segment.h"
 #include "kernel/sampling/cells.h"
 #include "kernel/sampling/shape.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* ------------------------------------------------------------------- cells */
 
@@ -29,7 +24,7 @@ static double distance2(size_t dim, const double *a, const double *b)
 START_TEST(cells_find_what_a_search_of_all_finds)
 {
     enum { N = 300 };
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {5};
     for (size_t dim = 2; dim <= 3; ++dim)
         for (int round = 0; round < 60; ++round) {
@@ -467,9 +462,5 @@ int main(void)
     tcase_add_test(c, bad_shapes_are_named);
     tcase_add_test(c, every_allocation_may_fail);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

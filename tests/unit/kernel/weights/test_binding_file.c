@@ -1,5 +1,6 @@
 /* Bindings as bytes: they come back bit for bit, and anything else is refused. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 #include "base/blob.h"
 
 #include <math.h>
@@ -121,9 +122,5 @@ int main(void)
     tcase_add_test(tests, bindings_come_back_bit_for_bit);
     tcase_add_test(tests, hostile_bytes_are_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

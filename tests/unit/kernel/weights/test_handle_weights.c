@@ -1,5 +1,6 @@
 /* Weights of handles: sums, reproduction, edges, initial weights and units. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -276,9 +277,5 @@ int main(void)
     tcase_add_test(tests, one_sample_will_do);
     tcase_add_test(tests, any_point_may_be_asked);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

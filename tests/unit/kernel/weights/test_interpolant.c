@@ -2,8 +2,10 @@
  * solution. Sections and figures are those of Sakaridis, Kernel Coordinates, 2016. */
 #include "kernel/weights/interpolant.h"
 
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../random.h"
+#include "../../../suite.h"
 #include "base/error.h"
 
 #include <check.h>
@@ -14,13 +16,6 @@
 static const double PI = 3.14159265358979323846;
 /* Of the Gaussian, in sigma, where the thesis does not cut it off: exp(-32) is 1e-14. */
 static const double UNCUT = 8;
-
-static iccp_env plain_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 /* n * n nodes at a spacing, centred at the origin. */
 static double *make_grid(size_t n, double spacing)
@@ -51,7 +46,7 @@ static double *make_jittered(size_t dim, size_t n, size_t *n_nodes)
 static iccp_collocation *make(size_t dim, size_t n, const double *points, iccp_radial radial,
                               bool tail)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_collocation *c;
     icc_error err = {.size = sizeof err};
     ck_assert_msg(iccp_collocation_create(&c, dim, n, points, &radial, tail, &env, &err) == ICC_OK,
@@ -61,7 +56,7 @@ static iccp_collocation *make(size_t dim, size_t n, const double *points, iccp_r
 
 static double *solve(const iccp_collocation *c, size_t rows, size_t m, const double *values)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     double *coefficients = malloc(rows * m * sizeof *coefficients);
     ck_assert_ptr_nonnull(coefficients);
     ck_assert_int_eq(iccp_collocation_solve(c, m, values, coefficients, &env), ICC_OK);
@@ -86,7 +81,7 @@ START_TEST(rows_of_a_grid_sum_up_to_the_same)
 {
     const size_t n = 101;
     double *points = make_grid(n, 1), worst = 0;
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const iccp_radial radial = iccp_radial_make(ICC_KERNEL_GAUSS, 3 / PI, UNCUT);
     iccp_cells cells;
     iccp_kernel_matrix k;
@@ -422,7 +417,7 @@ END_TEST
 
 static icc_status try(int kind, size_t n, const double *points, double sigma, icc_error *err)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const iccp_radial radial = iccp_radial_make(kind, sigma, 5);
     iccp_collocation *c;
     const icc_status status = iccp_collocation_create(&c, 2, n, points, &radial, false, &env, err);
@@ -476,7 +471,7 @@ END_TEST
 
 START_TEST(nodes_that_determine_nothing_are_refused)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const iccp_radial radial = iccp_radial_make(ICC_KERNEL_WENDLAND, 1, 0);
     const double line[10] = {0, 0, 1, 2, 2, 4, 3, 6, 4, 8}, twice[8] = {0, 0, 1, 0, 0, 1, 1, 0};
     iccp_collocation *c = NULL;
@@ -508,7 +503,7 @@ START_TEST(columns_do_not_depend_on_each_other)
     bool which[21];
     for (size_t j = 0; j < m; ++j)
         which[j] = j % 3 == 1;
-    iccp_env env = plain_env();
+    iccp_env env = default_env();
     env.threads = 4;
     ck_assert_int_eq(iccp_collocation_solve_some(c, m, values, which, some, &env), ICC_OK);
     for (size_t i = 0; i < rows * m; ++i)
@@ -564,9 +559,5 @@ int main(void)
     tcase_add_test(tests, columns_do_not_depend_on_each_other);
     tcase_add_test(tests, failures_are_reported);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,6 +1,7 @@
 /* Diffusion stays in the shape: section 4.6 of the thesis claims that weights follow the shape, but
  * its kernel reaches across gaps (digest: 11 to 25 % of the weight on the other limb of a U). */
 #include "../../../regions.h"
+#include "../../../suite.h"
 #include "icc/kernel.h"
 
 #include <stdlib.h>
@@ -73,9 +74,5 @@ int main(void)
     TCase *c = tcase_create("leak");
     tcase_add_test(c, weights_do_not_cross_a_gap);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Lines that stay straight, share ends, or stay parallel. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 
 #include <math.h>
 
@@ -113,9 +114,5 @@ int main(void)
     tcase_add_test(tests, lines_share_ends);
     tcase_add_test(tests, parallel_lines_stay_parallel);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -4,6 +4,8 @@
 #include "kernel/sampling/sampling.h"
 #include "kernel/weights/interpolant.h"
 
+#include "../../../suite.h"
+
 #include <check.h>
 #include <float.h>
 #include <math.h>
@@ -810,9 +812,5 @@ int main(void)
     tcase_add_test(defects, hull_edges_are_solved);
     tcase_add_test(defects, arithmetic_is_strict);
     suite_add_tcase(suite, defects);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_run(suite);
 }

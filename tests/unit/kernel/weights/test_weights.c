@@ -4,6 +4,7 @@
 #include "kernel/weights/weights.h"
 
 #include "../../../random.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -634,9 +635,5 @@ int main(void)
     tcase_add_test(points, handles_on_a_line_are_refused);
     tcase_add_test(points, place_and_size_do_not_matter);
     suite_add_tcase(suite, points);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed != 0;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Weights made from others: painted, repainted, by another method, stiffened. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -272,9 +273,5 @@ int main(void)
     tcase_add_test(tests, stiff_parts_without_freedom_stay);
     tcase_add_test(tests, a_part_without_nodes_changes_nothing);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
 #include "../../../faulty.h"
 #include "../../../handle_fixtures.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <string.h>
 
@@ -159,9 +160,5 @@ int main(void)
     tcase_add_test(tests, failures_are_reported_and_nothing_is_left);
     tcase_add_test(tests, threads_change_no_bit);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* What weights, bindings and poses refuse, and what they name as its cause. */
 #include "../../../handle_fixtures.h"
+#include "../../../suite.h"
 
 #include <math.h>
 #include <string.h>
@@ -175,9 +176,5 @@ int main(void)
     tcase_add_test(tests, impossible_lines_are_named);
     tcase_add_test(tests, impossible_calls_are_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -5,6 +5,7 @@
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"
+#include "../../../suite.h"
 
 static iccp_plmap shaken(int k, int32_t cells)
 {
@@ -180,9 +181,5 @@ int main(void)
     tcase_add_test(tests, flips_leave_the_identity_alone);
     tcase_add_test(tests, failures_leave_valid_maps);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,12 +3,10 @@
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/plmap_certificate.h"
 
+#include "../../../domains.h"
 #include "../../../faulty.h"
 #include "../../../plmaps.h"
-
-typedef struct pair {
-    icc_domain *source, *target;
-} pair;
+#include "../../../suite.h"
 
 /* For odd seeds clockwise, with the facets in another order. */
 static icc_domain *domain_of(const shape *given, uint64_t seed)
@@ -25,19 +23,13 @@ static icc_domain *domain_of(const shape *given, uint64_t seed)
     return domain;
 }
 
-static pair pair_of(const shape *a, const shape *b, uint64_t seed)
+static domain_pair pair_of(const shape *a, const shape *b, uint64_t seed)
 {
-    return (pair){domain_of(a, seed), domain_of(b, seed)};
-}
-
-static void free_pair(pair *p)
-{
-    icc_domain_free(p->source);
-    icc_domain_free(p->target);
+    return (domain_pair){domain_of(a, seed), domain_of(b, seed)};
 }
 
 /* One-to-one, with each corner of the one cage on that of the other. */
-static void check_start(const pair *p, const iccp_plmap *map)
+static void check_start(const domain_pair *p, const iccp_plmap *map)
 {
     const iccp_env env = default_env();
     size_t n_fixed = 0;
@@ -61,7 +53,7 @@ static void check_start(const pair *p, const iccp_plmap *map)
 static double check_shapes(const shape *a, const shape *b, uint64_t seed, double limit)
 {
     const iccp_env env = default_env();
-    pair p = pair_of(a, b, seed);
+    domain_pair p = pair_of(a, b, seed);
     iccp_plmap map, again;
     iccp_work work = {.left = limit}, work_again = work;
     ck_assert_int_eq(iccp_overlay_start(&map, p.source, p.target, HUGE_VAL, &work, &env), ICC_OK);
@@ -85,7 +77,7 @@ static double check_shapes(const shape *a, const shape *b, uint64_t seed, double
     const double energy = iccp_plmap_energy(&map);
     iccp_plmap_free(&map);
     iccp_plmap_free(&again);
-    free_pair(&p);
+    domain_pair_free(&p);
     return energy;
 }
 
@@ -124,7 +116,7 @@ END_TEST
 
 static icc_status start(const icc_env *env, icc_error *err, void *argument)
 {
-    const pair *p = argument;
+    const domain_pair *p = argument;
     iccp_env full;
     iccp_plmap map;
     iccp_work work = {.left = 2000};
@@ -140,9 +132,9 @@ static icc_status start(const icc_env *env, icc_error *err, void *argument)
 START_TEST(failures_leave_nothing)
 {
     const shape a = shape_l(), b = shape_wild(6, 3);
-    pair p = pair_of(&a, &b, 0);
+    domain_pair p = pair_of(&a, &b, 0);
     faulty_sweep(start, &p);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -155,9 +147,5 @@ int main(void)
     tcase_add_test(tests, the_same_shape_is_the_identity);
     tcase_add_test(tests, failures_leave_nothing);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

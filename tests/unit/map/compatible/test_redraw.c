@@ -4,6 +4,7 @@
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"
+#include "../../../suite.h"
 
 /* Images of a few inner vertices change places, by turns: each with one three edges away. */
 static iccp_plmap tangled(int k, size_t n_swaps)
@@ -187,9 +188,5 @@ int main(void)
     tcase_add_test(tests, what_cannot_be_drawn_stays);
     tcase_add_test(tests, failures_leave_valid_meshes);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

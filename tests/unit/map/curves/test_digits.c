@@ -9,7 +9,9 @@
 #include "map/curves/digits.h"
 
 #include "../../../determinant.h"
+#include "../../../infos.h"
 #include "../../../random.h"
+#include "../../../suite.h"
 
 enum { N_VERTICES = 120, N_POINTS = 120 };
 
@@ -41,13 +43,6 @@ static icc_map *map_onto(double height, double bend)
     icc_domain_free(source);
     icc_domain_free(target);
     return map;
-}
-
-static icc_map_info info_of(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
 }
 
 static void spread_points(double *points)
@@ -159,7 +154,7 @@ START_TEST(reasons)
     } CASES[] = {{0.5, ICC_REASON_NONE}, {0.1, ICC_REASON_FLAT}, {0.05, ICC_REASON_LOST}};
     for (int k = 0; k < 3; ++k) {
         icc_map *map = map_onto(CASES[k].height, 0), *again, *inverse;
-        const icc_map_info info = info_of(map);
+        const icc_map_info info = info_of_map(map);
         size_t n_bytes;
         ck_assert_int_eq(info.reason, CASES[k].reason);
         ck_assert_int_eq(info.certified, info.reason == ICC_REASON_NONE);
@@ -170,16 +165,16 @@ START_TEST(reasons)
         void *data = malloc(n_bytes);
         ck_assert_int_eq(icc_map_save(map, n_bytes, data, &n_bytes), ICC_OK);
         ck_assert_int_eq(icc_map_load(&again, n_bytes, data, NULL, NULL), ICC_OK);
-        const icc_map_info loaded = info_of(again);
+        const icc_map_info loaded = info_of_map(again);
         ck_assert(loaded.certified == info.certified && loaded.reason == info.reason &&
                   loaded.n_lost == info.n_lost && loaded.n_flat == info.n_flat &&
                   loaded.n_samples == info.n_samples);
         ck_assert_int_eq(icc_map_create_from_charts(&inverse, icc_map_target_chart(map),
                                                     icc_map_source_chart(map), NULL, NULL, NULL),
                          ICC_OK);
-        ck_assert_uint_eq(info_of(inverse).n_lost, info.n_lost);
-        ck_assert_uint_eq(info_of(inverse).n_flat, info.n_flat);
-        ck_assert_int_eq(info_of(inverse).reason, info.reason);
+        ck_assert_uint_eq(info_of_map(inverse).n_lost, info.n_lost);
+        ck_assert_uint_eq(info_of_map(inverse).n_flat, info.n_flat);
+        ck_assert_int_eq(info_of_map(inverse).reason, info.reason);
         free(data);
         icc_map_free(inverse);
         icc_map_free(again);
@@ -196,9 +191,5 @@ int main(void)
     tcase_add_test(tests, what_does_not_come_back_has_no_image);
     tcase_add_test(tests, reasons);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
 #include "map/energy/movable.h"
 
 #include "../../../faulty.h"
+#include "../../../suite.h"
 #include "map/energy/dirichlet.h"
 
 #include <check.h>
@@ -146,9 +147,5 @@ int main(void)
     tcase_add_test(tests, what_hardly_counts_stays);
     tcase_add_test(tests, without_memory);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed > 0;
+    return suite_run(suite);
 }

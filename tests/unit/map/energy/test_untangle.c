@@ -3,8 +3,10 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../meshes.h"
+#include "../../../suite.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"
 #include "map/compatible/improve.h"
@@ -58,13 +60,6 @@ static size_t count_inverted(const cube *c)
         n += iccp_orient(dim, corner) <= 0;
     }
     return n;
-}
-
-static iccp_env default_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
 }
 
 /* ---- tangles ---- */
@@ -351,9 +346,5 @@ int main(void)
     tcase_add_test(tests, steps_go_down);
     tcase_add_test(tests, shaken_maps_become_fair);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

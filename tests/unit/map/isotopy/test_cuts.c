@@ -7,20 +7,15 @@
 #include "map/plane/feature_start.h"
 #include "math/predicates.h"
 
+#include "../../../default_env.h"
 #include "../../../feature_mixes.h"
 #include "../../../feature_pairs.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <stdlib.h>
 
 enum { N_MIXES = 60 };
-
-static iccp_env default_env(void)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    return env;
-}
 
 typedef struct pair {
     icc_domain *domain[2];
@@ -503,9 +498,5 @@ int main(void)
     tcase_add_test(c, no_polygon);
     tcase_add_test(c, starts_are_maps);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,6 +3,7 @@
 #include "../../../faulty.h"
 #include "../../../feature_pairs.h"
 #include "../../../saved.h"
+#include "../../../suite.h"
 
 #include "map/map.h"
 
@@ -149,9 +150,5 @@ int main(void)
     TCase *c = tcase_create("feature failures");
     tcase_add_test(c, failures);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -5,8 +5,10 @@
 #include "map/plane/plane_kind.h"
 
 #include "../../../feature_pairs.h"
+#include "../../../infos.h"
 #include "../../../saved.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 typedef struct given_tie {
     icc_tie_info info;
@@ -15,17 +17,10 @@ typedef struct given_tie {
 
 enum { MOST_TIES = 16 };
 
-static icc_map_info info_of(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
-}
-
 /* The ties of a map, as options. */
 static size_t read_ties(const icc_map *map, given_tie *given, icc_tie *ties)
 {
-    const size_t n = info_of(map).n_ties;
+    const size_t n = info_of_map(map).n_ties;
     ck_assert_uint_le(n, MOST_TIES);
     for (size_t k = 0; k < n; ++k) {
         given_tie *g = &given[k];
@@ -63,7 +58,7 @@ static icc_map *map_with(const icc_domain *source, const icc_domain *target, siz
     icc_map *map;
     ck_assert_msg(icc_map_create(&map, source, target, &options, NULL, &err) == ICC_OK, "%s",
                   err.message);
-    const icc_map_info info = info_of(map);
+    const icc_map_info info = info_of_map(map);
     ck_assert(info.certified == 1 && info.class_kept == 1);
     return map;
 }
@@ -169,7 +164,7 @@ START_TEST(turns)
         read_sequence(&wanted, domain, n, bends);
         ck_assert((wanted.sequence[0].n == 0) == (k == 0));
         icc_map *map = map_with(domain, domain, 2, ties, 0), *better, *next, *loaded;
-        const icc_map_info info = info_of(map);
+        const icc_map_info info = info_of_map(map);
         ck_assert_double_le(info.energy, LARGEST[k]);
         ck_assert(info.n_points == 2 && info.n_holes == 0 && info.n_lines == 0 && info.n_ties == 2);
         ck_assert(info.n_trees == 1);
@@ -179,10 +174,10 @@ START_TEST(turns)
         check_returned(map);
         const icc_improve_options few = {.size = sizeof few, .iterations = 3, .levels = 1};
         ck_assert_int_eq(icc_map_improve(&better, map, &few, NULL, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(info_of(better).class_kept, 1);
+        ck_assert_int_eq(info_of_map(better).class_kept, 1);
         check_tie_from_corner(better, &wanted);
         ck_assert_int_eq(icc_map_retarget(&next, better, domain, 0, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(info_of(next).class_kept, 1);
+        ck_assert_int_eq(info_of_map(next).class_kept, 1);
         check_tie_from_corner(next, &wanted);
         bytes b = map_bytes(next);
         ck_assert_int_eq(icc_map_load(&loaded, b.n, b.data, NULL, NULL), ICC_OK);
@@ -275,14 +270,14 @@ START_TEST(carried_round)
         icc_domain *target = plan_domain(&moved);
         icc_map *next;
         ck_assert_int_eq(icc_map_retarget(&next, map, target, 0, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(info_of(next).class_kept, 1);
+        ck_assert_int_eq(info_of_map(next).class_kept, 1);
         icc_domain_free(target);
         if (map != first)
             icc_map_free(map);
         map = next;
     }
     ck_assert(!iccp_isotopy_same(iccp_plane_of(map)->isotopy, iccp_plane_of(first)->isotopy));
-    ck_assert(info_of(map).detour > 1.2 && info_of(first).detour < 1.001);
+    ck_assert(info_of_map(map).detour > 1.2 && info_of_map(first).detour < 1.001);
     check_returned(map);
     /* The one is not what the other becomes when nothing moves. */
     iccp_env env;
@@ -427,9 +422,5 @@ int main(void)
     tcase_add_test(c, there_and_back);
     tcase_add_test(c, sequences);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

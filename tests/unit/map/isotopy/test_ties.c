@@ -5,6 +5,7 @@
 #include "map/plane/plane_kind.h"
 
 #include "../../../feature_pairs.h"
+#include "../../../suite.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -201,9 +202,5 @@ int main(void)
     tcase_add_test(c, larger);
     tcase_add_test(c, density);
     suite_add_tcase(suite, c);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -2,6 +2,7 @@
 #include "map/picture/sampler.h"
 
 #include "../../../random.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <stdlib.h>
@@ -134,9 +135,5 @@ int main(void)
     TCase *tests = tcase_create("sampler");
     tcase_add_test(tests, all_kinds_give_the_same_bits);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -3,6 +3,7 @@
 #include "map/picture/warp_points.h"
 
 #include "../../../pictures.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
@@ -536,9 +537,5 @@ int main(void)
     tcase_add_test(tcase, test_sizes);
     tcase_add_test(tcase, test_arguments);
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

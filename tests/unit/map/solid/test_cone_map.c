@@ -3,6 +3,7 @@
  * pockets of a map in which something is inverted. */
 #include "../../../faulty.h"
 #include "../../../meshes.h"
+#include "../../../suite.h"
 #include "base/error.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"
@@ -444,9 +445,5 @@ int main(void)
     tcase_add_test(tests, none_onto_arch);
     tcase_add_test(tests, failures);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

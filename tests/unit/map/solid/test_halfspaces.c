@@ -1,6 +1,7 @@
 /* A point of all half-spaces is found however thin what they have in common is, and none where they
  * have nothing in common. */
 #include "../../../random.h"
+#include "../../../suite.h"
 #include "map/solid/halfspaces.h"
 #include "math/vec.h"
 
@@ -86,9 +87,5 @@ int main(void)
     tcase_add_test(tests, thin);
     tcase_add_test(tests, empty);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

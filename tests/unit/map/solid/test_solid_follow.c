@@ -1,9 +1,11 @@
 /* Maps of meshes in space that follow a target: every frame is a certified map onto it, about as
  * fair as one made at once; what is asked of a new map may be asked of one that has followed. */
 #include "../../../faulty.h"
+#include "../../../infos.h"
 #include "../../../meshes.h"
 #include "../../../saved.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 #include "domain/domain.h"
 #include "map/energy/newton.h"
 
@@ -96,13 +98,6 @@ static void turn(double far, const double *x, double *y)
     y[2] = 3 * x[2];
 }
 
-static icc_map_info info_of(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
-}
-
 static icc_map *first_map(const scene *s)
 {
     icc_map *map;
@@ -113,7 +108,7 @@ static icc_map *first_map(const scene *s)
 /* Both sides of its mesh are accepted as meshes of the source and of the target. */
 static void check_map(const icc_map *map, const scene *s, const icc_domain *target)
 {
-    const icc_map_info info = info_of(map);
+    const icc_map_info info = info_of_map(map);
     uint32_t *corners = mesh_alloc(info.n_simplices, 4 * sizeof *corners);
     double *points[2], *vertices = mesh_alloc(s->n_vertices, 3 * sizeof *vertices);
     ck_assert(info.kind == ICC_MAP_MESH && info.certified == 1 && info.n_unrepaired == 0);
@@ -180,13 +175,13 @@ START_TEST(frame_by_frame)
             if (frame == 20) {
                 ck_assert_int_eq(icc_map_create(&fresh, s.source, target, NULL, NULL, NULL),
                                  ICC_OK);
-                ck_assert_double_lt(info_of(map).energy, 1.01 * info_of(fresh).energy);
+                ck_assert_double_lt(info_of_map(map).energy, 1.01 * info_of_map(fresh).energy);
                 icc_map_free(fresh);
             }
             icc_domain_free(target);
         }
         ck_assert_uint_eq(n_new, 0);
-        ck_assert_uint_eq(info_of(map).n_simplices, 6 * SIDE * SIDE * SIDE);
+        ck_assert_uint_eq(info_of_map(map).n_simplices, 6 * SIDE * SIDE * SIDE);
         icc_map_free(map);
     }
     free_scene(&s);
@@ -204,7 +199,7 @@ START_TEST(affine_motions_are_found)
         check_map(next, &s, target);
         /* Stretches of 1, 1 and 3 where the volume is the same. */
         const double wide = pow(3, -2.0 / 3), long_side = pow(3, 4.0 / 3);
-        ck_assert_double_eq_tol(info_of(next).energy,
+        ck_assert_double_eq_tol(info_of_map(next).energy,
                                 2 * wide + long_side + 2 / wide + 1 / long_side, 1e-6);
         icc_map_free(map);
         icc_domain_free(target);
@@ -227,7 +222,7 @@ START_TEST(far_away)
         check_map(next, &s, target);
         back = follow(next, s.source, 0, NULL);
         check_map(back, &s, s.source);
-        ck_assert_double_lt(info_of(back).energy, 6.1);
+        ck_assert_double_lt(info_of_map(back).energy, 6.1);
         icc_map_free(next);
         icc_map_free(back);
         icc_domain_free(target);
@@ -285,8 +280,8 @@ START_TEST(filled_surfaces)
     one = follow(map, target, 0, NULL);
     other = follow(map, filled, 0, NULL);
     check_map(one, &s, target);
-    ck_assert_double_eq(info_of(one).energy, info_of(other).energy);
-    ck_assert_uint_eq(info_of(one).n_simplices, info_of(map).n_simplices);
+    ck_assert_double_eq(info_of_map(one).energy, info_of_map(other).energy);
+    ck_assert_uint_eq(info_of_map(one).n_simplices, info_of_map(map).n_simplices);
     same_map(one, other, bare);
     icc_map_free(map);
     icc_map_free(one);
@@ -310,14 +305,14 @@ START_TEST(again_and_again)
     bytes before = map_bytes(map);
     ck_assert_int_eq(icc_map_improve(&better, next, &options, NULL, NULL, NULL), ICC_OK);
     check_map(better, &s, near);
-    ck_assert_double_le(info_of(better).energy, info_of(next).energy);
+    ck_assert_double_le(info_of_map(better).energy, info_of_map(next).energy);
     bytes saved = map_bytes(better);
     ck_assert_int_eq(icc_map_load(&loaded, saved.n, saved.data, NULL, NULL), ICC_OK);
     same_map(better, loaded, s.source);
     bytes again = map_bytes(loaded);
     ck_assert_uint_eq(again.n, saved.n);
     ck_assert_same(again.data, saved.data, saved.n, "what is saved again");
-    ck_assert_int_eq(info_of(loaded).certified, 1);
+    ck_assert_int_eq(info_of_map(loaded).certified, 1);
     last[0] = follow(better, far, 2, NULL);
     last[1] = follow(loaded, far, 2, NULL);
     check_map(last[0], &s, far);
@@ -348,12 +343,12 @@ START_TEST(steps_are_as_many_as_asked)
     icc_map *map = first_map(&s);
     icc_map *none = follow(map, target, -1, NULL), *one = follow(map, target, 1, NULL),
             *some = follow(map, target, 0, NULL);
-    ck_assert_uint_eq(info_of(none).n_iterations, 0);
-    ck_assert_double_eq(info_of(none).energy, info_of(none).energy_start);
-    ck_assert_uint_eq(info_of(one).n_iterations, 1);
-    ck_assert_double_lt(info_of(one).energy, info_of(none).energy);
-    ck_assert_uint_le(info_of(some).n_iterations, 8);
-    ck_assert_double_le(info_of(some).energy, info_of(one).energy);
+    ck_assert_uint_eq(info_of_map(none).n_iterations, 0);
+    ck_assert_double_eq(info_of_map(none).energy, info_of_map(none).energy_start);
+    ck_assert_uint_eq(info_of_map(one).n_iterations, 1);
+    ck_assert_double_lt(info_of_map(one).energy, info_of_map(none).energy);
+    ck_assert_uint_le(info_of_map(some).n_iterations, 8);
+    ck_assert_double_le(info_of_map(some).energy, info_of_map(one).energy);
     icc_map_free(none);
     icc_map_free(one);
     icc_map_free(some);
@@ -492,9 +487,5 @@ int main(void)
     tcase_add_test(c, threads_change_nothing);
     tcase_add_test(c, failures_leave_nothing);
     suite_add_tcase(s, c);
-    SRunner *runner = srunner_create(s);
-    srunner_run_all(runner, CK_NORMAL);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(s);
 }

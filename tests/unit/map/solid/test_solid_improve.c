@@ -1,19 +1,14 @@
 /* Maps of meshes in space made fair: affine ones are found, spoilt ones recover, every mesh on the
  * way is that of a one-to-one map, and results neither depend on threads nor get lost. */
+#include "../../../domains.h"
 #include "../../../faulty.h"
+#include "../../../infos.h"
 #include "../../../meshes.h"
 #include "../../../saved.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 #include "domain/domain.h"
 #include "map/solid/solid_improve.h"
-
-static void bend(int32_t dim, const double *x, double *y)
-{
-    (void)dim;
-    y[0] = x[0] + 0.3 * sin(x[1]);
-    y[1] = x[1] + 0.25 * x[2] * x[0] / 3;
-    y[2] = 1.5 * x[2] - 0.2 * x[0] * x[1] / 3;
-}
 
 static const double AFFINE[3][3] = {{1.5, 0.25, 0}, {-0.5, 1, 0.375}, {0.125, 0, 0.75}};
 
@@ -25,14 +20,10 @@ static void shear(int32_t dim, const double *x, double *y)
 }
 
 /* Two domains with different insides, each with its mesh. */
-typedef struct pair {
-    icc_domain *source, *target;
-} pair;
-
-static pair pair_of(size_t n, void (*move)(int32_t dim, const double *x, double *y))
+static domain_pair pair_of(size_t n, void (*move)(int32_t dim, const double *x, double *y))
 {
     random_source r = {1};
-    pair p;
+    domain_pair p;
     test_mesh before = mesh_cube(3, n, 0.1, &r), other = mesh_cube(3, n, 0.1, &r);
     test_mesh after = mesh_moved(&other, move);
     ck_assert_int_eq(mesh_domain(&p.source, &before, NULL, NULL), ICC_OK);
@@ -43,25 +34,12 @@ static pair pair_of(size_t n, void (*move)(int32_t dim, const double *x, double 
     return p;
 }
 
-static void free_pair(pair *p)
-{
-    icc_domain_free(p->source);
-    icc_domain_free(p->target);
-}
-
-static icc_map *map_of(const pair *p, int32_t iterations)
+static icc_map *map_of(const domain_pair *p, int32_t iterations)
 {
     const icc_map_options options = {.size = sizeof options, .iterations = iterations};
     icc_map *map;
     ck_assert_int_eq(icc_map_create(&map, p->source, p->target, &options, NULL, NULL), ICC_OK);
     return map;
-}
-
-static icc_map_info info_of(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
 }
 
 static icc_map *improve(const icc_map *map, int32_t levels, double tolerance,
@@ -72,20 +50,20 @@ static icc_map *improve(const icc_map *map, int32_t levels, double tolerance,
     icc_map *better;
     *report = (icc_improve_report){.size = sizeof *report};
     ck_assert_int_eq(icc_map_improve(&better, map, &options, report, env, NULL), ICC_OK);
-    const icc_map_info info = info_of(better);
+    const icc_map_info info = info_of_map(better);
     ck_assert_int_eq(info.certified, 1);
     ck_assert_int_eq(info.kind, ICC_MAP_MESH);
     ck_assert_uint_eq(info.n_simplices, report->n_simplices);
     ck_assert_double_eq(info.energy, report->energy);
-    ck_assert_double_eq(report->energy_start, info_of(map).energy);
+    ck_assert_double_eq(report->energy_start, info_of_map(map).energy);
     ck_assert_double_le(report->energy, report->energy_start);
     return better;
 }
 
 /* Each side of the map's mesh is accepted as a mesh of that domain, with its surface. */
-static void check_mesh(const icc_map *map, const pair *p)
+static void check_mesh(const icc_map *map, const domain_pair *p)
 {
-    const icc_map_info info = info_of(map);
+    const icc_map_info info = info_of_map(map);
     icc_domain_info surface = {.size = sizeof surface};
     ck_assert_int_eq(icc_domain_get_info(p->source, &surface), ICC_OK);
     uint32_t *corners = mesh_alloc(info.n_simplices, 4 * sizeof *corners);
@@ -128,7 +106,7 @@ START_TEST(affine_maps_are_found)
             minors += minor * minor;
         }
     const double wanted = sum / pow(det, 2.0 / 3) + minors / pow(det, 4.0 / 3);
-    pair p = pair_of(4, shear);
+    domain_pair p = pair_of(4, shear);
     icc_map *map = map_of(&p, 0);
     for (int32_t levels = -1; levels <= 2; levels += 3) {
         icc_improve_report report;
@@ -148,35 +126,35 @@ START_TEST(affine_maps_are_found)
         icc_map_free(better);
     }
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 START_TEST(new_maps_take_a_few_steps)
 {
-    pair p = pair_of(4, bend);
+    domain_pair p = pair_of(4, mesh_bend);
     icc_map *plain = map_of(&p, -1), *some = map_of(&p, 2), *map = map_of(&p, 0);
-    const icc_map_info info = info_of(map);
-    ck_assert_uint_eq(info_of(plain).n_iterations, 0);
-    ck_assert_double_eq(info_of(plain).energy, info_of(plain).energy_start);
-    ck_assert_uint_eq(info_of(some).n_iterations, 2);
+    const icc_map_info info = info_of_map(map);
+    ck_assert_uint_eq(info_of_map(plain).n_iterations, 0);
+    ck_assert_double_eq(info_of_map(plain).energy, info_of_map(plain).energy_start);
+    ck_assert_uint_eq(info_of_map(some).n_iterations, 2);
     ck_assert(info.n_iterations > 2 && info.n_iterations <= 8);
-    ck_assert_double_eq(info.energy_start, info_of(plain).energy);
-    ck_assert_double_lt(info_of(some).energy, info.energy_start);
-    ck_assert_double_lt(info.energy, info_of(some).energy);
+    ck_assert_double_eq(info.energy_start, info_of_map(plain).energy);
+    ck_assert_double_lt(info_of_map(some).energy, info.energy_start);
+    ck_assert_double_lt(info.energy, info_of_map(some).energy);
     check_mesh(map, &p);
     icc_map_free(plain);
     icc_map_free(some);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 START_TEST(level_by_level)
 {
-    pair p = pair_of(4, bend);
+    domain_pair p = pair_of(4, mesh_bend);
     icc_map *map = map_of(&p, -1);
-    double last = info_of(map).energy;
+    double last = info_of_map(map).energy;
     for (int32_t n = -1; n <= 2; ++n) {
         icc_improve_report report;
         icc_map *better = improve(map, n, 1e-6, &report, NULL);
@@ -186,20 +164,20 @@ START_TEST(level_by_level)
             ck_assert(report.energy < last || (n == 2 && report.n_levels == 1));
             last = report.energy;
         }
-        ck_assert(n == -1 ? report.n_simplices == info_of(map).n_simplices
-                          : report.n_simplices > info_of(map).n_simplices);
+        ck_assert(n == -1 ? report.n_simplices == info_of_map(map).n_simplices
+                          : report.n_simplices > info_of_map(map).n_simplices);
         check_mesh(better, &p);
         icc_map_free(better);
     }
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 /* One that was improved is improved from there, and the first one stays as it is. */
 START_TEST(again_and_again)
 {
-    pair p = pair_of(4, bend);
+    domain_pair p = pair_of(4, mesh_bend);
     icc_map *map = map_of(&p, 0);
     bytes before = map_bytes(map);
     icc_improve_report report;
@@ -207,14 +185,14 @@ START_TEST(again_and_again)
     bytes after = map_bytes(map);
     ck_assert_uint_eq(after.n, before.n);
     ck_assert_same(after.data, before.data, before.n, "a map that was improved");
-    ck_assert_int_eq(info_of(twice).n_levels, 2);
+    ck_assert_int_eq(info_of_map(twice).n_levels, 2);
     check_mesh(twice, &p);
     free(before.data);
     free(after.data);
     icc_map_free(map);
     icc_map_free(once);
     icc_map_free(twice);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -293,7 +271,7 @@ END_TEST
 
 START_TEST(saved_maps_load)
 {
-    pair p = pair_of(4, bend);
+    domain_pair p = pair_of(4, mesh_bend);
     icc_map *map = map_of(&p, 0), *loaded;
     for (int32_t n = -1; n <= 2; ++n) {
         icc_improve_report report;
@@ -304,7 +282,7 @@ START_TEST(saved_maps_load)
         bytes again = map_bytes(loaded);
         ck_assert_uint_eq(again.n, b.n);
         ck_assert_same(again.data, b.data, b.n, "what is saved again");
-        ck_assert_double_eq(info_of(loaded).energy, report.energy);
+        ck_assert_double_eq(info_of_map(loaded).energy, report.energy);
         icc_map *still_better = improve(loaded, 1, 0, &report, NULL);
         check_mesh(still_better, &p);
         icc_map_free(still_better);
@@ -314,13 +292,13 @@ START_TEST(saved_maps_load)
         free(again.data);
     }
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 START_TEST(threads_change_nothing)
 {
-    pair p = pair_of(9, bend);
+    domain_pair p = pair_of(9, mesh_bend);
     icc_map *map = map_of(&p, -1);
     for (int32_t levels = -1; levels <= 1; levels += 2) {
         icc_improve_report first, report;
@@ -340,13 +318,13 @@ START_TEST(threads_change_nothing)
         icc_map_free(better);
     }
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 START_TEST(every_allocation_may_fail)
 {
-    pair p = pair_of(2, bend);
+    domain_pair p = pair_of(2, mesh_bend);
     icc_map *map = map_of(&p, -1), *better;
     for (int32_t threads = 1; threads <= 2; ++threads)
         for (size_t k = 1;; k = share_next(k)) {
@@ -367,16 +345,16 @@ START_TEST(every_allocation_may_fail)
             ck_assert_uint_eq(f.n_live, 0);
         }
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 /* The map so far, which is no worse than that of an earlier end. */
 START_TEST(cancelled_improvement_keeps_the_map)
 {
-    pair p = pair_of(4, bend);
+    domain_pair p = pair_of(4, mesh_bend);
     icc_map *map = map_of(&p, -1);
-    double last = info_of(map).energy;
+    double last = info_of_map(map).energy;
     int32_t cancelled = 1;
     for (size_t k = 1; cancelled; k = share_next(k)) {
         faulty f = {.cancel_at = k};
@@ -389,9 +367,9 @@ START_TEST(cancelled_improvement_keeps_the_map)
         check_mesh(better, &p);
         icc_map_free(better);
     }
-    ck_assert_double_lt(last, info_of(map).energy);
+    ck_assert_double_lt(last, info_of_map(map).energy);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -410,9 +388,5 @@ int main(void)
     tcase_add_test(tcase, every_allocation_may_fail);
     tcase_add_test(tcase, cancelled_improvement_keeps_the_map);
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

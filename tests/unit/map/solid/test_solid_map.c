@@ -1,43 +1,28 @@
 /* Map kind mesh in space: every tetrahedron positive, there and back, derivatives, and what happens
  * when the repair fails. */
+#include "../../../domains.h"
 #include "../../../faulty.h"
+#include "../../../infos.h"
 #include "../../../meshes.h"
 #include "../../../share.h"
+#include "../../../suite.h"
 
 #include <icc/icc.h>
 
-static void bend(int32_t dim, const double *x, double *y)
-{
-    (void)dim;
-    y[0] = x[0] + 0.3 * sin(x[1]);
-    y[1] = x[1] + 0.25 * x[2] * x[0] / 3;
-    y[2] = 1.5 * x[2] - 0.2 * x[0] * x[1] / 3;
-}
-
 /* Two domains with different insides; the vertices of the boundary are the same. */
-typedef struct pair {
-    icc_domain *source, *target;
-} pair;
-
-static void make_pair(pair *p, size_t n)
+static void make_pair(domain_pair *p, size_t n)
 {
     random_source r = {1};
     test_mesh before = mesh_cells(3, n, NULL);
     mesh_shake(&before, n, 0.1, &r);
     test_mesh other = mesh_cells(3, n, NULL);
     mesh_shake(&other, n, 0.1, &r);
-    test_mesh after = mesh_moved(&other, bend);
+    test_mesh after = mesh_moved(&other, mesh_bend);
     ck_assert_int_eq(mesh_domain(&p->source, &before, NULL, NULL), ICC_OK);
     ck_assert_int_eq(mesh_domain(&p->target, &after, NULL, NULL), ICC_OK);
     mesh_free(&before);
     mesh_free(&other);
     mesh_free(&after);
-}
-
-static void free_pair(pair *p)
-{
-    icc_domain_free(p->source);
-    icc_domain_free(p->target);
 }
 
 static double determinant(const double *j)
@@ -46,20 +31,13 @@ static double determinant(const double *j)
            j[2] * (j[3] * j[7] - j[4] * j[6]);
 }
 
-static icc_map_info info_of(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
-}
-
 START_TEST(there_and_back)
 {
-    pair p;
+    domain_pair p;
     icc_map *map;
     make_pair(&p, 4);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
-    const icc_map_info info = info_of(map);
+    const icc_map_info info = info_of_map(map);
     ck_assert_int_eq(info.kind, ICC_MAP_MESH);
     ck_assert_int_eq(info.certified, 1);
     ck_assert(info.energy >= 6);
@@ -82,18 +60,18 @@ START_TEST(there_and_back)
     }
     ck_assert_uint_eq(n_inside, 2000);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 /* What icc_map_get_mesh() hands out is the map: linear in each of its tetrahedra. */
 START_TEST(mesh_is_the_map)
 {
-    pair p;
+    domain_pair p;
     icc_map *map;
     make_pair(&p, 3);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
-    const icc_map_info info = info_of(map);
+    const icc_map_info info = info_of_map(map);
     double *before = calloc(info.n_vertices, 3 * sizeof *before);
     double *after = calloc(info.n_vertices, 3 * sizeof *after);
     uint32_t *corners = calloc(info.n_simplices, 4 * sizeof *corners);
@@ -126,7 +104,7 @@ START_TEST(mesh_is_the_map)
     free(after);
     free(corners);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -142,7 +120,7 @@ static void turn_corner(int32_t dim, const double *x, double *y)
 
 START_TEST(falls_back_on_curves)
 {
-    pair p;
+    domain_pair p;
     icc_map *map;
     icc_error err = {.size = sizeof err};
     test_mesh before = mesh_cells(3, 3, NULL), after = mesh_moved(&before, turn_corner);
@@ -150,7 +128,7 @@ START_TEST(falls_back_on_curves)
     ck_assert_int_eq(mesh_domain(&p.source, &before, NULL, NULL), ICC_OK);
     if (status == ICC_OK) {
         ck_assert_int_eq(icc_map_create(&map, p.source, p.target, NULL, NULL, NULL), ICC_OK);
-        ck_assert(info_of(map).certified);
+        ck_assert(info_of_map(map).certified);
         icc_map_free(map);
     } else {
         ck_assert_int_eq(status, ICC_ERR_BOUNDARY);
@@ -158,21 +136,21 @@ START_TEST(falls_back_on_curves)
     }
     mesh_free(&before);
     mesh_free(&after);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
 START_TEST(kinds)
 {
-    pair p;
+    domain_pair p;
     icc_map *map;
     icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
     make_pair(&p, 3);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(info_of(map).kind, ICC_MAP_CURVES);
+    ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_CURVES);
     ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     icc_map_free(map);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -203,7 +181,7 @@ START_TEST(surfaces_are_filled)
                  {ICC_MAP_CURVES, 0, ICC_MAP_CURVES, ICC_METHOD_FOLIATION},
                  {0, ICC_METHOD_FOLIATION, ICC_MAP_MESH, ICC_METHOD_FOLIATION},
                  {0, ICC_METHOD_FIELD, ICC_MAP_CURVES, ICC_METHOD_FIELD}};
-    pair p;
+    domain_pair p;
     make_pair(&p, 3);
     icc_domain *source = surface_of(p.source), *target = surface_of(p.target);
     const icc_domain *const PAIRS[][2] = {{source, target}, {p.source, target}, {source, p.target}};
@@ -221,13 +199,13 @@ START_TEST(surfaces_are_filled)
             icc_chart_info chart_info = {.size = sizeof chart_info};
             ck_assert_int_eq(icc_chart_get_info(icc_map_source_chart(map), &chart_info), ICC_OK);
             ck_assert_int_eq(chart_info.method, CASES[i].by);
-            ck_assert_int_eq(info_of(map).kind, CASES[i].made);
-            ck_assert(CASES[i].by == ICC_METHOD_FIELD || info_of(map).certified);
+            ck_assert_int_eq(info_of_map(map).kind, CASES[i].made);
+            ck_assert(CASES[i].by == ICC_METHOD_FIELD || info_of_map(map).certified);
             icc_map_free(map);
         }
     icc_domain_free(source);
     icc_domain_free(target);
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -270,7 +248,7 @@ END_TEST
 
 START_TEST(every_allocation_may_fail)
 {
-    pair p;
+    domain_pair p;
     make_pair(&p, 2);
     for (size_t k = 1;; k = share_next(k)) {
         faulty f = {.fail_at = k};
@@ -287,7 +265,7 @@ START_TEST(every_allocation_may_fail)
         ck_assert_ptr_null(map);
         ck_assert_uint_eq(f.n_live, 0);
     }
-    free_pair(&p);
+    domain_pair_free(&p);
 }
 END_TEST
 
@@ -304,9 +282,5 @@ int main(void)
     tcase_add_test(tcase, what_cannot_be_filled);
     tcase_add_test(tcase, every_allocation_may_fail);
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,5 +1,6 @@
 /* Triangles that change: what is allowed makes none of them meet, looked at pair by pair. */
 #include "../../../hard_bodies.h"
+#include "../../../suite.h"
 #include "base/env.h"
 #include "match/common_mesh/clearance.h"
 #include "match/common_mesh/intersections.h"
@@ -118,9 +119,5 @@ int main(void)
     tcase_set_timeout(tests, 3600);
     tcase_add_test(tests, no_more_and_no_less_is_allowed);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

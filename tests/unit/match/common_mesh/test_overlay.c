@@ -1,6 +1,8 @@
 /* Two drawings on the sphere, cut by one another: signs that are never 0 are those of one and the
  * same moved drawing; crossings are those that all pairs of edges have; faces cover the sphere. */
+#include "../../../default_env.h"
 #include "../../../faulty.h"
+#include "../../../suite.h"
 #include "../../../surfaces.h"
 #include "base/env.h"
 #include "match/common_mesh/shared_vertices.h"
@@ -75,15 +77,10 @@ typedef struct drawn {
     double *directions;
 } drawn;
 
-static iccp_env plain_env(void)
-{
-    return (iccp_env){.memory = iccp_memory_default};
-}
-
 /* A surface drawn by its directions from the origin, or by iccp_sphere_draw(). */
 static drawn make_drawn(const surface *s, bool from_origin)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     drawn d = {.directions = malloc(3 * s->n_vertices * sizeof *d.directions)};
     ck_assert_int_eq(iccp_half_edges_create(&d.m, s->n_vertices, s->n_faces, s->faces, &env, NULL),
                      ICC_OK);
@@ -177,7 +174,7 @@ static size_t count_crossings(const drawn d[2], size_t *n_different)
 static iccp_sphere_overlay check_overlay(const drawn d[2], bool by_pairs)
 {
     iccp_sphere_overlay o;
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_error err = {.size = sizeof err};
     ck_assert_msg(
         iccp_sphere_overlay_create(&o, (const iccp_half_edges *const[]){&d[0].m, &d[1].m},
@@ -308,7 +305,7 @@ START_TEST(too_many_crossings_are_refused)
     two = one;
     turn_surface(&two, q);
     drawn d[2] = {make_drawn(&one, true), make_drawn(&two, true)};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     iccp_sphere_overlay o = check_overlay(d, true);
     const size_t n = o.n_crossings;
     iccp_sphere_overlay_free(&o, &iccp_memory_default);
@@ -367,9 +364,5 @@ int main(void)
     tcase_add_test(tests, too_many_crossings_are_refused);
     tcase_add_test(tests, failures_leave_nothing_behind);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

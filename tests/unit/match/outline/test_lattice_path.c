@@ -3,6 +3,7 @@
 
 #include "../../../faulty.h"
 #include "../../../random.h"
+#include "../../../suite.h"
 
 #include <math.h>
 
@@ -120,9 +121,5 @@ int main(void)
     tcase_add_test(tcase, wide_rows_stay_within_their_memory);
     tcase_add_test(tcase, random_costs);
     suite_add_tcase(suite, tcase);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed != 0;
+    return suite_run(suite);
 }

@@ -2,6 +2,8 @@
 #include "base/env.h"
 #include "match/outline/widths.h"
 
+#include "../../../suite.h"
+
 #include <check.h>
 #include <math.h>
 #include <stdlib.h>
@@ -91,9 +93,5 @@ int main(void)
     tcase_add_test(tests, larger_is_not_uneven);
     tcase_add_test(tests, what_is_shifted_along_one_side_is_uneven);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

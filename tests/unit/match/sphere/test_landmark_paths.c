@@ -1,4 +1,5 @@
 /* Paths between landmarks of two surfaces, short ones and even ones. */
+#include "../../../suite.h"
 #include "../../../surfaces.h"
 #include "base/env.h"
 #include "match/sphere/landmark_paths.h"
@@ -108,9 +109,5 @@ int main(void)
     tcase_add_test(tests, even_paths_differ_less);
     tcase_add_test(tests, where_surfaces_are_equal_short_paths_are_even);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

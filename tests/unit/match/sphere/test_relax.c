@@ -1,6 +1,8 @@
 /* Drawings that are moved on one another: their energy, what stays, edges that are halved and made
  * whole again, and pairs that are found by their distances. */
+#include "../../../default_env.h"
 #include "../../../hard_bodies.h"
+#include "../../../suite.h"
 #include "base/env.h"
 #include "icc/icc.h"
 #include "match/sphere/drawn_finder.h"
@@ -20,14 +22,9 @@ typedef struct drawn {
     double *directions, *x;
 } drawn;
 
-static iccp_env plain_env(void)
-{
-    return (iccp_env){.memory = iccp_memory_default};
-}
-
 static drawn draw(const surface *s)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     drawn d = {.directions = malloc(3 * s->n_vertices * sizeof(double)),
                .x = malloc(3 * s->n_vertices * sizeof(double))};
     ck_assert(d.directions != NULL && d.x != NULL);
@@ -89,7 +86,7 @@ END_TEST
 
 START_TEST(relaxing_lowers_the_energy_and_keeps_the_class)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {9};
     for (int trial = 0; trial < 4; ++trial) {
         const bool is_severe = trial % 2 == 1;
@@ -152,7 +149,7 @@ END_TEST
 START_TEST(halved_edges_are_made_whole)
 {
     const iccp_memory memory = iccp_memory_default;
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {3};
     surface_star(&shape, 2, .3, &r);
     iccp_half_edges m, again;
@@ -187,7 +184,7 @@ END_TEST
  * vertices are found with their partners. */
 START_TEST(likely_pairs_are_partners)
 {
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     random_source r = {21};
     for (int trial = 0; trial < 10; ++trial) {
         static uint32_t number[SURFACE_VERTICES], faces[3 * SURFACE_FACES], vertices[2][12];
@@ -246,9 +243,5 @@ int main(void)
     tcase_add_test(tests, halved_edges_are_made_whole);
     tcase_add_test(tests, likely_pairs_are_partners);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }

@@ -1,8 +1,10 @@
 /* Drawings of closed surfaces on the sphere: surfaces shrink and grow, drawings are one-to-one, and
  * what is not is told. */
+#include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../hard_bodies.h"
 #include "../../../obj.h"
+#include "../../../suite.h"
 #include "base/env.h"
 #include "icc/icc.h"
 #include "match/sphere/decimate.h"
@@ -15,17 +17,12 @@
 
 static surface shape;
 
-static iccp_env plain_env(void)
-{
-    return (iccp_env){.memory = iccp_memory_default};
-}
-
 /* ---- surfaces that shrink and grow ---- */
 
 static iccp_half_edges half_edges(size_t n_vertices, size_t n_faces, const uint32_t *faces)
 {
     iccp_half_edges m;
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     ck_assert_int_eq(iccp_half_edges_create(&m, n_vertices, n_faces, faces, &env, NULL), ICC_OK);
     return m;
 }
@@ -170,7 +167,7 @@ START_TEST(flat_parts_go_first)
             surface_face(&shape, v[0], v[side % 2 ? 2 : 3], v[side % 2 ? 3 : 2]);
         }
     iccp_half_edges m = half_edges(shape.n_vertices, shape.n_faces, shape.faces);
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     ck_assert_int_eq(iccp_decimate(&m, shape.vertices, 8, &env), ICC_OK);
     for (uint32_t v = 0; v < shape.n_vertices; ++v)
         for (uint32_t k = 0; k < 3 && m.degree[v] > 0; ++k)
@@ -258,7 +255,7 @@ static void check_drawing(size_t n_vertices, const double *x, size_t n_faces, co
 {
     double *directions = malloc(3 * n_vertices * sizeof *directions);
     icc_error err = {.size = sizeof err};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     ck_assert_msg(iccp_sphere_draw(directions, n_vertices, x, n_faces, faces, &env, &err) == ICC_OK,
                   "%s", err.message);
     iccp_half_edges m = half_edges(n_vertices, n_faces, faces);
@@ -299,7 +296,7 @@ END_TEST
 START_TEST(round_surfaces_stay_round)
 {
     random_source r = {3};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     for (int splits = 0; splits < 4; ++splits) {
         surface_star(&shape, splits, 0, &r);
         double *directions = malloc(3 * shape.n_vertices * sizeof *directions);
@@ -327,7 +324,7 @@ END_TEST
 START_TEST(vertices_without_faces_get_zeros)
 {
     random_source r = {4};
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     double directions[3 * 7];
     surface_octahedron(&shape);
     surface_point(&shape, 1, 0, 0);
@@ -344,7 +341,7 @@ END_TEST
 static void check_decimation(const obj *o, random_source *r)
 {
     iccp_half_edges m = half_edges(o->n_vertices, o->n_faces, o->faces);
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     const double rough = random_unit(r), all = rough * random_unit(r);
     collapse_some(&m, 4 + (size_t)((1 - rough / 2) * (double)o->n_vertices), r);
     ck_assert_int_eq(
@@ -418,7 +415,7 @@ END_TEST
 START_TEST(open_surfaces_are_refused)
 {
     double directions[18];
-    const iccp_env env = plain_env();
+    const iccp_env env = default_env();
     icc_error err = {.size = sizeof err};
     surface_octahedron(&shape);
     ck_assert_int_eq(iccp_sphere_draw(directions, 6, shape.vertices, 7, shape.faces, &env, &err),
@@ -445,9 +442,5 @@ int main(void)
     tcase_add_test(tests, failures_leave_nothing_behind);
     tcase_add_test(tests, open_surfaces_are_refused);
     suite_add_tcase(suite, tests);
-    SRunner *runner = srunner_create(suite);
-    srunner_run_all(runner, CK_NORMAL);
-    const int n_failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return n_failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+    return suite_run(suite);
 }
