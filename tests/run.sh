@@ -57,6 +57,7 @@ export ICC_TEST_SHARE
 # Under the thread sanitizer what uses threads is of interest, without its cases about progress, and in the long tier
 # everything.
 target=all only=
+[ "$tier" != plain ] || target=tests_plain
 if [ "$tier-$preset" = plain-tsan ]; then
     target=tests_threads only='^threads$' left_to_others=long
     export CK_EXCLUDE_TAGS=progress
