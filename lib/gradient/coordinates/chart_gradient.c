@@ -11,7 +11,7 @@
 #include "gradient/function/critical_points.h"
 #include "gradient/function/edges.h"
 #include "gradient/function/make_function.h"
-#include "gradient/function/summit.h"
+#include "gradient/function/move_maximum.h"
 #include "gradient/grid/grassfire.h"
 #include "gradient/grid/rasterise.h"
 #include "gradient/tree/verify.h"
@@ -118,10 +118,10 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
     iccp_split(part, 5, (const double[]){4, 4, 3, 1, enough ? 0 : 8}, env);
     icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);
     if (status == ICC_OK && state->field->info.beside) {
-        uint32_t summit = 0;
-        status = iccp_function_summit(state->field, &summit, &part[1]);
+        uint32_t maximum = 0;
+        status = iccp_function_move_maximum(state->field, &maximum, &part[1]);
         if (status == ICC_OK)
-            status = move_root(state, chart, summit, &function, &part[2], err);
+            status = move_root(state, chart, maximum, &function, &part[2], err);
     }
     if (status == ICC_OK && !enough)
         status = iccp_function_is_regular(state->field, &enough, &part[3]);

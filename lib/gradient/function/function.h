@@ -8,7 +8,7 @@
  * - critical point: a vertex at which f has a maximum, a minimum or a saddle (critical_points.h).
  * - compression, expansion edge: an edge to, or from, which the gradient points on both sides
  *   (edges.h).
- * - load: the point at which a bi-Laplace equation is driven. Moving it is in summit.h.
+ * - load: the point at which a bi-Laplace equation is driven. move_maximum.h moves it.
  *
  * Invariants: values are NaN exactly where the tree does not reach. After make_function.h a
  * function does not change; only the cached logarithms are made later. */

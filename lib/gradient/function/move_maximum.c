@@ -5,7 +5,7 @@
  * Suppose that G(t, r) > G(r, r). Then the inequality G(t, r)^2 <= G(t, t) G(r, r) gives G(t, t) >
  * G(r, r). So a load that moves to the greatest value never returns to an earlier place. The same
  * holds if it moves further, as long as G(r, r) grows. */
-#include "gradient/function/summit.h"
+#include "gradient/function/move_maximum.h"
 
 #include "gradient/solver/bilaplace.h"
 #include "gradient/solver/energy.h"
@@ -190,14 +190,15 @@ static icc_status follow_loads(plate *p, size_t *unknown, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_function_summit(const icc_function *function, uint32_t *summit, const iccp_env *env)
+icc_status iccp_function_move_maximum(const icc_function *function, uint32_t *maximum,
+                                      const iccp_env *env)
 {
     plate p;
     icc_status status = prepare_plate(&p, function, env);
     if (status == ICC_OK) {
         size_t unknown = find_unknown(&p, function->info.highest);
         status = follow_loads(&p, &unknown, env);
-        *summit = p.unknowns.vertex[unknown];
+        *maximum = p.unknowns.vertex[unknown];
     }
     free_plate(&p, env);
     return status;
