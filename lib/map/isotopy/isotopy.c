@@ -12,15 +12,16 @@
 
 /* ---- the tree ---- */
 
-typedef struct joint {
+/* An edge between two components. */
+typedef struct bridge {
     double length;
     uint32_t ends[2];
-} joint;
+} bridge;
 
 /* Shorter edges come first, then edges of smaller vertices. */
 static int compare(const void *x, const void *y)
 {
-    const joint *a = x, *b = y;
+    const bridge *a = x, *b = y;
     if (a->length < b->length || a->length > b->length)
         return a->length < b->length ? -1 : 1;
     for (int k = 0; k < 2; ++k)
@@ -30,15 +31,15 @@ static int compare(const void *x, const void *y)
 }
 
 /* Lists each edge between two components once. */
-static size_t list_joints(joint *joints, const iccp_domain_pair *domains)
+static size_t list_bridges(bridge *bridges, const iccp_domain_pair *domains)
 {
     const iccp_corners *mesh = &domains->mesh[0];
     size_t n = 0;
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
         const uint32_t a = mesh->vertex[iccp_after(c)], b = mesh->vertex[iccp_before(c)];
         if (a < b && domains->component[a] != domains->component[b])
-            joints[n++] =
-                (joint){iccp_distance_between(domains->domain[0]->vertices, a, b), {a, b}};
+            bridges[n++] =
+                (bridge){iccp_distance_between(domains->domain[0]->vertices, a, b), {a, b}};
     }
     return n;
 }
@@ -48,25 +49,25 @@ static size_t list_joints(joint *joints, const iccp_domain_pair *domains)
 static icc_status find_tree(iccp_cuts *tree, const iccp_domain_pair *domains, const iccp_env *env)
 {
     const size_t n = domains->n_components;
-    joint *joints =
-        iccp_alloc(&env->memory, 3 * domains->mesh[0].n_triangles / 2 + 1, sizeof *joints);
+    bridge *bridges =
+        iccp_alloc(&env->memory, 3 * domains->mesh[0].n_triangles / 2 + 1, sizeof *bridges);
     uint32_t *leader = iccp_alloc(&env->memory, n, sizeof *leader);
     size_t n_found = 0;
     icc_status status = iccp_cuts_begin(tree, n - 1, &env->memory);
-    if (joints == NULL || leader == NULL)
+    if (bridges == NULL || leader == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK) {
-        const size_t n_joints = list_joints(joints, domains);
-        iccp_sort(joints, n_joints, sizeof *joints, compare);
+        const size_t n_bridges = list_bridges(bridges, domains);
+        iccp_sort(bridges, n_bridges, sizeof *bridges, compare);
         iccp_sets_begin(leader, n);
-        for (size_t k = 0; k < n_joints && n_found + 1 < n; ++k) {
-            const uint32_t *ends = joints[k].ends;
+        for (size_t k = 0; k < n_bridges && n_found + 1 < n; ++k) {
+            const uint32_t *ends = bridges[k].ends;
             if (iccp_sets_join(leader, domains->component[ends[0]], domains->component[ends[1]]))
                 memcpy(tree->ends + 2 * n_found++, ends, 2 * sizeof *ends);
         }
         status = n_found + 1 == n ? ICC_OK : ICC_ERR_TOPOLOGY;
     }
-    iccp_free(&env->memory, joints);
+    iccp_free(&env->memory, bridges);
     iccp_free(&env->memory, leader);
     return status;
 }

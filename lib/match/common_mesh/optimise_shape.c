@@ -27,10 +27,10 @@ static const double thin_sine = 0.12, readily = 0.05;
  * again. */
 static const double later = 1.2;
 
-typedef struct touching {
+typedef struct optimisation {
     iccp_patch_state s;
     iccp_heap heap; /* vertices by the cost of their cheapest collapse, or less */
-} touching;
+} optimisation;
 
 /* ---- collapses ---- */
 
@@ -87,7 +87,7 @@ static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best,
 
 /* Collapses vertices in the order of their costs. A vertex is tested when its turn comes, and waits
  * for another turn if its cost has risen. *any becomes true if something was collapsed. */
-static icc_status collapse_all(touching *t, bool *any, const iccp_env *env)
+static icc_status collapse_all(optimisation *t, bool *any, const iccp_env *env)
 {
     iccp_half_edges *const m = &t->s.m;
     icc_status status = ICC_OK;
@@ -191,7 +191,7 @@ static bool move_all(iccp_patch_state *s)
 
 /* ---- from beginning to end ---- */
 
-static icc_status run(touching *t, const iccp_env *env)
+static icc_status run(optimisation *t, const iccp_env *env)
 {
     icc_status status = ICC_OK;
     bool any = true;
@@ -247,7 +247,7 @@ static double energy_of(const iccp_common_surface *c, double scale)
     return sum[0] / sum[1];
 }
 
-static icc_status touch_up(touching *t, iccp_common_surface *c, uint32_t *became, double *rise,
+static icc_status optimise(optimisation *t, iccp_common_surface *c, uint32_t *became, double *rise,
                            const uint32_t *left, const iccp_half_edges *const given[2],
                            const double *const x[2], const double *off, const iccp_env *env)
 {
@@ -285,14 +285,14 @@ icc_status iccp_optimise_shape(iccp_common_surface *common, uint32_t *became, do
                                const double *const x[2], const iccp_simplify_limits *limits,
                                const iccp_env *env)
 {
-    touching t = {
+    optimisation t = {
         .s = {.whole = whole, .keep = limits->keep, .cells = limits->cells, .caution = caution}};
     icc_status status = iccp_half_edges_create(&t.s.m, common->n_vertices, common->n_faces,
                                                common->faces, env, NULL);
     for (int side = 0; side < 2; ++side)
         t.s.edge2[side] = limits->edge[side] * limits->edge[side];
     if (status == ICC_OK)
-        status = touch_up(&t, common, became, rise, left, given, x, limits->off, env);
+        status = optimise(&t, common, became, rise, left, given, x, limits->off, env);
     for (int side = 0; side < 2; ++side) {
         iccp_covering_free(&t.s.covering[side], &env->memory);
         iccp_clearance_free(&t.s.clearance[side], &env->memory);

@@ -165,7 +165,7 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
 
 /* Optimises the shape of the result. If the energy rises too much, it starts again with more
  * caution. If that does not help, the result stays as it was. */
-static icc_status touch_up(rounds *r, iccp_common_surface *c, const uint8_t *keep,
+static icc_status optimise(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
     const iccp_memory *const memory = &env->memory;
@@ -262,7 +262,7 @@ icc_status iccp_simplify_apart(iccp_common_surface *common, double *off,
         r.limits.keep = r.keep;
         status = only_flaws ? ICC_OK : run(&r, &coarse, &is_done, env);
         if (status == ICC_OK && is_done)
-            status = touch_up(&r, &coarse, limits->keep, env);
+            status = optimise(&r, &coarse, limits->keep, env);
         else if (status == ICC_OK)
             status = mend(&r, limits->keep, &coarse, &is_done, env);
     }

@@ -436,7 +436,7 @@ START_TEST(fails_cleanly)
     ellipsoid(&one, 1, axes, 0);
     ellipsoid(&two, 0, axes, .4);
     faulty_sweep(match_once, NULL);
-    faulty_sweep(match_landmarks_once, &(size_t){2}); /* and two helpers */
+    faulty_sweep(match_landmarks_once, &(size_t){2}); /* and two guessed pairs */
     two = one;
     faulty_sweep(match_once, NULL); /* equal */
     ellipsoid(&two, 1, others, 0);
