@@ -40,7 +40,7 @@ typedef struct iccp_env {
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
     int32_t threads;
     const char *stage;          /* replaces the stage names of the part's own parts, unless NULL */
-    double before, after;       /* shares of the whole call before this part and at its end */
+    double before, after;       /* shares of the whole call before and after this part */
     struct iccp_team *team;     /* base/team.h; NULL: loops start threads of their own */
     uint64_t load_limit;        /* 0: the default */
     struct iccp_budget *budget; /* base/budget.h; NULL: no limits */

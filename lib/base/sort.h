@@ -45,9 +45,9 @@ static ICCP_INLINE void iccp_sort_by_count(void *sorted, uint32_t *first, size_t
 void iccp_list_groups(uint32_t *groups, uint32_t *first, size_t n_keys, const uint32_t *keys,
                       size_t n, size_t size);
 
-/* Sorts only as many items as the caller takes. begin() moves a smallest item to the front, in
- * O(n). next() moves the first item to the end and a smallest of the others to the front, in O(log
- * n). */
+/* Sorts only as many items as the caller needs, from the greatest on. begin() moves a greatest item
+ * to the front, in O(n). next() moves the first item to the end of the n items, and a greatest of
+ * the others to the front, in O(log n). */
 void iccp_sort_begin(void *items, size_t n, size_t size,
                      int (*compare)(const void *, const void *));
 void iccp_sort_next(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));

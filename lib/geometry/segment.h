@@ -13,8 +13,9 @@
  * - share: a position along a segment, from 0 to 1.
  * - piece, group: parts of items that near_pairs.h compares, and items that it does not compare.
  *
- * Invariants: decisions about meeting, inside and orientation are exact. If several answers are
- * equally good, the one with the smallest number wins, so results do not depend on trees. */
+ * Invariants: decisions about meeting, inside and orientation are exact up to dimension 3. If
+ * several answers are equally good, the one with the smallest number wins, so results do not depend
+ * on trees. */
 #ifndef ICCP_SEGMENT_H
 #define ICCP_SEGMENT_H
 

@@ -11,7 +11,7 @@ typedef struct iccp_subtrees_run {
     uint32_t begin, end;
 } iccp_subtrees_run;
 
-/* Runs in rising order. Two kinds of supernodes are in no run: ancestors of all runs, and those too
+/* Runs in rising order. Two kinds of supernodes are in no run: those above all runs, and those too
  * small for a task. */
 typedef struct iccp_subtrees {
     size_t n;

@@ -10,8 +10,8 @@
  *   (edges.h).
  * - load: the point at which a bi-Laplace equation is driven. move_maximum.h moves it.
  *
- * Invariants: values are NaN exactly where the tree does not reach. After make_function.h a
- * function does not change; only the cached logarithms are made later. */
+ * Invariants: values are NaN where the tree does not reach, until gradient/coordinates extends
+ * them. Otherwise only the cached logarithms are made after make_function.h. */
 #ifndef ICCP_FUNCTION_H
 #define ICCP_FUNCTION_H
 

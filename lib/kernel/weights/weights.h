@@ -16,8 +16,8 @@
  * - held, free: nodes that keep their weights, and the others.
  * - binding: weights of the caller's points, ready for posing (binding.h).
  *
- * Invariants: weights sum to 1 and reproduce their point, up to rounding. They are not negative
- * unless a status tells otherwise. */
+ * Invariants: optimised weights sum to 1 and reproduce their point, up to rounding. With method QP
+ * they are not negative unless a status tells otherwise. */
 #ifndef ICCP_WEIGHTS_H
 #define ICCP_WEIGHTS_H
 
