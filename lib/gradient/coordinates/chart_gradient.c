@@ -1,5 +1,6 @@
-/* Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh and Gingold, section 4):
- * the same in any dimension, on top of gradient_line.h. */
+/* Charts of method gradient. Based on: L. Huynh, thesis, 2013, section 5.1, Algorithms 6-8 (Huynh
+ * and Gingold, section 4). The code is the same in any dimension; gradient_line.h walks along the
+ * curves. */
 #include "gradient/coordinates/chart_gradient.h"
 
 #include "base/clock.h"
@@ -36,13 +37,13 @@ static icc_status choose_root(const icc_grid *grid, const icc_domain *domain, co
 
 enum { PAPERS_CELLS = 50 };
 
-/* Masks bring their own. */
+/* Masks determine the number of cells themselves. */
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
 {
     return cells > 0 || domain->mask != NULL ? cells : PAPERS_CELLS;
 }
 
-/* In place of the tree that there may be. */
+/* Grows a tree, which replaces the present one, if any. */
 static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const icc_grid *grid,
                             uint32_t root, const iccp_env *env, icc_error *err)
 {
@@ -65,7 +66,8 @@ static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const 
     return status;
 }
 
-/* Algorithms 1 and 2: the grid, the grassfire's maximum unless one was asked for, and the tree. */
+/* Algorithms 1 and 2: makes the grid, finds the grassfire's maximum unless the caller gave one, and
+ * grows the tree. */
 static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -88,7 +90,7 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     return status;
 }
 
-/* A function without inequalities on a tree with another root. */
+/* Makes a function without inequalities on a tree with another root. */
 static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32_t root,
                             const icc_function_options *function, const iccp_env *env,
                             icc_error *err)
@@ -103,10 +105,10 @@ static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32
                : status;
 }
 
-/* A plate is highest beside a load that is not in its middle, and curves would end there rather
- * than at the root. Without inequalities the root moves to where it is the maximum; where that does
- * not give a function without false critical points, inequalities are imposed at the root that was
- * asked for. */
+/* Makes a plate (bi-Laplace) function. A plate is highest beside a load that is not in its middle,
+ * and curves would end there instead of at the root. Without inequalities, the root moves to where
+ * it is the maximum. If the function then still has false critical points, inequalities are imposed
+ * at the root that the caller asked for. */
 static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
                              const icc_function_options *options, const iccp_env *env,
                              icc_error *err)
@@ -131,8 +133,8 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
     return move_root(state, chart, state->chosen, &function, &part[4], err);
 }
 
-/* Section 5.2 on the tree, with the options as given; plates are a special case. Then the
- * function is checked for false critical points and extended to vertices that no tree reaches. */
+/* Section 5.2: makes the function on the tree with the given options; plates are a special case.
+ * Then checks it for false critical points, and extends it to vertices that no tree reaches. */
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -220,9 +222,9 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
 
 /* ---- Algorithm 8: ICC to Cartesian ---- */
 
-/* Algorithm 8: the curve uphill from the boundary point, as a path; then t of its length along
- * it. A result outside the domain, as near a boundary that the grid does not resolve, is an
- * error. */
+/* Algorithm 8: follows the curve uphill from the boundary point, as a path, and takes the point at
+ * the share t of its length. A result outside the domain is an error. It can occur near a boundary
+ * that the grid does not resolve. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -255,7 +257,7 @@ static icc_status emit_point(const iccp_gradient_state *state, const double *lat
     return emit(argument, local);
 }
 
-/* From the boundary up to the point, the point itself left out. */
+/* Emits the curve from the boundary up to the point, without the point itself. */
 static icc_status trace_below(const iccp_gradient_state *state, const double *p, iccp_path *path,
                               iccp_emit emit, void *argument)
 {
@@ -266,7 +268,7 @@ static icc_status trace_below(const iccp_gradient_state *state, const double *p,
     return status;
 }
 
-/* Both halves of the curve, from the boundary to the maximum. */
+/* Emits both halves of the curve, from the boundary to the maximum. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)

@@ -1,4 +1,19 @@
-/* Method gradient: Integral Curve Coordinates as published. */
+/* Method gradient: Integral Curve Coordinates as published.
+ *
+ * Legend of lib/gradient/coordinates, which puts the stages of the papers together. Begin with
+ * chart_gradient.c.
+ * - state: the tree, the function and the boundary of a chart (gradient_state.h).
+ * - field: the function whose gradient lines are the chart's curves.
+ * - line: a gradient line from a point down to the boundary or up to the maximum (gradient_line.h).
+ * - merged, alone: a line that others have joined, and the part before they did.
+ * - jet: derivatives of a point along a line, with respect to the point where it starts
+ *   (gradient_jet.h).
+ * - plate: a bi-Laplace function, which may be highest beside the root.
+ * - parameters, digest: what a chart is rebuilt from, and a hash of its result
+ *   (chart_parameters.h).
+ *
+ * Invariants: curves end at the maximum, which is the tree's root. A chart that is read from bytes is made again
+ * and must have the same digest. */
 #ifndef ICCP_CHART_GRADIENT_H
 #define ICCP_CHART_GRADIENT_H
 

@@ -1,3 +1,4 @@
+/* The parameters of charts on a grid, as bytes. */
 #include "gradient/coordinates/chart_parameters.h"
 
 #include "base/error.h"
@@ -96,7 +97,7 @@ uint64_t iccp_digest_u32(uint64_t digest, size_t n, const uint32_t *values)
     return digest;
 }
 
-/* Logarithms differ between mathematical libraries, so they count as well. */
+/* Logarithms differ between mathematical libraries, so the digest includes them. */
 uint64_t iccp_digest_field(const icc_function *field)
 {
     const size_t n = field->tree->grid->n_vertices;

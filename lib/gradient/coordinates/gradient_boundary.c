@@ -1,6 +1,7 @@
+/* Extends functions to more vertices outside. */
 #include "gradient/coordinates/gradient_boundary.h"
 
-/* The neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
+/* Returns the neighbour in a layer with the highest or the lowest value, or ICCP_NONE. */
 static uint32_t extreme(const icc_function *field, const uint8_t *layer, uint32_t v, int wanted,
                         int sign)
 {

@@ -1,3 +1,4 @@
+/* Derivatives of gradient coordinates. */
 #include "gradient/coordinates/gradient_jet.h"
 
 #include "math/vec.h"
@@ -12,7 +13,7 @@ void iccp_gradient_identity(int32_t dim, iccp_jetn *jet)
         jet->x[k][k] = 1;
 }
 
-/* The edges of a facet from its first corner, local. */
+/* Computes the edges of a facet from its first corner, in local coordinates. */
 static void find_edges(const icc_domain *domain, uint32_t facet,
                        double edge[ICC_MAX_DIM][ICC_MAX_DIM])
 {
@@ -23,7 +24,8 @@ static void find_edges(const icc_domain *domain, uint32_t facet,
             edge[i - 1][k] = corners[i][k] - corners[0][k];
 }
 
-/* How far along each edge a vector in the facet's plane goes: least squares, by elimination. */
+/* Writes a vector in the facet's plane as a combination of the edges: least squares, by
+ * elimination. */
 static void along_edges(int32_t dim, double edge[ICC_MAX_DIM][ICC_MAX_DIM], const double *vector,
                         double *share)
 {
@@ -60,7 +62,7 @@ void iccp_gradient_encode_jet(const icc_chart *chart, const iccp_gradient_line *
     find_edges(chart->domain, down->facet, edge);
     for (int32_t c = 0; c < dim; ++c) {
         double foot[ICC_MAX_DIM], share[ICC_MAX_DIM], sum = 0;
-        /* Both the point and its foot are local: the spacing cancels. */
+        /* Both the point and its foot are local, so the spacing cancels. */
         for (int32_t k = 0; k < dim; ++k)
             foot[k] = down_jet->x[k][c];
         along_edges(dim, edge, foot, share);
@@ -73,8 +75,9 @@ void iccp_gradient_encode_jet(const icc_chart *chart, const iccp_gradient_line *
     }
 }
 
-/* The derivative by the boundary point needs the walk up to the piece that holds the point, and the
- * whole length's: walk again with a jet. The path says how far. */
+/* The derivative with respect to the boundary point needs the walk up to the piece that contains
+ * the point, and that of the whole length. So the walk is repeated with a jet. The path tells how
+ * far to go. */
 icc_status iccp_gradient_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                                     const double *boundary, const iccp_path *path, size_t piece,
                                     double share, iccp_decode_jet *jet)

@@ -1,3 +1,4 @@
+/* Follows gradient lines from a point to the boundary or to the maximum. */
 #include "gradient/coordinates/gradient_line.h"
 
 #include <string.h>
@@ -25,7 +26,8 @@ static void from_plane(const iccp_jet2 *flat, iccp_jetn *jet)
     }
 }
 
-/* Downhill by Algorithm 3, with the jet in two dimensions carried over if there is one. */
+/* Follows a line downhill in the plane (Algorithm 3). Converts the two-dimensional jet if there is
+ * one. */
 static icc_status down_in_plane(const iccp_gradient_state *state, const double *from,
                                 iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {
@@ -103,7 +105,7 @@ icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from
     return status;
 }
 
-/* Uphill into the domain; gradient_state.h has the same for the plane. */
+/* Starts uphill into the domain. gradient_state.h has the version for the plane. */
 static icc_status depart(const icc_chart *chart, uint32_t facet, const double *point,
                          iccp_walkn *walk, iccp_jetn *jet)
 {

@@ -1,5 +1,6 @@
-/* Based on: L. Huynh, thesis, 2013, section 6.4 (expansion edges and the area that they leave
- * uncovered, figure 6.12; compression edges), measured instead of drawn. */
+/* Measures what gradient coordinates miss. Based on: L. Huynh, thesis, 2013, section 6.4 (expansion
+ * edges and the area that they leave uncovered, figure 6.12; compression edges), measured instead
+ * of drawn. */
 #include "gradient/coordinates/gradient_measure.h"
 
 #include "base/minmax.h"
@@ -9,7 +10,7 @@
 
 #include <math.h>
 
-/* How one sample fared. */
+/* Result for one sample. */
 enum { MISSED = 0, COVERED = 1, UNREACHABLE = 2, UNCOVERED = 3 };
 
 typedef struct area_samples {
@@ -17,8 +18,8 @@ typedef struct area_samples {
     uint8_t *verdict;
 } area_samples;
 
-/* Shapes that fill less of their bounding box than one part in this get fewer samples than
- * wanted. */
+/* Most candidates per sample. Shapes that fill a smaller share of their bounding box get fewer
+ * samples than requested. */
 static const double MOST_CANDIDATES = 64;
 
 static void candidate(const icc_domain *domain, size_t index, double *p)
@@ -28,7 +29,7 @@ static void candidate(const icc_domain *domain, size_t index, double *p)
                iccp_low_discrepancy(domain->dim, k, index) * (domain->upper[k] - domain->lower[k]);
 }
 
-/* Figure 6.12: a point is uncovered if its curve downhill merges with another, so that no
+/* Figure 6.12: a point is uncovered if its curve downhill merges with another one, so that no
  * boundary point of its own leads to it. */
 static uint8_t check_point(const iccp_gradient_state *state, const double *local)
 {
@@ -55,7 +56,7 @@ static icc_status check_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* How many points to spread over the bounding box so that about n lie inside. */
+/* Returns how many points to spread over the bounding box so that about n lie inside. */
 static size_t count_candidates(const icc_domain *domain, size_t n)
 {
     double box = 1;
@@ -66,7 +67,8 @@ static size_t count_candidates(const icc_domain *domain, size_t n)
                         iccp_min(fill > 0 ? 1 / fill : MOST_CANDIDATES, MOST_CANDIDATES));
 }
 
-/* Shares of the area by evenly spread points of the bounding box, those outside not counted. */
+/* Measures shares of the area with evenly spread points of the bounding box. Points outside do not
+ * count. */
 static icc_status measure_area(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                                const iccp_env *env)
 {
@@ -90,13 +92,15 @@ static icc_status measure_area(const icc_chart *chart, size_t n_points, icc_char
 
 typedef struct boundary_samples {
     const icc_chart *chart;
-    const double *extent; /* of the boundary up to each facet, n_facets + 1, up to a factor */
+    /* Extent of the boundary up to each facet, n_facets + 1, up to a factor */
+    const double *extent;
     size_t n;
-    double *collapsed; /* share of the way on which the curve is not alone; NaN: no curve */
+    /* Share of the way on which other curves have joined the curve; NaN: no curve */
+    double *collapsed;
     uint8_t *inward;
 } boundary_samples;
 
-/* The facet that holds the given extent of boundary. */
+/* Returns the facet that contains the given extent of the boundary. */
 static size_t find_facet(const boundary_samples *samples, double extent)
 {
     size_t low = 0, high = samples->chart->domain->n_facets;
@@ -110,8 +114,9 @@ static size_t find_facet(const boundary_samples *samples, double extent)
     return low;
 }
 
-/* The share of the boundary's extent places a point along its facet; the sequence across. Sorted,
- * such numbers cut [0, 1] into barycentric coordinates that are evenly spread. */
+/* The share of the boundary's extent gives a point's place along its facet, and the sequence its
+ * other coordinates. When such numbers are sorted, they divide [0, 1] into evenly spread
+ * barycentric coordinates. */
 static void place_on_facet(int32_t dim, double along, size_t index, double *bary)
 {
     double cut[ICC_MAX_DIM] = {along};
@@ -127,8 +132,8 @@ static void place_on_facet(int32_t dim, double along, size_t index, double *bary
         bary[k] = cut[k - 1] - (k < dim - 1 ? cut[k] : 0);
 }
 
-/* At a boundary point: whether the function rises inward, and on which share of its curve uphill
- * other curves have joined it. */
+/* Tests at a boundary point whether the function rises inward, and on which share of its curve
+ * uphill other curves have joined it. */
 static void check_boundary_point(const boundary_samples *samples, size_t index)
 {
     const icc_domain *domain = samples->chart->domain;
@@ -175,8 +180,8 @@ static void sum_boundary(const boundary_samples *samples, icc_chart_report *meas
     measures->collapsed = n_curves > 0 ? collapsed / (double)n_curves : 0;
 }
 
-/* The length of a facet's inward normal is its extent, up to a factor that depends on the
- * dimension only. */
+/* The length of a facet's inward normal is its extent, up to a factor that depends only on the
+ * dimension. */
 static void sum_extents(const icc_domain *domain, double *extent)
 {
     double inward[ICC_MAX_DIM];
@@ -190,7 +195,7 @@ static void sum_extents(const icc_domain *domain, double *extent)
     }
 }
 
-/* Boundary points are spread by extent: short facets do not count as much as long ones. */
+/* Boundary points are spread by extent, so short facets count less than long ones. */
 static icc_status measure_boundary(const icc_chart *chart, size_t n_points,
                                    icc_chart_report *measures, const iccp_env *env)
 {

@@ -1,4 +1,4 @@
-/* What gradient coordinates miss, estimated from evenly spread points. */
+/* Estimates what gradient coordinates miss, from evenly spread points. */
 #ifndef ICCP_GRADIENT_MEASURE_H
 #define ICCP_GRADIENT_MEASURE_H
 

@@ -1,3 +1,4 @@
+/* Starts of gradient lines in the plane. */
 #include "gradient/coordinates/gradient_state.h"
 
 icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],

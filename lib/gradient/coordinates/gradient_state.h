@@ -1,4 +1,4 @@
-/* What a gradient chart knows, shared by the chart and its measures. */
+/* The state of a gradient chart, shared by the chart and its measures. */
 #ifndef ICCP_GRADIENT_STATE_H
 #define ICCP_GRADIENT_STATE_H
 
@@ -10,9 +10,10 @@ typedef struct iccp_gradient_state {
     iccp_chart_parameters parameters;
     icc_tree *tree;
     icc_function *field;
-    uint32_t chosen;             /* the root that was asked for; the tree's may have moved */
+    /* The root that the caller asked for; the tree's root may have moved */
+    uint32_t chosen;
     iccp_boundary_cells2 cells2; /* the boundary as walks meet it: in the plane */
-    iccp_boundary_cellsn cellsn; /* and elsewhere */
+    iccp_boundary_cellsn cellsn; /* in other dimensions */
 } iccp_gradient_state;
 
 static inline void iccp_gradient_to_lattice(const iccp_gradient_state *state, const double *local,

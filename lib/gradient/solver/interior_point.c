@@ -24,7 +24,7 @@ static const double SHORTEN = 0.995;
 /* Least initial slacks and multipliers. A power of ten more or less costs 2 iterations. */
 static const double LEAST_SLACK = 0.01, LEAST_MULTIPLIER = 0.001;
 
-/* If a step gets less far, the method steps towards the middle of the way instead. */
+/* If a step is shorter, the method steps to equal products instead, away from the bounds. */
 static const double SHORT_STEP = 0.01;
 
 /* Error of a step, relative to the slacks. */
