@@ -190,10 +190,10 @@ static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, con
 
 /* Makes what is of the kind's own. A map that cannot be made becomes one of kind curves. */
 static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
-                          bool overlay, const iccp_env *env, icc_error *err)
+                          const iccp_env *env, icc_error *err)
 {
     map->kind = kind;
-    const icc_status status = kind->create(map, options, overlay, env, err);
+    const icc_status status = kind->create(map, options, env, err);
     if (status == ICC_OK && kind->mesh != NULL && map->state == NULL) {
         iccp_log(env, "%zu %s could not be repaired: the map is of kind curves",
                  map->info.n_unrepaired, map->info.dim == 2 ? "triangles" : "tetrahedra");
@@ -212,7 +212,7 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
     icc_map *map = NULL;
     icc_status status = iccp_map_begin(&map, source, target, env, err);
     if (status == ICC_OK)
-        status = fill_in(map, &iccp_plane_kind, options, true, env, err);
+        status = fill_in(map, &iccp_plane_kind, options, env, err);
     if (status == ICC_OK)
         status = settle(map, options->iterations, &map->info.energy, env);
     if (status != ICC_OK) {
@@ -225,10 +225,8 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
     return ICC_OK;
 }
 
-/* `overlay`: see iccp_mesh_map_create(). */
 static icc_status create_from(icc_map **out, const icc_chart *source, const icc_chart *target,
-                              const icc_map_options *options, bool overlay, const iccp_env *env,
-                              icc_error *err)
+                              const icc_map_options *options, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     const iccp_map_kind *kind;
@@ -239,7 +237,7 @@ static icc_status create_from(icc_map **out, const icc_chart *source, const icc_
     if (status == ICC_OK)
         iccp_map_add_charts(map, source, target);
     if (status == ICC_OK)
-        status = fill_in(map, kind, options, overlay, env, err);
+        status = fill_in(map, kind, options, env, err);
     if (status == ICC_OK)
         status = iccp_map_judge(map, env);
     if (status == ICC_OK)
@@ -260,24 +258,8 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);
-    const icc_status status = create_from(out, source, target, options, true, &with, err);
+    const icc_status status = create_from(out, source, target, options, &with, err);
     iccp_without_team(&with, env);
-    return status;
-}
-
-static icc_status create_with(icc_map **out, const icc_domain *const domains[2],
-                              const icc_map_options *options,
-                              const icc_chart_options chart_options[2], bool overlay,
-                              const iccp_env *env, icc_error *err)
-{
-    icc_chart *charts[2] = {NULL, NULL};
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 2}, env);
-    icc_status status = iccp_chart_create_pair(charts, domains, chart_options, &part[0], err);
-    if (status == ICC_OK)
-        status = create_from(out, charts[0], charts[1], options, overlay, &part[1], err);
-    iccp_chart_release(charts[0]);
-    iccp_chart_release(charts[1]);
     return status;
 }
 
@@ -327,28 +309,15 @@ static icc_status create_without_features(icc_map **out, const icc_domain *const
                                           const iccp_env *env, icc_error *err)
 {
     icc_chart_options full[2] = {chart_options[0], chart_options[1]};
+    icc_chart *charts[2] = {NULL, NULL};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 2}, env);
     complete(full, domains, options->kind);
-    const iccp_env first = iccp_part(env, NULL, 0, 0.9), second_part = iccp_part(env, NULL, 0.9, 1);
-    icc_status status = create_with(out, domains, options, full, true, &first, err);
-    /* Each start has shapes that it cannot be repaired from; that of the overlay would be the same
-     * again. */
-    if (status == ICC_OK && (*out)->info.n_unrepaired > 0 && chart_options[0].method == 0 &&
-        full[0].method == ICC_METHOD_DISC) {
-        icc_map *second = NULL;
-        full[0].method = full[1].method = ICC_METHOD_FOLIATION;
-        status = create_with(&second, domains, options, full, false, &second_part, err);
-        if (status == ICC_OK && second->info.n_unrepaired == 0) {
-            iccp_map_release(*out);
-            *out = second;
-        } else {
-            iccp_map_release(second);
-            status = status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
-        }
-        if (status != ICC_OK) {
-            iccp_map_release(*out);
-            *out = NULL;
-        }
-    }
+    icc_status status = iccp_chart_create_pair(charts, domains, full, &part[0], err);
+    if (status == ICC_OK)
+        status = create_from(out, charts[0], charts[1], options, &part[1], err);
+    iccp_chart_release(charts[0]);
+    iccp_chart_release(charts[1]);
     return status;
 }
 

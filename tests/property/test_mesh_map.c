@@ -203,7 +203,7 @@ START_TEST(every_triangle_is_positive_and_they_cover_both_shapes)
             icc_map *map = map_number(k, iterations, NULL);
             const icc_map_info info = info_of(map);
             if (info.kind != ICC_MAP_MESH)
-                ck_abort_msg("pair %d: %zu triangles not repaired", k, info.n_unrepaired);
+                ck_abort_msg("pair %d has no mesh map", k);
             ck_assert_int_eq(info.certified, 1);
             ck_assert_uint_eq(info.n_unrepaired, 0);
             const double before = check_triangles(map, iccp_plane_of(map)->pl.points);
@@ -434,24 +434,21 @@ START_TEST(points_that_have_no_image)
 }
 END_TEST
 
-/* Stars so wild that neither start can be repaired: compatible triangulations always can. */
+/* Stars with spikes of very different lengths. */
 START_TEST(wild_shapes_have_a_mesh_too)
 {
-    size_t n_inverted = 0;
     for (uint64_t seed = 5; seed < 8; ++seed) {
         const shape source = shape_wild(40, seed), target = shape_wild(40, seed + 1);
         icc_map *map = map_between(&source, &target, false, -1, NULL);
         const icc_map_info info = info_of(map);
         if (info.kind != ICC_MAP_MESH)
-            ck_abort_msg("seed %d: %zu triangles not repaired", (int)seed, info.n_unrepaired);
-        n_inverted += info.n_inverted;
+            ck_abort_msg("seed %d has no mesh map", (int)seed);
         const double before = check_triangles(map, iccp_plane_of(map)->pl.points);
         const double after = check_triangles(map, iccp_plane_of(map)->pl.images);
         ck_assert_double_eq_tol(before / map->source_domain->measure, 1, 1e-12);
         ck_assert_double_eq_tol(after / map->target_domain->measure, 1, 1e-12);
         icc_map_free(map);
     }
-    ck_assert_uint_gt(n_inverted, 0);
 }
 END_TEST
 
@@ -556,8 +553,8 @@ static double allowed(size_t n_facets)
     return 3e5 + 300 * (double)n_facets;
 }
 
-/* Improvement and the repair may take as much as is allowed, whose steps count twice, and those of a
- * start without charts half as much; and all of them, and its crossings, no more than a budget. */
+/* Improvement may take as much as is allowed, and relaxing an overlay half of that. Both of them,
+ * with the overlay's crossings, take no more than a budget. */
 START_TEST(work_is_bounded)
 {
     for (int k = 0; k < N_PAIRS + 3; ++k) {
@@ -569,7 +566,7 @@ START_TEST(work_is_bounded)
         ck_assert(iccp_plane_of(map)->work > 0 || info_of(map).n_iterations == 0);
         const double n = (double)map->source_domain->n_facets;
         ck_assert_double_le(iccp_plane_of(map)->work,
-                            fmin(3.5 * most + 4 * n * n, 1.6e6 + 225 * n));
+                            fmin(1.5 * most + 4 * n * n, 1.6e6 + 225 * n));
         icc_improve_report report;
         icc_map *better = improve(map, NULL, &report, NULL);
         ck_assert_double_le(iccp_plane_of(better)->work, most);
@@ -587,12 +584,13 @@ typedef struct told {
 static void listen(void *user, const char *message)
 {
     told *t = user;
-    t->n_overlays += strstr(message, "trying the overlay") != NULL;
+    t->n_overlays += strstr(message, "making an overlay") != NULL;
     t->n_crossings += strstr(message, "cross too often") != NULL;
 }
 
-/* A band and the same a quarter of the way round: all diagonals cross. No start leads to a mesh, the
- * one without charts is tried once, and the log says why. */
+/* A band and the same band with its vertices moved on by a quarter of the outline: all diagonals
+ * cross. The overlay is tried once, the log says why it is given up, and curves are the best that
+ * can be had. */
 START_TEST(what_crosses_too_often_is_of_kind_curves)
 {
     enum { N = 1200 };

@@ -20,9 +20,6 @@
 enum { ROUNDS = 12, TYPICAL_ROUNDS = 2 };
 static const double LEAST_GAIN = 0.05;
 
-/* What a crossing costs until it is merged with others: a microsecond or two. */
-static const double CROSSING = 4;
-
 /* Of a round, on each side. */
 static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
 
@@ -105,7 +102,7 @@ icc_status iccp_overlay_start(iccp_plmap *map, const icc_domain *source, const i
     iccp_split(part, 3, (const double[]){1, 1, 2}, env);
     icc_status status = overlay(map, source, target, &part[0]);
     if (status == ICC_OK) {
-        iccp_work_charge(work, CROSSING * (double)(map->n_vertices - source->n_facets));
+        iccp_work_charge(work, ICCP_CROSSING_COST * (double)(map->n_vertices - source->n_facets));
         status = mend(map, &steps, &part[1]);
     }
     steps.left = iccp_min(steps.left, work->left - steps.spent);

@@ -5,6 +5,9 @@
 #include "map/compatible/plmap.h"
 #include "map/energy/work.h"
 
+/* What a crossing costs in iccp_work until it is merged with others: a microsecond or two. */
+enum { ICCP_CROSSING_COST = 4 };
+
 /* What merging a vertex of an overlay may add to the energy round it. */
 #define ICCP_RISE 0.3
 

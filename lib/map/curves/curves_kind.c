@@ -19,12 +19,11 @@ static bool takes(const icc_chart *source)
 }
 
 /* The charts are all that there is. */
-static icc_status create(icc_map *map, const icc_map_options *options, bool overlay,
-                         const iccp_env *env, icc_error *err)
+static icc_status create(icc_map *map, const icc_map_options *options, const iccp_env *env,
+                         icc_error *err)
 {
     (void)map;
     (void)options;
-    (void)overlay;
     (void)env;
     (void)err;
     return ICC_OK;

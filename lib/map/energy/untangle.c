@@ -18,8 +18,7 @@ typedef struct patches {
     int rings, steps, patience;
 } patches;
 
-static const patches PLANE[ICCP_PLANE_ROUNDS] = {
-    {2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 60, 15}};
+static const patches PLANE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 60, 15}};
 static const patches SPACE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 150, 40},
                                 {2, 60, 15}, {5, 60, 15}, {12, 60, 15}};
 
@@ -50,7 +49,7 @@ static size_t count_tasks(const iccp_simplicial_map *map)
 }
 
 /* Ring by ring: what has a corner in the last one is in the next. */
-void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *marks)
+static void mark_patches(const iccp_simplicial_map *map, int rings, uint8_t *marks)
 {
     const size_t n = map->dim + 1;
     memset(marks, 0, map->n_points);
@@ -72,10 +71,9 @@ void iccp_untangle_mark(const iccp_simplicial_map *map, int rings, uint8_t *mark
 
 /* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
  * epsilon goes to zero. */
-static icc_status descend(iccp_newton *newton, const patches *round, const iccp_trial *trial,
-                          iccp_work *work, const iccp_env *env)
+static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *work,
+                          const iccp_env *env)
 {
-    const double begin = work->spent;
     size_t n_bad, fewest;
     int since = 0;
     icc_status status = ICC_OK;
@@ -97,8 +95,6 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
         least = iccp_newton_least(newton, &n_bad);
         since = n_bad < fewest ? 0 : since + 1;
         fewest = n_bad < fewest ? n_bad : fewest;
-        if (n_bad > trial->most && work->spent - begin >= trial->work)
-            break;
         if (least > 0 && after >= 0.99 * before)
             break;
         epsilon = iccp_untangling_next(epsilon, least, iccp_max(1 - after / before, SLOWEST));
@@ -108,64 +104,51 @@ static icc_status descend(iccp_newton *newton, const patches *round, const iccp_
 
 /* The points with movable[v] != 0, or all. */
 static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t *movable,
-                                   const patches *round, const iccp_trial *trial, iccp_work *work,
-                                   const iccp_env *env)
+                                   const patches *round, iccp_work *work, const iccp_env *env)
 {
     iccp_newton newton;
     icc_status status = iccp_newton_create(&newton, map, movable, NULL, env);
     if (status != ICC_OK)
         return status;
-    status = descend(&newton, round, trial, work, env);
+    status = descend(&newton, round, work, env);
     iccp_newton_free(&newton);
     return status;
 }
 
 /* Each patch by itself: its epsilon begins where its own worst triangle asks for it, and it costs
- * nothing any more once it is done. The trial fails when more would be left in the end if all
- * patches went like those so far. */
+ * nothing any more once it is done. */
 static icc_status untangle_one_by_one(const iccp_simplicial_map *map, const uint8_t *movable,
-                                      const patches *round, const iccp_trial *trial,
-                                      iccp_work *work, const iccp_env *env)
+                                      const patches *round, iccp_work *work, const iccp_env *env)
 {
-    const double begin = work->spent;
-    const size_t n_all = count_tasks(map);
-    size_t n_before = 0, n_after = 0;
     iccp_patches parts;
     icc_status status = iccp_patches_create(&parts, map, movable, &env->memory);
     for (size_t p = 0; status == ICC_OK && p < parts.n; ++p) {
         const iccp_env own = iccp_round(env, p, (double)parts.n);
         const iccp_simplicial_map part = iccp_patches_cut_out(&parts, p);
-        const size_t n = count_tasks(&part);
-        const iccp_trial share = {trial->most * n / n_all, trial->work - (work->spent - begin)};
-        if (n > 0)
-            status = untangle_at_once(&part, NULL, round, &share, work, &own);
+        if (count_tasks(&part) > 0)
+            status = untangle_at_once(&part, NULL, round, work, &own);
         iccp_patches_put_back(&parts, &part);
-        n_before += n;
-        n_after += count_tasks(&part);
-        if (work->spent - begin >= trial->work && n_after * n_all > trial->most * n_before)
-            break;
     }
     iccp_patches_free(&parts);
     return status;
 }
 
-icc_status iccp_untangle_patches(const iccp_simplicial_map *map, size_t round, uint8_t *marks,
-                                 const iccp_trial *trial, iccp_work *work, const iccp_env *env)
+/* `marks`: room for a byte for each point. */
+static icc_status untangle_round(const iccp_simplicial_map *map, const patches *round,
+                                 uint8_t *marks, iccp_work *work, const iccp_env *env)
 {
-    static const iccp_trial none = {0, HUGE_VAL};
-    const patches *p = map->dim == 2 ? &PLANE[round] : &SPACE[round];
-    trial = trial != NULL ? trial : &none;
-    if (p->rings == 0)
-        return untangle_at_once(map, NULL, p, trial, work, env);
-    iccp_untangle_mark(map, p->rings, marks);
-    return map->dim == 2 ? untangle_one_by_one(map, marks, p, trial, work, env)
-                         : untangle_at_once(map, marks, p, trial, work, env);
+    if (round->rings == 0)
+        return untangle_at_once(map, NULL, round, work, env);
+    mark_patches(map, round->rings, marks);
+    return map->dim == 2 ? untangle_one_by_one(map, marks, round, work, env)
+                         : untangle_at_once(map, marks, round, work, env);
 }
 
 icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t *n_left,
                          const iccp_env *env)
 {
-    const size_t n = map->dim == 2 ? ICCP_PLANE_ROUNDS : sizeof SPACE / sizeof *SPACE;
+    const patches *rounds = map->dim == 2 ? PLANE : SPACE;
+    const size_t n = map->dim == 2 ? sizeof PLANE / sizeof *PLANE : sizeof SPACE / sizeof *SPACE;
     uint8_t *marks = iccp_alloc(&env->memory, map->n_points, 1);
     icc_status status = marks != NULL ? ICC_OK : ICC_ERR_MEMORY;
     size_t n_tasks = count_tasks(map);
@@ -173,7 +156,7 @@ icc_status iccp_untangle(const iccp_simplicial_map *map, iccp_work *work, size_t
         if (map->dim == 3 && SPACE[k].rings > 0 && n_tasks > map->n_simplices / MANY)
             continue;
         const iccp_env part = iccp_round(env, k, 1);
-        status = iccp_untangle_patches(map, k, marks, NULL, work, &part);
+        status = untangle_round(map, &rounds[k], marks, work, &part);
         n_tasks = count_tasks(map);
     }
     *n_left = iccp_simplicial_count_inverted(map);

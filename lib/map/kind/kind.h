@@ -18,9 +18,9 @@ typedef struct iccp_map_kind {
 
     /* Makes the state of a map that has its domains and, unless these have features, its charts.
      * Fills in map->info. The state stays NULL, with ICC_OK, if no such map is found;
-     * info.n_unrepaired is then not 0. `overlay`: see iccp_mesh_map_create(). */
-    icc_status (*create)(icc_map *map, const icc_map_options *options, bool overlay,
-                         const iccp_env *env, icc_error *err);
+     * info.n_unrepaired is then not 0. */
+    icc_status (*create)(icc_map *map, const icc_map_options *options, const iccp_env *env,
+                         icc_error *err);
 
     /* Checks that the map is one-to-one as far as its state does not warrant it. */
     icc_status (*certify)(icc_map *map, const iccp_env *env);

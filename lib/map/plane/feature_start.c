@@ -13,7 +13,6 @@
 #include "map/compatible/descent.h"
 #include "map/compatible/flips.h"
 #include "map/compatible/overlay_start.h"
-#include "map/compatible/repair.h"
 #include "map/isotopy/close_cuts.h"
 #include "map/isotopy/ties.h"
 

@@ -2,7 +2,6 @@
 
 #include "base/clock.h"
 #include "base/minmax.h"
-#include "map/compatible/repair.h"
 
 /* Defaults of icc_improve_options. */
 static const double TOLERANCE = 1e-4;
@@ -12,8 +11,8 @@ enum { ITERATIONS = 60, LEVELS = 16 };
 static const double MOST_GROWTH = 4, SMALL = 8000;
 
 /* What improvement left to us may cost, in steps times triangles: so much, and so much for each
- * facet. And as shares of that, a repair and a start from an overlay. */
-static const double WORK = 3e5, WORK_PER_FACET = 300, REPAIR_SHARE = 1, OVERLAY_SHARE = 0.5;
+ * facet. And as a share of that, relaxing an overlay. */
+static const double WORK = 3e5, WORK_PER_FACET = 300, RELAXING_SHARE = 0.5;
 
 /* And what all of them together may cost, with what an overlay costs before the first step: as
  * little as it takes to stay within the time that icc_map_create() names. */
@@ -22,17 +21,16 @@ static const double ALL_WORK = 1.6e6, ALL_PER_FACET = 225;
 iccp_allowance iccp_allow(size_t n_facets)
 {
     const double work = WORK + WORK_PER_FACET * (double)n_facets;
-    return (iccp_allowance){.trial = HUGE_VAL,
-                            .repair.left = REPAIR_SHARE * work,
+    return (iccp_allowance){.search.left = work,
                             .overlay.left = HUGE_VAL,
-                            .overlay_steps = OVERLAY_SHARE * work,
                             .improvement.left = work,
+                            .relaxing = RELAXING_SHARE * work,
                             .all = ALL_WORK + ALL_PER_FACET * (double)n_facets};
 }
 
 double iccp_spent(const iccp_allowance *work)
 {
-    return work->repair.spent + work->overlay.spent + work->improvement.spent;
+    return work->search.spent + work->overlay.spent + work->improvement.spent;
 }
 
 iccp_work *iccp_bound(iccp_work *part, const iccp_allowance *work)
@@ -103,23 +101,6 @@ icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *opti
     }
     info->seconds_improve = iccp_seconds() - begin;
     return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1], err) : status;
-}
-
-icc_status iccp_refit(iccp_mesh_map *map, const icc_improve_options *options, iccp_allowance *work,
-                      icc_map_info *info, const iccp_env *env, icc_error *err)
-{
-    const double begin = iccp_seconds();
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 5}, env);
-    const iccp_simplicial_map before = iccp_plmap_simplicial(&map->pl);
-    info->n_inverted = iccp_simplicial_count_at_once(&before, env);
-    icc_status status = iccp_repair(&map->pl, work->trial, iccp_bound(&work->repair, work),
-                                    &info->n_unrepaired, &part[0]);
-    info->seconds_repair = iccp_seconds() - begin;
-    if (status != ICC_OK || info->n_unrepaired > 0)
-        return status;
-    return iccp_fit_complete(map, options, &iccp_fit_plain, iccp_bound(&work->improvement, work),
-                             info, &part[1], err);
 }
 
 void iccp_fit_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)

@@ -7,9 +7,11 @@
 
 /* Work that is left and spent. */
 typedef struct iccp_allowance {
-    iccp_work repair, overlay, improvement;
-    double overlay_steps; /* part of the overlay's */
-    double all, trial;
+    iccp_work search;      /* trying trees of cuts, or carrying the images to another target */
+    iccp_work overlay;     /* making an overlay and relaxing it */
+    iccp_work improvement; /* of what is one-to-one */
+    double relaxing;       /* the overlay's share for steps */
+    double all;            /* the most that the parts may take together */
 } iccp_allowance;
 
 /* For a map between domains of n_facets that is made without limits of the caller's. */
@@ -42,11 +44,6 @@ icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
 icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *options,
                              const iccp_schedule *how, iccp_work *work, icc_map_info *info,
                              const iccp_env *env, icc_error *err);
-
-/* Repairs, improves and certifies what is in map->pl. When it cannot be repaired,
- * info->n_unrepaired is not 0, with ICC_OK. */
-icc_status iccp_refit(iccp_mesh_map *map, const icc_improve_options *options, iccp_allowance *work,
-                      icc_map_info *info, const iccp_env *env, icc_error *err);
 
 /* Passes the plan on to a map whose mesh has not changed. */
 void iccp_fit_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan);

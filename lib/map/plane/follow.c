@@ -11,6 +11,7 @@
 #include "map/plane/fit.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
  * next frame continues from here. What is carried has made a step on the way. */
@@ -33,8 +34,7 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
             iccp_carry_place(pl, target, v, pl->images + 2 * v);
 }
 
-/* The images where they were, in the frame of the new target; where the inside goes from there is
- * up to the repair. */
+/* A copy of the map whose images stay where they were, in the frame of the new target. */
 static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
                         const icc_domain *old_target, const icc_domain *target,
                         const iccp_newton_plan *plan, const iccp_memory *memory)
@@ -77,7 +77,7 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
     return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
 }
 
-/* Features must not be torn from one another: no state between is repaired. */
+/* Every state on the way is one-to-one, so features stay on their sides of one another. */
 static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_options *options,
                         iccp_allowance *work, icc_map_info *info, const iccp_env *env,
                         icc_error *err)
@@ -93,12 +93,12 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
     if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
         status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     if (status == ICC_OK)
-        status = iccp_carry(&map->pl, j->target, &grain, PATIENCE, &work->repair, &reached, &room,
+        status = iccp_carry(&map->pl, j->target, &grain, PATIENCE, &work->search, &reached, &room,
                             &part[0]);
     if (status == ICC_OK && !reached)
         status = rebuild(&map->pl, j, grain.longest, &work->overlay, &reached, &part[0]);
     if (status == ICC_OK && !reached)
-        status = iccp_carry(&map->pl, j->target, &grain, LAST_PATIENCE, &work->repair, &reached,
+        status = iccp_carry(&map->pl, j->target, &grain, LAST_PATIENCE, &work->search, &reached,
                             &room, &part[0]);
     if (status == ICC_OK && reached)
         status = iccp_tend(&map->pl, &grain, room, &work->improvement, &part[0]);
@@ -140,32 +140,45 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
     return ICC_OK;
 }
 
-/* A cage moves at once; where that cannot be repaired, in parts. */
-static icc_status follow_cage(iccp_mesh_map *next, const iccp_mesh_map *map,
-                              const icc_domain *source, const icc_domain *old_target,
-                              const icc_domain *target, const icc_improve_options *options,
-                              iccp_allowance *work, icc_map_info *info, const iccp_env *env,
-                              icc_error *err)
+/* Moves the boundary's images to the new target at once if that inverts no triangle, otherwise in
+ * parts. *reached: whether they are there. */
+static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work *work,
+                            bool *reached, icc_map_info *info, const iccp_env *env)
 {
     const iccp_grain grain = {iccp_planar_step(target, CARRIED_CELLS), SIZE_MAX};
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(pl);
+    const size_t n = 2 * pl->n_vertices;
+    double room, *before = iccp_alloc(&env->memory, n, sizeof *before);
+    if (before == NULL)
+        return ICC_ERR_MEMORY;
+    memcpy(before, pl->images, n * sizeof *before);
+    move_boundary(pl, target);
+    info->n_inverted = iccp_simplicial_count_at_once(&simplicial, env);
+    *reached = info->n_inverted == 0;
+    if (!*reached)
+        memcpy(pl->images, before, n * sizeof *before);
+    iccp_free(&env->memory, before);
+    return *reached ? ICC_OK
+                    : iccp_carry(pl, target, &grain, LAST_PATIENCE, work, reached, &room, env);
+}
+
+/* info->n_unrepaired is not 0, with ICC_OK, when the way is blocked. */
+static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
+                              const icc_improve_options *options, iccp_allowance *work,
+                              icc_map_info *info, const iccp_env *env, icc_error *err)
+{
+    const double begin = iccp_seconds();
     bool reached = false;
-    double room;
-    icc_map_info own = *info;
-    const iccp_newton_plan *plan = next->pl.plan;
-    move_boundary(&next->pl, target);
-    icc_status status = iccp_refit(next, options, work, info, env, err);
-    if (status != ICC_OK || info->n_unrepaired == 0)
-        return status;
-    iccp_plmap_free(&next->pl);
-    status = begin(&next->pl, &map->pl, source, old_target, target, plan, &env->memory);
-    if (status == ICC_OK)
-        status = iccp_carry(&next->pl, target, &grain, LAST_PATIENCE, &work->overlay, &reached,
-                            &room, env);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 5}, env);
+    icc_status status = move_cage(&map->pl, target, &work->search, &reached, info, &part[0]);
+    info->seconds_repair = iccp_seconds() - begin;
+    info->n_unrepaired = reached ? 0 : info->n_inverted;
     if (status == ICC_OK && reached)
-        status =
-            iccp_fit_complete(next, options, &iccp_fit_plain, &work->improvement, &own, env, err);
+        status = iccp_cut_chords(&map->pl);
     if (status == ICC_OK && reached)
-        *info = own;
+        status = iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info,
+                                   &part[1], err);
     return status;
 }
 
@@ -191,11 +204,10 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                                              .levels = -1};
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
-        work.overlay.left = work.overlay_steps;
+        work.overlay.left = work.relaxing;
         work.all = HUGE_VAL;
         status = source->features == NULL
-                     ? follow_cage(next, map, source, old_target, target, &options, &work, info,
-                                   env, err)
+                     ? follow_cage(next, target, &options, &work, info, env, err)
                      : carry(next, &(journey){isotopy, source, old_target, target}, &options, &work,
                              info, env, err);
         next->work = iccp_spent(&work);

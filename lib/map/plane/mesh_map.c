@@ -8,7 +8,7 @@
 #include "base/threads.h"
 #include "chart/bulk.h"
 #include "domain/features.h"
-#include "map/compatible/candidate.h"
+#include "map/compatible/overlay_patches.h"
 #include "map/compatible/overlay_start.h"
 #include "map/compatible/plmap_certificate.h"
 #include "map/energy/movable.h"
@@ -19,17 +19,12 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Where an overlay is to be had, this share of a repair's work has to make most of it positive. On
- * random pairs it did whenever the repair came to an end. */
-static const double TRIAL_SHARE = 0.05;
-
 /* Of a start between domains with features: the energy from which on it counts as entangled. */
 static const double ENTANGLED = 20;
 
-/* Triangles flatter than this, as outlines with much detail have them: where there are more than
- * A_FEW, the start has been inverted in places in each of seven pairs of more than 400 vertices. */
-static const double FLAT = 0.15;
-enum { A_FEW = 10 };
+/* If the borders of all patches have more corners than this part of the cage, the overlay of the
+ * whole is as cheap. On spirals of hundreds of turns its energy is less than half of theirs. */
+enum { PATCHES = 4 };
 
 /* ---- start ---- */
 
@@ -120,21 +115,8 @@ static icc_status run_start(void *argument, size_t k, const iccp_env *env, icc_e
     return iccp_newton_plan_create(&job->plan, &map, env);
 }
 
-/* Whether edges are likely to be flipped before the first step, so that what would be known of the
- * mesh as it is would be of no use. */
-static bool is_doubtful(const iccp_planar *mesh)
-{
-    size_t n_flat = 0;
-    for (size_t t = 0; t < mesh->n_triangles && n_flat <= A_FEW; ++t) {
-        const uint32_t *v = mesh->triangles + 3 * t;
-        n_flat += iccp_roundness(mesh->points + 2 * (size_t)v[0], mesh->points + 2 * (size_t)v[1],
-                                 mesh->points + 2 * (size_t)v[2]) < FLAT;
-    }
-    return n_flat > A_FEW;
-}
-
 /* The map of the source chart's mesh that the two charts give, which may be inverted in places.
- * `plan`: of that mesh, where it can be made meanwhile and is likely to be of use; or NULL. */
+ * `plan`: Newton's plan of that mesh, if it can be made meanwhile; or NULL. */
 static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart *source,
                         const icc_chart *target, bool is_improved, const iccp_env *env,
                         icc_error *err)
@@ -142,7 +124,7 @@ static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart
     const iccp_planar *mesh = source->mesh;
     start_job job = {source, target, pl, NULL};
     const bool plans = is_improved && iccp_has_threads(env) && env->budget == NULL &&
-                       iccp_all_are_movable(mesh->n_triangles) && !is_doubtful(mesh);
+                       iccp_all_are_movable(mesh->n_triangles);
     const icc_status status = iccp_side_by_side(env, plans ? 2 : 1, run_start, &job, err);
     pl->plan = *plan = job.plan;
     return status;
@@ -186,36 +168,47 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     return status;
 }
 
-/* Where the charts give a start that cannot be repaired. Leaves info->n_unrepaired as it is unless
- * it comes to a certified map. */
-static icc_status try_overlay(iccp_mesh_map *map, const icc_domain *source,
-                              const icc_domain *target, const icc_improve_options *options,
-                              iccp_allowance *work, icc_map_info *info, const iccp_env *env)
+/* Replaces the inverted parts of a start by overlays: patches around them, or the whole where that
+ * costs less. ICC_ERR_RESOLUTION or ICC_ERR_CERTIFICATE when there is none in doubles. */
+static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_domain *target,
+                          iccp_allowance *work, const iccp_env *env)
 {
-    const double begin = iccp_seconds();
-    icc_map_info own = *info;
-    iccp_log(env, "%zu triangles could not be repaired: trying the overlay of two triangulations",
-             info->n_unrepaired);
-    iccp_plmap_free(&map->pl);
+    size_t n_left;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
-    icc_status status = iccp_overlay_start(&map->pl, source, target, work->overlay_steps,
-                                           iccp_bound(&work->overlay, work), &part[0]);
-    const double seconds = iccp_seconds() - begin;
+    iccp_work patches = {.left = work->relaxing};
+    icc_status status =
+        iccp_overlay_patches(pl, source->n_facets / PATCHES, &patches, &n_left, &part[0]);
+    iccp_work_charge(&work->overlay, patches.spent);
+    if (status == ICC_OK && n_left > 0) {
+        iccp_plmap_free(pl);
+        status = iccp_overlay_start(pl, source, target, work->relaxing,
+                                    iccp_bound(&work->overlay, work), &part[1]);
+    }
     if (status == ICC_ERR_RESOLUTION)
         iccp_log(env, "the two triangulations cross too often");
-    if (status == ICC_OK)
-        status = iccp_refit(map, options, work, &own, &part[1], NULL);
-    own.n_inverted = info->n_inverted;
-    own.seconds_repair += info->seconds_repair + seconds;
-    if (status == ICC_OK)
-        *info = own;
-    return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
+    return status == ICC_OK ? iccp_cut_chords(pl) : status;
+}
+
+/* Leaves what the charts give as it is if it is one-to-one. */
+static icc_status make_positive(iccp_mesh_map *map, const icc_domain *source,
+                                const icc_domain *target, iccp_allowance *work, icc_map_info *info,
+                                const iccp_env *env)
+{
+    const double begin = iccp_seconds();
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    info->n_inverted = iccp_simplicial_count_at_once(&simplicial, env);
+    if (info->n_inverted == 0)
+        return iccp_cut_chords(&map->pl);
+    iccp_log(env, "%zu triangles are inverted: making an overlay there", info->n_inverted);
+    const icc_status status = overlay(&map->pl, source, target, work, env);
+    info->seconds_repair = iccp_seconds() - begin;
+    return status;
 }
 
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, bool overlay,
-                                icc_map_info *info, const iccp_env *env, icc_error *err)
+                                const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *map = iccp_mesh_map_new(source->domain, target->domain, &env->memory);
     *out = NULL;
@@ -223,24 +216,25 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
         return ICC_ERR_MEMORY;
     const icc_improve_options options = {.iterations = iterations};
     iccp_allowance work = iccp_allow(source->domain->n_facets);
-    if (overlay)
-        work.trial = TRIAL_SHARE * iccp_bound(&work.repair, &work)->left;
     iccp_env part[3];
-    iccp_split(part, 3, (const double[]){1, 7, 1}, env);
+    iccp_split(part, 3, (const double[]){1, 2, 5}, env);
     iccp_newton_plan *plan;
     icc_status status = start(&map->pl, &plan, source, target, iterations >= 0, &part[0], err);
     if (status == ICC_OK)
-        status = iccp_refit(map, &options, &work, info, &part[1], err);
-    if (status == ICC_OK && info->n_unrepaired > 0 && overlay)
-        status = try_overlay(map, source->domain, target->domain, &options, &work, info, &part[2]);
+        status = make_positive(map, source->domain, target->domain, &work, info, &part[1]);
+    const bool none = status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE;
+    if (status == ICC_OK)
+        status = iccp_fit_complete(map, &options, &iccp_fit_plain,
+                                   iccp_bound(&work.improvement, &work), info, &part[2], err);
     iccp_fit_keep_plan(map, plan);
     iccp_newton_plan_release(plan);
     map->work = iccp_spent(&work);
-    if (status == ICC_OK && info->n_unrepaired == 0)
+    if (status == ICC_OK)
         *out = map;
     else
         iccp_mesh_map_free(map, &env->memory);
-    return status;
+    info->n_unrepaired = none ? info->n_inverted : 0;
+    return none ? ICC_OK : status;
 }
 
 /* Where the energy is high, features go far round one another, and there is far to go for the
@@ -274,8 +268,8 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     iccp_feature_report report;
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){2, 1, 3}, env);
-    work.overlay.left = work.overlay_steps;
-    icc_status status = iccp_feature_start(&map->pl, source, target, options, &work.repair,
+    work.overlay.left = work.relaxing;
+    icc_status status = iccp_feature_start(&map->pl, source, target, options, &work.search,
                                            &work.overlay, &report, &part[0], err);
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && options->iterations >= 0)

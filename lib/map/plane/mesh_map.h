@@ -23,13 +23,14 @@ typedef struct iccp_mesh_map {
 iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
                                  const iccp_memory *memory);
 
-/* Starts from two charts that were made together: their images of the source chart's mesh; or,
- * where these cannot be repaired and `overlay` says so, from what map/compatible/overlay_start.h
- * makes of the domains alone. Fills in the mesh's members of `info`. When no start leads to a map,
- * info->n_unrepaired is not 0 and *out is NULL, with ICC_OK. `iterations` as in icc_map_options. */
+/* Starts from two charts that were made together: from their images of the source chart's mesh if
+ * no triangle is inverted, otherwise from the overlay of two triangulations of the domains
+ * (map/compatible/overlay_start.h). Fills in the mesh's members of `info`. If the overlay would be
+ * too large, *out is NULL, with ICC_OK, and info->n_unrepaired counts the charts' inverted
+ * triangles. `iterations` as in icc_map_options. */
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, bool overlay,
-                                icc_map_info *info, const iccp_env *env, icc_error *err);
+                                const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err);
 
 /* Between two domains with features that correspond, without charts. ICC_ERR_RESOLUTION when
  * features are too close for doubles. Otherwise as above. */

@@ -41,15 +41,15 @@ static icc_status keep(icc_map *map, iccp_mesh_map *plane, icc_status status, co
     return status == ICC_OK && plane != NULL ? tell_features(map, env) : status;
 }
 
-static icc_status create(icc_map *map, const icc_map_options *options, bool overlay,
-                         const iccp_env *env, icc_error *err)
+static icc_status create(icc_map *map, const icc_map_options *options, const iccp_env *env,
+                         icc_error *err)
 {
     iccp_mesh_map *plane;
     const icc_status status =
         map->source == NULL
             ? iccp_mesh_map_create_features(&plane, map->source_domain, map->target_domain, options,
                                             &map->info, env, err)
-            : iccp_mesh_map_create(&plane, map->source, map->target, options->iterations, overlay,
+            : iccp_mesh_map_create(&plane, map->source, map->target, options->iterations,
                                    &map->info, env, err);
     return keep(map, plane, status, env);
 }

@@ -19,11 +19,10 @@ static bool takes(const icc_chart *source)
     return source->info.method == ICC_METHOD_FOLIATION && source->domain->dim == 3;
 }
 
-static icc_status create(icc_map *map, const icc_map_options *options, bool overlay,
-                         const iccp_env *env, icc_error *err)
+static icc_status create(icc_map *map, const icc_map_options *options, const iccp_env *env,
+                         icc_error *err)
 {
     iccp_solid_map *solid;
-    (void)overlay;
     (void)err;
     const icc_status status = iccp_solid_map_create(&solid, map->source, map->target,
                                                     options->iterations, &map->info, env);

@@ -2,18 +2,10 @@
 #include "base/error.h"
 #include "map/compatible/improve.h"
 #include "map/compatible/plmap_certificate.h"
-#include "map/compatible/repair.h"
 #include "map/energy/newton.h"
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"
-
-/* Without limits of work. */
-static icc_status repair(iccp_plmap *map, size_t *n_left, const iccp_env *env)
-{
-    iccp_work work = iccp_work_unlimited();
-    return iccp_repair(map, HUGE_VAL, &work, n_left, env);
-}
 
 static icc_status improve(iccp_plmap *map, size_t iterations, double tolerance, size_t levels,
                           iccp_improvement *improvement, const iccp_env *env)
@@ -298,128 +290,6 @@ START_TEST(what_locks_all_others_is_cut_first)
 }
 END_TEST
 
-/* ---- repair ---- */
-
-enum { N_BREAKS = 6, N_TRIES = 20 };
-
-/* How many of N_TRIES times N_SHAPES may fail for each kind of damage but the last: the first can be
- * repaired always, the last nearly never. */
-static const size_t MOST_FAILED[N_BREAKS - 1] = {0, 12, 9, 4, 74};
-
-static void break_map(iccp_plmap *map, int how, random_source *r)
-{
-    double centre[2] = {0, 0};
-    for (size_t v = 0; v < map->n_vertices; ++v)
-        for (size_t d = 0; d < 2; ++d)
-            centre[d] += map->images[2 * v + d] / (double)map->n_vertices;
-    for (size_t v = 0; v < map->n_vertices; ++v) {
-        double *image = map->images + 2 * v;
-        if (map->fixed[v])
-            continue;
-        switch (how) {
-        case 0: /* a little disorder */
-            image[0] += random_between(r, -0.1, 0.1);
-            image[1] += random_between(r, -0.1, 0.1);
-            break;
-        case 2: /* anywhere in the box */
-            image[0] = random_between(r, -1, 1);
-            image[1] = random_between(r, -1, 1);
-            break;
-        case 1: /* inside out */
-            image[0] = 2 * centre[0] - image[0];
-            break;
-        case 3: /* all in one point */
-            memcpy(image, centre, sizeof centre);
-            break;
-        case 4: /* one vertex far outside */
-            if (v + 1 == map->n_vertices)
-                image[0] += random_between(r, 5, 15);
-            break;
-        default: /* all far outside */
-            image[0] += 100;
-        }
-    }
-}
-
-/* The boundary, which comes first, stays where it was, and all else is free. */
-static void check_boundary(const iccp_plmap *map, const iccp_plmap *broken)
-{
-    size_t n_faults = 0, v = 0;
-    for (; v < broken->n_vertices && broken->fixed[v]; ++v)
-        n_faults += map->fixed[v] != broken->fixed[v] ||
-                    memcmp(map->points + 2 * v, broken->points + 2 * v, 2 * sizeof(double)) != 0 ||
-                    memcmp(map->images + 2 * v, broken->images + 2 * v, 2 * sizeof(double)) != 0;
-    ck_assert_uint_gt(v, 2);
-    for (; v < map->n_vertices; ++v)
-        n_faults += map->fixed[v] != ICCP_FREE;
-    ck_assert_uint_eq(n_faults, 0);
-}
-
-static size_t repair_and_check(iccp_plmap *map, bool twice)
-{
-    const iccp_env env = default_env();
-    iccp_plmap broken, again;
-    size_t n_left = 12345, n_again = 0;
-    ck_assert_int_eq(iccp_plmap_copy(&broken, map, &env.memory), ICC_OK);
-    ck_assert_int_eq(iccp_plmap_copy(&again, map, &env.memory), ICC_OK);
-    ck_assert_int_eq(repair(map, &n_left, &env), ICC_OK);
-    check_mesh(map);
-    check_boundary(map, &broken);
-    ck_assert_uint_eq(iccp_plmap_count_inverted(map), n_left);
-    if (twice)
-        ck_assert_int_eq(repair(&again, &n_again, &env), ICC_OK);
-    ck_assert(!twice || (is_same(map, &again) && n_again == n_left));
-    iccp_plmap_free(&broken);
-    iccp_plmap_free(&again);
-    return n_left;
-}
-
-START_TEST(broken_maps_are_repaired_or_counted)
-{
-    for (int how = 0; how < N_BREAKS; ++how) {
-        size_t n_failed = 0;
-        for (int k = 0; k < N_SHAPES * N_TRIES; ++k) {
-            const shape s = shape_number(k % N_SHAPES);
-            random_source r = {(uint64_t)(10 * k + how)};
-            iccp_plmap map = map_of(&s, 6 + k / N_SHAPES % 5, identity, 1);
-            break_map(&map, how, &r);
-            n_failed += repair_and_check(&map, k < 2) > 0;
-            iccp_plmap_free(&map);
-        }
-        if (how < N_BREAKS - 1 && n_failed > MOST_FAILED[how])
-            ck_abort_msg("broken in way %d: %zu maps are not repaired", how, n_failed);
-    }
-}
-END_TEST
-
-/* A boundary that runs clockwise cannot be filled with positive triangles; the number is told. */
-START_TEST(what_cannot_be_repaired_is_counted)
-{
-    const shape s = shape_square();
-    iccp_plmap map = map_of(&s, 6, identity, 1);
-    for (size_t v = 0; v < map.n_vertices; ++v)
-        map.images[2 * v] *= -1;
-    ck_assert_uint_gt(repair_and_check(&map, true), 0);
-    iccp_plmap_free(&map);
-}
-END_TEST
-
-/* A good map stays as it is. */
-START_TEST(there_is_nothing_to_repair)
-{
-    const shape s = shape_star(5, 0.4, 0.1);
-    const iccp_env env = default_env();
-    iccp_plmap map = map_of(&s, 10, wave, 1), copy;
-    size_t n_left;
-    ck_assert_int_eq(iccp_plmap_copy(&copy, &map, &env.memory), ICC_OK);
-    ck_assert_int_eq(repair(&map, &n_left, &env), ICC_OK);
-    ck_assert_uint_eq(n_left, 0);
-    ck_assert(is_same(&map, &copy));
-    iccp_plmap_free(&map);
-    iccp_plmap_free(&copy);
-}
-END_TEST
-
 /* ---- improvement ---- */
 
 START_TEST(more_steps_are_no_worse)
@@ -510,63 +380,6 @@ START_TEST(work_is_never_exceeded)
 }
 END_TEST
 
-/* A repair that may not take a step flips edges and counts what is left. */
-START_TEST(repairs_take_no_more_work_than_there_is)
-{
-    const iccp_env env = default_env();
-    size_t n_unfinished = 0;
-    double spent[4];
-    for (int k = 0; k < 4; ++k) {
-        const shape s = shape_number(3);
-        random_source r = {7};
-        iccp_plmap map = map_of(&s, 6, identity, 1);
-        const double limit = (double[]){HUGE_VAL, 0, 100, 1000}[k];
-        iccp_work work = {.left = limit};
-        size_t n_left;
-        break_map(&map, 2, &r);
-        ck_assert_int_eq(iccp_repair(&map, HUGE_VAL, &work, &n_left, &env), ICC_OK);
-        ck_assert_uint_eq(n_left, iccp_plmap_count_inverted(&map));
-        check_mesh(&map);
-        spent[k] = work.spent;
-        ck_assert_double_le(work.spent, limit);
-        n_unfinished += n_left > 0;
-        ck_assert(k > 0 || n_left == 0);
-        iccp_plmap_free(&map);
-    }
-    ck_assert(spent[0] > 0 && spent[1] == 0);
-    ck_assert_uint_gt(n_unfinished, 0);
-}
-END_TEST
-
-/* A start that a repair mends in a number of steps: not after a trial that ends with the first, and
- * as without one after a trial that is long enough. */
-START_TEST(a_trial_ends_what_takes_longer)
-{
-    const iccp_env env = default_env();
-    const shape s = shape_number(3);
-    iccp_plmap maps[3];
-    double spent[3], trial = HUGE_VAL;
-    for (int k = 0; k < 3; ++k) {
-        random_source r = {7};
-        iccp_work work = iccp_work_unlimited();
-        size_t n_left;
-        maps[k] = map_of(&s, 6, identity, 1);
-        break_map(&maps[k], 2, &r);
-        ck_assert_int_eq(iccp_repair(&maps[k], trial, &work, &n_left, &env), ICC_OK);
-        ck_assert((n_left > 0) == (k == 1));
-        check_mesh(&maps[k]);
-        spent[k] = work.spent;
-        trial = k == 0 ? 1 : spent[0];
-    }
-    ck_assert_double_le(spent[1], (double)maps[1].corners.n_triangles);
-    ck_assert_double_gt(spent[0], 2 * spent[1]);
-    ck_assert_uint_eq(maps[0].n_vertices, maps[2].n_vertices);
-    ck_assert_mem_eq(maps[0].images, maps[2].images, maps[0].n_vertices * 2 * sizeof(double));
-    for (int k = 0; k < 3; ++k)
-        iccp_plmap_free(&maps[k]);
-}
-END_TEST
-
 /* ---- failures ---- */
 
 /* Cancelled or out of memory at any moment: the map is valid and no worse. */
@@ -582,43 +395,6 @@ static icc_status improve_copy(const icc_env *env, icc_error *err, void *argumen
         status = improve(&map, 4, 1e-6, 2, &improvement, &full);
         check_certified(&map);
         ck_assert_double_le(iccp_plmap_energy(&map), iccp_plmap_energy(start) * (1 + 1e-14));
-    }
-    iccp_plmap_free(&map);
-    return iccp_explain(err, status);
-}
-
-static icc_status repair_copy(const icc_env *env, icc_error *err, void *argument)
-{
-    const iccp_plmap *start = argument;
-    iccp_env full;
-    iccp_plmap map;
-    size_t n_left;
-    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
-    icc_status status = iccp_plmap_copy(&map, start, &full.memory);
-    if (status == ICC_OK) {
-        random_source r = {3};
-        break_map(&map, 2, &r);
-        status = repair(&map, &n_left, &full);
-        ck_assert(status != ICC_OK || n_left == iccp_plmap_count_inverted(&map));
-    }
-    iccp_plmap_free(&map);
-    return iccp_explain(err, status);
-}
-
-/* A map that cannot be repaired goes through every round of refinement. */
-static icc_status repair_in_vain(const icc_env *env, icc_error *err, void *argument)
-{
-    const iccp_plmap *start = argument;
-    iccp_env full;
-    iccp_plmap map;
-    size_t n_left = 1;
-    ck_assert_int_eq(iccp_env_read(&full, env, NULL), ICC_OK);
-    icc_status status = iccp_plmap_copy(&map, start, &full.memory);
-    if (status == ICC_OK) {
-        for (size_t v = 0; v < map.n_vertices; ++v)
-            map.images[2 * v] *= -1;
-        status = repair(&map, &n_left, &full);
-        ck_assert_uint_gt(n_left, 0);
     }
     iccp_plmap_free(&map);
     return iccp_explain(err, status);
@@ -644,14 +420,11 @@ static icc_status cut_often(const icc_env *env, icc_error *err, void *argument)
 
 START_TEST(failures_leave_valid_maps)
 {
-    const shape l = shape_l(), square = shape_square();
-    iccp_plmap start = map_of(&l, 3, wave, 1), small = map_of(&square, 2, identity, 1);
+    const shape l = shape_l();
+    iccp_plmap start = map_of(&l, 3, wave, 1);
     faulty_sweep(cut_often, &start);
     faulty_sweep(improve_copy, &start);
-    faulty_sweep(repair_copy, &start);
     iccp_plmap_free(&start);
-    faulty_sweep(repair_in_vain, &small);
-    iccp_plmap_free(&small);
 }
 END_TEST
 
@@ -700,14 +473,9 @@ int main(void)
     tcase_add_test(tests, steps_begun_ahead_are_the_same);
     tcase_add_test(tests, every_step_is_monotone_and_positive);
     tcase_add_test(tests, what_locks_all_others_is_cut_first);
-    tcase_add_test(tests, broken_maps_are_repaired_or_counted);
-    tcase_add_test(tests, what_cannot_be_repaired_is_counted);
-    tcase_add_test(tests, there_is_nothing_to_repair);
     tcase_add_test(tests, more_steps_are_no_worse);
     tcase_add_test(tests, levels_refine_and_lower_the_energy);
     tcase_add_test(tests, work_is_never_exceeded);
-    tcase_add_test(tests, repairs_take_no_more_work_than_there_is);
-    tcase_add_test(tests, a_trial_ends_what_takes_longer);
     tcase_add_test(tests, failures_leave_valid_maps);
     tcase_add_test(tests, no_loop_of_the_callers_hides_what_is_inverted);
     suite_add_tcase(suite, tests);
