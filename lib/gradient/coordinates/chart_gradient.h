@@ -12,8 +12,8 @@
  * - parameters, digest: what a chart is rebuilt from, and a hash of its result
  *   (chart_parameters.h).
  *
- * Invariants: curves end at the maximum, which is the tree's root. A chart that is read from bytes is made again
- * and must have the same digest. */
+ * Invariants: curves end at the maximum, which is the tree's root. A chart that is read from bytes
+ * is made again and must have the same digest. */
 #ifndef ICCP_CHART_GRADIENT_H
 #define ICCP_CHART_GRADIENT_H
 
