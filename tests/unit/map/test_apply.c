@@ -121,8 +121,10 @@ START_TEST(points_near_the_boundary_are_located_by_it)
             t.xy[2 * k] += 0.3 * t.xy[2 * k + 1];
         place(&s, where);
         place(&t, where);
-        icc_domain *source = domain_of_shape(&s), *target = domain_of_shape(&t);
+        icc_domain *source = NULL, *target = NULL;
         icc_map *map = NULL;
+        (void)icc_domain_create(&source, 2, s.n, s.xy, 0, NULL, NULL, NULL);
+        (void)icc_domain_create(&target, 2, t.n, t.xy, 0, NULL, NULL, NULL);
         if (source != NULL && target != NULL)
             (void)icc_map_create(&map, source, target, &options, NULL, NULL);
         if (map != NULL && iccp_plane_of(map) != NULL) {
