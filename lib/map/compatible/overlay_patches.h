@@ -1,4 +1,4 @@
-/* The overlay of two triangulations in patches, where only a few places of a large map are inverted. */
+/* The overlay of two triangulations in patches, if a large map is inverted in only a few places. */
 #ifndef ICCP_OVERLAY_PATCHES_H
 #define ICCP_OVERLAY_PATCHES_H
 
