@@ -141,19 +141,26 @@ void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart 
 {
     map->source = iccp_chart_retain(source);
     map->target = iccp_chart_retain(target);
-    map->info.certified = source->info.certified && target->info.certified;
-    map->info.reason_side = !source->info.certified ? 1 : !target->info.certified ? 2 : 0;
-    map->info.reason = map->info.reason_side == 2 ? target->info.reason : source->info.reason;
 }
 
-icc_status iccp_map_judge(icc_map *map, const iccp_env *env)
+static icc_status certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
-    return map->kind->certify != NULL ? map->kind->certify(map, env) : ICC_OK;
+    const double start = iccp_seconds();
+    const icc_status status = map->kind->certify(map, env, err);
+    map->info.seconds_certify += iccp_seconds() - start;
+    return status;
+}
+
+icc_status iccp_map_conclude(icc_map *map, const iccp_env *env, icc_error *err)
+{
+    const icc_status status = certify(map, env, err);
+    return status == ICC_OK && map->kind->describe != NULL ? map->kind->describe(map, env) : status;
 }
 
 /* Makes a map affine inside if its boundary is affine, unless that would change the isotopy class
  * of its features. */
-static icc_status settle(icc_map *map, int32_t iterations, double *energy, const iccp_env *env)
+static icc_status settle(icc_map *map, int32_t iterations, double *energy, const iccp_env *env,
+                         icc_error *err)
 {
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -174,7 +181,7 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
         *energy = iccp_min(*energy, iccp_simplicial_energy_at_once(&simplicial, &quiet));
     }
     iccp_free(&env->memory, before);
-    return status;
+    return status == ICC_OK && kept ? certify(map, &quiet, err) : status;
 }
 
 /* Whether the isotopy class of the features of `map` is kept by `next`, which came of it. */
@@ -214,12 +221,13 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
     if (status == ICC_OK)
         status = fill_in(map, &iccp_plane_kind, options, env, err);
     if (status == ICC_OK)
-        status = settle(map, options->iterations, &map->info.energy, env);
+        status = iccp_map_conclude(map, env, err);
+    if (status == ICC_OK)
+        status = settle(map, options->iterations, &map->info.energy, env, err);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
     }
-    map->info.certified = 1;
     map->info.seconds = iccp_seconds() - start;
     *out = map;
     return ICC_OK;
@@ -239,9 +247,9 @@ static icc_status create_from(icc_map **out, const icc_chart *source, const icc_
     if (status == ICC_OK)
         status = fill_in(map, kind, options, env, err);
     if (status == ICC_OK)
-        status = iccp_map_judge(map, env);
+        status = iccp_map_conclude(map, env, err);
     if (status == ICC_OK)
-        status = settle(map, options->iterations, &map->info.energy, env);
+        status = settle(map, options->iterations, &map->info.energy, env, err);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
@@ -407,9 +415,11 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         better->info = map->info;
         status = map->kind->improve(better, map, options, report, &with, err);
     }
+    if (status == ICC_OK)
+        status = iccp_map_conclude(better, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK)
-        status = settle(better, 0, &report->energy, env);
+        status = settle(better, 0, &report->energy, env, err);
     if (status == ICC_OK)
         status = judge_class(better, map, false, env);
     if (status != ICC_OK) {
@@ -494,9 +504,11 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     icc_status status = iccp_map_begin(&next, map->source_domain, target, env, err);
     if (status == ICC_OK)
         status = retarget(next, map, iterations, &with, err);
+    if (status == ICC_OK)
+        status = iccp_map_conclude(next, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK)
-        status = settle(next, iterations, &next->info.energy, env);
+        status = settle(next, iterations, &next->info.energy, env, err);
     if (status == ICC_OK)
         status = judge_class(next, map, true, env);
     if (status != ICC_OK) {
@@ -504,8 +516,6 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
         return iccp_explain(err, status);
     }
     next->info.kind = next->kind->number;
-    next->info.certified = 1;
-    next->info.reason = next->info.reason_side = 0;
     next->info.seconds = iccp_seconds() - start;
     *out = next;
     return ICC_OK;

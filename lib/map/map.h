@@ -43,7 +43,8 @@ icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_dom
                           const iccp_env *env, icc_error *err);
 void iccp_map_add_charts(icc_map *map, const icc_chart *source, const icc_chart *target);
 
-/* Takes the certificate away from a map that its kind does not warrant. */
-icc_status iccp_map_judge(icc_map *map, const iccp_env *env);
+/* Once the state of a map is there: certifies it, ICC_ERR_CERTIFICATE for a mesh map that is not
+ * one-to-one, and describes it. */
+icc_status iccp_map_conclude(icc_map *map, const iccp_env *env, icc_error *err);
 
 #endif

@@ -94,10 +94,7 @@ static icc_status visit_state(iccp_blob *b, icc_map *map, int32_t number, const 
         return ICC_ERR_FORMAT;
     map->kind = kind;
     map->info.kind = number;
-    const icc_status status = kind->visit != NULL ? kind->visit(b, map, env) : ICC_OK;
-    if (map->source == NULL)
-        map->info.certified = status == ICC_OK;
-    return status;
+    return kind->visit != NULL ? kind->visit(b, map, env) : ICC_OK;
 }
 
 /* A map that is written is a copy of the caller's. */
@@ -139,7 +136,7 @@ static icc_status read_map(icc_map **out, iccp_blob *b, const iccp_env *env, icc
     iccp_split(part, 4, (const double[]){1, 6, 2, 1}, &whole);
     icc_status status = visit(b, out, part, err);
     if (status == ICC_OK)
-        status = iccp_map_judge(*out, &part[3]);
+        status = iccp_map_conclude(*out, &part[3], NULL);
     return status == ICC_OK && !iccp_blob_done(b) ? ICC_ERR_FORMAT : status;
 }
 

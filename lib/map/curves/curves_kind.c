@@ -1,8 +1,8 @@
 #include "map/curves/curves_kind.h"
 
-#include "base/clock.h"
 #include "chart/bulk.h"
 #include "map/curves/curves.h"
+#include "map/curves/curves_certificate.h"
 #include "map/curves/digits.h"
 #include "map/kind/caller_point.h"
 
@@ -34,16 +34,6 @@ static icc_status create(icc_map *map, const icc_map_options *options, const icc
 static bool is_guarded(const icc_map *map)
 {
     return map->info.certified && map->source->info.method == ICC_METHOD_FIELD;
-}
-
-static icc_status certify(icc_map *map, const iccp_env *env)
-{
-    const double start = iccp_seconds();
-    if (!is_guarded(map))
-        return ICC_OK;
-    const icc_status status = iccp_digits_check(map->source, map->target, &map->info, env);
-    map->info.seconds_certify = iccp_seconds() - start;
-    return status;
 }
 
 static icc_status ready(const icc_map *map, bool inverse)
@@ -95,7 +85,7 @@ const iccp_map_kind iccp_curves_kind = {.number = ICC_MAP_CURVES,
                                         .suits = suits,
                                         .takes = takes,
                                         .create = create,
-                                        .certify = certify,
+                                        .certify = iccp_curves_certify,
                                         .ready = ready,
                                         .apply = apply,
                                         .free_state = free_state};

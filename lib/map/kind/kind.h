@@ -22,8 +22,11 @@ typedef struct iccp_map_kind {
     icc_status (*create)(icc_map *map, const icc_map_options *options, const iccp_env *env,
                          icc_error *err);
 
-    /* Checks that the map is one-to-one as far as its state does not warrant it. */
-    icc_status (*certify)(icc_map *map, const iccp_env *env);
+    /* The certificate of what the map is now: sets info.certified, and the reason if it does not
+     * hold. A mesh map that cannot be certified is none: ICC_ERR_CERTIFICATE. */
+    icc_status (*certify)(icc_map *map, const iccp_env *env, icc_error *err);
+    /* Of a certified map: what follows from it about features. */
+    icc_status (*describe)(icc_map *map, const iccp_env *env);
 
     /* At most ICCP_CHART_MANY points, forward or back. `images` or `jacobians` may be NULL. What
      * happens to a point is its status; returned is what concerns all. Ask `ready` first: it makes
@@ -54,7 +57,8 @@ typedef struct iccp_map_kind {
     /* See icc_map_get_tie(); ICC_ERR_ARGUMENT if there is no such tie. */
     icc_status (*tie)(const icc_map *map, size_t tie, icc_tie_info *info, double *target);
 
-    /* The state as part of the bytes of a map (docs/formats.md). What is read is certified anew. */
+    /* The state as part of the bytes of a map (docs/formats.md). What is read still needs its
+     * certificate. */
     icc_status (*visit)(iccp_blob *b, icc_map *map, const iccp_env *env);
     void (*free_state)(icc_map *map);
 } iccp_map_kind;

@@ -81,7 +81,7 @@ icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
 
 icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *options,
                              const iccp_schedule *how, iccp_work *work, icc_map_info *info,
-                             const iccp_env *env, icc_error *err)
+                             const iccp_env *env)
 {
     const double begin = iccp_seconds();
     icc_status status = ICC_OK;
@@ -100,7 +100,7 @@ icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *opti
         info->n_levels = (int32_t)improvement.n_levels;
     }
     info->seconds_improve = iccp_seconds() - begin;
-    return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1], err) : status;
+    return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1]) : status;
 }
 
 void iccp_fit_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)

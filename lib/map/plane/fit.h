@@ -43,7 +43,7 @@ icc_status iccp_fit_improve(iccp_plmap *pl, const icc_improve_options *options,
 /* Improves and certifies what is in map->pl, which is one-to-one. */
 icc_status iccp_fit_complete(iccp_mesh_map *map, const icc_improve_options *options,
                              const iccp_schedule *how, iccp_work *work, icc_map_info *info,
-                             const iccp_env *env, icc_error *err);
+                             const iccp_env *env);
 
 /* Passes the plan on to a map whose mesh has not changed. */
 void iccp_fit_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan);

@@ -109,8 +109,8 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
                          "features moved straight to their new places would meet or come too "
                          "close: go there another way, in several steps, or make a new map");
     if (status == ICC_OK)
-        status = iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info,
-                                   &part[1], err);
+        status =
+            iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info, &part[1]);
     return status;
 }
 
@@ -165,7 +165,7 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
 /* info->n_unrepaired is not 0, with ICC_OK, when the way is blocked. */
 static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
                               const icc_improve_options *options, iccp_allowance *work,
-                              icc_map_info *info, const iccp_env *env, icc_error *err)
+                              icc_map_info *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     bool reached = false;
@@ -177,8 +177,8 @@ static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
     if (status == ICC_OK && reached)
         status = iccp_cut_chords(&map->pl);
     if (status == ICC_OK && reached)
-        status = iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info,
-                                   &part[1], err);
+        status =
+            iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info, &part[1]);
     return status;
 }
 
@@ -207,7 +207,7 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
         work.overlay.left = work.relaxing;
         work.all = HUGE_VAL;
         status = source->features == NULL
-                     ? follow_cage(next, target, &options, &work, info, env, err)
+                     ? follow_cage(next, target, &options, &work, info, env)
                      : carry(next, &(journey){isotopy, source, old_target, target}, &options, &work,
                              info, env, err);
         next->work = iccp_spent(&work);

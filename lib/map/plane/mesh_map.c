@@ -10,7 +10,6 @@
 #include "domain/features.h"
 #include "map/compatible/overlay_patches.h"
 #include "map/compatible/overlay_start.h"
-#include "map/compatible/plmap_certificate.h"
 #include "map/energy/movable.h"
 #include "map/plane/feature_start.h"
 #include "map/plane/fit.h"
@@ -143,13 +142,9 @@ iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *tar
     return map;
 }
 
-icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
-                                icc_error *err)
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env)
 {
-    const double begin = iccp_seconds();
     icc_status status = iccp_progress(env, "check", 0);
-    if (status == ICC_OK)
-        status = iccp_plmap_certify(&map->pl, env, err);
     const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,
                               .n_triangles = map->pl.corners.n_triangles,
                               .triangles = map->pl.corners.vertex,
@@ -164,7 +159,6 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
         status = iccp_finder_budget(&map->after, env);
     info->n_vertices = map->pl.n_vertices;
     info->n_simplices = map->pl.corners.n_triangles;
-    info->seconds_certify = iccp_seconds() - begin;
     return status;
 }
 
@@ -225,7 +219,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     const bool none = status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE;
     if (status == ICC_OK)
         status = iccp_fit_complete(map, &options, &iccp_fit_plain,
-                                   iccp_bound(&work.improvement, &work), info, &part[2], err);
+                                   iccp_bound(&work.improvement, &work), info, &part[2]);
     iccp_fit_keep_plan(map, plan);
     iccp_newton_plan_release(plan);
     map->work = iccp_spent(&work);
@@ -277,7 +271,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
     map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
         status = iccp_fit_complete(map, &improvement, &iccp_fit_relaxed, &work.improvement, info,
-                                   &part[2], err);
+                                   &part[2]);
     bool kept = false;
     if (status == ICC_OK)
         status = iccp_isotopy_has_cuts(&kept, &map->pl, &report.scene, &report.cuts, env);
@@ -294,7 +288,7 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
 
 icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
                                  const icc_improve_options *options, icc_improve_report *report,
-                                 const iccp_env *env, icc_error *err)
+                                 const iccp_env *env)
 {
     iccp_mesh_map *better = iccp_alloc_zero(&env->memory, 1, sizeof *better);
     *out = NULL;
@@ -314,7 +308,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     iccp_env quiet = *env;
     quiet.progress = NULL;
     if (status == ICC_OK)
-        status = iccp_mesh_map_finish(better, &info, &quiet, err);
+        status = iccp_mesh_map_finish(better, &info, &quiet);
     if (status != ICC_OK) {
         iccp_mesh_map_free(better, &env->memory);
         return status;

@@ -41,12 +41,11 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
 /* A better one from a copy, between domains of n_facets; see icc_map_improve(). */
 icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
                                  const icc_improve_options *options, icc_improve_report *report,
-                                 const iccp_env *env, icc_error *err);
+                                 const iccp_env *env);
 
-/* The rest of a map whose `pl` is there: certifies it, ICC_ERR_CERTIFICATE if that fails, and fills
- * in the members of `info` about the mesh's size. */
-icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env,
-                                icc_error *err);
+/* The rest of a map whose `pl` is there: prepares what finds points, and fills in the members of
+ * `info` about the mesh's size. */
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env);
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 
 /* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when

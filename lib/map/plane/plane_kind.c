@@ -4,6 +4,7 @@
 #include "map/compatible/plmap_file.h"
 #include "map/plane/follow.h"
 #include "map/plane/plane_apply.h"
+#include "map/plane/plane_certificate.h"
 
 static bool suits(const icc_domain *source)
 {
@@ -15,9 +16,9 @@ static bool takes(const icc_chart *source)
     return source->mesh != NULL;
 }
 
-/* Once the mesh of a map is there: between domains with features, its isotopy and what the info
- * says of features, but for class_kept. */
-static icc_status tell_features(icc_map *map, const iccp_env *env)
+/* Between domains with features: the isotopy, and what the info says of features, but for
+ * class_kept. */
+static icc_status describe(icc_map *map, const iccp_env *env)
 {
     const iccp_features *features = map->source_domain->features;
     iccp_mesh_map *plane = map->state;
@@ -34,13 +35,6 @@ static icc_status tell_features(icc_map *map, const iccp_env *env)
     return status;
 }
 
-/* Keeps what has been made, and tells its features. */
-static icc_status keep(icc_map *map, iccp_mesh_map *plane, icc_status status, const iccp_env *env)
-{
-    map->state = plane;
-    return status == ICC_OK && plane != NULL ? tell_features(map, env) : status;
-}
-
 static icc_status create(icc_map *map, const icc_map_options *options, const iccp_env *env,
                          icc_error *err)
 {
@@ -51,7 +45,8 @@ static icc_status create(icc_map *map, const icc_map_options *options, const icc
                                             &map->info, env, err)
             : iccp_mesh_map_create(&plane, map->source, map->target, options->iterations,
                                    &map->info, env, err);
-    return keep(map, plane, status, env);
+    map->state = plane;
+    return status;
 }
 
 static icc_status ready(const icc_map *map, bool inverse)
@@ -73,7 +68,7 @@ static icc_status renew(icc_map *map, bool *kept, const iccp_env *env)
     iccp_isotopy *const own = plane->isotopy;
     const icc_map_info info = map->info;
     plane->isotopy = NULL;
-    const icc_status status = tell_features(map, env);
+    const icc_status status = describe(map, env);
     *kept = status != ICC_OK || map->source_domain->features == NULL ||
             iccp_isotopy_same(own, plane->isotopy);
     if (*kept) {
@@ -90,9 +85,11 @@ static icc_status improve(icc_map *next, const icc_map *map, const icc_improve_o
                           icc_improve_report *report, const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *better;
+    (void)err;
     const icc_status status = iccp_mesh_map_improve(
-        &better, map->state, map->source_domain->n_facets, options, report, env, err);
-    return keep(next, better, status, env);
+        &better, map->state, map->source_domain->n_facets, options, report, env);
+    next->state = better;
+    return status;
 }
 
 static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations, size_t *vertex,
@@ -104,7 +101,8 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
     const icc_status status =
         iccp_mesh_map_follow(&moved, plane, plane->isotopy, map->source_domain, map->target_domain,
                              next->target_domain, iterations, &next->info, env, err);
-    return keep(next, moved, status, env);
+    next->state = moved;
+    return status;
 }
 
 static icc_status follows(bool *kept, const icc_map *next, const icc_map *map, bool moved,
@@ -134,13 +132,9 @@ static icc_status visit(iccp_blob *b, icc_map *map, const iccp_env *env)
     iccp_mesh_map *plane = map->state;
     if (plane == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status =
+    const icc_status status =
         iccp_plmap_visit(b, &plane->pl, map->source_domain, map->target_domain, env);
-    if (!b->reads)
-        return status;
-    if (status == ICC_OK)
-        status = iccp_mesh_map_finish(plane, &map->info, env, NULL);
-    return status == ICC_OK ? tell_features(map, env) : status;
+    return status == ICC_OK && b->reads ? iccp_mesh_map_finish(plane, &map->info, env) : status;
 }
 
 static void free_state(icc_map *map)
@@ -152,6 +146,8 @@ const iccp_map_kind iccp_plane_kind = {.number = ICC_MAP_MESH,
                                        .suits = suits,
                                        .takes = takes,
                                        .create = create,
+                                       .certify = iccp_plane_certify,
+                                       .describe = describe,
                                        .ready = ready,
                                        .apply = iccp_plane_apply,
                                        .mesh = mesh,

@@ -1,6 +1,7 @@
 #include "map/solid/solid_kind.h"
 
 #include "map/kind/caller_point.h"
+#include "map/solid/solid_certificate.h"
 #include "map/solid/solid_follow.h"
 
 static iccp_solid_map *state_of(const icc_map *map)
@@ -128,6 +129,7 @@ const iccp_map_kind iccp_solid_kind = {.number = ICC_MAP_MESH,
                                        .suits = suits,
                                        .takes = takes,
                                        .create = create,
+                                       .certify = iccp_solid_certify,
                                        .ready = ready,
                                        .apply = apply,
                                        .mesh = mesh,

@@ -1,6 +1,4 @@
-/* A map that is linear in every simplex of a mesh is a homeomorphism if it keeps all orientations
- * and maps the boundary one-to-one onto the target's: Y. Lipman, Bijective Mappings of Meshes with
- * Boundary and the Degree in Mesh Processing, SIAM J. Imaging Sci. 7, 2014. */
+/* docs/theory.md, the mesh map in space: the object, and how a new one is made. */
 #include "map/solid/solid_map.h"
 
 #include "base/clock.h"
@@ -19,12 +17,6 @@ enum { ITERATIONS_OF_NEW = 8 };
 
 /* How far outside its tetrahedron, in barycentric coordinates, rounding may put a point. */
 static const double ROUNDING = 1e-9;
-
-static size_t count_inverted(const iccp_solid_map *map)
-{
-    const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
-    return iccp_simplicial_count_inverted(&simplicial);
-}
 
 static icc_status plant(iccp_solid_map *map, const iccp_env *env)
 {
@@ -168,7 +160,7 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
     status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
     report->cancelled = status == ICC_ERR_CANCELLED;
     if (status == ICC_OK || status == ICC_ERR_CANCELLED)
-        status = count_inverted(better) == 0 ? plant(better, env) : ICC_ERR_CERTIFICATE;
+        status = plant(better, env);
     if (status != ICC_OK) {
         iccp_solid_map_free(better);
         return status;
@@ -204,12 +196,11 @@ static icc_status visit(iccp_blob *b, iccp_solid_map *map, const icc_domain *sou
     return b->status;
 }
 
-static icc_status certify(iccp_solid_map *map, const iccp_env *env)
+/* Exact signs need that. */
+static bool are_images_local(const iccp_solid_map *map)
 {
     const size_t n_rim = map->mesh->n_boundary, n = map->mesh->n_points - n_rim;
-    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim) && count_inverted(map) == 0
-               ? plant(map, env)
-               : ICC_ERR_FORMAT;
+    return iccp_are_local(3, 3 * n, map->images + 3 * n_rim);
 }
 
 icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
@@ -224,8 +215,10 @@ icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_do
     if (read == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = visit(b, read, source, target);
+    if (status == ICC_OK && !are_images_local(read))
+        status = ICC_ERR_FORMAT;
     if (status == ICC_OK)
-        status = certify(read, env);
+        status = plant(read, env);
     if (status != ICC_OK) {
         iccp_solid_map_free(read);
         return status;

@@ -1,9 +1,9 @@
 /* Features that move: what is reached, what is in the way, and what must stay as it was. */
 #include "map/compatible/carry.h"
 #include "map/compatible/density.h"
-#include "map/compatible/plmap_certificate.h"
 #include "map/isotopy/isotopy.h"
 #include "map/map.h"
+#include "map/plane/plane_certificate.h"
 #include "map/plane/plane_kind.h"
 #include "mesh/planar.h"
 

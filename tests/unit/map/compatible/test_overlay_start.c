@@ -1,7 +1,7 @@
 /* A start for the mesh map without charts, between any two polygons. */
 #include "base/error.h"
 #include "map/compatible/overlay_start.h"
-#include "map/compatible/plmap_certificate.h"
+#include "map/plane/plane_certificate.h"
 
 #include "../../../domains.h"
 #include "../../../faulty.h"

@@ -1,8 +1,8 @@
 /* Piecewise linear maps: refining, untangling and improving them. */
 #include "base/error.h"
 #include "map/compatible/improve.h"
-#include "map/compatible/plmap_certificate.h"
 #include "map/energy/newton.h"
+#include "map/plane/plane_certificate.h"
 
 #include "../../../faulty.h"
 #include "../../../plmaps.h"

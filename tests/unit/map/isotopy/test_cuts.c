@@ -2,9 +2,9 @@
  * the polygons that the cuts leave, and the map that closes them again. Checked by brute force in
  * exact arithmetic. */
 #include "geometry/segment.h"
-#include "map/compatible/plmap_certificate.h"
 #include "map/isotopy/close_cuts.h"
 #include "map/plane/feature_start.h"
+#include "map/plane/plane_certificate.h"
 #include "math/predicates.h"
 
 #include "../../../default_env.h"

@@ -1,7 +1,7 @@
 /* Ties that are refused, with their number and side; and edges that are cut to a length. */
 #include "map/compatible/density.h"
-#include "map/compatible/plmap_certificate.h"
 #include "map/map.h"
+#include "map/plane/plane_certificate.h"
 #include "map/plane/plane_kind.h"
 
 #include "../../../feature_pairs.h"

@@ -1,6 +1,6 @@
 /* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple:
  * then the map of the closed polygons is a homeomorphism (docs/theory.md, the mesh map). */
-#include "map/compatible/plmap_certificate.h"
+#include "map/plane/plane_certificate.h"
 
 #include "base/error.h"
 #include "base/threads.h"
@@ -110,5 +110,15 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the mesh map cannot be certified: its mesh is "
                          "not in one piece");
+    return status;
+}
+
+icc_status iccp_plane_certify(icc_map *map, const iccp_env *env, icc_error *err)
+{
+    const iccp_mesh_map *plane = map->state;
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    const icc_status status = iccp_plmap_certify(&plane->pl, &quiet, err);
+    map->info.certified = status == ICC_OK;
     return status;
 }

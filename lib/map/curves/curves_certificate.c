@@ -1,0 +1,18 @@
+/* Each chart is a homeomorphism of its domain onto the same coordinates if it is certified. In
+ * doubles, those of method field need more: digits.h. */
+#include "map/curves/curves_certificate.h"
+
+#include "map/curves/digits.h"
+
+icc_status iccp_curves_certify(icc_map *map, const iccp_env *env, icc_error *err)
+{
+    const icc_chart_info *source = &map->source->info, *target = &map->target->info;
+    icc_map_info *info = &map->info;
+    (void)err;
+    info->certified = source->certified && target->certified;
+    info->reason_side = !source->certified ? 1 : !target->certified ? 2 : 0;
+    info->reason = info->reason_side == 2 ? target->reason : source->reason;
+    return info->certified && source->method == ICC_METHOD_FIELD
+               ? iccp_digits_check(map->source, map->target, info, env)
+               : ICC_OK;
+}
