@@ -653,9 +653,11 @@ struct icc_chart_options;
 /** Options of icc_map_create(). */
 typedef struct icc_map_options {
     size_t size;        /**< set by the caller: `sizeof(icc_map_options)` */
-    int32_t kind;       /**< `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless
-                                         both domains have caller-supplied meshes, and for foliation
-                                         in 3-D; else curves */
+    int32_t kind;       /**< `ICC_MAP_*`: this kind, or ::ICC_ERR_CERTIFICATE if no such map is
+                             found. 0: the best that can be had, which icc_map_info::kind tells:
+                             mesh for foliation and disc in 2-D, unless both domains have
+                             caller-supplied meshes, and for foliation in 3-D; else, and where no
+                             mesh map is found, curves */
     int32_t iterations; /**< mesh: at most so many improvement steps on each level of
                            refinement; 0: as long as they pay off; -1: no improvement */
     const struct icc_chart_options

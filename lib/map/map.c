@@ -195,15 +195,23 @@ static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, con
     return status;
 }
 
-/* Makes what is of the kind's own. A map that cannot be made becomes one of kind curves. */
+/* Makes the state of the kind. Without a mesh map the best that can be had is one of kind curves,
+ * but a caller who asks for a mesh gets that or an error. */
 static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
                           const iccp_env *env, icc_error *err)
 {
+    const char *const items = map->info.dim == 2 ? "triangles" : "tetrahedra";
     map->kind = kind;
-    const icc_status status = kind->create(map, options, env, err);
-    if (status == ICC_OK && kind->mesh != NULL && map->state == NULL) {
-        iccp_log(env, "%zu %s could not be repaired: the map is of kind curves",
-                 map->info.n_unrepaired, map->info.dim == 2 ? "triangles" : "tetrahedra");
+    icc_status status = kind->create(map, options, env, err);
+    const bool has_none = status == ICC_OK && kind->mesh != NULL && map->state == NULL;
+    if (has_none && options->kind == ICC_MAP_MESH)
+        status = iccp_fail(err, ICC_ERR_CERTIFICATE,
+                           "no map of kind mesh was found: %zu %s stay inverted; kind 0 makes the "
+                           "best map that can be had, here of kind curves",
+                           map->info.n_unrepaired, items);
+    if (has_none && options->kind == 0) {
+        iccp_log(env, "%zu %s stay inverted: the map is of kind curves", map->info.n_unrepaired,
+                 items);
         map->kind = &iccp_curves_kind;
     }
     map->info.kind = map->kind->number;
@@ -439,9 +447,9 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 /* Stands for no vertex. */
 static const size_t NO_VERTEX = SIZE_MAX;
 
-/* Boundaries that correspond have one map but for how fair it is: a new one will do. Its mesh alone
- * is of use, and in space the target that was filled for it. `vertex`: where the way was blocked,
- * or NO_VERTEX. */
+/* Makes a new map where the old one cannot go. Boundaries that correspond have one map, up to how
+ * low its distortion is, so a new one will do. The map keeps the new mesh alone, and in space the
+ * target that was filled for it. `vertex`: where the way was blocked, or NO_VERTEX. */
 static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, const iccp_env *env,
                              icc_error *err)
 {
@@ -451,10 +459,14 @@ static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, co
     if (vertex != NO_VERTEX)
         iccp_log(env, "the way is blocked at vertex %zu: making a new map", vertex);
     else
-        iccp_log(env, "%zu triangles could not be repaired: making a new map",
-                 map->info.n_unrepaired);
+        iccp_log(env, "the way is blocked: making a new map");
     const icc_status status =
         create(&fresh, map->source_domain, map->target_domain, &options, any, env, err);
+    if (status == ICC_ERR_CERTIFICATE && vertex != NO_VERTEX)
+        return iccp_fail_at(err, status, ICC_ITEM_VERTEX, (int64_t)vertex,
+                            "the way from the target before is blocked at vertex %zu, and no new "
+                            "map of kind mesh was found: go there in several steps",
+                            vertex);
     if (status != ICC_OK)
         return status;
     map->info = fresh->info;
@@ -465,17 +477,7 @@ static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, co
     map->target_domain = fresh->target_domain;
     fresh->target_domain = target;
     iccp_map_release(fresh);
-    if (map->state != NULL)
-        return ICC_OK;
-    if (vertex != NO_VERTEX)
-        return iccp_fail_at(err, ICC_ERR_CERTIFICATE, ICC_ITEM_VERTEX, (int64_t)vertex,
-                            "the way from the target before is blocked at vertex %zu, and of a "
-                            "map made anew %zu tetrahedra could not be repaired",
-                            vertex, map->info.n_unrepaired);
-    return iccp_fail(err, ICC_ERR_CERTIFICATE,
-                     "%zu triangles could not be repaired, neither from the map to the target "
-                     "before nor from a start of their own",
-                     map->info.n_unrepaired);
+    return ICC_OK;
 }
 
 static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations,

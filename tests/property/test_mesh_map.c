@@ -614,6 +614,12 @@ START_TEST(what_crosses_too_often_is_of_kind_curves)
     ck_assert_int_eq(t.n_overlays, 1);
     ck_assert_int_eq(t.n_crossings, 1);
     icc_map_free(map);
+    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
+    icc_error err = {.size = sizeof err};
+    ck_assert_int_eq(icc_map_create(&map, domains[0], domains[1], &mesh, NULL, &err),
+                     ICC_ERR_CERTIFICATE);
+    ck_assert_ptr_null(map);
+    ck_assert_ptr_nonnull(strstr(err.message, "kind 0"));
     icc_domain_free(domains[0]);
     icc_domain_free(domains[1]);
 }

@@ -151,7 +151,7 @@ void check_print_certificates(const check *c)
                    reason_of_chart(text, &c->charts[side]));
     }
     if (c->map.n_unrepaired > 0)
-        printf("map: %zu %s of the mesh could not be repaired, so it is of kind curves\n",
+        printf("map: %zu %s of the mesh stay inverted, so it is of kind curves\n",
                c->map.n_unrepaired, elements_name(c->map.dim));
     if (c->map.kind != 0 && !c->map.certified)
         printf("map: %s, not certified: %s\n", choice_name(maps, c->map.kind),

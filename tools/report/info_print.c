@@ -195,7 +195,7 @@ static void print_map(const info *x)
     if (!m->certified)
         printf("            because %s\n", reason_of_map(reason, m));
     if (m->n_unrepaired > 0)
-        printf("            of kind curves because %zu %s could not be repaired\n", m->n_unrepaired,
+        printf("            of kind curves because %zu %s stay inverted\n", m->n_unrepaired,
                elements_name(m->dim));
     if (m->kind == ICC_MAP_MESH)
         print_mesh_map(m);

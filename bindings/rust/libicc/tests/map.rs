@@ -362,7 +362,7 @@ fn diagnostics_are_heard_and_may_panic() {
     Map::new(&before, &after, &MapOptions::default(), &mut env).unwrap();
     drop(env);
     let lines = lines.into_inner().unwrap();
-    assert!(lines.iter().any(|line| line.contains("could not be repaired")), "{:?}", lines);
+    assert!(lines.iter().any(|line| line.contains("are inverted")), "{:?}", lines);
 
     let mut env = Env::new().log(|_| resume_unwind(Box::new("log")));
     let call = AssertUnwindSafe(|| Map::new(&before, &after, &MapOptions::default(), &mut env));
