@@ -3,8 +3,6 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/bulk.h"
-#include "field/chart_field.h"
-#include "gradient/coordinates/gradient_state.h"
 #include "method/chart_create.h"
 #include "method/load.h"
 
@@ -104,12 +102,7 @@ const icc_domain *icc_chart_domain(const icc_chart *chart)
 
 const icc_function *icc_chart_function(const icc_chart *chart)
 {
-    if (chart != NULL && chart->info.method == ICC_METHOD_FIELD)
-        return iccp_chart_field_function(chart);
-    if (chart == NULL || chart->info.method != ICC_METHOD_GRADIENT)
-        return NULL;
-    const iccp_gradient_state *state = chart->state;
-    return state->field;
+    return chart != NULL && chart->ops->function != NULL ? chart->ops->function(chart) : NULL;
 }
 
 icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_chart_report *measures,

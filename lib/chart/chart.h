@@ -1,7 +1,17 @@
 /* The chart object: coordinates of a domain's inside, whatever the method. A method is a table of
- * operations on local points with a curve of their own; what has none (points outside, on the
- * boundary and at the maximum), bulk calls, maps and measures are written once, on top of the
- * table. */
+ * operations on local points with a curve of their own. Bulk calls, and points that have no curve
+ * (outside, on the boundary and at the maximum), are written once, on top of the table.
+ *
+ * Legend of lib/chart. Begin with iccp_chart_ops.
+ * - coordinates: where the curve of a point meets the boundary (facet, barycentric coordinates),
+ *   and the share of the curve's length that lies below the point.
+ * - encode, decode: from a point to its coordinates, and back.
+ * - place: where a point lies, in the terms of its method.
+ * - jet: derivatives of what encode or decode gives.
+ * - settled, end: without a curve of its own.
+ *
+ * Invariants: a chart does not change once it is made, but for what `ready` makes. Methods stand in
+ * folders above; none of them is named here. lib/method makes charts. */
 #ifndef ICCP_CHART_H
 #define ICCP_CHART_H
 
@@ -94,6 +104,8 @@ typedef struct iccp_chart_ops {
     /* Fills in everything but `size`; n_points > 0. NULL for methods that miss nothing. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);
+    /* The function on a grid that the curves follow; NULL for methods without one. */
+    const icc_function *(*function)(const icc_chart *chart);
     /* Makes what encode or decode makes when it is first asked: who asks in parallel does so first.
      * ICC_OK or ICC_ERR_MEMORY. NULL for methods that have all they need. */
     icc_status (*ready)(const icc_chart *chart, bool decodes);

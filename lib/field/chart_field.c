@@ -237,6 +237,12 @@ static void save(const icc_chart *chart, iccp_blob *w)
     iccp_chart_parameters_write(&state->parameters, chart->domain->dim, digest_of(chart), w);
 }
 
+static const icc_function *function_of(const icc_chart *chart)
+{
+    const iccp_field_state *state = chart->state;
+    return state->field;
+}
+
 const iccp_chart_ops iccp_field_ops = {
     .number = ICC_METHOD_FIELD,
     .format = ICC_METHOD_FIELD,
@@ -248,16 +254,11 @@ const iccp_chart_ops iccp_field_ops = {
     .encode_many = iccp_field_encode_many,
     .decode_many = iccp_field_decode_many,
     .trace = iccp_field_trace,
+    .function = function_of,
     .measure = measure,
     .save = save,
     .free_state = free_state,
 };
-
-const icc_function *iccp_chart_field_function(const icc_chart *chart)
-{
-    const iccp_field_state *state = chart->state;
-    return state->field;
-}
 
 icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const icc_chart_options *options, const double *maximum,

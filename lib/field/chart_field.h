@@ -22,9 +22,6 @@ bool iccp_chart_field_is_unlucky(const icc_chart *chart);
  * quarter or a half more; the first that is certified, or NULL. */
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env);
 
-/* The function of a chart of this method. */
-const icc_function *iccp_chart_field_function(const icc_chart *chart);
-
 /* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
  * with its reason, if it comes out otherwise. */
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,

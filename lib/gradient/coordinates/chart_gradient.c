@@ -389,6 +389,12 @@ static icc_status read_chart(icc_chart **out, const icc_domain *domain, iccp_blo
     return iccp_chart_check_rebuilt(out, status, wanted, digest, err);
 }
 
+static const icc_function *function_of(const icc_chart *chart)
+{
+    const iccp_gradient_state *state = chart->state;
+    return state->field;
+}
+
 const iccp_chart_ops iccp_gradient_ops = {
     .number = ICC_METHOD_GRADIENT,
     .format = ICC_METHOD_GRADIENT,
@@ -397,6 +403,7 @@ const iccp_chart_ops iccp_gradient_ops = {
     .encode = encode,
     .decode = decode,
     .trace = trace,
+    .function = function_of,
     .measure = iccp_gradient_measure,
     .save = save,
     .free_state = free_state,

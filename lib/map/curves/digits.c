@@ -8,7 +8,6 @@
 #include "base/minmax.h"
 #include "base/threads.h"
 #include "chart/low_discrepancy.h"
-#include "field/chart_field.h"
 #include "gradient/function/function.h"
 #include "map/curves/curves.h"
 #include "math/elementary.h"
@@ -284,7 +283,7 @@ static void list_inside(const icc_grid *grid, uint32_t *inside)
 static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_info *info,
                             const iccp_env *env)
 {
-    const icc_grid *grid = iccp_chart_field_function(from)->tree->grid;
+    const icc_grid *grid = from->ops->function(from)->tree->grid;
     uint32_t *inside = iccp_alloc(&env->memory, grid->n_inside, sizeof *inside);
     verdict *verdicts = iccp_alloc_zero(&env->memory, N_SAMPLES, sizeof *verdicts);
     samples s = {from, to, grid, inside, &env->memory, verdicts};

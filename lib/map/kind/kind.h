@@ -1,6 +1,15 @@
-/* The map object, and what each kind of map provides. A kind is a table of operations: plane and
- * solid are the mesh maps (ICC_MAP_MESH), curves goes point by point through two charts. What all
- * kinds have in common is written once, in lib/map itself, on top of the table. */
+/* The map object, and what each kind of map provides. What all kinds have in common is written
+ * once, in lib/map itself, on top of the table.
+ *
+ * Legend of lib/map/kind. Begin with iccp_map_kind.
+ * - kind: a table of operations. Plane and solid are the mesh maps (ICC_MAP_MESH) in two and three
+ *   dimensions, curves goes point by point through two charts (ICC_MAP_CURVES).
+ * - state: what only the kind knows of a map.
+ * - certificate: the proof that a map is one-to-one; *_certificate.c in each kind's folder.
+ *
+ * Invariants: a map does not change once it is made, but for what `ready` makes. A map that is
+ * handed out has been certified as it is (iccp_map_conclude()); of kind curves, it may lack its
+ * certificate and gives the reason. */
 #ifndef ICCP_KIND_H
 #define ICCP_KIND_H
 

@@ -183,10 +183,9 @@ static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
 }
 
 icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
-                                const iccp_isotopy *isotopy, const icc_domain *source,
-                                const icc_domain *old_target, const icc_domain *target,
-                                int32_t iterations, icc_map_info *info, const iccp_env *env,
-                                icc_error *err)
+                                const icc_domain *source, const icc_domain *old_target,
+                                const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
     *out = NULL;
@@ -208,8 +207,8 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
         work.all = HUGE_VAL;
         status = source->features == NULL
                      ? follow_cage(next, target, &options, &work, info, env)
-                     : carry(next, &(journey){isotopy, source, old_target, target}, &options, &work,
-                             info, env, err);
+                     : carry(next, &(journey){map->isotopy, source, old_target, target}, &options,
+                             &work, info, env, err);
         next->work = iccp_spent(&work);
         iccp_fit_keep_plan(next, plan);
     }

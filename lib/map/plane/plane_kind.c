@@ -95,11 +95,10 @@ static icc_status improve(icc_map *next, const icc_map *map, const icc_improve_o
 static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations, size_t *vertex,
                            const iccp_env *env, icc_error *err)
 {
-    const iccp_mesh_map *plane = map->state;
     iccp_mesh_map *moved;
     (void)vertex;
     const icc_status status =
-        iccp_mesh_map_follow(&moved, plane, plane->isotopy, map->source_domain, map->target_domain,
+        iccp_mesh_map_follow(&moved, map->state, map->source_domain, map->target_domain,
                              next->target_domain, iterations, &next->info, env, err);
     next->state = moved;
     return status;
