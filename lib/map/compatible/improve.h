@@ -3,16 +3,7 @@
 #define ICCP_IMPROVE_H
 
 #include "map/compatible/descent.h"
-
-/* How far a map is improved. */
-typedef struct iccp_schedule {
-    size_t iterations; /* on each mesh at most */
-    double tolerance;  /* on the last mesh, until a step gains no more than this share */
-    size_t levels;     /* refinements at most, */
-    double most;       /* to no more triangles than this */
-    bool both_sides;   /* the points of inner vertices move, too */
-    bool is_relaxed;   /* they have: the energy has come down, and what is left is refined */
-} iccp_schedule;
+#include "map/energy/schedule.h"
 
 /* What maps in the plane and in space do in their own ways. */
 typedef struct iccp_profile {

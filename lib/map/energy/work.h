@@ -2,7 +2,7 @@
  * this unit. No clock is read, so the same input gives the same bits. In the plane one unit takes
  * 0.25 to 0.5 microseconds, also in untangling.
  *
- * One budget pays for everything that makes a plane mesh map from its start (map/plane/fit.c). That
+ * One budget pays for everything that makes a plane mesh map from its start (schedule.h). That
  * is untangling, finding and merging the crossings of an overlay, steps on the overlay, and
  * improvement. */
 #ifndef ICCP_WORK_H

@@ -8,7 +8,6 @@
 #include "map/compatible/density.h"
 #include "map/compatible/tend.h"
 #include "map/plane/feature_start.h"
-#include "map/plane/fit.h"
 
 #include <math.h>
 #include <string.h>
@@ -109,8 +108,8 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
                          "features moved straight to their new places would meet or come too "
                          "close: go there another way, in several steps, or make a new map");
     if (status == ICC_OK)
-        status =
-            iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info, &part[1]);
+        status = iccp_mesh_map_complete(map, options, &iccp_schedule_plain, &work->improvement,
+                                        info, &part[1]);
     return status;
 }
 
@@ -177,8 +176,8 @@ static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
     if (status == ICC_OK && reached)
         status = iccp_cut_chords(&map->pl);
     if (status == ICC_OK && reached)
-        status =
-            iccp_fit_complete(map, options, &iccp_fit_plain, &work->improvement, info, &part[1]);
+        status = iccp_mesh_map_complete(map, options, &iccp_schedule_plain, &work->improvement,
+                                        info, &part[1]);
     return status;
 }
 
@@ -210,7 +209,7 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
                      : carry(next, &(journey){map->isotopy, source, old_target, target}, &options,
                              &work, info, env, err);
         next->work = iccp_spent(&work);
-        iccp_fit_keep_plan(next, plan);
+        iccp_mesh_map_keep_plan(next, plan);
     }
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = next;

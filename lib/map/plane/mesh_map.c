@@ -12,7 +12,6 @@
 #include "map/compatible/overlay_start.h"
 #include "map/energy/movable.h"
 #include "map/plane/feature_start.h"
-#include "map/plane/fit.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -162,6 +161,51 @@ icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const ic
     return status;
 }
 
+/* Improves as far as asked; when cancelled, says so in `cancelled` and keeps what there is. */
+static icc_status improve(iccp_plmap *pl, const icc_improve_options *options,
+                          const iccp_schedule *how, iccp_work *work, bool *cancelled,
+                          iccp_improvement *improvement, const iccp_env *env)
+{
+    const iccp_schedule schedule =
+        iccp_schedule_of(options, how, iccp_schedule_most(work, pl->corners.n_triangles));
+    const iccp_env part = iccp_part(env, "improve", 0, 1);
+    const icc_status status = iccp_improve(pl, &schedule, work, improvement, &part);
+    *cancelled = status == ICC_ERR_CANCELLED;
+    return *cancelled ? ICC_OK : status;
+}
+
+icc_status iccp_mesh_map_complete(iccp_mesh_map *map, const icc_improve_options *options,
+                                  const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                                  const iccp_env *env)
+{
+    const double begin = iccp_seconds();
+    icc_status status = ICC_OK;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){4, 1}, env);
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    info->energy_start = info->energy = iccp_simplicial_energy_at_once(&simplicial, env);
+    if (options->iterations >= 0) {
+        iccp_improvement improvement;
+        bool cancelled;
+        status = improve(&map->pl, options, how, work, &cancelled, &improvement, &part[0]);
+        if (status == ICC_OK && cancelled)
+            status = ICC_ERR_CANCELLED;
+        info->energy = improvement.energy;
+        info->n_iterations = improvement.n_iterations;
+        info->n_levels = (int32_t)improvement.n_levels;
+    }
+    info->seconds_improve = iccp_seconds() - begin;
+    return status == ICC_OK ? iccp_mesh_map_finish(map, info, &part[1]) : status;
+}
+
+void iccp_mesh_map_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan)
+{
+    const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
+    map->pl.plan = NULL;
+    if (plan != NULL && iccp_newton_plan_fits(plan, &simplicial))
+        (void)iccp_once_keep(&map->plan, iccp_newton_plan_retain(plan));
+}
+
 /* Replaces the inverted parts of a start by overlays: patches around them, or the whole where that
  * costs less. ICC_ERR_RESOLUTION or ICC_ERR_CERTIFICATE when there is none in doubles. */
 static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_domain *target,
@@ -218,9 +262,9 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
         status = make_positive(map, source->domain, target->domain, &work, info, &part[1]);
     const bool none = status == ICC_ERR_RESOLUTION || status == ICC_ERR_CERTIFICATE;
     if (status == ICC_OK)
-        status = iccp_fit_complete(map, &options, &iccp_fit_plain,
-                                   iccp_bound(&work.improvement, &work), info, &part[2]);
-    iccp_fit_keep_plan(map, plan);
+        status = iccp_mesh_map_complete(map, &options, &iccp_schedule_plain,
+                                        iccp_bound(&work.improvement, &work), info, &part[2]);
+    iccp_mesh_map_keep_plan(map, plan);
     iccp_newton_plan_release(plan);
     map->work = iccp_spent(&work);
     if (status == ICC_OK)
@@ -241,8 +285,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status =
-            iccp_fit_improve(pl, options, &iccp_fit_both_sides, &half, &cancelled, &ignored, env);
+        status = improve(pl, options, &iccp_schedule_both_sides, &half, &cancelled, &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;
     return cancelled ? ICC_ERR_CANCELLED : status;
@@ -270,8 +313,8 @@ icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *
         status = disentangle(&map->pl, &improvement, &work.improvement, &part[1]);
     map->pl.stretch = sqrt(target->measure / source->measure); /* swapping may have rounded it */
     if (status == ICC_OK)
-        status = iccp_fit_complete(map, &improvement, &iccp_fit_relaxed, &work.improvement, info,
-                                   &part[2]);
+        status = iccp_mesh_map_complete(map, &improvement, &iccp_schedule_relaxed,
+                                        &work.improvement, info, &part[2]);
     bool kept = false;
     if (status == ICC_OK)
         status = iccp_isotopy_has_cuts(&kept, &map->pl, &report.scene, &report.cuts, env);
@@ -295,15 +338,15 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     if (better == NULL)
         return ICC_ERR_MEMORY;
     memcpy(better->reach, map->reach, sizeof better->reach);
-    iccp_work work = iccp_fit_work(options, n_facets);
+    iccp_work work = iccp_schedule_work(options, n_facets);
     iccp_improvement improvement = {0};
     bool cancelled = false;
     icc_map_info info = {0};
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)
-        status = iccp_fit_improve(&better->pl, options, &iccp_fit_plain, &work, &cancelled,
-                                  &improvement, env);
+        status = improve(&better->pl, options, &iccp_schedule_plain, &work, &cancelled,
+                         &improvement, env);
     /* A callback that still asks to stop must not keep the result from being finished. */
     iccp_env quiet = *env;
     quiet.progress = NULL;

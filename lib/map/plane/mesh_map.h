@@ -46,6 +46,15 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
 /* The rest of a map whose `pl` is there: prepares what finds points, and fills in the members of
  * `info` about the mesh's size. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env);
+
+/* Improves what is in map->pl, which is one-to-one, and finishes the map. */
+icc_status iccp_mesh_map_complete(iccp_mesh_map *map, const icc_improve_options *options,
+                                  const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                                  const iccp_env *env);
+
+/* Passes the plan on to a map whose mesh has not changed. */
+void iccp_mesh_map_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan);
+
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 
 /* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when

@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "domain/domain_file.h"
-#include "map/plane/fit.h"
+#include "map/energy/schedule.h"
 #include "map/solid/solid_improve.h"
 #include "map/solid/solid_start.h"
 #include "math/elementary.h"
@@ -45,7 +45,7 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
                                 const iccp_env *env)
 {
     const double began = iccp_seconds();
-    const iccp_schedule schedule = iccp_fit_schedule(options, &iccp_fit_plain, HUGE_VAL);
+    const iccp_schedule schedule = iccp_schedule_of(options, &iccp_schedule_plain, HUGE_VAL);
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(map);
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     iccp_work work = iccp_work_unlimited();
@@ -150,9 +150,9 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
     *out = NULL;
     if (status != ICC_OK)
         return status;
-    iccp_work work = iccp_fit_work(options, source->n_facets);
-    const iccp_schedule schedule =
-        iccp_fit_schedule(options, &iccp_fit_plain, iccp_fit_most(&work, map->mesh->n_simplices));
+    iccp_work work = iccp_schedule_work(options, source->n_facets);
+    const iccp_schedule schedule = iccp_schedule_of(
+        options, &iccp_schedule_plain, iccp_schedule_most(&work, map->mesh->n_simplices));
     const iccp_env part = iccp_part(env, "improve", 0, 1);
     iccp_improvement improvement = {0};
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(better);
