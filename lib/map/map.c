@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "base/threads.h"
-#include "domain/features_check.h"
+#include "map/correspondence.h"
 #include "map/curves/curves_kind.h"
 #include "map/energy/affine.h"
 #include "map/plane/plane_kind.h"
@@ -16,73 +16,6 @@
 
 /* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
 enum { MESH_CELLS = 20 };
-
-static const char *turn_of(const icc_domain *domain)
-{
-    if (domain->dim == 2)
-        return domain->orientation > 0 ? "counter-clockwise" : "clockwise";
-    return domain->orientation > 0 ? "oriented outward" : "oriented inward";
-}
-
-/* Feature i goes to feature i: both are of one kind, with as many vertices, and holes turn the same
- * way. */
-static icc_status check_features(const iccp_features *source, const iccp_features *target,
-                                 icc_error *err)
-{
-    const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
-    if (n != m)
-        return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu features, the target %zu", n,
-                         m);
-    for (size_t i = 0; i < n; ++i) {
-        const iccp_feature *a = &source->item[i], *b = &target->item[i];
-        if (a->kind != b->kind || a->n != b->n)
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
-                                "feature %zu is %s of %lu vertices, but in the source %s of "
-                                "%lu: vertex i must correspond to vertex i",
-                                i, iccp_feature_name(b->kind), (unsigned long)b->n,
-                                iccp_feature_name(a->kind), (unsigned long)a->n);
-        if (a->orientation != b->orientation)
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
-                                "feature %zu (%s) is %s, but in the source %s: both must turn "
-                                "the same way",
-                                i, iccp_feature_name(b->kind),
-                                b->orientation > 0 ? "counter-clockwise" : "clockwise",
-                                a->orientation > 0 ? "counter-clockwise" : "clockwise");
-    }
-    return ICC_OK;
-}
-
-/* The boundaries correspond when their facets join the same vertices and they turn the same way. */
-static icc_status check_correspondence(const icc_domain *source, const icc_domain *target,
-                                       icc_error *err)
-{
-    icc_status status = ICC_OK;
-    const size_t n_ends = source->n_facets * (size_t)source->dim;
-    if (source->dim != target->dim)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
-                           (long)source->dim, (long)target->dim);
-    else if ((status = check_features(source->features, target->features, err)) != ICC_OK)
-        return iccp_fail_side(err, status, 2);
-    else if (source->n_vertices != target->n_vertices)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY,
-                           "the source has %zu vertices, the target %zu: vertex i must "
-                           "correspond to vertex i",
-                           source->n_vertices, target->n_vertices);
-    else if (source->n_facets != target->n_facets)
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu facets, the target %zu",
-                           source->n_facets, target->n_facets);
-    else if (source->orientation != target->orientation)
-        status = iccp_fail(
-            err, ICC_ERR_BOUNDARY, "the source is %s, the target %s: both must turn the same way%s",
-            turn_of(source), turn_of(target),
-            source->dim == 2 ? "; negate y where it points down, else match the outlines" : "");
-    for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
-        if (source->facets[i] != target->facets[i])
-            status = iccp_fail_at(
-                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
-                "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
-    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
-}
 
 /* From the best to the one that takes every chart. */
 static const iccp_map_kind *const KINDS[] = {&iccp_plane_kind, &iccp_solid_kind, &iccp_curves_kind};
@@ -133,7 +66,7 @@ icc_status iccp_map_begin(icc_map **out, const icc_domain *source, const icc_dom
                           const iccp_env *env, icc_error *err)
 {
     *out = NULL;
-    const icc_status status = check_correspondence(source, target, err);
+    const icc_status status = iccp_check_correspondence(source, target, err);
     return status == ICC_OK ? new_map(out, source, target, env) : status;
 }
 
@@ -218,16 +151,19 @@ static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map
     return status;
 }
 
-/* Maps of domains with features have no charts. */
-static icc_status create_with_features(icc_map **out, const icc_domain *source,
-                                       const icc_domain *target, const icc_map_options *options,
-                                       const iccp_env *env, icc_error *err)
+/* A map between two domains, by charts of them. Those of domains with features have none: NULL. */
+static icc_status create_of_kind(icc_map **out, const icc_domain *source, const icc_domain *target,
+                                 const icc_chart *const charts[2], const iccp_map_kind *kind,
+                                 const icc_map_options *options, const iccp_env *env,
+                                 icc_error *err)
 {
     const double start = iccp_seconds();
     icc_map *map = NULL;
     icc_status status = iccp_map_begin(&map, source, target, env, err);
+    if (status == ICC_OK && charts != NULL)
+        iccp_map_add_charts(map, charts[0], charts[1]);
     if (status == ICC_OK)
-        status = fill_in(map, &iccp_plane_kind, options, env, err);
+        status = fill_in(map, kind, options, env, err);
     if (status == ICC_OK)
         status = iccp_map_conclude(map, env, err);
     if (status == ICC_OK)
@@ -244,27 +180,12 @@ static icc_status create_with_features(icc_map **out, const icc_domain *source,
 static icc_status create_from(icc_map **out, const icc_chart *source, const icc_chart *target,
                               const icc_map_options *options, const iccp_env *env, icc_error *err)
 {
-    const double start = iccp_seconds();
+    const icc_chart *const charts[2] = {source, target};
     const iccp_map_kind *kind;
-    icc_map *map = NULL;
-    icc_status status = iccp_map_choose_kind(&kind, options->kind, source, target, err);
-    if (status == ICC_OK)
-        status = iccp_map_begin(&map, source->domain, target->domain, env, err);
-    if (status == ICC_OK)
-        iccp_map_add_charts(map, source, target);
-    if (status == ICC_OK)
-        status = fill_in(map, kind, options, env, err);
-    if (status == ICC_OK)
-        status = iccp_map_conclude(map, env, err);
-    if (status == ICC_OK)
-        status = settle(map, options->iterations, &map->info.energy, env, err);
-    if (status != ICC_OK) {
-        iccp_map_release(map);
-        return iccp_explain(err, status);
-    }
-    map->info.seconds = iccp_seconds() - start;
-    *out = map;
-    return ICC_OK;
+    const icc_status status = iccp_map_choose_kind(&kind, options->kind, source, target, err);
+    return status == ICC_OK ? create_of_kind(out, source->domain, target->domain, charts, kind,
+                                             options, env, err)
+                            : iccp_explain(err, status);
 }
 
 icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
@@ -372,13 +293,13 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
 {
     const double start = iccp_seconds();
     const icc_domain *const domains[2] = {source, target};
-    icc_status status = check_correspondence(source, target, err);
+    icc_status status = iccp_check_correspondence(source, target, err);
     if (status == ICC_OK)
         status = check_request(source, options, chart_options, err);
     if (status != ICC_OK)
         return status;
     if (source->features != NULL)
-        return create_with_features(out, source, target, options, env, err);
+        return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, env, err);
     if (are_to_be_filled(domains, chart_options))
         status = create_filled(out, domains, options, chart_options, env, err);
     else

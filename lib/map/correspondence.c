@@ -1,0 +1,70 @@
+#include "map/correspondence.h"
+
+#include "base/error.h"
+#include "domain/features_check.h"
+
+static const char *turn_of(const icc_domain *domain)
+{
+    if (domain->dim == 2)
+        return domain->orientation > 0 ? "counter-clockwise" : "clockwise";
+    return domain->orientation > 0 ? "oriented outward" : "oriented inward";
+}
+
+/* Feature i goes to feature i: both are of one kind, with as many vertices, and holes turn the same
+ * way. */
+static icc_status check_features(const iccp_features *source, const iccp_features *target,
+                                 icc_error *err)
+{
+    const size_t n = source != NULL ? source->n : 0, m = target != NULL ? target->n : 0;
+    if (n != m)
+        return iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu features, the target %zu", n,
+                         m);
+    for (size_t i = 0; i < n; ++i) {
+        const iccp_feature *a = &source->item[i], *b = &target->item[i];
+        if (a->kind != b->kind || a->n != b->n)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                                "feature %zu is %s of %lu vertices, but in the source %s of "
+                                "%lu: vertex i must correspond to vertex i",
+                                i, iccp_feature_name(b->kind), (unsigned long)b->n,
+                                iccp_feature_name(a->kind), (unsigned long)a->n);
+        if (a->orientation != b->orientation)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_FEATURE, (int64_t)i,
+                                "feature %zu (%s) is %s, but in the source %s: both must turn "
+                                "the same way",
+                                i, iccp_feature_name(b->kind),
+                                b->orientation > 0 ? "counter-clockwise" : "clockwise",
+                                a->orientation > 0 ? "counter-clockwise" : "clockwise");
+    }
+    return ICC_OK;
+}
+
+icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain *target,
+                                     icc_error *err)
+{
+    icc_status status = ICC_OK;
+    const size_t n_ends = source->n_facets * (size_t)source->dim;
+    if (source->dim != target->dim)
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has dimension %ld, the target %ld",
+                           (long)source->dim, (long)target->dim);
+    else if ((status = check_features(source->features, target->features, err)) != ICC_OK)
+        return iccp_fail_side(err, status, 2);
+    else if (source->n_vertices != target->n_vertices)
+        status = iccp_fail(err, ICC_ERR_BOUNDARY,
+                           "the source has %zu vertices, the target %zu: vertex i must "
+                           "correspond to vertex i",
+                           source->n_vertices, target->n_vertices);
+    else if (source->n_facets != target->n_facets)
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the source has %zu facets, the target %zu",
+                           source->n_facets, target->n_facets);
+    else if (source->orientation != target->orientation)
+        status = iccp_fail(
+            err, ICC_ERR_BOUNDARY, "the source is %s, the target %s: both must turn the same way%s",
+            turn_of(source), turn_of(target),
+            source->dim == 2 ? "; negate y where it points down, else match the outlines" : "");
+    for (size_t i = 0; status == ICC_OK && i < n_ends; ++i)
+        if (source->facets[i] != target->facets[i])
+            status = iccp_fail_at(
+                err, ICC_ERR_BOUNDARY, ICC_ITEM_FACET, (int64_t)(i / (size_t)source->dim),
+                "facet %zu does not join the same vertices in the target", i / (size_t)source->dim);
+    return status == ICC_OK ? ICC_OK : iccp_fail_side(err, status, 2);
+}
