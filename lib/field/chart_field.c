@@ -1,6 +1,8 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, for
- * grid, tree and function; the curves follow the field of docs/theory.md, fields on grids, instead
- * of the function's gradient, whose curves merge. */
+/* Creates charts of method field: grid, tree, function, vectors, certificate.
+ *
+ * Source of grid, tree and function: Huynh and Gingold, Bijective Deformations in R^n via
+ * Integral Curve Coordinates. Their curves follow the function's gradient and merge. Here the
+ * curves follow the field of docs/theory.md, "fields on grids", instead. */
 #include "field/chart_field.h"
 
 #include "base/budget.h"
@@ -23,18 +25,20 @@
 
 enum { SWEEPS = 2 };
 
-/* Share of the vertices inside that may be given up so that the others form a ball. */
+/* The largest share of the inside vertices that may be given up so that the others form a ball. */
 static const double MOST_LOST = 0.05;
 
-/* Vertices that a grid of half the spacing may have: 1 GB or so in 3-D. */
+/* The most vertices of a grid with half the spacing. It takes about 1 GB in 3-D. */
 static const size_t MOST_REFINED = (size_t)1 << 24;
 
-/* Vertices inside, about, and in all at most, where the caller leaves the number of cells open:
- * thin shapes get smaller cells. Enough for real surfaces (bench_field); 0.2 s and 40 MB in 3-D. */
+/* Sizes of the grid if the caller leaves the number of cells open. About PLANE_BUDGET vertices
+ * lie inside in 2-D, or INSIDE_BUDGET in other dimensions, and at most BUDGET in all. So thin
+ * shapes get smaller cells. This is enough for real surfaces (bench_field), and takes 0.2 s and
+ * 40 MB in 3-D. */
 static const double PLANE_BUDGET = 16384, INSIDE_BUDGET = 65536, BUDGET = 4194304;
 
-/* Of so many contacts one may be other than inward for a grid to be worth another try: on real
- * surfaces that can be certified at all, the default grid had at most one of 2,800. */
+/* Another grid is tried if at most one contact in FEW_CONTACTS is not inward. On the real
+ * surfaces that can be certified at all, the default grid had at most one such contact in 2,800. */
 enum { FEW_CONTACTS = 1000 };
 
 static int32_t choose_cells(const icc_domain *domain, int32_t cells)
@@ -63,8 +67,8 @@ static icc_status choose_root(const icc_grid *grid, const double *maximum, uint3
     return ICC_OK;
 }
 
-/* The tree's order makes the vertices that it reaches a ball; iccp_tree_create_ranked() may give up
- * a few vertices for that. Fails with ICC_ERR_TOPOLOGY where too many would be lost. */
+/* The order of the tree makes the vertices that it reaches a ball. iccp_tree_create_ranked() may
+ * give up a few vertices for that. Fails with ICC_ERR_TOPOLOGY if too many would be lost. */
 static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_t cells,
                                const double *maximum, const iccp_env *env, icc_error *err)
 {
@@ -100,8 +104,8 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     return status;
 }
 
-/* Where the vertices inside are no ball, mostly because gaps are thinner than the grid, it is
- * refined once. */
+/* If the inside vertices do not form a ball, the grid is refined once. The usual cause is a gap
+ * that is thinner than the grid. */
 static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
                             const icc_chart_options *options, const double *maximum,
                             const iccp_env *env, icc_error *err)
@@ -117,8 +121,8 @@ static icc_status make_tree(iccp_field_state *state, icc_chart *chart,
     return make_tree_on(state, chart, 2 * chart->info.cells, maximum, &again, err);
 }
 
-/* Laplace's function on the tree, without inequalities: the vectors are made to rise along it
- * whatever it is. */
+/* Solves Laplace's equation on the tree, without inequalities. They are not needed, because the
+ * vectors are made to rise along any function. */
 static icc_status make_field(iccp_field_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
@@ -139,11 +143,12 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     return status;
 }
 
-/* Multiplications for each simplex at a vertex, about. */
+/* Approximate number of multiplications for each simplex at a vertex. */
 static const double VECTOR_WORK = 20;
 
-/* From function to vectors: which simplices meet the domain, values on all of their vertices,
- * and one vector for each vertex along which these values rise. */
+/* Makes the vectors from the function in three steps. It finds the simplices that meet the
+ * domain, extends the values to all their vertices, and chooses at each vertex a vector along
+ * which these values rise. */
 static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env,
                                icc_error *err)
 {
@@ -166,8 +171,8 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
     return status;
 }
 
-/* What remains once the vectors are there: the root's place, the bound on the steps of a curve,
- * and the verdict, which is that of the three conditions of docs/theory.md, fields on grids. */
+/* Sets what the vectors determine: the root's place, the bound on the steps of a curve, and the
+ * verdict. The verdict follows the three conditions of docs/theory.md, "fields on grids". */
 static void finish(iccp_field_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
@@ -219,7 +224,7 @@ static icc_status measure(const icc_chart *chart, size_t n_points, icc_chart_rep
     return iccp_field_measure(chart, &state->flow, n_points, measures, env);
 }
 
-/* The vectors, and the function that they come from. */
+/* Digest of the vectors and of the function that they were made from. */
 static uint64_t digest_of(const icc_chart *chart)
 {
     const iccp_field_state *state = chart->state;
@@ -306,7 +311,7 @@ bool iccp_chart_field_is_unlucky(const icc_chart *chart)
            chart->domain->mask == NULL && chart->info.cells < ICCP_MAX_CELLS / 2;
 }
 
-/* A chart with another number of cells; NULL if it is not certified. */
+/* Makes a chart with another number of cells. `*out` is NULL if it is not certified. */
 static icc_status try_cells(icc_chart **out, const icc_chart *chart, int32_t cells,
                             const iccp_env *env)
 {
@@ -327,8 +332,8 @@ static icc_status try_cells(icc_chart **out, const icc_chart *chart, int32_t cel
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED ? status : ICC_OK;
 }
 
-/* Where the caller has asked for a number of cells, it is only moved by one; half as many again are
- * less than four times as many vertices in space. */
+/* A number of cells that the caller chose changes only by one. An open number grows by up to a
+ * half, which is less than four times as many vertices in space. */
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env)
 {
     const iccp_field_state *state = chart->state;

@@ -1,5 +1,26 @@
-/* Method field: curves of a Lipschitz field along which a function on a grid rises, in any
- * dimension. */
+/* Method field: a chart whose curves follow a Lipschitz field on a grid, in any dimension.
+ *
+ * Source: docs/theory.md, "fields on grids". Grid, tree and function are those of lib/gradient.
+ *
+ * Legend of lib/field
+ * - function: the piecewise linear function on the grid that rises along every curve.
+ * - vector: the direction of the field at a vertex of the grid. It is interpolated linearly.
+ * - uphill: a vector is uphill if the function rises along it in every simplex at its vertex.
+ * - root: the vertex of the maximum, where all curves end. Next to it, curves are straight.
+ * - order: an order of the axes. It names one Kuhn simplex of a cell.
+ * - contact: a pair of a simplex and a boundary facet that runs through it.
+ * - sector: a part of the simplices at a vertex that has a vector of its own (sectors.h).
+ * - walk, piece: a curve on its way, and its part within one simplex (flow.h).
+ * - jet: derivatives of a place and of a length by several parameters (flow_jet.h).
+ *
+ * Invariants: a certified chart has uphill vectors at all vertices, vectors that point inward at
+ * all contacts, and no inside vertex that was given up. So its curves never merge, and each crosses
+ * the boundary once.
+ *
+ * Ways: incidence.h finds the simplices, extension.h the values, vectors.h the vectors. flow.h
+ * follows one curve, flow_follow.h many. field_encode.c and field_decode.c compute the coordinates.
+ *
+ * Begin with vectors.h and flow.h. */
 #ifndef ICCP_CHART_FIELD_H
 #define ICCP_CHART_FIELD_H
 
@@ -8,22 +29,24 @@
 
 extern const iccp_chart_ops iccp_field_ops;
 
-/* `options` is complete. `maximum` (local coordinates) is where the maximum shall be, whatever the
- * options say, or NULL. */
+/* Creates a chart. `options` must be complete. `maximum` (local coordinates) overrides the
+ * maximum in the options unless it is NULL. */
 icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const icc_chart_options *options, const double *maximum,
                                    const iccp_env *env, icc_error *err);
 
-/* Whether nothing but vertices that were given up, or a few contacts that are not inward, denies
- * the certificate, which chance may have put where they are. */
+/* Returns true if another grid may get the certificate. Then only vertices that were given up,
+ * or a few contacts that are not inward, stand in the way, and these depend on where the grid
+ * lies. */
 bool iccp_chart_field_is_unlucky(const icc_chart *chart);
 
-/* The same with one cell more, and so with the grid elsewhere, or, where the number was open, a
- * quarter or a half more; the first that is certified, or NULL. */
+/* Makes the chart again with one cell more, so that the grid lies elsewhere. If the caller left
+ * the number of cells open, it also tries a quarter and a half more. `*out` is the first chart
+ * that is certified, or NULL. */
 icc_status iccp_chart_field_shift(icc_chart **out, const icc_chart *chart, const iccp_env *env);
 
-/* Makes again what the chart has saved: ICC_ERR_FORMAT for what no chart saves, ICC_ERR_VERSION,
- * with its reason, if it comes out otherwise. */
+/* Creates a saved chart again. Fails with ICC_ERR_FORMAT for bytes that no chart saves, and with
+ * ICC_ERR_VERSION and a message if the result differs from the saved one. */
 icc_status iccp_chart_field_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                  const iccp_env *env, icc_error *err);
 

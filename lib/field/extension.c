@@ -1,3 +1,7 @@
+/* Extends a function from the inside vertices of a grid to all vertices that simplices of the
+ * domain need. Source: docs/theory.md, "fields on grids", step 1.
+ *
+ * Values next to the inside are 0. Farther out they fall by the same amount with each step. */
 #include "field/extension.h"
 
 #include "base/minmax.h"
@@ -18,7 +22,8 @@ static void mark_simplex(iccp_extension *s, const iccp_orders *orders, uint32_t 
     }
 }
 
-/* The vertices of simplices with a vertex inside are those joined to one. */
+/* Marks the corners of simplices with an inside vertex, which are the vertices joined to one,
+ * and the corners of simplices that a facet runs through. */
 static void mark_needed(iccp_extension *s, const iccp_orders *orders,
                         const iccp_incidence *incidence)
 {
@@ -35,19 +40,19 @@ static void mark_needed(iccp_extension *s, const iccp_orders *orders,
     }
 }
 
-/* A walk outwards through the simplices that facets run through. */
+/* A breadth-first walk outwards through the simplices that facets run through. */
 typedef struct outskirts {
     iccp_extension *extension;
     const iccp_orders *orders;
     const iccp_incidence *incidence;
     uint32_t *queue;   /* vertices, n so far */
-    int32_t *distance; /* by vertex: steps from the vertices next to the inside; -1: none yet */
-    double *scale;     /* by vertex: by which the function falls with each step */
+    int32_t *distance; /* steps from the vertices next to the inside; -1 if not reached */
+    double *scale;     /* how much the function falls with each step */
     size_t n;
 } outskirts;
 
-/* Gives a vertex its value on the first visit: below 0 by as many scales as there are steps.
- * `from` is a vertex that has one. */
+/* Gives a vertex its value on the first visit: minus the number of steps times the scale. `from`
+ * is a neighbour that already has a value. */
 static void reach(outskirts *o, uint32_t v, uint32_t from)
 {
     iccp_extension *s = o->extension;
@@ -61,8 +66,8 @@ static void reach(outskirts *o, uint32_t v, uint32_t from)
     o->queue[o->n++] = v;
 }
 
-/* To the other corners of the simplices at a vertex that meet the domain: with corner k of the
- * simplex. */
+/* Reaches the other corners of the simplices at a vertex that meet the domain. The vertex is
+ * corner k of each. */
 static void reach_star(outskirts *o, uint32_t v)
 {
     const iccp_orders *orders = o->orders;
@@ -83,8 +88,8 @@ static void reach_star(outskirts *o, uint32_t v)
     }
 }
 
-/* The largest value among the inside vertices joined to v; 0 if there are none. Such vertices
- * start. */
+/* The largest value of the inside vertices joined to v, or 0 if there are none. The walk starts
+ * at the vertices where it is positive. */
 static double value_behind(const outskirts *o, uint32_t v)
 {
     const icc_grid *grid = o->extension->grid;
@@ -99,7 +104,8 @@ static double value_behind(const outskirts *o, uint32_t v)
     return most;
 }
 
-/* Zeros take the exponent of what lies behind them, so that scales make sense. */
+/* Starts the walk at a vertex if it is next to the inside. Its value 0 takes the largest
+ * exponent of the inside vertices joined to it, so that the scale is not lost by rounding. */
 static void start_layer(outskirts *o, uint32_t v)
 {
     iccp_extension *s = o->extension;
@@ -122,8 +128,8 @@ static void start_layer(outskirts *o, uint32_t v)
     }
 }
 
-/* Breadth-first from the vertices outside that are next to the inside, so that distances are
- * least. */
+/* Walks breadth-first from the outside vertices next to the inside, so that each gets its least
+ * distance. */
 static void extend_outwards(outskirts *o)
 {
     const icc_grid *grid = o->extension->grid;
@@ -143,8 +149,9 @@ typedef struct sweep {
     int32_t *exponent;
 } sweep;
 
-/* Between a vertex inside and others: what lies outside may belong to a part of the domain across a
- * gap, where the function is larger by any factor. */
+/* New value of an inside vertex. Its outside neighbours count at most as much as the vertex
+ * itself, because they may belong to a part of the domain across a gap, where the function is
+ * larger by any factor. */
 static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
 {
     const icc_grid *grid = s->grid;
@@ -158,7 +165,8 @@ static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
     return 0.5 * (own + sum / (2.0 * grid->dim));
 }
 
-/* Not above half of any value inside that it is joined to, for the same reason. */
+/* New value of an outside vertex: at most half the value of any inside vertex joined to it,
+ * because the function across a gap may be larger by any factor. */
 static double mean_outside(const sweep *w, size_t v, int32_t exponent)
 {
     const iccp_extension *s = w->from;
@@ -176,7 +184,8 @@ static double mean_outside(const sweep *w, size_t v, int32_t exponent)
     return iccp_min(0.5 * (s->value[v] + sum / (2.0 * grid->dim)), most);
 }
 
-/* Reads the old values and writes new ones: the same for every number of threads. */
+/* Reads the old values and writes new ones, so the result is the same for every number of
+ * threads. */
 static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
 {
     sweep *w = argument;
@@ -199,7 +208,7 @@ static icc_status sweep_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* One Jacobi sweep into new arrays, which then take the place of the old ones. */
+/* Runs one Jacobi sweep into new arrays, which then replace the old ones. */
 static icc_status run_sweep(iccp_extension *s, const iccp_orders *orders, const iccp_env *env)
 {
     const size_t n = s->grid->n_vertices;
@@ -224,7 +233,7 @@ static icc_status run_sweep(iccp_extension *s, const iccp_orders *orders, const 
     return status;
 }
 
-/* Copies the function's values inside; 0 elsewhere. */
+/* Copies the function's inside values and sets the others to 0. */
 static icc_status allocate(iccp_extension *s, const icc_function *field)
 {
     const size_t n = s->grid->n_vertices;

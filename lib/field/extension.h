@@ -1,5 +1,6 @@
-/* A function on all vertices of the simplices that meet a domain, from one on the vertices
- * inside. */
+/* Extends a function from the inside vertices to all vertices of the simplices that meet a domain.
+ *
+ * Source: docs/theory.md, "fields on grids", step 1. */
 #ifndef ICCP_EXTENSION_H
 #define ICCP_EXTENSION_H
 
@@ -8,19 +9,20 @@
 
 typedef struct iccp_extension {
     iccp_memory memory;
-    const icc_grid *grid; /* borrowed: that of the field's tree */
+    const icc_grid *grid; /* borrowed: the grid of the field's tree */
     uint32_t root;
     double *value;     /* one per vertex; 0 where no simplex needs one */
-    int32_t *exponent; /* the function is value * 2^exponent; NULL: 0 everywhere, the usual
-                          case */
-    uint8_t *needed;   /* by vertex: 1 when it belongs to a simplex that meets the domain */
+    int32_t *exponent; /* the function is value * 2^exponent; usually NULL, for exponent 0
+                          everywhere */
+    uint8_t *needed;   /* by vertex: 1 if it belongs to a simplex that meets the domain */
 } iccp_extension;
 
-/* The values of `field` inside; outside next to them, 0; beyond, where the domain continues between
- * the vertices of the grid, less and less with every step. Then `sweeps` times the mean of each
- * value and the mean of its neighbours, the root's kept: that rids steps of the grid of nearly all
- * vertices from which not all simplices' gradients point to one side (bench_field). Free it in any
- * case. */
+/* Inside, the values are those of `field`. Outside vertices next to the inside get 0. If the domain
+ * continues between the vertices of the grid, the values beyond fall with every step.
+ *
+ * Then each of the `sweeps` replaces every value but the root's by the mean of itself and the
+ * mean of its neighbours. This smooths steps of the grid. It removes nearly all vertices that
+ * have gradients without a common uphill vector (bench_field). Free the extension in any case. */
 icc_status iccp_extension_create(iccp_extension *extension, const icc_function *field,
                                  const iccp_incidence *incidence, int sweeps, const iccp_env *env);
 void iccp_extension_free(iccp_extension *extension);

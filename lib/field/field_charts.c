@@ -1,11 +1,12 @@
-/* The maxima of two domains are paired, and grids that chance has put badly are shifted. */
+/* Creates charts of one domain or of two. It pairs the maxima of two domains, and shifts grids
+ * that happen to lie badly. Source: docs/theory.md, "fields on grids". */
 #include "field/field_charts.h"
 
 #include "base/error.h"
 #include "field/chart_field.h"
 #include "field/pairing.h"
 
-/* The maximum is the caller's, if there is one, else `preferred`, which may be NULL. */
+/* Uses the caller's maximum if there is one, else `preferred`, which may be NULL. */
 static icc_status create_one(icc_chart **out, const icc_domain *domain,
                              const icc_chart_options *options, const double *preferred,
                              const iccp_env *env, icc_error *err)
@@ -21,8 +22,8 @@ static icc_status create_one(icc_chart **out, const icc_domain *domain,
     return iccp_explain(err, iccp_chart_field_create(out, domain, options, preferred, env, err));
 }
 
-/* Shifts the grids of unlucky charts if then all of them are certified; else they stay as they
- * are. */
+/* Shifts the grids of unlucky charts if that makes all of them certified. Otherwise they stay as
+ * they are. */
 static icc_status shift_grids(icc_chart **chart, int n, const iccp_env *env)
 {
     icc_chart *shifted[2] = {NULL, NULL};
@@ -45,7 +46,8 @@ static icc_status shift_grids(icc_chart **chart, int n, const iccp_env *env)
     return status;
 }
 
-/* The image of one chart's maximum in the other's domain; NULL if that is no good place for one. */
+/* Maps one chart's maximum to the other domain. NULL if the image is no good place for a
+ * maximum. */
 static const double *guess_maximum(const icc_chart *chart, const icc_domain *other, double *image)
 {
     double local[ICC_MAX_DIM];
@@ -53,8 +55,9 @@ static const double *guess_maximum(const icc_chart *chart, const icc_domain *oth
     return iccp_pair_point(chart->domain, other, local, image) ? image : NULL;
 }
 
-/* The target's maximum is where the source's goes, about; where that is too near the boundary, the
- * other way round. Left alone, the two may end in different limbs. */
+/* The target's maximum is the approximate image of the source's. If that is too near the
+ * boundary, the source's maximum is the image of the target's. If each domain chose for itself,
+ * the maxima might lie in different limbs. */
 static icc_status create_pair(icc_chart **out, const icc_domain *const *domain,
                               const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {

@@ -1,4 +1,5 @@
-/* Charts of method field, of one domain or of two that correspond. */
+/* Charts of method field for one domain, or for two domains that correspond. Source:
+ * docs/theory.md, "fields on grids". */
 #ifndef ICCP_FIELD_CHARTS_H
 #define ICCP_FIELD_CHARTS_H
 

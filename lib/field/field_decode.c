@@ -1,8 +1,9 @@
-/* From coordinates to the point: the curve from the boundary, as far as t says. */
+/* Decodes coordinates to a point: follows the curve from the boundary by the share t of its
+ * length. Source: docs/theory.md, "fields on grids". */
 #include "field/field_state.h"
 #include "field/flow_jet.h"
 
-/* The whole curve from a boundary point, its pieces noted. */
+/* Follows the whole curve from a boundary point and notes its pieces. */
 static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_walk *walk,
                         iccp_path *path)
 {
@@ -22,8 +23,8 @@ static icc_status climb(const icc_chart *chart, const double *point, iccp_flow_w
     return status;
 }
 
-/* By the barycentric coordinates but the first: the walk once more with derivatives, those at the
- * start of the piece that holds the point kept. */
+/* Derivatives by the barycentric coordinates except the first. It walks again with derivatives,
+ * and keeps those at the start of the piece that holds the point. */
 static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                                   const iccp_path *path, const iccp_flow_walk *end, double s,
                                   double total, iccp_decode_jet *jet)
@@ -60,7 +61,7 @@ static icc_status fill_decode_jet(const icc_chart *chart, const iccp_coords *coo
         for (int32_t c = 0; c + 1 < dim; ++c)
             jet->bary[i * dim + c + 1] = h * part.place[c][i];
     }
-    /* By t: along the curve. */
+    /* The derivative by t points along the curve. */
     part = (iccp_flow_jet){.n = 1};
     iccp_flow_jet_advance(end, s, &total, &part);
     for (int32_t i = 0; i < dim; ++i)
@@ -88,7 +89,7 @@ icc_status iccp_field_decode(const icc_chart *chart, const iccp_coords *coords, 
     return jet == NULL ? ICC_OK : fill_decode_jet(chart, coords, path, &walk, s, total, jet);
 }
 
-/* Points where no curve starts fail by themselves. */
+/* A point whose curve cannot start fails, and the others continue. */
 icc_status iccp_field_decode_many(const icc_chart *chart, size_t n, const size_t *which,
                                   const iccp_coords *coords, double *points, double *volume,
                                   icc_status *status, iccp_path *path)

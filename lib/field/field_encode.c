@@ -1,12 +1,12 @@
-/* From a point of the domain to its coordinates: its curve downhill to the boundary, and uphill to
- * the maximum. */
+/* Encodes a point of the domain: follows its curve downhill to the boundary, and uphill to the
+ * maximum. Source: docs/theory.md, "fields on grids". */
 #include "field/field_state.h"
 #include "field/flow_jet.h"
 
 #include <string.h>
 
-/* `jet` may be NULL; else it starts as the derivative of the place by the point, and ends at the
- * boundary. */
+/* Follows the curve downhill. `jet` may be NULL. Otherwise it starts as the derivative of the
+ * place by the point, and ends as that of the place on the boundary. */
 static icc_status walk_down(const iccp_field_state *state, const iccp_flow_place *place,
                             iccp_coords *coords, double *length, iccp_flow_jet *jet)
 {
@@ -29,8 +29,8 @@ static icc_status walk_down(const iccp_field_state *state, const iccp_flow_place
     return iccp_flow_jet_onto(&walk, s, normal, jet) ? ICC_OK : ICC_ERR_TRACE;
 }
 
-/* From a place to the maximum, with derivatives if `jet` is not NULL. The last piece's jet may
- * fail at the root, where its direction ends: its length is still right. */
+/* Follows the curve to the maximum, with derivatives if `jet` is not NULL. The last piece's jet
+ * may fail at the root, where the curve's direction ends. Its length is right nevertheless. */
 static icc_status walk_up(const iccp_field_state *state, const iccp_flow_place *place,
                           double *length, iccp_flow_jet *jet)
 {
@@ -48,7 +48,7 @@ static icc_status walk_up(const iccp_field_state *state, const iccp_flow_place *
     return status;
 }
 
-/* Each parameter moves the point along an axis. */
+/* Sets one parameter for each axis, which moves the point along that axis. */
 static void unit_jet(iccp_flow_jet *jet, int32_t dim)
 {
     *jet = (iccp_flow_jet){.n = dim};
@@ -56,8 +56,8 @@ static void unit_jet(iccp_flow_jet *jet, int32_t dim)
         jet->place[k][k] = 1;
 }
 
-/* From movements of a point on a facet to its barycentric coordinates: by the normal equations of
- * the facet's edges, which are independent. */
+/* Converts movements of a point on a facet to changes of its barycentric coordinates. It solves
+ * the normal equations of the facet's edges, which are independent. */
 static void facet_slopes(const icc_domain *domain, uint32_t facet, const double *movement,
                          double *slope)
 {
@@ -86,8 +86,8 @@ static void facet_slopes(const icc_domain *domain, uint32_t facet, const double 
     }
 }
 
-/* d t = (d down * up - down * d up) / length^2, and the slopes of the boundary point's
- * barycentric coordinates. */
+/* Fills in the derivatives: d t = (d down * up - down * d up) / length^2, and the slopes of the
+ * boundary point's barycentric coordinates. */
 static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_flow_jet *down,
                             double s_down, const iccp_flow_jet *up, double s_up,
                             iccp_encode_jet *jet)
@@ -128,7 +128,7 @@ icc_status iccp_field_encode(const icc_chart *chart, const double *point,
     return ICC_OK;
 }
 
-/* Two curves for each point, the one downhill first. */
+/* Follows two curves for each point, the one downhill first. */
 icc_status iccp_field_encode_many(const icc_chart *chart, size_t n, const size_t *which,
                                   const iccp_chart_place *place, iccp_coords *coords,
                                   double *volume, icc_status *status, iccp_path *path)

@@ -1,5 +1,6 @@
-/* Curves of this method do not merge, so nothing is uncovered or collapsed: what can be amiss is
- * that a curve does not arrive, and that it crosses the boundary outward on its way up. */
+/* Measures a chart of method field by sampling. Curves of this method do not merge, so nothing
+ * is uncovered or collapsed. What can go wrong is a curve that does not arrive, or one that
+ * crosses the boundary outward on its way up. Source: docs/theory.md, "fields on grids". */
 #include "field/field_measure.h"
 
 #include "base/threads.h"
@@ -14,13 +15,14 @@ typedef struct samples {
     const icc_chart *chart;
     const iccp_flow *flow;
     size_t n;
-    const double *cumulated; /* facets' extents, added up; the last one is 1 */
-    uint8_t *result;         /* bits below, for each sample */
+    const double *cumulated; /* running sum of the facets' extents; the last one is 1 */
+    uint8_t *result;         /* bits, defined below, for each sample */
 } samples;
 
 enum { INSIDE = 1, UNREACHABLE = 2, OUTWARD = 4 };
 
-/* Whether an evenly spread point of the bounding box lies inside, and whether it can be encoded. */
+/* Tells whether an evenly spread point of the bounding box lies inside, and whether it can be
+ * encoded. */
 static uint8_t check_point(const samples *s, size_t i)
 {
     const icc_domain *domain = s->chart->domain;
@@ -35,7 +37,7 @@ static uint8_t check_point(const samples *s, size_t i)
     return status == ICC_OK ? INSIDE : INSIDE | UNREACHABLE;
 }
 
-/* The facet that holds a share of the boundary's extent. */
+/* The facet at a given share of the boundary's extent. */
 static uint32_t find_facet(const samples *s, double share)
 {
     size_t low = 0, high = s->chart->domain->n_facets - 1;
@@ -49,8 +51,8 @@ static uint32_t find_facet(const samples *s, double share)
     return (uint32_t)low;
 }
 
-/* Whether the vector at an evenly spread point of the boundary crosses it inward. Facets get
- * points by their share of the extent; the gaps between sorted numbers are barycentric
+/* Tells whether the vector at an evenly spread point of the boundary points inward. Facets get
+ * points by their share of the extent. The gaps between sorted numbers serve as barycentric
  * coordinates. */
 static uint8_t check_boundary(const samples *s, size_t i)
 {
@@ -92,7 +94,7 @@ static icc_status check_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* To the extent of a facet its product of edge lengths is near enough. */
+/* The product of its edge lengths is near enough to the extent of a facet. */
 static void cumulate(const icc_domain *domain, double *cumulated)
 {
     double sum = 0;

@@ -1,11 +1,12 @@
-/* What the coordinates of a chart of method field miss, by sampling. */
+/* Samples how much the coordinates of a chart of method field miss. Source: docs/theory.md,
+ * "fields on grids". */
 #ifndef ICCP_FIELD_MEASURE_H
 #define ICCP_FIELD_MEASURE_H
 
 #include "chart/chart.h"
 #include "field/flow.h"
 
-/* See icc_chart_get_report(); `encode` is the chart's. */
+/* See icc_chart_get_report(). `encode` is the chart's own function. */
 icc_status iccp_field_measure(const icc_chart *chart, const iccp_flow *flow, size_t n_points,
                               icc_chart_report *measures, const iccp_env *env);
 

@@ -1,4 +1,4 @@
-/* Places of points in the grid of a chart of method field. */
+/* Converts between points of the domain and places in the grid of a chart of method field. */
 #include "field/field_state.h"
 
 #include "math/elementary.h"

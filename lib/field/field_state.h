@@ -1,4 +1,5 @@
-/* What a chart of method field knows, and what it can do. */
+/* The state of a chart of method field, and its operations. Source: docs/theory.md, "fields on
+ * grids". */
 #ifndef ICCP_FIELD_STATE_H
 #define ICCP_FIELD_STATE_H
 
@@ -29,21 +30,22 @@ static inline iccp_flow_place iccp_field_place(const iccp_chart_place *place)
     return own;
 }
 
-/* A local point of the boundary, in the simplex that the curve enters from there, or
- * ICC_ERR_TRACE. */
+/* Finds the simplex that a curve enters from a local point of the boundary. Fails with
+ * ICC_ERR_TRACE if there is none. */
 icc_status iccp_field_entry(const icc_chart *chart, const double *point, iccp_flow_place *place);
 
-/* The local point `at` of a place's simplex. */
+/* The local coordinates of the point `at` in a place's simplex. */
 void iccp_field_place_out(const iccp_field_state *state, const iccp_flow_place *place,
                           const double *at, double *local);
 
-/* The logarithm of local volume per area of the boundary and share of the way, from that of a curve
- * in lattice units, and its whole length there. */
+/* Logarithm of local volume per area of the boundary and share of the curve. `volume` is the
+ * same quantity of a curve in lattice units, and `length` that curve's whole length there. */
 double iccp_field_volume(const iccp_field_state *state, double volume, double length);
 
-/* ---- as iccp_chart_ops has them ---- */
+/* ---- operations of iccp_chart_ops ---- */
 
-/* A simplex that no facet runs through is inside with its vertices. */
+/* Finds the place of a point. A simplex that no facet runs through is inside if its vertices
+ * are. */
 int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                           iccp_coords *coords);
 icc_status iccp_field_encode(const icc_chart *chart, const double *point,

@@ -1,7 +1,7 @@
-/* The whole curve of a point. */
+/* Traces the whole curve of a point, from the boundary to the maximum. */
 #include "field/field_state.h"
 
-/* Emits the places of a path's marks, from the first or from the last. */
+/* Emits the places of a path's marks, starting with the first or with the last. */
 static icc_status emit_marks(const iccp_field_state *state, const iccp_path *path, bool reversed,
                              iccp_emit emit, void *argument)
 {
@@ -15,7 +15,7 @@ static icc_status emit_marks(const iccp_field_state *state, const iccp_path *pat
     return status;
 }
 
-/* From the boundary up to the point, which is the last mark and left out. */
+/* Emits the curve from the boundary up to the point. The point is the last mark and is left out. */
 static icc_status trace_below(const icc_chart *chart, const iccp_flow_place *place, iccp_path *path,
                               iccp_emit emit, void *argument)
 {
@@ -37,14 +37,15 @@ static icc_status trace_below(const icc_chart *chart, const iccp_flow_place *pla
     return status == ICC_OK ? emit_marks(state, path, true, emit, argument) : status;
 }
 
-/* The place where a curve enters the domain from the boundary. */
+/* Finds the place where a curve enters the domain from the boundary. */
 static icc_status find_entry(const icc_chart *chart, const double *point,
                              const iccp_coords *boundary, iccp_flow_place *place)
 {
     double local[ICC_MAX_DIM];
     if (iccp_field_entry(chart, point, place) == ICC_OK)
         return ICC_OK;
-    /* The band of the boundary may be wider than the grid goes beyond it. */
+    /* A point in the boundary's tolerance band may lie beyond the grid, so its nearest boundary
+     * point is used. */
     iccp_domain_facet_point(chart->domain, boundary->facet, boundary->bary, local);
     return iccp_field_entry(chart, local, place);
 }

@@ -1,5 +1,5 @@
-/* Curves of a field that is linear in each simplex, piece by piece. What a piece is:
- * flow_piece.c. */
+/* Curves of a field that is linear in each simplex, piece by piece. flow_piece.c explains what a
+ * piece is. Source: docs/theory.md, "fields on grids", step 3. */
 #include "field/flow_piece.h"
 
 #include "base/minmax.h"
@@ -13,7 +13,7 @@
 bool iccp_flow_find(const iccp_flow *flow, const double *x, const double *ahead,
                     iccp_flow_place *place)
 {
-    static const double NUDGE = 1e-12; /* lattice units: beyond the rounding of x */
+    static const double NUDGE = 1e-12; /* lattice units; more than the rounding of x */
     const icc_grid *grid = flow->grid;
     const int32_t dim = grid->dim;
     double nudged[ICC_MAX_DIM] = {0}, lambda[ICC_MAX_DIM + 1];

@@ -1,7 +1,9 @@
-/* LANES curves side by side, each at its own place: a lane whose curve has ended takes the next
- * one. What includes this file says how many, and for which processor the arithmetic is compiled
- * (TARGET). A lane whose step was not the last for its piece tries again while the others
- * continue with their next. */
+/* Follows LANES curves side by side, each at its own place. A lane whose curve has ended takes the
+ * next curve. If a lane's step did not finish its piece, that lane tries again while the others
+ * continue.
+ *
+ * The file that includes this one defines LANES and TARGET, the processor for which the
+ * arithmetic is compiled. */
 #ifndef ICCP_FLOW_BATCH_H
 #define ICCP_FLOW_BATCH_H
 
@@ -12,7 +14,7 @@
 
 typedef struct lane {
     iccp_flow_walk walk;
-    iccp_flow_curve *curve; /* NULL: there is none left */
+    iccp_flow_curve *curve; /* NULL if no curve is left */
     int n_tries;
     iccp_path path;
 } lane;
@@ -23,12 +25,12 @@ typedef struct group {
     piece_step step;
 } group;
 
-/* While one group is busy the vectors for the other come from memory. */
+/* While one group computes, the vectors for the other arrive from memory. */
 enum { GROUPS = 2 };
 
 typedef struct batch {
     const iccp_flow *flow;
-    iccp_flow_curve *next, *end; /* curves to come */
+    iccp_flow_curve *next, *end; /* curves still to be followed */
     size_t n_busy;
     icc_status status;
     group group[GROUPS];
@@ -45,7 +47,7 @@ TARGET static void try_exits(piece_step *a, int32_t dim)
         try_exit(a, dim > 4 ? dim : 4);
 }
 
-/* The next curve, if any. */
+/* Gives a lane the next curve, if there is one. */
 TARGET static void take_curve(batch *c, lane *x)
 {
     x->curve = NULL;
@@ -58,9 +60,9 @@ TARGET static void take_curve(batch *c, lane *x)
     x->path.n_marks = 0;
 }
 
-/* A bundle's flux grows with the flow's volume, and is its area times the speed across that. `s`:
- * of the piece at the wanted place, or at the boundary below it. Curves that are straight to the
- * root have no speed of their own. */
+/* Computes the volume of a bundle of curves. The bundle's flux grows with the flow's volume, and
+ * is its cross-section times the speed. `s` is the parameter of the wanted place, or of the
+ * boundary point below it. Curves that run straight to the root have speed 1. */
 TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *w, double s)
 {
     const iccp_flow *flow = w->flow;
@@ -82,7 +84,7 @@ TARGET static void measure_volume(iccp_flow_curve *curve, const iccp_flow_walk *
     curve->volume = iccp_ln(fabs(across)) - 0.5 * iccp_ln(speed2) + w->sign * growth;
 }
 
-/* Of a curve uphill, the place that is wanted. */
+/* Finds the wanted place on a curve uphill. */
 TARGET static icc_status find_place(lane *x)
 {
     iccp_flow_curve *curve = x->curve;
@@ -99,13 +101,14 @@ TARGET static icc_status find_place(lane *x)
     return ICC_OK;
 }
 
-/* Ends a lane's curve. */
+/* Ends the curve of a lane. */
 TARGET static void finish_curve(lane *x, icc_status status)
 {
     x->curve->status = status == ICC_OK && x->curve->share > 0 ? find_place(x) : status;
 }
 
-/* Whether the curve continues after the piece that has been found; `a` if its series is there. */
+/* Returns true if the curve continues after the piece just found. `a` is the step that holds its
+ * series, or NULL. */
 TARGET static ICCP_INLINE bool curve_continues(lane *x, int32_t dim, const piece_step *a, int l)
 {
     iccp_flow_walk *w = &x->walk;
@@ -127,7 +130,7 @@ TARGET static ICCP_INLINE bool curve_continues(lane *x, int32_t dim, const piece
     return false;
 }
 
-/* After a piece: into the next simplex, or to the next curve. */
+/* Leaves a finished piece: goes on to the next simplex, or to the next curve. */
 TARGET static ICCP_INLINE void leave_piece(batch *c, lane *x, int32_t dim, const piece_step *a,
                                            int l, icc_status status)
 {
@@ -140,7 +143,7 @@ TARGET static ICCP_INLINE void leave_piece(batch *c, lane *x, int32_t dim, const
     take_curve(c, x);
 }
 
-/* To where there is an exit to be found. */
+/* Advances a lane until it has a piece whose exit must be computed. */
 TARGET static ICCP_INLINE void advance_to_exit(batch *c, lane *x, int32_t dim)
 {
     int32_t corner;
@@ -158,7 +161,7 @@ TARGET static ICCP_INLINE void advance_to_exit(batch *c, lane *x, int32_t dim)
     }
 }
 
-/* After a step. */
+/* Handles the outcome of a step in one lane. */
 TARGET static ICCP_INLINE void finish_try(batch *c, group *g, int l, int32_t dim)
 {
     lane *x = &g->lane[l];
@@ -175,8 +178,7 @@ TARGET static ICCP_INLINE void finish_try(batch *c, group *g, int l, int32_t dim
     advance_to_exit(c, x, dim);
 }
 
-/* Loads the lanes that have come to a new piece; the others continue with the one that they
- * have. */
+/* Loads the lanes that have a new piece. The others keep the piece that they have. */
 TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
 {
     for (int l = 0; l < LANES; ++l)
@@ -184,8 +186,8 @@ TARGET static ICCP_INLINE void load_group(group *g, int32_t dim)
             load_start(&g->step, dim, l, &g->lane[l].walk);
 }
 
-/* Two groups take turns: the loads of one are issued before the other's arithmetic, and arrive
- * in the meantime. */
+/* Two groups take turns. The loads of one group are issued before the other's arithmetic, and
+ * arrive meanwhile. */
 TARGET static ICCP_INLINE void run_batch_in(batch *c, int32_t dim)
 {
     for (int g = 0; g < GROUPS; ++g)

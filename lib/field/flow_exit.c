@@ -1,5 +1,6 @@
-/* The piece's end is the first root of one of the barycentric coordinates, which are power series:
- * Newton's method on each, kept within an interval that holds the root. */
+/* Finds the end of a piece: the first root of a barycentric coordinate. The coordinates are
+ * power series. Newton's method runs on each, within an interval that holds the root. Source:
+ * docs/theory.md, "fields on grids", step 3. */
 #include "field/flow_exit.h"
 
 #include "base/compiler.h"
@@ -9,13 +10,14 @@
 
 enum { MOST = 60 };
 
-/* The barycentric coordinates, in terms of walk->scale. */
+/* The barycentric coordinates as power series in s / walk->scale. */
 typedef struct coordinates {
-    int32_t n; /* terms of each */
+    int32_t n; /* number of terms of each */
     double term[ICC_MAX_DIM + 1][ICCP_FLOW_TERMS + 1];
 } coordinates;
 
-/* A coordinate that starts at 0, or less by rounding, starts at SLACK. */
+/* Expands the coordinates. A coordinate that starts at 0, or below it by rounding, starts at
+ * SLACK. */
 static ICCP_INLINE void expand_coordinates(const iccp_flow_walk *w, int32_t dim, coordinates *c)
 {
     const int8_t *axis = w->place.simplex.axis;
@@ -53,17 +55,18 @@ static double value_of(const double *series, int32_t n, double s, double *slope)
     return value;
 }
 
-/* A root between 0, where the series is positive, and `high`, where it need not be negative.
- * HUGE_VAL when there is none. */
+/* Finds a root between 0, where the series is positive, and `high`, where it need not be
+ * negative. HUGE_VAL if there is none. */
 static double root_of(const double *series, int32_t n, double high, double guess)
 {
     static const double CLOSE = 1e-8;
     double low = 0, s = guess, slope;
-    bool is_beyond = false; /* whether `high` is known to lie beyond the root */
+    bool is_beyond = false; /* true if `high` is known to lie beyond the root */
     for (int k = 0; k < MOST; ++k) {
         const double value = value_of(series, n, s, &slope);
         double next = s - value / slope;
-        /* The step after that would be about its square. */
+        /* Newton's method converges quadratically, so the next step would be about the square of
+         * this one. */
         if (fabs(next - s) <= CLOSE * s)
             return next;
         if (value > 0) {
@@ -83,7 +86,7 @@ static double root_of(const double *series, int32_t n, double high, double guess
     return s;
 }
 
-/* Bounds up to `end`: of the sum of the terms' sizes, and of the second derivative. */
+/* Bounds the second derivative up to `end`. `*size` is a bound on the sum of the terms' sizes. */
 static double bend_of(const double *series, int32_t n, double end, double *size)
 {
     double bend = 0;
@@ -96,12 +99,13 @@ static double bend_of(const double *series, int32_t n, double end, double *size)
     return bend;
 }
 
-/* Whether a coordinate that is positive at both ends falls below 0 between them; if so its first
- * root. The least value is where the slope changes its sign; mostly all that is still near is soon
- * seen to be positive. */
+/* Returns true if a coordinate that is positive at both ends falls below 0 between them, and
+ * writes its first root. The least value lies where the slope changes its sign. For most
+ * coordinates the bounds soon show that they stay positive. */
 static bool dips(const double *series, int32_t n, double end, double *root)
 {
-    static const double ROUNDING = 1e-12; /* of the terms' size; it is some n times 1e-16 */
+    static const double ROUNDING = 1e-12; /* relative to the size of the terms; their rounding
+                                             errors are about n times 1e-16 */
     double low = 0, high = end, slope, size;
     if (!(series[1] < 0) || series[0] + series[1] * end > 0)
         return false;
@@ -125,8 +129,8 @@ static bool dips(const double *series, int32_t n, double end, double *root)
     return true;
 }
 
-/* The earliest root of all coordinates: each root that is found shortens the piece, and the
- * others are looked at again up to there. */
+/* Finds the earliest root of all coordinates. Each root shortens the piece, and the other
+ * coordinates are then examined again up to it. */
 static ICCP_INLINE void find_exit(iccp_flow_walk *walk, int32_t dim)
 {
     coordinates c;
@@ -155,7 +159,7 @@ static ICCP_INLINE void find_exit(iccp_flow_walk *walk, int32_t dim)
     walk->end = end * walk->scale;
 }
 
-/* Most are in space: loops are unrolled there. */
+/* Most calls are in space, so the loops are unrolled for dimension 3. */
 void iccp_flow_find_exit(iccp_flow_walk *walk)
 {
     if (walk->flow->grid->dim == 3)

@@ -1,4 +1,5 @@
-/* One curve at a time, where nothing better is known of the processor; and the choice. */
+/* Chooses the number of curves side by side by the processor. Without vector instructions it
+ * follows one curve at a time. */
 #include "field/flow_follow.h"
 
 #define LANES 1

@@ -1,5 +1,5 @@
-/* Many curves at once, several side by side: faster by far than one after another, and the same
- * bits. */
+/* Follows many curves, several side by side. This is far faster than one after another, and
+ * gives the same bits. Source: docs/theory.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_FOLLOW_H
 #define ICCP_FLOW_FOLLOW_H
 
@@ -9,25 +9,25 @@
 typedef struct iccp_flow_curve {
     iccp_flow_place start;
     int32_t sign;  /* +1: to the root; -1: to the boundary */
-    double share;  /* of the length, where `place` is wanted: of a curve uphill; else 0 */
-    bool measured; /* whether `volume` is wanted; needs `facet`, where a curve uphill starts */
-    /* Found. ICC_OK, or ICC_ERR_TRACE when it cannot continue. */
+    double share;  /* uphill: the share of the length at which `place` is wanted; downhill: 0 */
+    bool measured; /* true if `volume` is wanted; needs `facet`, where a curve uphill starts */
+    /* Results. `status` is ICC_OK, or ICC_ERR_TRACE if the curve cannot continue. */
     icc_status status;
     double length;
     iccp_flow_place place;
     uint32_t facet; /* where a curve downhill leaves the domain */
     double bary[ICC_MAX_DIM];
-    /* The logarithm of the volume that a bundle of curves fills, per its area on the boundary and
-     * length: at `place`, or where a curve downhill starts. Of its two factors that are not
-     * continuous where the vectors are not, it lacks those. */
+    /* Logarithm of the volume that a bundle of curves fills, per area on the boundary and per
+     * length. It is taken at `place` if uphill, or at the start if downhill. Two factors jump
+     * where the vectors do and are left out. */
     double volume;
 } iccp_flow_curve;
 
-/* ICC_ERR_MEMORY or ICC_OK. */
+/* Returns ICC_ERR_MEMORY or ICC_OK. */
 icc_status iccp_flow_follow(const iccp_flow *flow, size_t n, iccp_flow_curve *curves,
                             const iccp_memory *memory);
 
-/* At a level that the processor has. */
+/* Follows the curves with the given level of vector instructions, which the processor must have. */
 icc_status iccp_flow_follow_as(iccp_simd_level level, const iccp_flow *flow, size_t n,
                                iccp_flow_curve *curves, const iccp_memory *memory);
 

@@ -1,5 +1,6 @@
-/* The variational equation of x' = A x + b is y' = A y, solved by the same power series. Where a
- * curve ends on a plane, it does so sooner or later as it moves. */
+/* Derivatives of curves by where they start. The variational equation of x' = A x + b is y' = A
+ * y, and the same power series solves it. When the curve moves, it meets an end plane sooner or
+ * later, which changes the derivative of its end. */
 #include "field/flow_jet.h"
 
 #include "base/compiler.h"
@@ -7,11 +8,12 @@
 
 #include <math.h>
 
-/* The derivative of the place moves with A y: the terms of that to parameter s, from y on. */
+/* Terms of the change of the derivative y up to parameter s. The derivative of the place moves
+ * with A y. */
 static ICCP_INLINE int32_t expand(const iccp_flow_walk *w, int32_t dim, double s, const double *y,
                                   double change[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {
-    static const double NEGLIGIBLE = 1e-17; /* of y */
+    static const double NEGLIGIBLE = 1e-17; /* relative to y */
     const double *power = y;
     double most = 0;
     for (int32_t k = 0; k < dim; ++k)
@@ -32,7 +34,7 @@ static ICCP_INLINE int32_t expand(const iccp_flow_walk *w, int32_t dim, double s
     return ICCP_FLOW_TERMS;
 }
 
-/* Gauss and Legendre's nodes on [-1, 1]. */
+/* Nodes of Gauss-Legendre quadrature on [-1, 1]. */
 enum { NODES = 7 };
 static const double NODE[NODES] = {
     -0.949107912342758524526, -0.741531185599394439864, -0.405845151377397166907, 0,
@@ -42,8 +44,8 @@ static const double WEIGHT[NODES] = {0.129484966168869693271, 0.2797053914892766
                                      0.381830050505118944950, 0.279705391489276667901,
                                      0.129484966168869693271};
 
-/* The length changes by the integral of v . v' / |v|: that of s^j v / |v| for all j < n, to
- * parameter s and in terms of it. */
+/* The length changes by the integral of v . v' / |v|. This computes the integrals of s^j v / |v|
+ * for all j < n, up to parameter s and in units of it. */
 static ICCP_INLINE void directions(const iccp_flow_walk *w, int32_t dim, double s, int32_t n,
                                    double moment[ICCP_FLOW_TERMS][ICC_MAX_DIM])
 {

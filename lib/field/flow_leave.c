@@ -1,4 +1,5 @@
-/* Where a piece of a curve meets the boundary. */
+/* Finds where a piece of a curve meets the boundary. Source: docs/theory.md, "fields on grids",
+ * step 4. */
 #include "field/flow.h"
 
 #include "base/minmax.h"
@@ -16,8 +17,8 @@ static void local_of(const iccp_flow_walk *w, const double *at, double *local)
         local[k] = grid->origin[k] + grid->spacing * local[k];
 }
 
-/* Where the piece meets the plane of a facet near `guess`; the squared distance from the facet
- * there. */
+/* Finds near `guess` where the piece meets the plane of a facet. Returns the squared distance of
+ * that point from the facet. */
 static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, double *s,
                          double *bary)
 {
@@ -53,9 +54,9 @@ static double meet_plane(const iccp_flow_walk *w, uint32_t facet, double guess, 
 
 bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, double *bary)
 {
-    static const double SAME = 1e-11;   /* lattice units: the curve meets the facet itself */
-    static const double FURTHER = 1e-9; /* of the piece: it may end on the boundary, up to
-                                           rounding */
+    static const double SAME = 1e-11;   /* lattice units; the curve meets the facet itself */
+    static const double FURTHER = 1e-9; /* relative to the piece, which may end on the boundary up
+                                           to rounding */
     const icc_domain *domain = walk->flow->domain;
     const icc_grid *grid = walk->flow->grid;
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM], share;
@@ -71,7 +72,7 @@ bool iccp_flow_leaves(const iccp_flow_walk *walk, double *s, uint32_t *facet, do
     const double guess = share * walk->end;
     if (meet_plane(walk, *facet, guess, s, bary) <= same2)
         return true;
-    /* The curve bulges beside the chord: another facet close by. */
+    /* The curve bulges to one side of the chord and may meet another facet close by. */
     iccp_facet_query query;
     double box[2 * ICC_MAX_DIM], best = HUGE_VAL;
     const int32_t dim = grid->dim;

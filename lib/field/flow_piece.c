@@ -1,5 +1,5 @@
-/* The pieces of one curve. What they are: flow_step.h; what is unusual is left to
- * flow_exit.c. */
+/* Computes the pieces of one curve. flow_step.h explains the method, and flow_exit.c handles
+ * unusual pieces. */
 #include "field/flow_piece.h"
 
 #include "base/minmax.h"
@@ -34,7 +34,7 @@ static ICCP_INLINE void place_in(const iccp_flow_walk *walk, int32_t dim, double
         at[k] = walk->place.at[k] + s * sum[k];
 }
 
-/* In space, as most are, loops over dimensions are unrolled, here and below. */
+/* Most calls are in space, so loops over dimensions are unrolled here and below. */
 void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
 {
     if (walk->flow->grid->dim == 3)
@@ -43,7 +43,7 @@ void iccp_flow_at(const iccp_flow_walk *walk, double s, double *at)
         place_in(walk, walk->flow->grid->dim, s, at);
 }
 
-/* As vector_at(), where the series is. */
+/* Like vector_at(), for a walk that has its series. */
 static ICCP_INLINE void velocity_in(const iccp_flow_walk *walk, int32_t dim, double s,
                                     double *vector)
 {
@@ -75,7 +75,7 @@ static ICCP_INLINE void motion_at(const iccp_flow_walk *w, int32_t dim, const se
     }
 }
 
-/* What lengths within a piece have in common. */
+/* What all lengths within a piece share. */
 typedef struct ruler {
     series series;
     motion first;
@@ -89,8 +89,8 @@ static ICCP_INLINE void lay_ruler(const iccp_flow_walk *walk, int32_t dim, ruler
     find_change(&r->series, dim, &r->first, &r->change);
 }
 
-/* By integrate(), in as many equal parts as keep the vector's change in each within what its
- * last rule allows. */
+/* Computes a length by integrate(). The piece is divided into equal parts, so that the vector's
+ * change in each part is within the limit of the last rule. */
 static ICCP_INLINE double length_in(const iccp_flow_walk *walk, int32_t dim, const ruler *r,
                                     double s)
 {
@@ -129,8 +129,8 @@ double iccp_flow_length(const iccp_flow_walk *walk, double s)
     return dim == 3 ? length_to(walk, 3, s) : length_to(walk, dim, s);
 }
 
-/* Liouville: at the rate of the trace. Straight curves to a point spread in all directions but
- * their own. */
+/* Liouville's formula: the volume grows at the rate of the trace. Straight curves to a point
+ * spread in all directions but their own. */
 double iccp_flow_growth(const iccp_flow_walk *walk, double s)
 {
     const int32_t dim = walk->flow->grid->dim;
@@ -142,7 +142,7 @@ double iccp_flow_growth(const iccp_flow_walk *walk, double s)
     return s * trace;
 }
 
-/* Newton's method on the length, kept within an interval that holds the answer. */
+/* Newton's method for a given length, within an interval that holds the answer. */
 static ICCP_INLINE double at_length_in(const iccp_flow_walk *walk, int32_t dim, double s,
                                        double length)
 {
@@ -180,10 +180,10 @@ double iccp_flow_at_length(const iccp_flow_walk *walk, double length)
 
 /* ---- pieces ---- */
 
-/* With all safeguards, as far as somewhat beyond the last guess. */
+/* Computes a piece with all safeguards. The series reaches somewhat beyond the last guess. */
 static ICCP_INLINE icc_status piece_slowly(iccp_flow_walk *walk, int32_t dim, double end)
 {
-    static const double BEYOND = 1e-6; /* besides a tenth: a curve may start on the facet */
+    static const double BEYOND = 1e-6; /* added to a tenth: a curve may start on the facet */
     piece_step a;
     double first[3][ICC_MAX_DIM], size = 0;
     load_start(&a, dim, 0, walk);
@@ -207,8 +207,8 @@ icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end)
     return dim == 3 ? piece_slowly(walk, 3, end) : piece_slowly(walk, dim, end);
 }
 
-/* The fast way for nearly all pieces; what it cannot do in MOST_ATTEMPTS tries is left to the
- * slow one. */
+/* The fast way, which suits nearly all pieces. If MOST_ATTEMPTS tries do not finish the piece,
+ * the slow way does. */
 static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
 {
     piece_step a;
@@ -223,8 +223,8 @@ static ICCP_INLINE icc_status curved_piece(iccp_flow_walk *w, int32_t dim)
     return ICC_OK;
 }
 
-/* Next to the root the vectors point straight at it: the place is p(s) = p + s (root - p) on the
- * way up, and the opposite on the way down, where the corner's weight falls to 0. */
+/* Next to the root the vectors point straight at it. On the way up the place is p(s) = p + s
+ * (root - p). On the way down it moves the opposite way, until the corner's weight falls to 0. */
 icc_status iccp_flow_find_radial(iccp_flow_walk *w, int32_t corner)
 {
     const int32_t dim = w->flow->grid->dim;

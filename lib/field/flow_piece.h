@@ -1,13 +1,15 @@
-/* One piece of a curve: from where it is in a simplex to where it leaves it. */
+/* One piece of a curve: from its place in a simplex to where it leaves that simplex. Source:
+ * docs/theory.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_PIECE_H
 #define ICCP_FLOW_PIECE_H
 
 #include "field/flow.h"
 
-/* From walk->place. */
+/* Finds the piece that starts at walk->place. */
 icc_status iccp_flow_find_piece(iccp_flow_walk *walk);
 
-/* The same with all safeguards; end: a guess of walk->end if positive. */
+/* Like iccp_flow_find_piece(), with all safeguards. `end` is a guess of walk->end if it is
+ * positive. */
 icc_status iccp_flow_find_piece_slowly(iccp_flow_walk *walk, double end);
 
 /* The corner of a place's simplex that is the root, or ICCP_FLOW_WITHIN. */
@@ -20,10 +22,12 @@ static inline int32_t iccp_flow_root_corner(const iccp_flow *flow, const iccp_fl
     return corner;
 }
 
-/* There, straight to the root, or away from it to the facet opposite. */
+/* Finds a piece in a simplex at the root: straight to the root, or away from it to the opposite
+ * facet. */
 icc_status iccp_flow_find_radial(iccp_flow_walk *walk, int32_t corner);
 
-/* Onto the facet, exactly, and no corner's weight negative; then across. */
+/* Puts the end of a piece exactly on the facet, with no negative weight of a corner. Then
+ * crosses into the next simplex. */
 static ICCP_INLINE icc_status iccp_flow_cross_in(iccp_flow_walk *w, int32_t dim)
 {
     w->length += w->end_length;
@@ -55,7 +59,7 @@ static ICCP_INLINE icc_status iccp_flow_cross_in(iccp_flow_walk *w, int32_t dim)
     return ICC_OK;
 }
 
-/* From the end of a piece into the next simplex. */
+/* Goes from the end of a piece into the next simplex. */
 icc_status iccp_flow_cross(iccp_flow_walk *walk);
 
 #endif

@@ -1,17 +1,18 @@
-/* A step: one try at the end of a piece, on LANES curves side by side: what includes this file says
- * how many, and for which processor (TARGET). Nothing here branches on one lane only, and each gets
- * the bits that it would get alone.
+/* A step: one try to find the end of a piece, on LANES curves side by side. The file that includes
+ * this one defines LANES and TARGET, the processor. Nothing here branches on a single lane, and
+ * each lane gets the bits that it would get alone.
  *
- * In a simplex the field is linear in position, so its curves are solutions of x' = A x + b, power
- * series that converge everywhere: the terms of x' are A^j x'(0) s^j / j!. The column of A for an
- * axis is the difference of the vectors at the two corners that the axis joins.
+ * Source: docs/theory.md, "fields on grids", step 3. In a simplex the field is linear in position.
+ * So its curves solve x' = A x + b, and their power series converge everywhere. The terms of x' are
+ * A^j x'(0) s^j / j!. The column of A for an axis is the difference of the vectors at the two
+ * corners that the axis joins.
  *
- * The barycentric coordinates' first terms say nearly when the first of them is 0. The series is
- * added up there, once; the rest of the way is so short that the derivatives there, of which A
- * gives as many as one likes, carry on to the end exactly.
+ * The first terms of the barycentric coordinates tell nearly where the first coordinate vanishes.
+ * The series is added up there, once. The rest of the way is so short that a few derivatives at
+ * that point reach the end exactly. A gives as many derivatives as needed.
  *
- * Everything is in the order of the simplex' axes: barycentric coordinates are then differences of
- * neighbours. */
+ * All arrays follow the order of the simplex's axes. Barycentric coordinates are then
+ * differences of neighbours. */
 #ifndef ICCP_FLOW_STEP_H
 #define ICCP_FLOW_STEP_H
 
@@ -25,7 +26,8 @@
 
 /* ---- lanes ---- */
 
-/* Vectors are handed on by pointer: how they would be passed depends on the processor. */
+/* Vectors are passed by pointer, because the convention for passing them by value depends on the
+ * processor. */
 #if LANES > 1
 typedef double lanes __attribute__((vector_size(8 * LANES)));
 typedef int64_t mask __attribute__((vector_size(8 * LANES)));
@@ -64,12 +66,12 @@ TARGET static ICCP_INLINE void square_root(const lanes *x, lanes *y)
 #endif
 }
 
-/* ---- what is known ---- */
+/* ---- constants and state ---- */
 
-/* Lattice units: what a series leaves out. */
+/* Lattice units: the largest error that a truncated series may have. */
 static const double NEGLIGIBLE = 1e-16;
 
-/* In terms of 1 / |A|: further than this a piece is cut, so that ICCP_FLOW_TERMS terms suffice. */
+/* In units of 1 / |A|: longer pieces are cut, so that ICCP_FLOW_TERMS terms suffice. */
 static const double FARTHEST = 2.4;
 
 static const double INVERSE[ICCP_FLOW_TERMS + 2] = {
@@ -86,15 +88,15 @@ typedef struct series {
 /* How a step ended. */
 enum {
     FOUND,
-    NEARER, /* `end` is a better guess */
-    OTHER,  /* the facet `exit` is crossed before */
-    FAILED  /* the last guess, if positive, is `end` */
+    NEARER, /* try again: `end` is a better guess */
+    OTHER,  /* try again: the facet `exit` is crossed earlier */
+    FAILED  /* give up; `end` is the last guess if positive */
 };
 
 typedef struct piece_step {
     lanes at[ICC_MAX_DIM], corner[ICC_MAX_DIM + 1][ICC_MAX_DIM];
-    lanes exit; /* the facet to try, or ICCP_FLOW_WITHIN for the one that seems to be the first */
-    lanes end;  /* given with a facet: the parameter there, nearly; 0 when that is not known */
+    lanes exit; /* the facet to try; ICCP_FLOW_WITHIN: choose the one that seems to come first */
+    lanes end;  /* with a given facet: the approximate parameter there, or 0 if unknown */
     lanes outcome;
     lanes norm, column[ICC_MAX_DIM][ICC_MAX_DIM];
     series series;
@@ -103,7 +105,7 @@ typedef struct piece_step {
 
 /* ---- the equation ---- */
 
-/* A by its columns, and the sum of the sizes of its entries, a bound of its norm. */
+/* Sets the columns of A and the sum of the sizes of its entries, which bounds its norm. */
 TARGET static ICCP_INLINE void set_matrix(piece_step *a, int32_t dim)
 {
     lanes norm = {0};
@@ -126,7 +128,7 @@ TARGET static ICCP_INLINE void apply(const piece_step *a, int32_t dim, const lan
     }
 }
 
-/* A^j x'(0). */
+/* The first terms A^j x'(0). */
 TARGET static ICCP_INLINE void first_terms(piece_step *a, int32_t dim, lanes first[3][ICC_MAX_DIM])
 {
     set_matrix(a, dim);
@@ -150,7 +152,7 @@ TARGET static ICCP_INLINE void product(int32_t dim, const lanes *a, const lanes 
         *sum += a[k] * b[k];
 }
 
-/* Terms to parameter s, two at a time. A lane that has enough of them gets zeros. */
+/* Expands x' up to parameter s, two terms at a time. A lane that has enough terms gets zeros. */
 TARGET static ICCP_INLINE void expand(piece_step *a, int32_t dim, lanes first[3][ICC_MAX_DIM],
                                       const lanes *s)
 {
@@ -182,7 +184,7 @@ TARGET static ICCP_INLINE void expand(piece_step *a, int32_t dim, lanes first[3]
     out->scale = *s;
 }
 
-/* The vector at share `at` of the series' scale. */
+/* The vector at the share `at` of the series' scale. */
 TARGET static ICCP_INLINE void vector_at(const series *x, int32_t dim, const lanes *at,
                                          lanes *vector)
 {
@@ -196,13 +198,14 @@ TARGET static ICCP_INLINE void vector_at(const series *x, int32_t dim, const lan
 
 /* ---- length ---- */
 
-/* Rules that use the speed and its derivative at both ends, and the speed at n places between,
- * which are the zeros of the orthogonal polynomials for the weight x^2 (1 - x)^2: exact for
- * polynomials of degree 2 n + 3. */
+/* Quadrature rules with the speed and its derivative at both ends, and the speed at n places
+ * between. These places are the zeros of the orthogonal polynomials for the weight x^2 (1 -
+ * x)^2. A rule is exact for polynomials of degree 2 n + 3. */
 enum { N_RULES = 4, MOST_NODES = 5 };
 
 static const struct rule {
-    double most; /* largest share by which the vector may change along the piece */
+    double most; /* the largest relative change of the vector along the piece that the rule allows
+                    */
     double end, slope;
     int n;
     double node[MOST_NODES], weight[MOST_NODES];
@@ -230,7 +233,7 @@ static const struct rule {
       0.198047651609955102945, 0.145532595303625143969}},
 };
 
-/* A vector and how it changes, per scale of the series. */
+/* A vector and its change per scale of the series. */
 typedef struct motion {
     lanes vector[ICC_MAX_DIM], change[ICC_MAX_DIM];
 } motion;
@@ -244,8 +247,9 @@ TARGET static ICCP_INLINE void speed_of(int32_t dim, const motion *m, lanes *spe
     *slope = along / *speed;
 }
 
-/* From share `from` over `share` of the scale, in terms of that part. change: the largest share by
- * which the vector may change, squared: at most that of the last rule. */
+/* Integrates the speed over a part of the scale that starts at share `from` and has size
+ * `share`. The result is in units of that part. `change` is the square of the largest relative
+ * change of the vector, and at most that of the last rule. */
 TARGET static ICCP_INLINE void integrate(const series *x, int32_t dim, const lanes *change,
                                          const lanes *from, const lanes *share, const motion *first,
                                          const motion *last, lanes *length)
@@ -280,7 +284,7 @@ TARGET static ICCP_INLINE void integrate(const series *x, int32_t dim, const lan
     *length = *share * x->scale * sum;
 }
 
-/* The whole of the series' scale; change: see integrate(). */
+/* Bounds the vector's change over the whole scale of the series; see integrate(). */
 TARGET static ICCP_INLINE void find_change(const series *x, int32_t dim, motion *first,
                                            lanes *change)
 {
@@ -296,7 +300,7 @@ TARGET static ICCP_INLINE void find_change(const series *x, int32_t dim, motion 
 
 /* ---- the exit ---- */
 
-/* Barycentric coordinates, or how fast they change. */
+/* Barycentric coordinates of x if `above` is 1, or their rates of change if it is 0. */
 TARGET static ICCP_INLINE void coordinates(int32_t dim, double above, const lanes *x, lanes *out)
 {
     out[0] = above - x[0];
@@ -305,8 +309,8 @@ TARGET static ICCP_INLINE void coordinates(int32_t dim, double above, const lane
     out[dim] = x[dim - 1];
 }
 
-/* The barycentric coordinates at the start. One that is 0, or less by rounding, starts at SLACK, so
- * that it has not been crossed before it is less than that by SLACK. */
+/* The barycentric coordinates at the start. A coordinate that is 0, or below it by rounding,
+ * starts at SLACK. It counts as crossed only when it falls below its true start by SLACK. */
 typedef struct beginning {
     lanes value[ICC_MAX_DIM + 1], beyond[ICC_MAX_DIM + 1];
     lanes rate[3][ICC_MAX_DIM + 1]; /* derivatives */
@@ -325,7 +329,8 @@ TARGET static ICCP_INLINE void look_around(const piece_step *a, int32_t dim,
     }
 }
 
-/* Unless the facet is given: the first coordinate to be 0 when all continue as they start. */
+/* Chooses the exit unless the facet is given: the coordinate that would reach 0 first if all
+ * kept their present rate. */
 TARGET static ICCP_INLINE void choose_exit(piece_step *a, int32_t dim, const beginning *b)
 {
     const lanes given = a->exit;
@@ -339,7 +344,7 @@ TARGET static ICCP_INLINE void choose_exit(piece_step *a, int32_t dim, const beg
     a->exit = SELECT(given < 0, exit, given);
 }
 
-/* The value at the corner that an exit is opposite to. */
+/* Picks the value at the corner opposite to the exit. */
 TARGET static ICCP_INLINE void pick(int32_t dim, const lanes *exit, const lanes *values,
                                     lanes *value)
 {
@@ -348,8 +353,8 @@ TARGET static ICCP_INLINE void pick(int32_t dim, const lanes *exit, const lanes 
         *value = SELECT(*exit == (double)i, values[i], *value);
 }
 
-/* When the exit's coordinate is 0, by a quadratic equation and the cubic term as a correction. Not
- * positive, or NaN, when that says nothing. */
+/* Guesses when the exit's coordinate is 0: by a quadratic equation, with the cubic term as a
+ * correction. The guess is useless if it is NaN or not positive. */
 TARGET static ICCP_INLINE void guess_time(int32_t dim, const beginning *b, const lanes *exit,
                                           lanes *s)
 {
@@ -365,7 +370,7 @@ TARGET static ICCP_INLINE void guess_time(int32_t dim, const beginning *b, const
     *s = quadratic + rate[2] * quadratic * quadratic * quadratic / (6 * root);
 }
 
-/* The end of the series: the place, the vector and its derivative. */
+/* Adds up the series to its end: the place, the vector and its derivative. */
 TARGET static ICCP_INLINE void add_up(const piece_step *a, int32_t dim, lanes *place, motion *m)
 {
     const series *x = &a->series;
@@ -383,7 +388,8 @@ TARGET static ICCP_INLINE void add_up(const piece_step *a, int32_t dim, lanes *p
     apply(a, dim, m->vector, m->change);
 }
 
-/* How far from the end of the series the facet is, from three derivatives of its coordinate. */
+/* Parameter from the end of the series to the facet, from three derivatives of the exit's
+ * coordinate. */
 TARGET static ICCP_INLINE void find_rest(const piece_step *a, int32_t dim, const beginning *b,
                                          const lanes *place, const motion *last, const lanes *bend,
                                          lanes *rest)
@@ -403,7 +409,7 @@ TARGET static ICCP_INLINE void find_rest(const piece_step *a, int32_t dim, const
     *rest = step - step * step * (half - step * (2 * half * half - sixth));
 }
 
-/* The length of that. */
+/* The length of the curve over that rest. */
 TARGET static ICCP_INLINE void measure_rest(int32_t dim, const motion *m, const lanes *bend,
                                             const lanes *rest, lanes *length)
 {
@@ -418,7 +424,8 @@ TARGET static ICCP_INLINE void measure_rest(int32_t dim, const motion *m, const 
     *length = *rest * (speed + *rest * (0.5 * slope + *rest * second * (1. / 6)));
 }
 
-/* From the end of the series to the facet; near: whether that is near enough. */
+/* Goes from the end of the series to the facet. `near` tells in which lanes the rest was short
+ * enough. */
 TARGET static ICCP_INLINE void reach_facet(piece_step *a, int32_t dim, const beginning *b,
                                            mask *near)
 {
@@ -445,8 +452,8 @@ TARGET static ICCP_INLINE void reach_facet(piece_step *a, int32_t dim, const beg
                         ALL(FAILED));
 }
 
-/* negative: a coordinate that is so at the end, or ICCP_FLOW_WITHIN; dips: whether one may be so
- * before although it is not there. */
+/* Examines the other coordinates. `negative` is one that is negative at the end, or
+ * ICCP_FLOW_WITHIN. `dips` tells whether one may have been negative earlier. */
 TARGET static ICCP_INLINE void find_negative(const piece_step *a, int32_t dim, const beginning *b,
                                              lanes *negative, mask *dips)
 {
@@ -461,9 +468,9 @@ TARGET static ICCP_INLINE void find_negative(const piece_step *a, int32_t dim, c
     }
 }
 
-/* One try: guesses the exit and when it is reached, adds up the series there, and goes the
- * rest of the way. Accepted only if the rest was short and no other coordinate is, or may have
- * been, negative; else the outcome says what to try next. */
+/* One try: guesses the exit and its parameter, adds up the series there, and goes the rest of
+ * the way. The try succeeds if the rest was short and no other coordinate is, or may have been,
+ * negative. Otherwise the outcome tells what to try next. */
 TARGET static ICCP_INLINE void try_exit(piece_step *a, int32_t dim)
 {
     lanes first[3][ICC_MAX_DIM], s, negative;
@@ -488,10 +495,10 @@ TARGET static ICCP_INLINE void try_exit(piece_step *a, int32_t dim)
     a->end = SELECT(fits, a->end, s);
 }
 
-/* Tries that are made before a piece is left to the slow way. */
+/* The most tries before a piece goes to the slow way. */
 enum { MOST_TRIES = 6 };
 
-/* Whether a lane has got something else to try, and sets it up. */
+/* Prepares the next try of a lane. Returns false if there is nothing else to try. */
 TARGET static ICCP_INLINE bool prepare_retry(piece_step *a, int l)
 {
     const int outcome = (int)LANE(a->outcome, l);
@@ -502,7 +509,7 @@ TARGET static ICCP_INLINE bool prepare_retry(piece_step *a, int l)
 
 /* ---- walks ---- */
 
-/* The start of a walk's piece goes to lane l of the step. */
+/* Loads the start of a walk's piece into lane l of the step. */
 TARGET static ICCP_INLINE void load_start(piece_step *a, int32_t dim, int l,
                                           const iccp_flow_walk *w)
 {
@@ -522,7 +529,7 @@ TARGET static ICCP_INLINE void load_start(piece_step *a, int32_t dim, int l,
     LANE(a->end, l) = 0;
 }
 
-/* The end of the piece that has been found. */
+/* Stores the end of the piece that lane l has found. */
 TARGET static ICCP_INLINE void store_end(const piece_step *a, int32_t dim, int l, iccp_flow_walk *w)
 {
     for (int32_t k = 0; k < dim; ++k)
@@ -536,7 +543,7 @@ TARGET static ICCP_INLINE void store_end(const piece_step *a, int32_t dim, int l
     w->end_growth = w->end * trace;
 }
 
-/* What is needed to go anywhere within it. */
+/* Stores the series, so that the walk can go anywhere within its piece. */
 TARGET static ICCP_INLINE void store_series(const piece_step *a, int32_t dim, int l,
                                             iccp_flow_walk *w)
 {

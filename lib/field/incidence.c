@@ -1,6 +1,9 @@
-/* A simplex and a facet have a common point unless some plane separates them. Only the planes of
- * the simplex' own facets and the plane of the facet are tried, so that a few simplices are taken
- * to touch although they do not; none is missed. */
+/* Finds the simplices that meet a domain, and the facets near each vertex. Source: the separating
+ * plane theorem.
+ *
+ * A simplex and a facet have a common point unless some plane separates them. Only the planes of
+ * the simplex's own facets and of the boundary facet are tried. So a few simplices count as
+ * touched although they are not, but none is missed. */
 #include "field/incidence.h"
 
 #include "base/minmax.h"
@@ -11,8 +14,8 @@
 
 enum { FACETS_PER_REPORT = 1 << 12 };
 
-/* Lattice units: a boundary along the facets of the grid, as that of a mask, runs through none of
- * the simplices on either side. Coordinates are rounded to 1e-14 or so. */
+/* Lattice units. A boundary that follows the facets of the grid, such as a mask's, runs through
+ * none of the simplices on either side. Coordinates are rounded to about 1e-14. */
 static const double CONTACT = 1e-9;
 
 typedef enum { APART, GRAZES, TOUCHES } contact;
@@ -29,7 +32,7 @@ int32_t iccp_order_rank(int32_t dim, const int8_t *axis)
     return rank;
 }
 
-/* The next one in lexicographic order; false after the last. */
+/* Goes to the next order in lexicographic sequence. Returns false after the last. */
 static bool next_order(int32_t dim, int8_t *axis)
 {
     int32_t i = dim - 2, j = dim - 1;
@@ -68,7 +71,7 @@ void iccp_orders_init(iccp_orders *orders, const icc_grid *grid)
     }
 }
 
-/* A facet on its way through the grid. */
+/* One facet's pass through the grid. */
 typedef struct scan {
     iccp_incidence *incidence;
     const icc_domain *domain;
@@ -77,20 +80,23 @@ typedef struct scan {
     double corner[ICC_MAX_DIM][ICC_MAX_DIM]; /* lattice coordinates */
     double normal[ICC_MAX_DIM];              /* inward */
     double level;                            /* of the facet's plane */
-    uint32_t faces;                          /* of the simplex looked at: met by the facet */
-    uint32_t reached;                        /* its corners that count where the facet is */
-    int32_t settled;                         /* how many axes of its order settle that it is
+    uint32_t faces;                          /* faces of the current simplex that the facet meets */
+    uint32_t reached;                        /* corners of the current simplex that count where the
+                                                facet is */
+    int32_t settled;                         /* how many axes of its order prove that the simplex is
                                                 apart */
-    bool second;                             /* pass: all bits are known */
-    uint32_t *seen;                          /* by vertex: the last facet noted there, + 1 */
-    uint32_t *count;                         /* by vertex: how many facets, in the second pass */
+    bool second;                             /* second pass: all bits are known */
+    uint32_t *seen;                          /* by vertex: 1 + the last facet noted there */
+    uint32_t *count;                         /* by vertex: number of facets noted in the second pass
+                                                */
     uint32_t *noted;                         /* the vertices of one facet after the other */
     size_t n_noted, room;
-    size_t *end;       /* by facet: of its vertices in `noted` */
-    uint32_t *outside; /* by cell: simplices found outside, up to 4-D */
+    size_t *end;       /* by facet: where its vertices end in `noted` */
+    uint32_t *outside; /* by cell: bits of simplices found outside, up to 4-D */
 } scan;
 
-/* Inward normal of unit length by elimination: the null vector of the facet's edges. */
+/* Finds the normal of unit length by elimination, as the null vector of the facet's edges, and
+ * turns it inward. */
 static void find_normal(scan *s)
 {
     const int32_t dim = s->domain->dim;
@@ -135,8 +141,8 @@ static void find_normal(scan *s)
         s->normal[k] /= length;
 }
 
-/* The sign of the determinant of the facet's edges and a vector, which tells one side from the
- * other. */
+/* The determinant of the facet's edges and a vector. Its sign tells on which side of the facet
+ * the vector points. */
 static double side_of(const scan *s, const double *v)
 {
     const int32_t dim = s->domain->dim;
@@ -191,7 +197,8 @@ static void load_facet(scan *s, uint32_t facet)
     const int32_t dim = s->domain->dim;
     load_corners(s, facet);
     find_normal(s);
-    /* An outward vector, then the edges, have the orientation's sign; here it comes last. */
+    /* The orientation's sign belongs to an outward vector followed by the edges. Here the vector
+     * comes last. */
     const double parity = dim % 2 == 0 ? -1 : 1;
     const double outward = side_of(s, s->normal) * s->domain->orientation * parity;
     for (int32_t k = 0; k < dim; ++k) {
@@ -201,7 +208,7 @@ static void load_facet(scan *s, uint32_t facet)
     find_level(s);
 }
 
-/* Whether the plane of the facet passes a simplex on one side. */
+/* Compares a simplex with the plane of the facet: on one side, touched, or cut. */
 static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *axis)
 {
     double height = -s->level, low, high;
@@ -221,7 +228,7 @@ static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *a
 static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;
-    contact least = plane_contact(s, cell, axis); /* the cheaper part, which most fail */
+    contact least = plane_contact(s, cell, axis); /* the cheaper test, which most simplices fail */
     s->faces = s->reached = 0;
     s->settled = dim;
     if (least == APART)
@@ -245,7 +252,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
     return least;
 }
 
-/* The corners of a simplex in a cell, and whether one is inside. */
+/* Lists the corners of a simplex in a cell. Returns true if one of them is inside. */
 static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint32_t *corner)
 {
     const icc_grid *grid = s->incidence->grid;
@@ -258,8 +265,8 @@ static bool corners_of(const scan *s, uint32_t lowest, const int8_t *axis, uint3
     return any;
 }
 
-/* Whether the middle of a simplex that the boundary only grazes is inside; asked once where each
- * has a bit. */
+/* Returns true if the middle of a simplex that the boundary only grazes is inside. Up to 4-D,
+ * where each simplex has its own bit, an outside result is stored and not computed again. */
 static bool middle_is_inside(const scan *s, const int32_t *cell, uint32_t lowest, int32_t r)
 {
     const icc_grid *grid = s->incidence->grid;
@@ -291,7 +298,8 @@ static bool reserve(scan *s)
     return true;
 }
 
-/* A facet that only touches a face of a simplex does not meet the vectors of the other corners. */
+/* Notes the facet at the simplex's corners. A facet that only touches a face of a simplex does
+ * not meet the vectors of the other corners. */
 static bool note(scan *s, const uint32_t *corner)
 {
     if (!reserve(s))
@@ -317,7 +325,8 @@ static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t
         return true;
     const bool any_inside = corners_of(s, lowest, axis, corner);
     const bool has = iccp_incidence_has(s->incidence, lowest, r);
-    /* What is grazed from outside belongs to nobody, unless another facet runs through it. */
+    /* A simplex that is only grazed from outside is not part of the domain, unless another facet
+     * runs through it. */
     if (c == GRAZES && !any_inside && !has && !middle_is_inside(s, cell, lowest, r))
         return true;
     s->incidence->bits[lowest] |= (uint32_t)1 << (r % 32);
@@ -327,8 +336,8 @@ static bool visit_simplex(scan *s, const int32_t *cell, uint32_t lowest, int32_t
     return s->second ? note(s, corner) : true;
 }
 
-/* Orders that begin alike follow each other, and what the beginning settles need not be asked
- * again. */
+/* Consecutive orders begin alike. If the common beginning proves that a simplex is apart, the
+ * other orders that begin so are skipped. */
 static bool visit_cell(scan *s, const int32_t *cell)
 {
     const icc_grid *grid = s->incidence->grid;
@@ -406,7 +415,7 @@ icc_status iccp_incidence_make_room(iccp_incidence *incidence, uint32_t *count)
     return incidence->facet != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* From the vertices of each facet to the facets at each vertex. */
+/* Turns the list of vertices by facet into the list of facets by vertex. */
 static icc_status turn_round(scan *s)
 {
     const icc_status status = iccp_incidence_make_room(s->incidence, s->count);
@@ -417,8 +426,7 @@ static icc_status turn_round(scan *s)
     return status;
 }
 
-/* Which simplices the boundary meets may be known of one facet only after another: so there are two
- * passes. */
+/* Two passes are needed, because a later facet may show that the boundary meets a simplex. */
 static icc_status visit_twice(scan *s, const iccp_env *env)
 {
     icc_status status = visit_all(s, env);

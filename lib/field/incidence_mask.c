@@ -1,7 +1,7 @@
-/* The facets of a mask's boundary run along an order of all axes but one, like the simplices of the
- * grid (domain/mask_boundary.c), a number of grid steps on each. All is found in whole numbers, and
- * once for every vertex of the grid on the boundary, not for every pair of a facet and a
- * simplex. */
+/* Incidence of masks, in whole numbers. A facet of a mask's boundary follows an order of all
+ * axes but one, like the simplices of the grid, with a number of grid steps on each axis
+ * (domain/mask_boundary.c). So each boundary vertex of the grid is examined once, instead of
+ * each pair of a facet and a simplex. */
 #include "field/incidence_mask.h"
 
 #include "base/minmax.h"
@@ -15,17 +15,17 @@ enum { FACETS_PER_REPORT = 1 << 12 };
 /* Lattice units. */
 static const double ROUNDING = 1e-9;
 
-/* The mask in the lattice. */
+/* The mask in lattice coordinates. */
 typedef struct layout {
     iccp_incidence *incidence;
     const iccp_orders *orders;
     int64_t first[ICC_MAX_DIM]; /* lattice coordinates of the mask's lowest corner */
-    int64_t half;               /* steps of the grid in half a cell of the mask */
-    uint32_t *count;            /* by vertex: how many facets it lies in, then where the next is
-                                   noted */
+    int64_t half;               /* grid steps in half a cell of the mask */
+    uint32_t *count;            /* by vertex: the number of facets that it lies in, then the
+                                   position of the next note */
 } layout;
 
-/* A facet: from its lowest corner along each of the axes in turn. */
+/* A facet as a chain of steps: from its lowest corner along each of the axes in turn. */
 typedef struct chain {
     uint32_t lowest;
     int8_t axis[ICC_MAX_DIM];
@@ -37,9 +37,9 @@ static bool is_whole(double x)
     return fabs(x - round(x)) < ROUNDING;
 }
 
-/* Finds where the mask lies in the lattice; false unless half a cell is a whole number of grid
- * steps, the mask's corner is a lattice point and one layer of the grid lies beyond on all
- * sides. */
+/* Finds where the mask lies in the lattice. Returns false unless half a cell is a whole number
+ * of grid steps, the mask's corner is a lattice point, and a layer of the grid lies beyond on
+ * all sides. */
 static bool find_layout(layout *l)
 {
     const icc_grid *grid = l->incidence->grid;
@@ -62,7 +62,7 @@ static bool find_layout(layout *l)
     return fits;
 }
 
-/* Whether the cell of the grid with this lowest corner lies in the mask. */
+/* Returns true if the cell of the grid with this lowest corner lies in the mask. */
 static bool is_solid(const layout *l, uint32_t lowest)
 {
     const iccp_mask *mask = l->incidence->domain->mask;
@@ -77,8 +77,8 @@ static bool is_solid(const layout *l, uint32_t lowest)
     return mask->cells[cell];
 }
 
-/* The corners of a facet come in any order: an axis is gone along the earlier, the more corners are
- * high. */
+/* Loads a facet, whose corners come in any order. The more corners are high along an axis, the
+ * earlier the chain takes that axis. */
 static void load_chain(const layout *l, uint32_t facet, chain *c)
 {
     const icc_grid *grid = l->incidence->grid;
@@ -105,8 +105,8 @@ static void load_chain(const layout *l, uint32_t facet, chain *c)
     }
 }
 
-/* The next point of the lattice in a facet, as steps along its axes: falling numbers, from 0 to
- * `half`. */
+/* Goes to the next lattice point of a facet. A point is given by steps along the facet's axes:
+ * numbers from 0 to `half` that never increase. */
 static bool next_point(int32_t n, int64_t half, int64_t *step)
 {
     int32_t i = n - 1;
@@ -156,8 +156,8 @@ static void note_facet(layout *l, uint32_t facet)
     } while (next_point(l->incidence->grid->dim - 1, l->half, step));
 }
 
-/* The lowest corner of the simplex of an order in which a vertex is corner k, and whether any is
- * inside. */
+/* The lowest corner of the simplex with order r whose corner k is the vertex. `*any_inside`
+ * tells whether a corner of it is inside. */
 static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, bool *any_inside)
 {
     const icc_grid *grid = l->incidence->grid;
@@ -174,8 +174,8 @@ static uint32_t lowest_of(const layout *l, uint32_t v, int32_t r, int32_t k, boo
     return lowest;
 }
 
-/* Notes the simplices at a vertex of the boundary, and their faces at it; whether the domain meets
- * any. */
+/* Notes the simplices at a boundary vertex, and their faces at it. Returns true if one of them
+ * meets the domain. */
 static bool mark_star(const layout *l, uint32_t v)
 {
     const int32_t dim = l->incidence->grid->dim;

@@ -1,5 +1,6 @@
-/* Based on: P. Wolfe, Finding the Nearest Point in a Polytope, Mathematical Programming 11,
- * 1976. */
+/* Source: P. Wolfe, Finding the Nearest Point in a Polytope, Mathematical Programming 11, 1976.
+ *
+ * A corral is a simplex of the given points. It changes until it holds the nearest point. */
 #include "field/minnorm.h"
 
 #include "icc/base.h"
@@ -12,10 +13,10 @@
 
 enum { MOST_CORNERS = ICC_MAX_DIM + 1, MOST_ROUNDS = 1000 };
 
-/* Points and products are about 1; what differs by less is the same. */
+/* Points and products are about 1, so smaller differences are rounding. */
 static const double TOLERANCE = 1e-14;
 
-/* A simplex of the points and weights of its corners, positive, sum 1. */
+/* A simplex of the points, with positive weights of its corners that sum to 1. */
 typedef struct corral {
     size_t n;
     size_t corner[MOST_CORNERS + 1];
@@ -55,8 +56,9 @@ static bool solve(size_t n, double a[][MOST_CORNERS + 1], double *x)
     return true;
 }
 
-/* The weights of the point nearest to the origin in the plane through the corners: the rows of the
- * Gram matrix are equal there. Adding 1 to all products makes the system positive definite. */
+/* The weights of the point nearest to the origin in the plane through the corners. At this point
+ * all rows of the Gram matrix give the same product. Adding 1 to all products makes the system
+ * positive definite. */
 static bool affine_weights(size_t dim, const double *points, const corral *c, double *weight)
 {
     double gram[MOST_CORNERS + 1][MOST_CORNERS + 1], sum = 0;
@@ -75,7 +77,7 @@ static bool affine_weights(size_t dim, const double *points, const corral *c, do
     return true;
 }
 
-/* Goes from the weights towards others until a corner loses its weight, and drops it. */
+/* Moves the weights towards the target until a corner loses its weight, and drops that corner. */
 static void move_to_face(corral *c, const double *target)
 {
     double share = 1;
@@ -122,8 +124,8 @@ static size_t lowest(size_t dim, size_t n, const double *points, const double *d
     return best;
 }
 
-/* Shrinks the corral until its nearest point is within it. False when its corners depend on each
- * other. */
+/* Shrinks the corral until its nearest point lies within it. Returns false if its corners depend
+ * on each other. */
 static bool shrink_corral(size_t dim, const double *points, corral *c)
 {
     double weight[MOST_CORNERS + 1];

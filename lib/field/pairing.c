@@ -1,6 +1,6 @@
-/* Based on: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM
- * Transactions on Graphics 25, 2006: the affine map that fits the boundary best, the nearer the
- * better. */
+/* Source: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM
+ * Transactions on Graphics 25, 2006. The point moves by the affine map that fits the boundary
+ * best, with more weight on near facets. */
 #include "field/pairing.h"
 
 #include "math/elementary.h"
@@ -8,11 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Share of the point's distance from the boundary that its image must keep. */
+/* The share of its distance from the boundary that the point's image must keep. */
 static const double LEAST_DEPTH = 0.5;
 
 typedef struct fit {
-    double weight, from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* sum; weighted means */
+    double weight, from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* sum of the weights; weighted means */
     double square[ICC_MAX_DIM][ICC_MAX_DIM], cross[ICC_MAX_DIM][ICC_MAX_DIM];
 } fit;
 
@@ -25,7 +25,7 @@ static void middle_of(const icc_domain *domain, size_t facet, double *middle)
             middle[k] += domain->vertices[dim * domain->facets[dim * facet + i] + k] / (double)dim;
 }
 
-/* A facet counts by its extent and by its distance to the power of -2 dim. */
+/* Weight of a facet: its extent times its distance to the power of -2 dim. */
 static double weight_of(const icc_domain *domain, size_t facet, const double *middle,
                         const double *point)
 {
@@ -57,7 +57,8 @@ static void add_products(fit *f, size_t dim, double weight, const double *p, con
         }
 }
 
-/* square X = cross by elimination; the matrix is positive definite unless the boundary is flat. */
+/* Solves square X = cross by elimination. The matrix is positive definite unless the boundary is
+ * flat. */
 static void solve(fit *f, size_t dim)
 {
     for (size_t c = 0; c < dim; ++c)

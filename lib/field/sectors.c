@@ -1,3 +1,5 @@
+/* Divides the simplices at a vertex into sectors, and stores a vector for each. See sectors.h
+ * for the idea. */
 #include "field/sectors.h"
 
 #include <string.h>
@@ -31,7 +33,8 @@ size_t iccp_sectors_find(const iccp_sectors *sectors, uint32_t v)
     return low < sectors->n && sectors->vertex[low] == v ? low : SIZE_MAX;
 }
 
-/* A simplex at the vertex: its order, the vertex' place in it, its corners. */
+/* A simplex at the vertex: its order, the number k of the vertex among its corners, and the
+ * corners. */
 typedef struct member {
     int32_t r, k;
     int8_t axis[ICC_MAX_DIM];
@@ -53,7 +56,8 @@ static void load_simplex(member *m, const iccp_incidence *incidence, const iccp_
         m->corner[i + 1] = m->corner[i] + (uint32_t)incidence->grid->stride[m->axis[i]];
 }
 
-/* Across the face opposite to corner i < dim, i != k; the face's number there. */
+/* Finds the simplex across the face opposite to corner i, with i != k. Returns the face's number
+ * there. */
 static int32_t cross(const member *m, const iccp_incidence *incidence, int32_t i, member *other)
 {
     const int32_t dim = incidence->grid->dim;
@@ -72,8 +76,8 @@ static int32_t cross(const member *m, const iccp_incidence *incidence, int32_t i
     return dim;
 }
 
-/* Whether the domain continues through a face: surely where a corner is inside, perhaps where the
- * boundary meets the face. A simplex without a vertex inside is taken to belong to its
+/* Returns true if the domain continues through a face. It does if a corner is inside, and it may
+ * if the boundary meets the face. A simplex without an inside vertex is joined to its
  * neighbours. */
 static bool is_open(const member *m, const member *other, const iccp_incidence *incidence,
                     int32_t i, int32_t other_i)
@@ -92,7 +96,7 @@ static bool is_open(const member *m, const member *other, const iccp_incidence *
             iccp_incidence_face_bit(grid->dim, other->r, other_i)) != 0;
 }
 
-/* Gives two parts the smaller number. */
+/* Gives two parts the smaller of their numbers. */
 static void join(size_t n, uint8_t *sector, uint8_t a, uint8_t b)
 {
     const uint8_t from = a > b ? a : b, to = a > b ? b : a;
@@ -100,7 +104,7 @@ static void join(size_t n, uint8_t *sector, uint8_t a, uint8_t b)
         sector[i] = sector[i] == from ? to : sector[i];
 }
 
-/* Numbers 0, 1, .. in the order of first use. */
+/* Numbers the parts 0, 1, .. in the order of first use. */
 static int renumber(size_t n, uint8_t *sector)
 {
     uint8_t name[ICCP_NO_SECTOR];
@@ -115,7 +119,7 @@ static int renumber(size_t n, uint8_t *sector)
     return count;
 }
 
-/* Every active simplex starts as a part of its own; open faces join parts. */
+/* Every active simplex starts as a part of its own. Open faces then join parts. */
 int iccp_sectors_split(const iccp_incidence *incidence, const iccp_orders *orders, uint32_t v,
                        const uint8_t *active, uint8_t *sector)
 {
@@ -123,7 +127,7 @@ int iccp_sectors_split(const iccp_incidence *incidence, const iccp_orders *order
     const size_t n = (size_t)(orders->n * (dim + 1));
     int count = 0;
     for (size_t i = 0; i < n; ++i) {
-        /* Too many to be told apart are one. */
+        /* Parts beyond the largest number share that number. */
         sector[i] =
             active[i] ? (uint8_t)(count < ICCP_NO_SECTOR - 1 ? count++ : count) : ICCP_NO_SECTOR;
     }
@@ -144,7 +148,8 @@ int iccp_sectors_split(const iccp_incidence *incidence, const iccp_orders *order
     return renumber(n, sector);
 }
 
-/* Arrays grow by doubling; a failed allocation leaves what is there intact. */
+/* Adds a vertex. Arrays grow by doubling, and a failed allocation leaves the old contents
+ * intact. */
 icc_status iccp_sectors_add(iccp_sectors *sectors, uint32_t v, int n_sectors, const uint8_t *sector)
 {
     const size_t dim = (size_t)sectors->dim;

@@ -1,15 +1,17 @@
-/* The field of docs/theory.md, fields on grids: where X_v . grad f > 0 in every simplex at v, for
- * all v, X . grad f > 0 everywhere, since X is linear in each simplex and grad f constant. X is
- * Lipschitz, so its curves do not merge, and f keeps them from closing.
+/* Chooses the vectors of the field. Source: docs/theory.md, "fields on grids". If X_v . grad f > 0
+ * in every simplex at v, for all v, then X . grad f > 0 everywhere, because X is linear in each
+ * simplex and grad f is constant. X is Lipschitz, so its curves do not merge. They cannot close,
+ * because f rises along them.
  *
- * A vector for a vertex: the mean of the gradients' directions if it will do, else the point of
- * their hull nearest to the origin, which exists if and only if any vector will. The inward normals
- * of the boundary are wanted too: with them the curves cross it one way. Where there is no vector
- * for all of these, the normals go first; where there is none for the gradients, the function is
- * changed a little: it is moved to the nearest values for which the gradients have a positive
- * product with the vector, simplex by simplex (L. G. Gubin, B. T. Polyak, E. V. Raik, The Method of
- * Projections for Finding the Common Point of Convex Sets, 1967), and the vectors are found
- * anew. */
+ * The vector of a vertex is the mean of the gradients' directions if that is uphill. Otherwise it
+ * is the point of their hull nearest to the origin, which is uphill if and only if any vector is.
+ * The boundary's inward normals should agree too, because then curves cross the boundary one way.
+ * If no vector suits all of these, the normals have priority.
+ *
+ * If no vector suits the gradients, the function is changed a little. It moves to the nearest
+ * values for which the gradients have a positive product with the vector, simplex by simplex.
+ * The vectors are then found anew. Source of this projection: L. G. Gubin, B. T. Polyak, E. V.
+ * Raik, The Method of Projections for Finding the Common Point of Convex Sets, 1967. */
 #include "field/vectors.h"
 
 #include "base/minmax.h"
@@ -24,13 +26,13 @@ enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40, TYPICAL_ROUNDS = 4
 
 static const size_t GRAIN = 1 << 10; /* vertices per chunk */
 
-/* Products of unit vectors. A mean is taken when all are above the first, which keeps the vectors
- * smooth; a vector passes with the second; the projection aims at the third. */
+/* Products of unit vectors. The mean is taken if all its products exceed GOOD, which keeps the
+ * vectors smooth. A vector is accepted if they exceed LEAST. The projection aims at AIM. */
 static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
 
-/* A vertex and the simplices at it. A simplex is (r, k): the order r of the axes, in which the
- * vertex is corner k. Values and flags are indexed by a set of axes, bit i being axis i: those
- * at the vertex plus, or minus, one step along each axis of the set. */
+/* A vertex and the simplices at it. A simplex is given as (r, k): the vertex is corner k in the
+ * order r of the axes. Values and flags are indexed by a set of axes, in which bit i stands for
+ * axis i. They belong to the vertex plus, or minus, one step along each axis of the set. */
 typedef struct star {
     const iccp_extension *extension;
     const iccp_incidence *incidence;
@@ -40,12 +42,13 @@ typedef struct star {
     double up[1 << ICC_MAX_DIM], down[1 << ICC_MAX_DIM]; /* values, by set of axes */
     uint8_t up_inside[1 << ICC_MAX_DIM], down_inside[1 << ICC_MAX_DIM];
     size_t n_gradients, n_normals;
-    double *direction;     /* gradients, then normals: length 1 */
-    const uint8_t *sector; /* by simplex; only those in sector `number` are looked at. NULL: all */
+    double *direction;     /* gradients, then normals, each of length 1 */
+    const uint8_t *sector; /* by simplex; only the simplices of sector `number` count. NULL: all
+                              count */
     uint8_t number;
 } star;
 
-/* (dim + 1)! simplices at a vertex, one gradient each, and the normals. */
+/* The simplices at a vertex, (dim + 1)! with a gradient each, and the normals. */
 static size_t most_directions(int32_t dim)
 {
     size_t n = 1;
@@ -54,8 +57,8 @@ static size_t most_directions(int32_t dim)
     return n + MOST_NORMALS;
 }
 
-/* Takes the values around a vertex, all with the greatest of their exponents, so that
- * differences make sense. */
+/* Loads the values around a vertex. All get the greatest of their exponents, so that they can be
+ * subtracted. */
 static void load_star(star *s, uint32_t v)
 {
     const icc_grid *grid = s->extension->grid;
@@ -78,7 +81,8 @@ static void load_star(star *s, uint32_t v)
     }
 }
 
-/* Whether simplex r with the vertex as corner k meets the domain; its lowest corner. */
+/* Returns true if simplex r with the vertex as corner k meets the domain, and writes its lowest
+ * corner. */
 static bool is_active(const star *s, int32_t r, int32_t k, uint32_t *lowest)
 {
     const int8_t *axis = s->orders->axis[r];
@@ -119,7 +123,7 @@ static void gradient_of(const star *s, int32_t r, int32_t k, double *gradient)
     }
 }
 
-/* False when the vector has no direction. */
+/* Returns false if the vector is zero. */
 static bool normalise(int32_t dim, double *v)
 {
     double longest = 0;
@@ -135,7 +139,8 @@ static bool normalise(int32_t dim, double *v)
     return true;
 }
 
-/* A gradient of 0 stays as it is: no vector has a positive product with it. */
+/* Lists the directions of the gradients. A zero gradient stays zero, because no vector has a
+ * positive product with it. */
 static void list_gradients(star *s)
 {
     const int32_t dim = s->orders->dim;
@@ -151,7 +156,7 @@ static void list_gradients(star *s)
         }
 }
 
-/* Whether a facet runs through some simplex of the sector that is looked at. */
+/* Returns true if a facet runs through a simplex of the current sector. */
 static bool is_in_sector(const star *s, uint32_t facet)
 {
     for (int32_t r = 0; s->sector != NULL && r < s->orders->n; ++r)
@@ -164,8 +169,8 @@ static bool is_in_sector(const star *s, uint32_t facet)
     return s->sector == NULL;
 }
 
-/* The inward normals of the facets at the vertex, behind the gradients. Parallel ones count
- * once, which keeps their number small on flat boundaries. */
+/* Lists the inward normals of the facets at the vertex after the gradients. Parallel normals
+ * count once, which keeps their number small on flat boundaries. */
 static void list_normals(star *s)
 {
     static const double SAME = 1 - 1e-12;
@@ -183,7 +188,7 @@ static void list_normals(star *s)
     }
 }
 
-/* The least product of a vector of length 1 with any of n directions. */
+/* The least product of a unit vector with any of n directions. */
 static double least_product(int32_t dim, size_t n, const double *direction, const double *x)
 {
     double least = DBL_MAX;
@@ -192,8 +197,8 @@ static double least_product(int32_t dim, size_t n, const double *direction, cons
     return least;
 }
 
-/* A vector of length 1 with products above LEAST with all of n directions. If there is none, false
- * and the mean or, where that is 0, nothing new. */
+/* Finds a vector of length 1 whose products with all n directions exceed LEAST. If there is
+ * none, returns false, and x becomes the mean, or stays as it is if the mean is 0. */
 static bool find_vector(int32_t dim, size_t n, const double *direction, double *x)
 {
     double mean[ICC_MAX_DIM] = {0}, nearest[ICC_MAX_DIM];
@@ -213,7 +218,7 @@ static bool find_vector(int32_t dim, size_t n, const double *direction, double *
     return true;
 }
 
-/* Towards the root, for vertices joined to it. */
+/* If a vertex is joined to the root, writes the vector that leads there and returns true. */
 static bool is_radial(const star *s, double *x)
 {
     const int n_sets = 1 << s->orders->dim;
@@ -228,8 +233,8 @@ static bool is_radial(const star *s, double *x)
     return false;
 }
 
-/* Tilts x, which agrees with n normals, towards `uphill` as far as it still agrees with them by
- * half as much: 4, 2, .. times `uphill` are tried. */
+/* Tilts x towards `uphill` by 4, 2, .. times that vector. It takes the largest tilt that keeps
+ * half of the least product with the n normals, or AIM if that is smaller. */
 static void tilt_uphill(int32_t dim, size_t n, const double *normals, const double *uphill,
                         double *x)
 {
@@ -245,11 +250,14 @@ static void tilt_uphill(int32_t dim, size_t n, const double *normals, const doub
     }
 }
 
-/* Writes the vector of a vertex, or of one sector of it; returns whether it is uphill in all
- * simplices. In this order: towards the root next to the root; a vector for gradients and
- * normals together; if there is none, one for the normals, tilted uphill; or one for the
- * gradients alone, which comes before the normals when `gradients_first`. `agrees`: whether it
- * suits everything. */
+/* Writes the vector of a vertex, or of one sector of it. Returns true if it is uphill in all
+ * simplices. The first of these that exists is taken:
+ * - next to the root, the vector to the root;
+ * - a vector that suits gradients and normals;
+ * - unless `gradients_first`, a vector that suits the normals, tilted uphill;
+ * - a vector that suits the gradients.
+ *
+ * `*agrees` tells whether the vector suits both gradients and normals. */
 static bool choose_vector(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;
@@ -284,13 +292,13 @@ typedef struct work {
     iccp_extension *extension;
     const iccp_incidence *incidence;
     const iccp_orders *orders;
-    uint8_t *state;          /* by vertex: bits below */
-    iccp_extension original; /* the function before any change; only its values are its own */
+    uint8_t *state;          /* by vertex: bits, defined below */
+    iccp_extension original; /* the function before any change; owns only its values */
 } work;
 
 enum { DIRTY = 1, FAILS = 2, GRADIENTS_FIRST = 4, SPLIT = 8, CONFLICTS = 16 };
 
-/* The vector of a vertex as corner k of simplex r. */
+/* Loads the vector of a vertex as corner k of simplex r. */
 static void load_vector(const work *w, uint32_t v, int32_t r, int32_t k, double *x)
 {
     const int32_t dim = w->orders->dim;
@@ -313,8 +321,7 @@ static void store_vector(float *vector, int32_t dim, const double *x)
         vector[k] = (float)x[k];
 }
 
-/* Chooses the vectors of a vertex that has several, one for each sector; returns whether all are
- * uphill. */
+/* Chooses the vectors of a vertex with several sectors. Returns true if all are uphill. */
 static bool choose_sectors(work *w, star *s, uint32_t v)
 {
     const iccp_sectors *sectors = &w->vectors->sectors;
@@ -334,8 +341,8 @@ static bool choose_sectors(work *w, star *s, uint32_t v)
     return good;
 }
 
-/* Chooses the vectors of vertices marked DIRTY. Each depends on the function alone, not on other
- * vectors: chunks may run in any order. */
+/* Chooses the vectors of vertices marked DIRTY. Each depends on the function alone and not on
+ * other vectors, so chunks may run in any order. */
 static icc_status choose_chunk(void *argument, size_t begin, size_t end)
 {
     work *w = argument;
@@ -370,8 +377,8 @@ static void list_active(const star *s, uint8_t *active)
         }
 }
 
-/* Gives several vectors to vertices outside, between parts of the domain, that no single vector
- * suits. Those next to the root stay radial. */
+/* Gives several vectors to outside vertices, between parts of the domain, that no single vector
+ * suits. Vertices next to the root keep their radial vector. */
 static icc_status split_vertices(work *w)
 {
     const icc_grid *grid = w->extension->grid;
@@ -402,9 +409,10 @@ static icc_status split_vertices(work *w)
     return status;
 }
 
-/* How far the value of a vertex may be changed: inside to half of it or twice; outside next to the
- * inside, to as much as the smallest value there, since across a gap the function may be smaller by
- * any factor, and what is little on one side is too much on the other. */
+/* Bounds for the value of a vertex. In general the value may be halved or doubled. Outside next
+ * to the inside, its size may grow to the smallest value of the inside vertices joined to it.
+ * Across a gap the function may be smaller by any factor, so a small change on one side may be
+ * too large on the other. */
 static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low, double *high)
 {
     const icc_grid *grid = w->extension->grid;
@@ -426,7 +434,7 @@ static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low
     }
 }
 
-/* Adds a step to the value of a vertex, within the bounds for it. */
+/* Adds a step to the value of a vertex, within its bounds. */
 static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
 {
     double low, high;
@@ -435,10 +443,10 @@ static void move_value(const work *w, uint32_t v, int32_t exponent, double step)
     iccp_extension_set(w->extension, v, iccp_min(iccp_max(value, low), high), exponent);
 }
 
-/* Moves the values of the corners of one simplex so that the gradient's product with x is AIM of
- * its length, as far as they may be; the root's, which is the largest, stays. The product is the
- * sum of the values, each times how much faster x goes along the axis before the corner than along
- * the one after it. */
+/* Moves the corner values of one simplex, within their bounds, until the gradient's product with
+ * x is AIM times its length. The root's value, the largest, stays. The product is a weighted sum
+ * of the values. Each weight is the component of x along the axis before the corner minus the
+ * one along the axis after it. */
 static bool project_values(const work *w, const star *s, int32_t r, uint32_t lowest,
                            const double *x, const double *gradient)
 {
@@ -465,7 +473,7 @@ static bool project_values(const work *w, const star *s, int32_t r, uint32_t low
     return norm2 > 0;
 }
 
-/* Everything at the vertices around has to be looked at again. */
+/* Marks all vertices around v to be examined again. */
 static void mark_dirty(const work *w, uint32_t v)
 {
     const icc_grid *grid = w->extension->grid;
@@ -482,8 +490,8 @@ static void mark_dirty(const work *w, uint32_t v)
     }
 }
 
-/* Projects the function, simplex by simplex, onto the values for which the vertex' vector is
- * uphill. One projection may spoil another: the caller repeats. */
+/* Projects the function, simplex by simplex, onto the values for which the vertex's vector is
+ * uphill. One projection may spoil another, so the caller repeats. */
 static void adjust_values(work *w, star *s, uint32_t v)
 {
     const int32_t dim = w->orders->dim;
@@ -512,8 +520,8 @@ static icc_status choose_all(work *w, const iccp_env *env)
     return status;
 }
 
-/* Alternates adjusting the function and choosing vectors until all are uphill. From FIRM_ROUNDS
- * on, vertices that still fail give up the normals. */
+/* Alternates between adjusting the function and choosing vectors until all are uphill. From
+ * FIRM_ROUNDS on, vertices that still fail ignore the normals. */
 static icc_status adjust_all(work *w, const iccp_env *env)
 {
     star s;
@@ -532,7 +540,8 @@ static icc_status adjust_all(work *w, const iccp_env *env)
     return status;
 }
 
-/* Facets at a vertex, or at one sector of it, and those that its vector does not cross inward. */
+/* Counts the facets at a vertex, or at one sector of it, and those that its vector does not
+ * cross inward. */
 static void count_contacts(work *w, const star *s, const float *vector)
 {
     const size_t dim = (size_t)w->orders->dim;
@@ -548,8 +557,8 @@ static void count_contacts(work *w, const star *s, const float *vector)
     }
 }
 
-/* The boundary is crossed one way when it is at the corners of all simplices that it runs
- * through. */
+/* The boundary is crossed one way if the vectors point inward at the corners of all simplices
+ * that it runs through. */
 static icc_status check_inward(work *w)
 {
     const iccp_sectors *sectors = &w->vectors->sectors;
@@ -577,8 +586,8 @@ static icc_status check_inward(work *w)
     return status;
 }
 
-/* One vector for each vertex; several where one does not suit; then the function is adjusted
- * where neither is enough. */
+/* Chooses one vector for each vertex, and several where one does not suit. Where that is not
+ * enough, it adjusts the function. */
 static icc_status find_vectors(work *w, const iccp_env *env)
 {
     const icc_grid *grid = w->extension->grid;

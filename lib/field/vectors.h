@@ -1,30 +1,31 @@
 /* One vector for every vertex of the simplices that meet a domain, uphill in each simplex at the
- * vertex. Interpolated linearly they are a field along which the function rises everywhere. */
+ * vertex. Interpolated linearly, the vectors form a field along which the function rises
+ * everywhere. Source: docs/theory.md, "fields on grids", step 2. */
 #ifndef ICCP_VECTORS_H
 #define ICCP_VECTORS_H
 
 #include "field/extension.h"
 #include "field/sectors.h"
 
-/* In place of the first coordinate of a vector: see `sectors`. */
+/* Replaces the first coordinate of a vector if the vertex has several; see `sectors`. */
 #define ICCP_SEVERAL HUGE_VALF
 
 typedef struct iccp_vectors {
     iccp_memory memory;
     const icc_grid *grid; /* borrowed */
-    float *vector;        /* dim per vertex: of length 1, but from vertices joined to the root all
-                             the way to it, so that the field is radial around it; 0 where none is
-                             needed. Exactly these numbers are checked: half the memory, which
-                             curves wait for */
+    float *vector;        /* dim numbers per vertex: of length 1, but from a vertex joined to the
+                             root all the way to it, so that the field is radial there; 0 if not
+                             needed. The checks use exactly these floats, which take half the memory
+                             that curves wait for */
     iccp_sectors sectors; /* the vectors of vertices that have several */
-    size_t n_vertices;    /* that need one */
-    size_t n_infeasible;  /* where no vector is uphill in all simplices */
-    size_t n_adjusted;    /* values of the function that were changed to prevent that */
+    size_t n_vertices;    /* number of vertices that need a vector */
+    size_t n_infeasible;  /* number of vertices without an uphill vector */
+    size_t n_adjusted;    /* number of function values that were changed to prevent that */
     size_t n_contacts;    /* pairs of a simplex and a facet that runs through it */
-    size_t n_not_inward;  /* those of them where a vector does not point inward */
+    size_t n_not_inward;  /* number of contacts where a vector does not point inward */
 } iccp_vectors;
 
-/* Changes `extension` where it has to. Free it in any case. */
+/* Chooses the vectors, and changes `extension` if necessary. Free the vectors in any case. */
 icc_status iccp_vectors_create(iccp_vectors *vectors, iccp_extension *extension,
                                const iccp_incidence *incidence, const iccp_env *env);
 void iccp_vectors_free(iccp_vectors *vectors);
