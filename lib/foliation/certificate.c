@@ -1,5 +1,8 @@
-/* Index counting for discrete one-forms: T. Banchoff, Critical points and curvature for embedded
- * polyhedral surfaces, 1970; Gortler, Gotsman, Thurston, 2006. */
+/* Certifies meshes and foliations in the plane, with integers and exact signs.
+ *
+ * Source: index counting for discrete one-forms. T. Banchoff, Critical points and curvature for
+ * embedded polyhedral surfaces, 1970. S. Gortler, C. Gotsman, D. Thurston, Discrete one-forms on
+ * meshes and applications to 3D mesh parameterization, 2006. */
 #include "foliation/certificate.h"
 
 #include "math/predicates.h"
@@ -10,8 +13,8 @@ bool iccp_certificate_holds(const iccp_certificate *c)
            c->n_irregular == 0;
 }
 
-/* Whether the half-edge that a corner faces has the right partner: its twin runs the other way, or
- * it is edge k of the boundary. */
+/* Returns true if the half-edge that a corner faces has the right partner: a twin that runs the
+ * other way, or edge k of the boundary. */
 static bool is_linked(const iccp_planar *mesh, uint32_t corner)
 {
     const uint32_t a = mesh->triangles[iccp_after(corner)];
@@ -43,19 +46,19 @@ void iccp_certify_mesh(const iccp_planar *mesh, const double *points, iccp_certi
         certificate->n_topology += !is_linked(mesh, c);
     }
     certificate->n_inverted = iccp_count_inverted(mesh, points);
-    /* vertices - edges + triangles = 1, with 2 edges = 3 triangles + boundary edges */
+    /* vertices - edges + triangles = 1, where 2 edges = 3 triangles + boundary edges */
     const bool is_disc = n_boundary == mesh->n_boundary &&
                          2 * mesh->n_vertices == mesh->n_triangles + n_boundary + 2;
     certificate->n_topology += !is_disc;
 }
 
-/* The sign of the rise from a to b, ties broken by index. */
+/* The sign of the rise from a to b. Ties are broken by index. */
 static int rise_sign(int64_t rise, uint32_t a, uint32_t b)
 {
     return rise > 0 ? 1 : rise < 0 ? -1 : b > a ? 1 : -1;
 }
 
-/* The corner of the centre in a triangle, or -1. */
+/* The number of the centre's corner in a triangle, or -1. */
 static int centre_corner(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle)
 {
     for (int k = 0; k < 3; ++k)
@@ -64,7 +67,7 @@ static int centre_corner(const iccp_planar *mesh, const iccp_psi *psi, uint32_t 
     return -1;
 }
 
-/* Adds the triangle's sign changes: one at the vertex whose label is the middle one. */
+/* Adds the triangle's sign change, which happens at the vertex whose label is the middle one. */
 static void check_triangle(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                            uint32_t *n_changes, iccp_certificate *certificate)
 {
@@ -77,7 +80,8 @@ static void check_triangle(const iccp_planar *mesh, const iccp_psi *psi, uint32_
         const uint32_t corner = 3 * triangle + (uint32_t)k, twin = mesh->twins[corner];
         certificate->n_open += twin != ICCP_NO_NEIGHBOUR && psi->rise[twin] != -rise[k];
         certificate->n_ties += rise[k] == 0 && twin > corner;
-        /* Corner `before` faces the half-edge k -> after, corner `after` the one before -> k. */
+        /* Corner `before` faces the half-edge from k to `after`. Corner `after` faces the one
+         * from `before` to k. */
         const int to_after = rise_sign(rise[before], v[k], v[after]);
         const int to_before = -rise_sign(rise[after], v[before], v[k]);
         n_changes[v[k]] += to_after != to_before;
@@ -112,8 +116,9 @@ icc_status iccp_certify_psi(const iccp_planar *mesh, const iccp_psi *psi,
         else
             at_rim[mesh->triangles[3 * t + (uint32_t)(k + 1) % 3]] = 1;
     }
-    /* The link of a vertex within the mesh without the centre is a circle with two runs, so two
-     * changes; at either rim a path with one; at both rims two paths, one higher and one lower. */
+    /* Count the changes along the link of each vertex, in the mesh without the centre. An inner
+     * vertex has a circle with two runs, so two changes. A vertex at one rim has a path with one
+     * change. A vertex at both rims has two paths, one higher and one lower. */
     for (uint32_t v = 0; ready && v < mesh->n_vertices; ++v)
         if (v != psi->centre)
             certificate->n_irregular += n_changes[v] + (v < mesh->n_boundary) + at_rim[v] != 2;

@@ -1,5 +1,8 @@
-/* The map is Tutte's (foliation/harmonic.h). Its image is a polygon round the origin; a point's
- * curve is the ray from the boundary of that polygon to the origin. */
+/* Charts of method disc. Source: Tutte's map (foliation/harmonic.h), which takes the domain to a
+ * polygon round the origin. A point's curve is the preimage of the ray from the polygon's boundary
+ * through its image to the origin.
+ *
+ * Two words: the image is the mesh in the disc, and the rim is the image's boundary. */
 #include "foliation/chart_disc.h"
 
 #include "base/clock.h"
@@ -26,21 +29,21 @@ static const double *boundary_image(const disc_state *state, uint32_t k)
     return state->image + 2 * (size_t)(k < state->mesh.n_boundary ? k : 0);
 }
 
-/* Whether the ray to z lies counter-clockwise of rim vertex k, by less than half a turn. */
+/* Returns true if the ray to z lies counter-clockwise of rim vertex k, by less than half a turn. */
 static bool is_past(const disc_state *state, uint32_t k, const double z[2])
 {
     return iccp_orient2d(ORIGIN, boundary_image(state, k), z) >= 0;
 }
 
-/* The rim edge that the ray from the origin through z meets. Rim vertices come in order of angle,
- * from vertex 0 on, once round. */
+/* Finds the rim edge that the ray from the origin through z meets. Rim vertices come in order of
+ * angle, from vertex 0 on, once round. */
 static uint32_t find_boundary_edge(const disc_state *state, const double z[2])
 {
     const bool first_half = is_past(state, 0, z);
     uint32_t low = 0, high = (uint32_t)state->mesh.n_boundary;
     while (high - low > 1) {
         const uint32_t middle = low + (high - low) / 2;
-        /* Is the vertex in the half turn after vertex 0? */
+        /* True if the vertex lies in the half turn after vertex 0. */
         const bool middle_first =
             iccp_orient2d(ORIGIN, boundary_image(state, 0), boundary_image(state, middle)) > 0;
         const bool past = middle_first == first_half ? is_past(state, middle, z) : middle_first;
@@ -57,7 +60,7 @@ static double cross(const double a[2], const double b[2])
     return a[0] * b[1] - a[1] * b[0];
 }
 
-/* z = (1 - t) ((1 - lambda) p + lambda q) for rim edge p q. */
+/* Solves z = (1 - t) ((1 - lambda) p + lambda q) for the rim edge from p to q. */
 static void to_polar(const disc_state *state, const double z[2], uint32_t *edge, double *lambda,
                      double *t)
 {
@@ -68,7 +71,7 @@ static void to_polar(const disc_state *state, const double z[2], uint32_t *edge,
     *t = iccp_min(iccp_max(1 - (alpha + beta), 0), 1);
 }
 
-/* Rows: derivative of lambda and of t by z. */
+/* The rows are the derivatives of lambda and of t by z. */
 static void polar_jet(const disc_state *state, const double z[2], uint32_t edge, double rows[2][2])
 {
     const double *p = boundary_image(state, edge), *q = boundary_image(state, edge + 1);
@@ -81,7 +84,7 @@ static void polar_jet(const disc_state *state, const double z[2], uint32_t edge,
     }
 }
 
-/* The affine map of a triangle from one set of corners to another. */
+/* The matrix of the affine map that takes a triangle's corners `from` to `to`. */
 static void triangle_jacobian(const iccp_planar *mesh, uint32_t triangle, const double *from,
                               const double *to, double j[2][2])
 {
@@ -109,7 +112,7 @@ static void interpolate(const iccp_planar *mesh, uint32_t triangle, const double
                bary[2] * points[2 * (size_t)v[2] + i];
 }
 
-/* The coordinates of a point of the disc, and the edge of the rim that its ray meets. */
+/* The coordinates of a point of the disc, and the rim edge that its ray meets. */
 static iccp_coords coords_of(const icc_chart *chart, const double z[2], uint32_t *edge)
 {
     const disc_state *state = chart->state;
@@ -119,9 +122,9 @@ static iccp_coords coords_of(const icc_chart *chart, const double z[2], uint32_t
     return (iccp_coords){.facet = state->mesh.facet[*edge], .bary = {1 - along, along}, .t = t};
 }
 
-/* The point goes to the disc with its triangle. There the ray from the centre through it ends on
- * an edge of the boundary's image, which gives the boundary point, and t is 1 minus the share of
- * the ray up to the point. The jet is the chain rule through both. */
+/* The point's triangle takes it to the disc. There the ray from the centre through the point
+ * ends on a rim edge, which gives the boundary point. t is 1 minus the point's share of the ray.
+ * The jet is the chain rule through both steps. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -156,8 +159,8 @@ static void encode_vertex(const icc_chart *chart, size_t v, iccp_coords *coords)
     *coords = coords_of(chart, state->image + 2 * v, &edge);
 }
 
-/* The inverse of encode(): the point of the disc lies at 1 - t of the ray to the boundary
- * point's image, and its triangle takes it back. */
+/* The inverse of encode(). The point of the disc lies at the share 1 - t of the ray to the
+ * boundary point's image, and its triangle takes it back to the domain. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -201,8 +204,8 @@ static bool holds_origin(const disc_state *state, uint32_t triangle)
     return true;
 }
 
-/* Emits the point that goes to where the line through the origin and r meets the image of the edge
- * that a corner faces. */
+/* Emits the point of the domain that goes to a crossing: that of the line through the origin and
+ * r with the image of the edge that a corner faces. */
 static icc_status emit_crossing(const disc_state *state, uint32_t corner, const double r[2],
                                 iccp_emit emit, void *argument)
 {
@@ -216,8 +219,8 @@ static icc_status emit_crossing(const disc_state *state, uint32_t corner, const 
     return emit(argument, point);
 }
 
-/* The curve is the preimage of a straight ray: a walk through the triangles of the image from
- * the boundary edge to the centre, one crossing each, decided by exact signs. */
+/* The curve is the preimage of a straight ray. It walks through the triangles of the image from
+ * the rim edge to the centre, one crossing each, and exact signs decide the way. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)
@@ -294,9 +297,10 @@ const iccp_chart_ops iccp_disc_ops = {
     .free_state = free_state,
 };
 
-/* The image's rim goes once round the origin: every edge turns left round it and the angles grow
- * from 0 to one turn. So the rim is simple and every ray from the origin meets it once; it need not
- * be convex, which rounding would spoil where boundary edges are very short. */
+/* Counts the faults of a rim that shall go once round the origin. Every edge must turn left
+ * round the origin, and the angles must grow from 0 to one turn. Then the rim is simple, and
+ * every ray from the origin meets it once. It need not be convex, because rounding would spoil
+ * convexity where boundary edges are very short. */
 static size_t count_boundary_faults(const iccp_planar *mesh, const double *image)
 {
     const size_t n = mesh->n_boundary;
@@ -309,7 +313,7 @@ static size_t count_boundary_faults(const iccp_planar *mesh, const double *image
     return n_faults + (n_wraps != 1);
 }
 
-/* `domain`: what is known of the mesh in the domain. */
+/* `domain` holds the checks of the mesh in the domain. */
 static icc_status certify(const iccp_planar *mesh, const iccp_certificate *domain,
                           const double *image, icc_error *err)
 {
@@ -324,7 +328,7 @@ static icc_status certify(const iccp_planar *mesh, const iccp_certificate *domai
         domain->n_inverted, n_inverted, domain->n_topology, n_rim);
 }
 
-/* The maximum is the point that goes to the origin. */
+/* Fills in the state. The chart's maximum is the point that goes to the origin. */
 static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const double *image,
                              const iccp_env *env)
 {
@@ -345,7 +349,7 @@ static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const do
     return ICC_OK;
 }
 
-/* The certified chart; `seconds` is what that took. */
+/* Creates the certified chart. `seconds` is the time that the base and the image took. */
 static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
                          double **image, double seconds, const iccp_env *env, icc_error *err)
 {
@@ -399,7 +403,7 @@ static bool are_in_disc(size_t n, const double *numbers)
     return true;
 }
 
-/* The mesh is certified as it is read. */
+/* Reads a chart. The mesh is certified while it is read. */
 icc_status iccp_chart_disc_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                                 const iccp_env *env, icc_error *err)
 {

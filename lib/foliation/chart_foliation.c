@@ -1,6 +1,7 @@
-/* Integral Curve Coordinates along leaves that never meet: docs/theory.md, foliations. The idea of
- * simplicial foliations: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations,
- * 2016. */
+/* Charts of method foliation in 2-D: Integral Curve Coordinates along leaves that never meet.
+ *
+ * Source: docs/theory.md, "method foliation". M. Campen, C. Silva, D. Zorin, Bijective Maps from
+ * Simplicial Foliations, 2016, have the idea of simplicial foliations. */
 #include "foliation/chart_foliation.h"
 
 #include "base/clock.h"
@@ -29,14 +30,14 @@ static const double *centre_of(const foliation_state *state)
     return state->mesh.points + 2 * (size_t)state->psi.centre;
 }
 
-/* The length of part of a leaf that starts at a point, and how it changes. */
+/* The length of a part of a leaf that starts at a point, with its derivatives. */
 typedef struct leaf_length {
     double length;
-    double by_label;    /* derivative by the leaf's label while the point stays */
-    double by_point[2]; /* derivative by the point while the label stays */
+    double by_label;    /* derivative by the leaf's label for a fixed point */
+    double by_point[2]; /* derivative by the point for a fixed label */
 } leaf_length;
 
-/* Adds the piece from p, which moves by dp with the label, to q, which moves by dq. */
+/* Adds the piece from p to q. The label moves p by dp and q by dq. */
 static void add_piece(leaf_length *l, const double p[2], const double dp[2], const double q[2],
                       const double dq[2])
 {
@@ -46,10 +47,10 @@ static void add_piece(leaf_length *l, const double p[2], const double dp[2], con
         l->by_label += ((q[0] - p[0]) * (dq[0] - dp[0]) + (q[1] - p[1]) * (dq[1] - dp[1])) / length;
 }
 
-/* The first piece, from the point to q, where the leaf leaves its triangle: part of the straight
- * piece from p to q. Labels are rounded, and a leaf that runs along an edge may leave the triangle
- * slightly on the wrong side of the point; the length is negative then, and what follows makes up
- * for it. */
+/* The first piece, from the point to q, where the leaf leaves its triangle. It is part of the
+ * straight piece from p to q. Labels are rounded, so a leaf along an edge may leave the triangle
+ * slightly on the wrong side of the point. The length is then negative, and the next pieces make
+ * up for it. */
 static leaf_length start_leaf(const double point[2], const double p[2], const double q[2],
                               const double dq[2])
 {
@@ -67,8 +68,8 @@ static leaf_length start_leaf(const double point[2], const double p[2], const do
 
 typedef bool (*leaf_step)(const iccp_planar *mesh, const iccp_psi *psi, iccp_crossing *crossing);
 
-/* Adds the rest of a leaf from a crossing on, by `next`, whose last crossing is left in `crossing`.
- * With `to_centre` the piece from there to the centre belongs to it. */
+/* Adds the rest of a leaf from a crossing on. `next` steps to the next crossing, and the last
+ * one stays in `crossing`. With `to_centre`, the piece from there to the centre is added too. */
 static inline void walk_deriving(const foliation_state *state, leaf_length *l,
                                  iccp_crossing *crossing, bool to_centre, leaf_step next)
 {
@@ -86,7 +87,7 @@ static inline void walk_deriving(const foliation_state *state, leaf_length *l,
         add_piece(l, p, dp, centre_of(state), STILL);
 }
 
-/* The same without derivatives: most of the time that a mapped point takes. */
+/* Like walk_deriving(), without derivatives. A mapped point spends most of its time here. */
 static inline void walk(const foliation_state *state, leaf_length *l, iccp_crossing *crossing,
                         bool to_centre, leaf_step next)
 {
@@ -101,7 +102,7 @@ static inline void walk(const foliation_state *state, leaf_length *l, iccp_cross
         l->length += iccp_vec_distance(2, p, centre_of(state));
 }
 
-/* The two parts of the leaf through a point; `end` becomes the leaf's crossing with the
+/* Measures the two parts of the leaf through a point. `end` becomes the leaf's crossing with the
  * boundary. */
 static void measure_leaf(const foliation_state *state, const iccp_leaf2 *leaf,
                          const double point[2], bool derive, leaf_length *up, leaf_length *down,
@@ -130,8 +131,8 @@ static void measure_leaf(const foliation_state *state, const iccp_leaf2 *leaf,
         walk(state, down, end, false, iccp_leaf2_fall);
 }
 
-/* The label decides the leaf, so every derivative is that by the label times the label's
- * gradient; the lengths also depend on where the point is on the leaf. */
+/* The label determines the leaf. So each derivative contains the derivative by the label times
+ * the label's gradient. The lengths also depend on the point's place along the leaf. */
 static void fill_encode_jet(const icc_chart *chart, uint32_t triangle, const double bary[3],
                             const iccp_crossing *end, uint32_t facet, const leaf_length *up,
                             const leaf_length *down, iccp_encode_jet *jet)
@@ -161,8 +162,8 @@ static icc_status find_leaf(const foliation_state *state, const double *point, i
                : status;
 }
 
-/* Finds the leaf by its label, exactly; follows it both ways; t is the share of its length that
- * lies below the point. */
+/* Finds the leaf exactly, by its label, and follows it both ways. t is the share of its length
+ * below the point. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -195,7 +196,7 @@ static iccp_crossing boundary_crossing(const icc_chart *chart, const iccp_coords
     return iccp_leaf2_from_boundary(&state->psi, state->mesh.boundary_corner[edge], lambda);
 }
 
-/* The leaf from a boundary point to the maximum, with its arc length. */
+/* Follows the leaf from a boundary point to the maximum, and notes its arc length. */
 static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp_path *path)
 {
     const foliation_state *state = chart->state;
@@ -216,7 +217,7 @@ static icc_status follow(const icc_chart *chart, const iccp_coords *coords, iccp
     return iccp_path_append(path, m, length + iccp_vec_distance(2, p, m));
 }
 
-/* Walks the leaf again for the derivatives of the piece's ends and of the lengths by the label. */
+/* Walks the leaf again, for the derivatives by the label of the piece's ends and of the lengths. */
 static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                             const iccp_path *path, size_t piece, double share, iccp_decode_jet *jet)
 {
@@ -255,8 +256,8 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     }
 }
 
-/* Walks the leaf from the boundary once, keeping its corners, and then goes t of its length
- * along them: the length is known at the end only. */
+/* Walks the leaf from the boundary once and keeps its corners. It then goes the share t of the
+ * length along them, because the length is known only at the end. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -301,8 +302,8 @@ static icc_status emit_up(const foliation_state *state, const iccp_leaf2 *leaf, 
     return status == ICC_OK ? emit(argument, centre_of(state)) : status;
 }
 
-/* The polyline of the leaf. A boundary point has the whole of it; a point inside, its own two
- * parts. */
+/* Emits the polyline of a leaf: the whole leaf of a boundary point, or the two parts of the leaf
+ * through an inside point. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)
@@ -363,13 +364,14 @@ const iccp_chart_ops iccp_foliation_ops = {
     .free_state = free_state,
 };
 
-/* ---- making it ---- */
+/* ---- creating ---- */
 
-/* Shares of harmonic flux to try: one half is the fairest; less copes with sharper corners. */
+/* Shares of harmonic flux, tried in this order. 0.5 gives the least distortion, and smaller
+ * shares cope with sharper corners. */
 static const double HARMONIC_SHARES[] = {0.5, 0.25, 0.0};
 
-/* Tries shares of harmonic flux until one gives a foliation that the exact certificate accepts.
- * The factor is the same for all of them. */
+/* Tries shares of harmonic flux until the exact certificate accepts the foliation. All shares
+ * use the same factor. */
 static icc_status make_psi(icc_chart *chart, const iccp_harmonic *base, uint32_t centre,
                            const iccp_env *env, icc_error *err)
 {
@@ -424,7 +426,7 @@ static icc_status begin(icc_chart **out, const icc_domain *domain, const iccp_ha
     return chart->state != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* With a certified psi; or the end of a failure. */
+/* Finishes a chart with a certified psi, or cleans up after a failure. */
 static icc_status finish(icc_chart **out, iccp_harmonic *base, icc_status status,
                          const iccp_env *env)
 {
@@ -456,7 +458,7 @@ icc_status iccp_chart_foliation_create(icc_chart **out, const icc_domain *domain
     return finish(out, base, status, env);
 }
 
-/* ---- reading it ---- */
+/* ---- reading ---- */
 
 static icc_status read_psi(icc_chart *chart, const iccp_planar *mesh, iccp_blob *r,
                            const iccp_env *env)

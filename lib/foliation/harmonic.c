@@ -1,6 +1,8 @@
-/* W. Tutte, How to draw a graph, 1963; M. Floater, Parametrization and smooth approximation of
- * surface triangulations, 1997: with positive weights and a convex boundary the map is
- * one-to-one. */
+/* The harmonic map of a mesh to the unit disc.
+ *
+ * Sources: W. Tutte, How to draw a graph, 1963. M. Floater, Parametrization and smooth
+ * approximation of surface triangulations, 1997. With positive weights and a convex boundary the
+ * map is one-to-one. */
 #include "foliation/harmonic.h"
 
 #include "base/clock.h"
@@ -11,8 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The mesh, its Laplacian and the factor of that, which the rest of both planar methods starts
- * from. */
+/* Creates the mesh, its Laplacian and the factor of that. Both planar methods start from these. */
 icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err)

@@ -1,5 +1,5 @@
-/* What the harmonic charts are made from: a mesh of the domain, its Laplacian, and a solver for
- * it. */
+/* The base of both planar methods: a mesh of the domain, its Laplacian, and a solver for it.
+ * Source: the harmonic map of Tutte and Floater; see harmonic.c. */
 #ifndef ICCP_HARMONIC_H
 #define ICCP_HARMONIC_H
 
@@ -20,19 +20,19 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err);
 
-/* Accepts a base that is all zero. The mesh is left alone when it has been taken over (see
- * there). */
+/* Accepts a base that is all zero. It does not free a mesh that iccp_harmonic_move_mesh() has
+ * moved out. */
 void iccp_harmonic_free(iccp_harmonic *base);
 
-/* The cells and spacing of its base in a chart's info. */
+/* Writes the base's number of cells and its spacing to a chart's info. */
 void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
                             icc_chart_info *info);
 
 /* Moves the mesh out of the base. */
 iccp_planar iccp_harmonic_move_mesh(iccp_harmonic *base);
 
-/* Where the vertices go in the harmonic map to the unit disc that takes boundary vertex k to the
- * angle `turns[k]`, in turns. `image`: 2 n_vertices. */
+/* Computes the images of the vertices in the harmonic map to the unit disc. Boundary vertex k
+ * goes to the angle `turns[k]`, in turns. `image` has 2 n_vertices numbers. */
 icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, double *image,
                               const iccp_env *env);
 
@@ -40,11 +40,12 @@ icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, do
  * turns[k]. */
 void iccp_add_arc_length(const iccp_planar *mesh, double weight, double *turns);
 
-/* The inner vertex farthest from the boundary, the first of several; ICCP_NO_NEIGHBOUR without
- * inner vertices. */
+/* The inner vertex farthest from the boundary, or the first of several. ICCP_NO_NEIGHBOUR if
+ * there are no inner vertices. */
 uint32_t iccp_deepest_vertex(const iccp_planar *mesh, const icc_domain *domain);
 
-/* The inner vertex nearest to a local point, likewise. */
+/* The inner vertex nearest to a local point, or the first of several. ICCP_NO_NEIGHBOUR if there
+ * are none. */
 uint32_t iccp_nearest_vertex(const iccp_planar *mesh, const double *points, const double p[2]);
 
 #endif

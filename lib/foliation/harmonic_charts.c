@@ -1,5 +1,7 @@
-/* Harmonic maps to the disc start both methods, so what two domains need of one another is settled
- * here: the cuts of their boundaries and where their maxima go. */
+/* Creates the charts of methods foliation and disc, for one domain or two. Both methods start
+ * with harmonic maps to the disc. So this file also decides what a pair must share: how the
+ * boundaries are cut, and where the maxima go. Source: docs/theory.md, "method foliation",
+ * pairs. */
 #include "foliation/harmonic_charts.h"
 
 #include "base/error.h"
@@ -7,7 +9,8 @@
 #include "foliation/chart_disc.h"
 #include "foliation/chart_foliation.h"
 
-/* How often a chart that cannot be certified is tried again on a mesh with cells half as large. */
+/* How many times a chart that cannot be certified is tried again, each time on a mesh with cells
+ * half as large. */
 enum { REFINEMENTS = 2 };
 
 /* One or two domains on their way to harmonic charts. */
@@ -16,15 +19,15 @@ typedef struct harmonic_job {
     const icc_domain *const *domain;
     const icc_chart_options *options;
     int32_t cells;
-    uint32_t *pieces; /* of each facet, while the meshes are made */
-    double *turns;    /* of each boundary vertex, while the images are made */
+    uint32_t *pieces; /* of each facet; only while the meshes are made */
+    double *turns;    /* of each boundary vertex; only while the images are made */
     iccp_harmonic base[2];
     double *image[2]; /* in the disc; only where needed */
     uint32_t centre[2];
     icc_chart **out;
 } harmonic_job;
 
-/* Says which of two domains is at fault. */
+/* Adds to the message which of two domains caused the error. */
 static icc_status blame(const harmonic_job *job, size_t k, icc_status status, icc_error *err)
 {
     return job->n > 1 ? iccp_fail_side(err, status, (int32_t)k + 1) : status;
@@ -38,8 +41,8 @@ static icc_status make_base(void *argument, size_t k, const iccp_env *env, icc_e
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
-/* The meshes of the domains and their equations. Domains of a pair cut corresponding facets into
- * the same number of pieces, so that their boundary vertices correspond. */
+/* Creates the meshes of the domains and their equations. A pair cuts corresponding facets into
+ * the same number of pieces, so that the boundary vertices correspond. */
 static icc_status make_bases(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     const icc_domain *other = job->n > 1 ? job->domain[1] : NULL;
@@ -61,7 +64,8 @@ static icc_status make_image(void *argument, size_t k, const iccp_env *env, icc_
                                  : ICC_ERR_MEMORY;
 }
 
-/* Both meshes to one circle, each boundary vertex to the mean of its two arc-length parameters. */
+/* Maps both meshes to one circle. Each boundary vertex goes to the mean of its two arc-length
+ * parameters. */
 static icc_status make_images(harmonic_job *job, const iccp_env *env)
 {
     job->turns = iccp_alloc_zero(&env->memory, job->base[0].mesh.n_boundary, sizeof *job->turns);
@@ -89,8 +93,9 @@ static icc_status choose_given(harmonic_job *job, size_t k, icc_error *err)
     return ICC_OK;
 }
 
-/* The source's maximum is the vertex deepest inside; the target's is the vertex nearest to where
- * the maps to the disc, composed, take it: left alone, the two may end in different limbs. */
+/* Chooses the maxima. The source's is the deepest vertex. The target's is the vertex nearest to
+ * the image of the source's under the composed maps to the disc. If each domain chose for
+ * itself, the maxima might lie in different limbs. */
 static icc_status choose_centres(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     icc_status status = ICC_OK;
@@ -122,8 +127,8 @@ static icc_status finish(void *argument, size_t k, const iccp_env *env, icc_erro
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
-/* One try at a resolution: meshes, then the images in the disc or the centres, then the charts.
- * All or nothing: if one fails, none is left. */
+/* One try at a resolution: the meshes, then the images in the disc or the centres, then the
+ * charts. If one chart fails, none is left. */
 static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     iccp_env part[3];
@@ -146,7 +151,8 @@ static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error
     return status;
 }
 
-/* Certificates fail where a mesh is too coarse for its corners, so that finer ones are tried. */
+/* A certificate fails if the mesh is too coarse for the corners of the domain, so finer meshes
+ * are tried. */
 static icc_status create(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     static const double COST[REFINEMENTS + 1] = {8, 1, 1};

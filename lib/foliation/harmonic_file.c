@@ -1,3 +1,4 @@
+/* Reads and writes the mesh of a harmonic chart. Format: docs/formats.md. */
 #include "foliation/harmonic_file.h"
 
 #include "domain/domain_file.h"
@@ -7,7 +8,8 @@
 
 #include <string.h>
 
-/* Euler's formula ties the number of boundary edges to those whose bytes are there. */
+/* Checks the numbers of pieces. Euler's formula gives the number of boundary edges from the
+ * inner vertices and triangles, whose bytes are known to be there. */
 static bool are_pieces(const uint32_t *pieces, const icc_domain *domain, size_t n_inner,
                        size_t n_triangles)
 {
@@ -21,7 +23,8 @@ static bool are_pieces(const uint32_t *pieces, const icc_domain *domain, size_t 
            3 * (uint64_t)n_triangles < UINT32_MAX;
 }
 
-/* Points on the boundary follow from how its facets are cut, twins from the triangles. */
+/* Boundary points are not saved, because the cuts of the facets determine them. Neither are
+ * twins, because the triangles determine them. */
 static icc_status visit(iccp_blob *b, int32_t *cells, iccp_planar *mesh, const icc_domain *domain,
                         const iccp_env *env)
 {
@@ -63,7 +66,7 @@ static icc_status certify(const iccp_planar *mesh, const iccp_env *env)
                : ICC_ERR_FORMAT;
 }
 
-/* Completes a mesh whose points and triangles have been read. */
+/* Completes a mesh after its points and triangles have been read. */
 static icc_status finish(iccp_planar *mesh, const iccp_env *env)
 {
     const size_t n_inner = mesh->n_vertices - mesh->n_boundary;

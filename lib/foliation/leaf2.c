@@ -1,17 +1,17 @@
-/* Level lines of a piecewise linear function in a triangle mesh; docs/theory.md, foliations. With
- * certified labels a leaf meets no triangle twice, so every walk ends. */
+/* Follows level lines of a piecewise linear function in a triangle mesh. With certified labels a
+ * leaf meets no triangle twice, so every walk ends. Source: docs/theory.md, "method foliation". */
 #include "foliation/leaf2.h"
 
 #include "math/predicates.h"
 
-/* A share of a positive rise, at least 1 and at most all of it. */
+/* The given share of a positive rise, but at least 1 and at most the whole rise. */
 static int64_t part_of(int64_t rise, double share)
 {
     const int64_t part = (int64_t)(share * (double)rise + 0.5);
     return part < 1 ? 1 : part > rise ? rise : part;
 }
 
-/* In the star leaves are rays from the centre; `corner` is the centre's. */
+/* In the star, leaves are rays from the centre, whose corner is `corner`. */
 static icc_status leaf_in_star(const iccp_psi *psi, uint32_t corner, const double bary[3],
                                iccp_leaf2 *leaf)
 {
@@ -23,9 +23,10 @@ static icc_status leaf_in_star(const iccp_psi *psi, uint32_t corner, const doubl
     return ICC_OK;
 }
 
-/* The label is linear in a triangle without the centre: taken relative to corner 0, `own` is the
- * point's, rounded to strictly between the least and the greatest. The exact signs of the
- * corners' labels minus `own` then say which two edges the leaf crosses. */
+/* Finds the two edges that the leaf crosses. The label is linear in a triangle without the
+ * centre. Labels are taken relative to corner 0. `own` is the point's label, rounded to strictly
+ * above the least label and at most the greatest. The exact signs of the corners' labels minus
+ * `own` then decide. */
 icc_status iccp_leaf2_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                               const double bary[3], iccp_leaf2 *leaf)
 {
@@ -54,8 +55,8 @@ icc_status iccp_leaf2_through(const iccp_planar *mesh, const iccp_psi *psi, uint
     return leaf->up.corner != ICCP_NO_NEIGHBOUR ? ICC_OK : ICC_ERR_TRACE;
 }
 
-/* Twice the area's inverse times the edge that a corner faces, turned: the derivative of the
- * corner's barycentric coordinate. */
+/* The derivative of the corner's barycentric coordinate: the edge that the corner faces, turned
+ * by 90 degrees, over twice the area. */
 static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradient[2])
 {
     const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
@@ -67,8 +68,8 @@ static void bary_gradient(const iccp_planar *mesh, uint32_t corner, double gradi
 }
 
 /* The sum of each corner's label, relative to corner 0, times the gradient of its barycentric
- * coordinate. In the star the label is that of the edge opposite, where the line from the centre
- * meets it. */
+ * coordinate. In the star the label is taken where the line from the centre through the point
+ * meets the opposite edge. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                          const double bary[3], double gradient[2])
 {

@@ -1,15 +1,18 @@
-/* Following a leaf of a foliation, a level line of psi, by its label: integers decide which
- * triangle comes next, doubles say where the leaf crosses an edge. Nothing accumulates. */
+/* Follows a leaf, a level line of psi, by its label. Integers decide which triangle comes next, and
+ * doubles tell where the leaf crosses an edge. Errors do not accumulate.
+ *
+ * Source: docs/theory.md, "method foliation". */
 #ifndef ICCP_LEAF2_H
 #define ICCP_LEAF2_H
 
 #include "foliation/psi.h"
 #include "geometry/path.h"
 
-/* Where a leaf crosses the half-edge that a corner faces, seen from the triangle nearer to the
- * centre: the label of the half-edge's first vertex lies `below` under the leaf's, that of its
- * second vertex `above` over it. A label equal to the leaf's counts as over it, as if all labels
- * were raised by an infinitely small amount: below > 0, above >= 0. */
+/* The place where a leaf crosses the half-edge that a corner faces, seen from the triangle
+ * nearer to the centre. The label of the half-edge's first vertex is lower than the leaf's by
+ * `below`. The label of its second vertex is higher by `above`. A label equal to the leaf's
+ * counts as higher, as if all labels were raised by an infinitely small amount. So below > 0 and
+ * above >= 0. */
 typedef struct iccp_crossing {
     uint32_t corner;
     int64_t below, above;
@@ -17,34 +20,38 @@ typedef struct iccp_crossing {
 
 /* The leaf through a point of a triangle. */
 typedef struct iccp_leaf2 {
-    bool in_star;       /* the triangle touches the centre: the leaf is straight from `down` to
-                           it */
-    iccp_crossing down; /* where the leaf enters the triangle, coming from the boundary */
-    iccp_crossing up;   /* where it leaves, seen from the next triangle; not in the star */
+    bool in_star;       /* the triangle touches the centre; the leaf is straight from `down` to the
+                           centre */
+    iccp_crossing down; /* where the leaf from the boundary enters the triangle */
+    iccp_crossing up;   /* where the leaf leaves the triangle, seen from the next one; not set in
+                           the star */
 } iccp_leaf2;
 
-/* The derivative of the label of the leaf through a point, in units, by the point. Likewise. */
+/* The derivative by the point of the label, in units, of the leaf through that point. The point
+ * has the given barycentric coordinates. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                          const double bary[3], double gradient[2]);
 
-/* The leaf through the point with the given barycentric coordinates. ICC_ERR_TRACE when the
- * triangle is flat, which a certified psi excludes, or the point is the centre. */
+/* Finds the leaf through the point with the given barycentric coordinates. Fails with
+ * ICC_ERR_TRACE if the point is the centre, or if the triangle is flat, which a certified psi
+ * excludes. */
 icc_status iccp_leaf2_through(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                               const double bary[3], iccp_leaf2 *leaf);
 
-/* The leaf from boundary edge k, `lambda` of the way along it. `corner` faces the edge. */
+/* The leaf that starts on boundary edge k, at the share `lambda` of the edge. `corner` faces the
+ * edge. */
 iccp_crossing iccp_leaf2_from_boundary(const iccp_psi *psi, uint32_t corner, double lambda);
 
 /* The derivative of the crossing's point by the leaf's label, per unit. */
 void iccp_crossing_slope(const iccp_planar *mesh, const iccp_crossing *crossing, double slope[2]);
 
-/* How far along its half-edge a crossing lies, in [0, 1]. */
+/* The share of its half-edge at which a crossing lies, in [0, 1]. */
 static inline double iccp_crossing_share(const iccp_crossing *crossing)
 {
     return (double)crossing->below / ((double)crossing->below + (double)crossing->above);
 }
 
-/* What follows is done at every triangle that a leaf meets. */
+/* The functions below run at every triangle that a leaf meets, so they are inline. */
 
 static inline void iccp_crossing_point(const iccp_planar *mesh, const iccp_crossing *crossing,
                                        double p[2])
@@ -56,7 +63,8 @@ static inline void iccp_crossing_point(const iccp_planar *mesh, const iccp_cross
     p[1] = a[1] + share * (b[1] - a[1]);
 }
 
-/* Moves to the next crossing towards the centre; false when the triangle touches the centre. */
+/* Moves to the next crossing towards the centre. Returns false if the triangle touches the
+ * centre. */
 static inline bool iccp_leaf2_rise(const iccp_planar *mesh, const iccp_psi *psi,
                                    iccp_crossing *crossing)
 {
@@ -71,7 +79,8 @@ static inline bool iccp_leaf2_rise(const iccp_planar *mesh, const iccp_psi *psi,
     return true;
 }
 
-/* Moves to the next crossing towards the boundary; false when this one is on the boundary. */
+/* Moves to the next crossing towards the boundary. Returns false if this crossing is on the
+ * boundary. */
 static inline bool iccp_leaf2_fall(const iccp_planar *mesh, const iccp_psi *psi,
                                    iccp_crossing *crossing)
 {

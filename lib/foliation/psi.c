@@ -1,5 +1,7 @@
-/* Discrete one-forms: S. Gortler, C. Gotsman, D. Thurston, Discrete one-forms on meshes and
- * applications to 3D mesh parameterization, 2006; the statement and its limits: docs/theory.md. */
+/* Computes psi: the boundary flux, the harmonic function inside, and its rounding to integers.
+ *
+ * Source: S. Gortler, C. Gotsman, D. Thurston, Discrete one-forms on meshes and applications to
+ * 3D mesh parameterization, 2006. docs/theory.md has the statement and its limits. */
 #include "foliation/psi.h"
 
 #include "math/elementary.h"
@@ -7,8 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2, 1/2].
- * An edge that does not meet the centre is seen under less than half a turn. */
+/* Turns from the direction of a to the direction of b, both seen from the centre, in (-1/2,
+ * 1/2]. An edge that does not meet the centre spans less than half a turn. */
 static double angle_between(const iccp_planar *mesh, uint32_t centre, uint32_t a, uint32_t b)
 {
     const double *m = mesh->points + 2 * (size_t)centre;
@@ -29,7 +31,7 @@ static double boundary_length(const iccp_planar *mesh, uint32_t k)
     return iccp_hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* The share of the turn that each boundary edge gets; they sum to 1. */
+/* Computes the flux of each boundary edge: its share of the turn. The shares sum to 1. */
 static icc_status boundary_flux(double *flux, const iccp_planar *mesh,
                                 const iccp_laplacian *laplacian, const iccp_ldlt *solver,
                                 uint32_t centre, double harmonic, const iccp_env *env)
@@ -60,8 +62,8 @@ static icc_status boundary_flux(double *flux, const iccp_planar *mesh,
     return status;
 }
 
-/* psi = angle about the centre + phi, in turns, with phi single-valued. On the boundary phi follows
- * from the flux; it starts with 0. */
+/* Writes psi as the angle about the centre plus phi, in turns, where phi has a single value. The
+ * flux determines phi on the boundary, where it starts with 0. */
 static void boundary_phi(double *phi, const iccp_planar *mesh, uint32_t centre, const double *flux)
 {
     phi[0] = 0;
@@ -69,8 +71,8 @@ static void boundary_phi(double *phi, const iccp_planar *mesh, uint32_t centre, 
         phi[k + 1] = phi[k] + flux[k] - angle_between(mesh, centre, k, k + 1);
 }
 
-/* Row i: sum over neighbours j of w_ij (phi_j - phi_i + angle from i to j) = 0. The angle from j to
- * i is minus that from i to j. */
+/* Right side of the equations for phi. Row i: sum over neighbours j of w_ij (phi_j - phi_i +
+ * angle from i to j) = 0. The angle from j to i is minus the angle from i to j. */
 static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian *open,
                        uint32_t centre, const double *phi)
 {
@@ -95,8 +97,9 @@ static void right_side(double *b, const iccp_planar *mesh, const iccp_laplacian 
 }
 
 /* psi turns once round the centre, so it has no single value. The angle round the centre turns
- * as often: what is left, phi, is an ordinary function, given on the boundary, and its Laplacian
- * inside is minus that of the angle. The centre, where the angle is not defined, is left out. */
+ * equally often, so their difference phi is an ordinary function. phi is known on the boundary,
+ * and its Laplacian inside is minus that of the angle. The equations leave out the centre, where
+ * the angle is not defined. */
 static icc_status solve_phi(double *phi, const iccp_planar *mesh, uint32_t centre,
                             const iccp_env *env)
 {
@@ -123,7 +126,8 @@ static int64_t to_units(double turns)
     return units < ICCP_TURN ? units : 0;
 }
 
-/* The difference of two labels, lifted to the one nearest to what the real values say. */
+/* The difference of two labels, lifted to the value nearest to `wanted`, the difference of the
+ * real values. */
 static int64_t lifted(int64_t difference, double wanted)
 {
     const double turns = wanted - (double)difference / (double)ICCP_TURN;

@@ -1,15 +1,16 @@
+/* Reads and writes the rises of psi. Format: docs/formats.md. */
 #include "foliation/psi_file.h"
 
-/* Turns along one edge at most: sums over a triangle stay far from the ends of int64_t. */
+/* The most turns along one edge. So sums over a triangle stay far from the ends of int64_t. */
 enum { MOST_TURNS = 2 };
 
-/* One of every two half-edges has its rise written, the other one has the opposite. */
+/* Of two half-edges, one has its rise written. The other has the opposite rise. */
 static bool is_written(const iccp_planar *mesh, uint32_t corner)
 {
     return mesh->twins[corner] == ICCP_NO_NEIGHBOUR || corner < mesh->twins[corner];
 }
 
-/* Two's complement, whatever the machine has. */
+/* Converts two's complement on any machine. */
 static int64_t to_signed(uint64_t bits)
 {
     return bits <= INT64_MAX ? (int64_t)bits : -(int64_t)(UINT64_MAX - bits) - 1;
@@ -21,7 +22,8 @@ static bool is_at_centre(const iccp_psi *psi, const iccp_planar *mesh, uint32_t 
            mesh->triangles[iccp_before(corner)] == psi->centre;
 }
 
-/* The half-edges that are not written come after their twins. */
+/* Writes or reads the rises. A half-edge whose rise is not written comes after its twin, and gets
+ * the opposite of its rise. */
 static void visit_rises(iccp_blob *b, iccp_psi *psi, const iccp_planar *mesh)
 {
     for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
@@ -47,8 +49,8 @@ static void visit(iccp_blob *b, iccp_psi *psi, const iccp_planar *mesh)
         visit_rises(b, psi, mesh);
 }
 
-/* The turns along the boundary add up to one, of positive parts, so that their sum cannot overflow
- * either. */
+/* Checks the rises. Those at the centre must be 0. Those along the boundary must be positive and
+ * sum to at most one turn, so their sum cannot overflow either. */
 static bool is_sound(const iccp_psi *psi, const iccp_planar *mesh)
 {
     int64_t rest = ICCP_TURN;
