@@ -5,7 +5,7 @@
  * which those round a merged one join again, so the work is proportional to what is merged. */
 #include "map/compatible/coarsen.h"
 
-#include "map/compatible/candidate.h"
+#include "map/compatible/triangle_quality.h"
 
 #include <string.h>
 
@@ -81,7 +81,7 @@ static bool may_merge(const coarsening *o, const star *s, size_t j)
         if ((k > 1 &&
              ((map->fixed[to] && map->fixed[ring[k]]) ||
               (is_bounded && iccp_plmap_length2(map, to, ring[k]) > o->longest * o->longest))) ||
-            !iccp_candidate_is_positive(map, to, ring[k], ring[k + 1]))
+            !iccp_quality_is_positive(map, to, ring[k], ring[k + 1]))
             return false;
     return true;
 }
@@ -89,10 +89,10 @@ static bool may_merge(const coarsening *o, const star *s, size_t j)
 /* Of those triangles: no energy above `most`, no roundness below `least`, or HUGE_VAL. */
 static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
 {
-    iccp_candidate merged = iccp_no_candidate();
+    iccp_quality merged = iccp_no_quality();
     const uint32_t *ring = s->ring + j;
     for (size_t k = 1; k + 1 < s->n; ++k) {
-        iccp_candidate_add(&merged, o->map, ring[0], ring[k], ring[k + 1]);
+        iccp_quality_add(&merged, o->map, ring[0], ring[k], ring[k + 1]);
         if (!(merged.energy <= most && merged.roundness >= least))
             return HUGE_VAL;
     }
@@ -109,9 +109,9 @@ static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s
         n_may += may[j] = may_merge(o, s, j);
     if (n_may == 0)
         return s->n;
-    iccp_candidate now = iccp_no_candidate();
+    iccp_quality now = iccp_no_quality();
     for (size_t k = 0; k < s->n; ++k)
-        iccp_candidate_add(&now, o->map, vertex, s->ring[k], s->ring[k + 1]);
+        iccp_quality_add(&now, o->map, vertex, s->ring[k], s->ring[k + 1]);
     const double least = iccp_min(now.roundness, LEAST_ROUNDNESS);
     double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
     for (size_t j = 0; j < s->n; ++j) {

@@ -3,7 +3,7 @@
 #include "map/compatible/flips.h"
 
 #include "base/threads.h"
-#include "map/compatible/candidate.h"
+#include "map/compatible/triangle_quality.h"
 
 enum { PASSES = 5 };
 
@@ -24,13 +24,13 @@ static bool is_better_flipped(const iccp_plmap *map, uint32_t corner)
     const uint32_t x = v[corner], y = v[twin], a = v[iccp_after(corner)],
                    b = v[iccp_before(corner)];
     if ((map->fixed[x] && map->fixed[y]) || iccp_plmap_is_line(map, corner) ||
-        !iccp_candidate_is_positive(map, x, a, y) || !iccp_candidate_is_positive(map, y, b, x))
+        !iccp_quality_is_positive(map, x, a, y) || !iccp_quality_is_positive(map, y, b, x))
         return false;
-    iccp_candidate now = iccp_no_candidate(), then = iccp_no_candidate();
-    iccp_candidate_add(&now, map, x, a, b);
-    iccp_candidate_add(&now, map, y, b, a);
-    iccp_candidate_add(&then, map, x, a, y);
-    iccp_candidate_add(&then, map, y, b, x);
+    iccp_quality now = iccp_no_quality(), then = iccp_no_quality();
+    iccp_quality_add(&now, map, x, a, b);
+    iccp_quality_add(&now, map, y, b, a);
+    iccp_quality_add(&then, map, x, a, y);
+    iccp_quality_add(&then, map, y, b, x);
     return then.energy < (1 - LEAST_FALL) * now.energy &&
            then.roundness >= iccp_min(now.roundness, LEAST_ROUNDNESS);
 }

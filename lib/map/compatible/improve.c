@@ -1,9 +1,9 @@
 /* docs/theory.md, the mesh map; energies and their derivatives: map/energy/dirichlet.c. */
 #include "map/compatible/improve.h"
 
-#include "base/minmax.h"
 #include "base/sort.h"
 #include "base/threads.h"
+#include "map/compatible/both_sides.h"
 #include "map/compatible/flips.h"
 #include "map/energy/dirichlet.h"
 #include "math/vec.h"
@@ -14,9 +14,6 @@
  * converges. */
 enum { MAJORISED_STEPS = 3 };
 
-/* Half of all descents, as far as progress goes. */
-static const double TYPICAL_LEVELS = 2;
-
 /* A refinement cuts the triangles that carry this share of the energy above an isometry's, but no
  * more than this share of all. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
@@ -24,26 +21,11 @@ static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
 /* Before the first step, only if they are no more than this share. */
 static const double VERY_FEW = 0.002;
 
-/* It multiplies the triangles by about GROWTH, and is made where there is work for so many STEPS on
- * what comes of it. */
-static const double GROWTH = 1.4, STEPS = 6;
-
-/* Steps on all meshes but the last end when two in turn gain less than this, and after so many: a
- * refinement gains more. */
-static const double SLOW = 5e-3;
-enum { MOST_STEPS = 20 };
+/* A refinement in vain gains less than this share. */
+static const double LEAST_GAIN = 0.01;
 
 /* Triangles that a thread ranks at once. */
 enum { GRAIN = 1024 };
-
-/* A refinement is in vain when it gains less than this. The first one is the last, or the second in
- * turn where the energy is HIGH: what is locked there may take two cuts to come free. */
-static const double LEAST_GAIN = 0.01, HIGH = 20;
-
-/* Where a map that was relaxed is as good as this, a refinement in vain can be told beforehand. */
-static const double NEAR = 5;
-
-/* ---- in the plane ---- */
 
 static size_t count(const void *map)
 {
@@ -167,7 +149,7 @@ static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
 static icc_status unlock(iccp_plmap *map, const iccp_env *env)
 {
     size_t n_cut, n_flips;
-    if (!(iccp_plmap_energy(map) > HIGH))
+    if (!(iccp_plmap_energy(map) > ICCP_HIGH_ENERGY))
         return ICC_OK;
     const double few = VERY_FEW * (double)map->corners.n_triangles;
     const icc_status status = cut_worst(map, few, true, &n_cut, env);
@@ -187,77 +169,4 @@ icc_status iccp_improve(iccp_plmap *map, const iccp_schedule *schedule, iccp_wor
     const icc_status status = starts ? unlock(map, env) : ICC_OK;
     return status == ICC_OK ? iccp_improve_by(&PLANE, map, schedule, work, improvement, env)
                             : status;
-}
-
-/* ---- in either ---- */
-
-static bool may_refine(double n_simplices, const iccp_schedule *schedule, const iccp_work *work,
-                       const iccp_improvement *improvement)
-{
-    const double n = GROWTH * n_simplices;
-    return improvement->n_levels < schedule->levels && n <= schedule->most &&
-           STEPS * n <= work->left;
-}
-
-/* Whether the next refinement of a map NEAR an isometry is in vain, as its gain falls short of the
- * last one's by the same share as that of the one before. */
-static bool is_settled(double energy, double least_gain, double gain, double gain_before)
-{
-    return energy < NEAR && gain < gain_before && gain * gain < least_gain * gain_before;
-}
-
-/* Refinements, with steps after each, as long as they pay. */
-static icc_status refine_often(const iccp_profile *profile, void *map,
-                               const iccp_schedule *schedule, double slow, iccp_work *work,
-                               iccp_improvement *improvement, const iccp_env *env)
-{
-    const size_t most = schedule->iterations < MOST_STEPS ? schedule->iterations : MOST_STEPS;
-    const iccp_descent descent = {0, most, schedule->tolerance, slow, schedule->is_relaxed};
-    size_t n_in_vain = 0;
-    double gain_before = 0;
-    icc_status status = ICC_OK;
-    while (status == ICC_OK && n_in_vain <= (improvement->energy > HIGH) &&
-           may_refine((double)profile->count(map), schedule, work, improvement)) {
-        const double before = improvement->energy;
-        const iccp_env part = iccp_round(env, improvement->n_levels, TYPICAL_LEVELS);
-        size_t n_changes;
-        status = profile->refine(map, &n_changes, env);
-        if (status != ICC_OK || n_changes == 0)
-            break;
-        status = profile->descend(map, &descent, schedule->both_sides, work, improvement, &part);
-        ++improvement->n_levels;
-        const double gain = (before - improvement->energy) / before;
-        n_in_vain = gain < profile->least_gain ? n_in_vain + 1 : 0;
-        if (status == ICC_OK && schedule->is_relaxed &&
-            is_settled(improvement->energy, profile->least_gain, gain, gain_before)) {
-            improvement->is_converged = true;
-            break;
-        }
-        gain_before = gain;
-    }
-    return status;
-}
-
-icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_schedule *schedule,
-                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
-{
-    const double slow = iccp_max(SLOW, schedule->tolerance);
-    const iccp_descent last = {0, schedule->iterations, schedule->tolerance, 0, false};
-    iccp_descent first = {profile->majorised, schedule->iterations, schedule->tolerance, slow,
-                          false};
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){2, 2, 1}, env);
-    *improvement = (iccp_improvement){0};
-    if (schedule->levels == 0)
-        first.slow = 0;
-    icc_status status = ICC_OK;
-    if (schedule->is_relaxed && schedule->levels > 0)
-        improvement->energy = profile->energy(map, env);
-    else
-        status = profile->descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
-    if (status == ICC_OK && schedule->levels > 0)
-        status = refine_often(profile, map, schedule, slow, work, improvement, &part[1]);
-    if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)
-        status = profile->descend(map, &last, false, work, improvement, &part[2]);
-    return status;
 }

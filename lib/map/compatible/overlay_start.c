@@ -7,9 +7,9 @@
 #include "map/compatible/overlay_start.h"
 
 #include "base/minmax.h"
+#include "map/compatible/both_sides.h"
 #include "map/compatible/coarsen.h"
 #include "map/compatible/compatible.h"
-#include "map/compatible/descent.h"
 #include "map/compatible/flips.h"
 #include "map/energy/untangle.h"
 

@@ -17,8 +17,8 @@ typedef struct iccp_schedule {
 
 /* Work that is left and spent. */
 typedef struct iccp_allowance {
-    iccp_work search;      /* trying trees of cuts, or carrying the images to another target */
-    iccp_work overlay;     /* making an overlay and relaxing it */
+    iccp_work search;  /* trying trees of cuts, or moving the fixed vertices to another target */
+    iccp_work overlay; /* making an overlay and relaxing it */
     iccp_work improvement; /* of what is one-to-one */
     double relaxing;       /* the overlay's share for steps */
     double all;            /* the most that the parts may take together */

@@ -8,11 +8,11 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "map/compatible/candidate.h"
+#include "map/compatible/both_sides.h"
 #include "map/compatible/coarsen.h"
-#include "map/compatible/descent.h"
 #include "map/compatible/flips.h"
 #include "map/compatible/overlay_start.h"
+#include "map/compatible/triangle_quality.h"
 #include "map/isotopy/close_cuts.h"
 #include "map/isotopy/ties.h"
 
@@ -84,7 +84,7 @@ static double energy_of(const iccp_plmap *map)
 {
     const uint32_t *v = map->corners.vertex;
     for (size_t t = 0; t < map->corners.n_triangles; ++t)
-        if (!iccp_candidate_is_sound(map, v[3 * t], v[3 * t + 1], v[3 * t + 2]))
+        if (!iccp_quality_is_sound(map, v[3 * t], v[3 * t + 1], v[3 * t + 2]))
             return HUGE_VAL;
     return iccp_plmap_energy(map);
 }

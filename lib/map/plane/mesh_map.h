@@ -1,4 +1,22 @@
-/* Map kind mesh: an internal piecewise linear map, certified and made fair. */
+/* A mesh map in the plane: a triangle mesh of the source with an image for each vertex.
+ *
+ * Words of this folder
+ * - start: a one-to-one map from which improvement begins.
+ * - overlay: a mesh that refines a triangulation of the source and one of the target.
+ * - retarget: to move a map to a target that has moved.
+ *
+ * Invariants
+ * - Every triangle of a finished map is positive before and after the map, by exact signs.
+ * - The boundary's vertices have the images that the correspondence of the cages prescribes.
+ * - A finished map does not change, except for what is made when it is first needed.
+ *
+ * Ways
+ * - Without features: the mesh of the source's chart, with overlays where it is inverted
+ *   (plane_start.h).
+ * - With features: the overlay of the domains, cut open along paths (feature_start.h).
+ * - To another target: plane_retarget.h. To less distortion: plane_improve.h.
+ *
+ * Begin with plane_kind.c, which lists the operations, and plane_start.c. */
 #ifndef ICCP_MESH_MAP_H
 #define ICCP_MESH_MAP_H
 
@@ -8,7 +26,6 @@
 #include "map/kind/kind.h"
 #include "mesh/finder.h"
 
-/* Immutable once made, but for what is made when it is first needed. */
 typedef struct iccp_mesh_map {
     iccp_plmap pl;
     double reach[2];       /* of the bands of source and target (geometry/band.h) */
@@ -23,37 +40,9 @@ typedef struct iccp_mesh_map {
 iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
                                  const iccp_memory *memory);
 
-/* Starts from two charts that were made together: from their images of the source chart's mesh if
- * no triangle is inverted, otherwise from the overlay of two triangulations of the domains
- * (map/compatible/overlay_start.h). Fills in the mesh's members of `info`. If the overlay would be
- * too large, *out is NULL, with ICC_OK, and info->n_unrepaired counts the charts' inverted
- * triangles. `iterations` as in icc_map_options. */
-icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err);
-
-/* Between two domains with features that correspond, without charts. ICC_ERR_RESOLUTION when
- * features are too close for doubles. Otherwise as above. */
-icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *source,
-                                         const icc_domain *target, const icc_map_options *options,
-                                         icc_map_info *info, const iccp_env *env, icc_error *err);
-
-/* A better one from a copy, between domains of n_facets; see icc_map_improve(). */
-icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, size_t n_facets,
-                                 const icc_improve_options *options, icc_improve_report *report,
-                                 const iccp_env *env);
-
 /* The rest of a map whose `pl` is there: prepares what finds points, and fills in the members of
  * `info` about the mesh's size. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env);
-
-/* Improves what is in map->pl, which is one-to-one, and finishes the map. */
-icc_status iccp_mesh_map_complete(iccp_mesh_map *map, const icc_improve_options *options,
-                                  const iccp_schedule *how, iccp_work *work, icc_map_info *info,
-                                  const iccp_env *env);
-
-/* Passes the plan on to a map whose mesh has not changed. */
-void iccp_mesh_map_keep_plan(iccp_mesh_map *map, iccp_newton_plan *plan);
 
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 

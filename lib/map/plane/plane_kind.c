@@ -2,9 +2,11 @@
 
 #include "domain/features.h"
 #include "map/compatible/plmap_file.h"
-#include "map/plane/follow.h"
 #include "map/plane/plane_apply.h"
 #include "map/plane/plane_certificate.h"
+#include "map/plane/plane_improve.h"
+#include "map/plane/plane_retarget.h"
+#include "map/plane/plane_start.h"
 
 static bool suits(const icc_domain *source)
 {
@@ -98,8 +100,8 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
     iccp_mesh_map *moved;
     (void)vertex;
     const icc_status status =
-        iccp_mesh_map_follow(&moved, map->state, map->source_domain, map->target_domain,
-                             next->target_domain, iterations, &next->info, env, err);
+        iccp_mesh_map_retarget(&moved, map->state, map->source_domain, map->target_domain,
+                               next->target_domain, iterations, &next->info, env, err);
     next->state = moved;
     return status;
 }

@@ -1,11 +1,11 @@
 /* Moves a map to a target that has moved: docs/theory.md, the mesh map in space. If the surface
  * moves mostly by one affine map, the inside moves by the same map. The rest of the motion is
- * answered as in map/compatible/carry.c. */
+ * answered as in map/energy/continuation.c. */
 #include "map/solid/solid_follow.h"
 
 #include "base/clock.h"
-#include "map/compatible/carry.h"
 #include "map/energy/affine.h"
+#include "map/energy/continuation.h"
 #include "map/energy/mesh_repair.h"
 #include "map/energy/untangle.h"
 #include "map/solid/solid_improve.h"
@@ -103,15 +103,15 @@ static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
     size_t n_changes;
     const icc_status status = iccp_solid_refine(j->map, j->source, cuts, &n_changes, env);
     const iccp_simplicial_map simplicial = see(map);
-    return status == ICC_OK ? iccp_improve_images(&simplicial, &REST, work, NULL, env) : status;
+    return status == ICC_OK ? iccp_take_steps(&simplicial, &REST, work, NULL, env) : status;
 }
 
 static icc_status carry(journey *j, size_t patience, bool *reached, const iccp_env *env)
 {
-    static const iccp_carriage SPACE = {see, place, BLOCKED, mend};
+    static const iccp_continuation SPACE = {see, place, BLOCKED, mend};
     iccp_work work = {.left = CARRY_STEPS * (double)j->map->mesh->n_simplices};
     double room;
-    return iccp_carry_by(&SPACE, j, j->target, patience, &work, reached, &room, env);
+    return iccp_continue(&SPACE, j, j->target, patience, &work, reached, &room, env);
 }
 
 /* Moves all of the surface at once, then repairs the inverted tetrahedra if they are few. If this

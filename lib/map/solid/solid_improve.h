@@ -2,7 +2,7 @@
 #ifndef ICCP_SOLID_IMPROVE_H
 #define ICCP_SOLID_IMPROVE_H
 
-#include "map/compatible/improve.h"
+#include "map/energy/refinement.h"
 #include "map/solid/solid_map.h"
 
 /* Fills in a copy with a mesh of its own, but without the search structure for points. `copy` must

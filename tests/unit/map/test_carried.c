@@ -1,5 +1,5 @@
 /* Features that move: what is reached, what is in the way, and what must stay as it was. */
-#include "map/compatible/carry.h"
+#include "map/compatible/move_targets.h"
 #include "map/compatible/density.h"
 #include "map/isotopy/isotopy.h"
 #include "map/map.h"
@@ -44,7 +44,7 @@ static void check_there(const iccp_plmap *map, const icc_domain *target, bool th
         double place[2];
         if (map->fixed[v] == ICCP_FREE)
             continue;
-        iccp_carry_place(map, target, v, place);
+        iccp_target_place(map, target, v, place);
         n_off += memcmp(place, map->images + 2 * v, sizeof place) != 0;
     }
     ck_assert(there == (n_off == 0));
@@ -65,7 +65,7 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     ck_assert_int_eq(iccp_plmap_copy(&copy, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, grain.longest, &env), ICC_OK);
-    ck_assert_int_eq(iccp_carry(&copy, target, &grain, 1, &steps, &reached, &room, &env), ICC_OK);
+    ck_assert_int_eq(iccp_move_targets(&copy, target, &grain, 1, &steps, &reached, &room, &env), ICC_OK);
     check_there(&copy, target, reached);
     ck_assert(steps.left >= 0 || steps.spent > 0);
     ck_assert(room >= 0);

@@ -1,28 +1,30 @@
-/* docs/theory.md, the mesh map: that to a target that has moved, from the one to where it was. */
-#include "map/plane/follow.h"
+/* Moves a mesh map to another target (docs/theory.md, the mesh map and "dragging"). Cages move at
+ * once if that inverts no triangle. Otherwise, and with features, they move by continuation. */
+#include "map/plane/plane_retarget.h"
 
 #include "base/clock.h"
 #include "base/error.h"
 #include "domain/features.h"
-#include "map/compatible/carry.h"
 #include "map/compatible/density.h"
-#include "map/compatible/tend.h"
+#include "map/compatible/improve_moving.h"
+#include "map/compatible/move_targets.h"
 #include "map/plane/feature_start.h"
+#include "map/plane/plane_improve.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Steps for a target that has moved a little: a frame of an animation has no time for more, and the
- * next frame continues from here. What is carried has made a step on the way. */
-enum { FOLLOW_ITERATIONS = 8, CARRY_ITERATIONS = -1 };
+/* Improvement steps after a motion. A frame of an animation has no time for more, and the next frame
+ * continues from here. Features have made steps on the way, so they take none at the end. */
+enum { CAGE_ITERATIONS = 8, FEATURE_ITERATIONS = -1 };
 
-/* A map as coarse as it may be cannot follow. So what is carried along has so many triangles or, in
- * a square, no edge that is longer than one of so many cells along a side. It should not have many
- * more triangles than some, and some for each vertex that is given. */
-enum { CARRIED_TRIANGLES = 1000, CARRIED_CELLS = 15, MANY = 1400, MANY_EACH = 8 };
+/* A very coarse mesh cannot follow a motion. So a mesh with fewer triangles than ENOUGH is refined
+ * until no edge is longer than a cell of a square with CELLS cells along a side. With more triangles
+ * than MANY, and MANY_EACH for each given vertex, it is thinned out. */
+enum { ENOUGH = 1000, CELLS = 15, MANY = 1400, MANY_EACH = 8 };
 
-/* Where the way is blocked, times that the mesh is mended before the map is made anew; and where
- * that cannot be done, or is not, because nothing but the boundary moves. */
+/* If the way is blocked: how often the mesh is changed before the map is rebuilt in its class, and how
+ * often after that or where there are no features to rebuild it for. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
 /* Moves the boundary's images to where another target wants them. */
@@ -30,7 +32,7 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
 {
     for (size_t v = 0; v < pl->n_vertices; ++v)
         if (pl->fixed[v] != ICCP_FREE)
-            iccp_carry_place(pl, target, v, pl->images + 2 * v);
+            iccp_target_place(pl, target, v, pl->images + 2 * v);
 }
 
 /* A copy of the map whose images stay where they were, in the frame of the new target. */
@@ -47,13 +49,14 @@ static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain 
     return ICC_OK;
 }
 
+/* The domains of a motion. */
 typedef struct journey {
     const iccp_isotopy *isotopy;
     const icc_domain *source, *old_target, *target;
 } journey;
 
-/* What the map would have become, but made anew. *made: whether that could be done; else it stays
- * as it is. */
+/* Makes the map anew in the class that it would have come to. *made: whether that worked. If not, the
+ * map stays as it is. */
 static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
                           bool *made, const iccp_env *env)
 {
@@ -64,7 +67,7 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
     if (status == ICC_OK && *made)
         status = iccp_feature_start_from(&fresh, j->source, j->target, &cuts, work, env);
     if (status == ICC_OK && *made)
-        status = iccp_refine_longest(&fresh, longest, CARRIED_TRIANGLES, env);
+        status = iccp_refine_longest(&fresh, longest, ENOUGH, env);
     iccp_cuts_free(&cuts);
     *made = *made && status == ICC_OK;
     if (*made) {
@@ -77,30 +80,30 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
 }
 
 /* Every state on the way is one-to-one, so features stay on their sides of one another. */
-static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_options *options,
-                        iccp_allowance *work, icc_map_info *info, const iccp_env *env,
-                        icc_error *err)
+static icc_status move_features(iccp_mesh_map *map, const journey *j,
+                                const icc_improve_options *options, iccp_allowance *work,
+                                icc_map_info *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds(), stretch = map->pl.stretch;
-    const iccp_grain grain = {iccp_planar_step(j->target, CARRIED_CELLS),
+    const iccp_grain grain = {iccp_planar_step(j->target, CELLS),
                               MANY + MANY_EACH * j->source->features->n_places};
     bool reached = false;
     double room = 0;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
     icc_status status = ICC_OK;
-    if (map->pl.corners.n_triangles < CARRIED_TRIANGLES)
+    if (map->pl.corners.n_triangles < ENOUGH)
         status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
     if (status == ICC_OK)
-        status = iccp_carry(&map->pl, j->target, &grain, PATIENCE, &work->search, &reached, &room,
-                            &part[0]);
+        status = iccp_move_targets(&map->pl, j->target, &grain, PATIENCE, &work->search, &reached,
+                                   &room, &part[0]);
     if (status == ICC_OK && !reached)
         status = rebuild(&map->pl, j, grain.longest, &work->overlay, &reached, &part[0]);
     if (status == ICC_OK && !reached)
-        status = iccp_carry(&map->pl, j->target, &grain, LAST_PATIENCE, &work->search, &reached,
-                            &room, &part[0]);
+        status = iccp_move_targets(&map->pl, j->target, &grain, LAST_PATIENCE, &work->search,
+                                   &reached, &room, &part[0]);
     if (status == ICC_OK && reached)
-        status = iccp_tend(&map->pl, &grain, room, &work->improvement, &part[0]);
+        status = iccp_improve_moving(&map->pl, &grain, room, &work->improvement, &part[0]);
     map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
@@ -108,8 +111,8 @@ static icc_status carry(iccp_mesh_map *map, const journey *j, const icc_improve_
                          "features moved straight to their new places would meet or come too "
                          "close: go there another way, in several steps, or make a new map");
     if (status == ICC_OK)
-        status = iccp_mesh_map_complete(map, options, &iccp_schedule_plain, &work->improvement,
-                                        info, &part[1]);
+        status = iccp_plane_complete(map, options, &iccp_schedule_plain, &work->improvement, info,
+                                     &part[1]);
     return status;
 }
 
@@ -118,8 +121,8 @@ static bool same_memory(const iccp_memory *a, const iccp_memory *b)
     return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
 }
 
-/* The plan of Newton's method for the map's mesh, which maps that follow it share; it is made when
- * the first one does. NULL where they may not live on the same memory. */
+/* Finds the plan of Newton's method for the map's mesh. The maps that follow a map share it, and the
+ * first of them makes it. *plan is NULL if the two maps use different allocators. */
 static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
@@ -144,7 +147,7 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
 static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work *work,
                             bool *reached, icc_map_info *info, const iccp_env *env)
 {
-    const iccp_grain grain = {iccp_planar_step(target, CARRIED_CELLS), SIZE_MAX};
+    const iccp_grain grain = {iccp_planar_step(target, CELLS), SIZE_MAX};
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(pl);
     const size_t n = 2 * pl->n_vertices;
     double room, *before = iccp_alloc(&env->memory, n, sizeof *before);
@@ -157,14 +160,15 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
     if (!*reached)
         memcpy(pl->images, before, n * sizeof *before);
     iccp_free(&env->memory, before);
-    return *reached ? ICC_OK
-                    : iccp_carry(pl, target, &grain, LAST_PATIENCE, work, reached, &room, env);
+    return *reached
+               ? ICC_OK
+               : iccp_move_targets(pl, target, &grain, LAST_PATIENCE, work, reached, &room, env);
 }
 
 /* info->n_unrepaired is not 0, with ICC_OK, when the way is blocked. */
-static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
-                              const icc_improve_options *options, iccp_allowance *work,
-                              icc_map_info *info, const iccp_env *env)
+static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
+                                const icc_improve_options *options, iccp_allowance *work,
+                                icc_map_info *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     bool reached = false;
@@ -176,15 +180,15 @@ static icc_status follow_cage(iccp_mesh_map *map, const icc_domain *target,
     if (status == ICC_OK && reached)
         status = iccp_cut_chords(&map->pl);
     if (status == ICC_OK && reached)
-        status = iccp_mesh_map_complete(map, options, &iccp_schedule_plain, &work->improvement,
-                                        info, &part[1]);
+        status = iccp_plane_complete(map, options, &iccp_schedule_plain, &work->improvement, info,
+                                     &part[1]);
     return status;
 }
 
-icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
-                                const icc_domain *source, const icc_domain *old_target,
-                                const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                const iccp_env *env, icc_error *err)
+icc_status iccp_mesh_map_retarget(iccp_mesh_map **out, const iccp_mesh_map *map,
+                                  const icc_domain *source, const icc_domain *old_target,
+                                  const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                  const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
     *out = NULL;
@@ -197,19 +201,19 @@ icc_status iccp_mesh_map_follow(iccp_mesh_map **out, const iccp_mesh_map *map,
     if (status == ICC_OK) {
         const icc_improve_options options = {.iterations = iterations != 0 ? iterations
                                                            : source->features != NULL
-                                                               ? CARRY_ITERATIONS
-                                                               : FOLLOW_ITERATIONS,
+                                                               ? FEATURE_ITERATIONS
+                                                               : CAGE_ITERATIONS,
                                              .levels = -1};
         iccp_allowance work = iccp_allow(source->n_facets);
         work.improvement = iccp_work_unlimited();
         work.overlay.left = work.relaxing;
         work.all = HUGE_VAL;
         status = source->features == NULL
-                     ? follow_cage(next, target, &options, &work, info, env)
-                     : carry(next, &(journey){map->isotopy, source, old_target, target}, &options,
-                             &work, info, env, err);
+                     ? retarget_cage(next, target, &options, &work, info, env)
+                     : move_features(next, &(journey){map->isotopy, source, old_target, target},
+                                     &options, &work, info, env, err);
         next->work = iccp_spent(&work);
-        iccp_mesh_map_keep_plan(next, plan);
+        iccp_plane_keep_plan(next, plan);
     }
     if (status == ICC_OK && info->n_unrepaired == 0)
         *out = next;

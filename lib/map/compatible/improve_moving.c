@@ -1,38 +1,39 @@
-/* Triangles that carry far more energy than others are about to lock: what they hold between them
- * cannot move on, however much room there is round about. So edges are cut there, which gives the
- * map more freedom; edges flip where that lowers the energy; and near by, points and images move by
- * turns. Where a mesh has many triangles, vertices merge that matter little. */
-#include "map/compatible/tend.h"
+/* Triangles with far more energy than others are about to lock: the vertices that they hold cannot
+ * move on, however much room there is around them. So their edges are cut, which gives the map more
+ * freedom. Edges flip where that lowers the energy, and nearby points and images move by turns. In a
+ * mesh with many triangles, vertices that matter little merge. */
+#include "map/compatible/improve_moving.h"
 
 #include "map/compatible/coarsen.h"
-#include "map/compatible/descent.h"
 #include "map/compatible/flips.h"
+#include "map/energy/descent.h"
 #include "map/energy/dirichlet.h"
 #include "map/energy/newton.h"
 
 #include <string.h>
 
-/* A triangle is tense from so much energy over its area on, of which an isometry has 4, or from so
- * many times the mean; and all too tense from some times that on. Where points have gone round one
- * another many triangles are tense for good: that alone is no reason to change the mesh. */
-static const double TENSE = 100, TENSE_TO_MEAN = 3, ALL_TOO = 40;
+/* A triangle is tense if its energy density (4 for an isometry) is at least TENSE and TENSE_TO_MEAN
+ * times the mean. It is extreme if its density is EXTREME times that. Where points have gone around
+ * one another, many triangles stay tense. So tense triangles alone are no reason to change the
+ * mesh. */
+static const double TENSE = 100, TENSE_TO_MEAN = 3, EXTREME = 40;
 
-/* Room for so many motions is enough. With 2 energies grow a hundredfold before the mesh is tended,
- * with 10 it changes in nearly every frame (tests/bench/bench_drag.c). */
+/* Room for so many motions is enough. With 2, energies grow a hundredfold before the mesh changes.
+ * With 10, it changes in nearly every frame (tests/bench/bench_drag.c). */
 static const double ENOUGH_ROOM = 5;
 
-/* No edge is cut that is shorter than this share of the longest: round a point, energy grows
- * without end as triangles shrink. */
+/* Edges shorter than this share of the longest allowed are not cut. Around a point, energy grows
+ * without bound as triangles shrink. */
 static const double SHORTEST = 0.3;
 
-/* What is not so many triangles away from tense ones stays where it is. */
+/* Vertices farther than so many triangles from tense ones stay where they are. */
 enum { RINGS = 2 };
 
-/* Vertices merge where the energy near by rises by no more than this share, and more where the mesh
- * is crowded. */
+/* Vertices merge if the energy nearby rises by at most this share. In a crowded mesh it may rise
+ * more. */
 static const double RISE = 0.06;
 
-/* On each side. */
+/* Steps on each side. */
 static const iccp_descent RELAXATION = {0, 1, 1e-2, 0, false};
 
 static double density_of(const iccp_simplicial_map *map, size_t triangle)
@@ -60,13 +61,13 @@ static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle, double *len
     return best;
 }
 
-/* Whether a triangle that may be cut is all too tense. */
-static bool any_all_too_tense(const iccp_plmap *map, double tense, double shortest)
+/* Whether a triangle that may be cut is extreme. */
+static bool any_is_extreme(const iccp_plmap *map, double tense, double shortest)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     for (uint32_t t = 0; t < map->corners.n_triangles; ++t) {
         double length2;
-        if (!(density_of(&simplicial, t) > ALL_TOO * tense))
+        if (!(density_of(&simplicial, t) > EXTREME * tense))
             continue;
         (void)longest_of(map, t, &length2);
         if (length2 > shortest * shortest)
@@ -92,8 +93,8 @@ static icc_status cut_tense(iccp_plmap *map, double tense, double shortest)
     return status;
 }
 
-/* Marks what is to stay: all that is fixed or far from tense triangles. Until the end, marks count
- * triangles to the next tense one. */
+/* Marks the vertices that stay: fixed ones, and those far from tense triangles. While it runs, marks
+ * count the triangles to the nearest tense one. */
 static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
@@ -114,8 +115,8 @@ static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
         still[i] = map->fixed[i] != ICCP_FREE || still[i] > RINGS;
 }
 
-/* The points of what is not still, then the images: the same unknowns on the same mesh, so one plan
- * serves both. */
+/* Moves the points of unmarked vertices, then their images. Both have the same unknowns on the same
+ * mesh, so one plan serves both. */
 static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const iccp_env *env)
 {
     uint8_t *still = iccp_alloc(&env->memory, map->n_vertices, 1);
@@ -133,28 +134,28 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
             status = iccp_newton_plan_create(&plan, &simplicial, env);
         simplicial.plan = plan;
         if (status == ICC_OK)
-            status = iccp_improve_images(&simplicial, &RELAXATION, work, NULL, env);
+            status = iccp_take_steps(&simplicial, &RELAXATION, work, NULL, env);
     }
     iccp_newton_plan_release(plan);
     iccp_free(&env->memory, still);
     return status;
 }
 
-/* How crowded a mesh is: the square of how many times too many triangles there are, at least 1.
- * What is cut must be the tenser for it, and merging may cost the more. */
+/* How crowded a mesh is: the square of its triangles over grain->many, at least 1. In a crowded
+ * mesh only tenser triangles are cut, and merging may cost more. */
 static double crowding(const iccp_plmap *map, const iccp_grain *grain)
 {
     const double times = (double)map->corners.n_triangles / (double)grain->many;
     return iccp_max(1, times * times);
 }
 
-icc_status iccp_tend(iccp_plmap *map, const iccp_grain *grain, double room, iccp_work *work,
-                     const iccp_env *env)
+icc_status iccp_improve_moving(iccp_plmap *map, const iccp_grain *grain, double room,
+                               iccp_work *work, const iccp_env *env)
 {
     const double tense = iccp_max(TENSE, TENSE_TO_MEAN * iccp_plmap_energy(map));
     const double shortest = SHORTEST * grain->longest;
     size_t n_flips, n_gone;
-    if (room > ENOUGH_ROOM && !any_all_too_tense(map, tense, shortest))
+    if (room > ENOUGH_ROOM && !any_is_extreme(map, tense, shortest))
         return ICC_OK;
     map->plan = NULL;
     icc_status status = cut_tense(map, tense * crowding(map, grain), shortest);

@@ -2,7 +2,7 @@
 #ifndef ICCP_DESCENT_H
 #define ICCP_DESCENT_H
 
-#include "map/compatible/plmap.h"
+#include "map/energy/simplicial_map.h"
 #include "map/energy/work.h"
 
 typedef struct iccp_improvement {
@@ -21,17 +21,15 @@ typedef struct iccp_descent {
     bool is_hasty;     /* or one */
 } iccp_descent;
 
-/* Lowers the symmetric Dirichlet energy of a map in the plane or in space, all of whose simplices
- * are positive, which they stay. Ends, too, when there is no work left for a step. Adds to
- * improvement->n_iterations and sets the others but n_levels; NULL if nobody asks. On any failure
- * the map is as good. */
+/* Lowers the symmetric Dirichlet energy of a map in the plane or in space whose simplices are all
+ * positive. They stay so. Ends earlier if there is no work left for a step. Adds to
+ * improvement->n_iterations and sets is_converged, unless it is NULL. On any failure the map is no
+ * worse. */
+icc_status iccp_take_steps(const iccp_simplicial_map *map, const iccp_descent *descent,
+                           iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
+
+/* As iccp_take_steps(), and sets improvement->energy. It must not be NULL. */
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
-
-/* The same for the images, and then as many steps for the points of what is not fixed, by the
- * energy of the inverse map. Sets improvement->energy. The map is no worse than before, and no
- * triangle has become so flat, on either side, that doubles would take it for one without area. */
-icc_status iccp_improve_both_sides(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
-                                   iccp_improvement *improvement, const iccp_env *env);
 
 #endif

@@ -1,6 +1,6 @@
-/* Triangles that a change of the mesh of a piecewise linear map would make. */
-#ifndef ICCP_CANDIDATE_H
-#define ICCP_CANDIDATE_H
+/* How good the triangles are that a change of a plane map's mesh would make. */
+#ifndef ICCP_TRIANGLE_QUALITY_H
+#define ICCP_TRIANGLE_QUALITY_H
 
 #include "base/minmax.h"
 #include "map/compatible/plmap.h"
@@ -17,21 +17,21 @@ static inline double iccp_roundness(const double *a, const double *b, const doub
                             iccp_max(iccp_vec_distance2(2, b, c), iccp_vec_distance2(2, c, a)));
 }
 
-/* Of some triangles; begins as iccp_no_candidate(). */
-typedef struct iccp_candidate {
+/* Sums over some triangles. Begin with iccp_no_quality(). */
+typedef struct iccp_quality {
     double energy;    /* the sum of their symmetric Dirichlet energies */
-    double area;      /* and of their stretched areas before the map */
+    double area;      /* the sum of their stretched areas before the map */
     double roundness; /* the least one, before and after the map */
-} iccp_candidate;
+} iccp_quality;
 
-static inline iccp_candidate iccp_no_candidate(void)
+static inline iccp_quality iccp_no_quality(void)
 {
-    return (iccp_candidate){.roundness = HUGE_VAL};
+    return (iccp_quality){.roundness = HUGE_VAL};
 }
 
 /* Whether the triangle of three vertices of the map is positive before and after it, exactly. */
-static inline bool iccp_candidate_is_positive(const iccp_plmap *map, uint32_t a, uint32_t b,
-                                              uint32_t c)
+static inline bool iccp_quality_is_positive(const iccp_plmap *map, uint32_t a, uint32_t b,
+                                            uint32_t c)
 {
     const double *p = map->points, *q = map->images;
     const size_t i = 2 * (size_t)a, j = 2 * (size_t)b, k = 2 * (size_t)c;
@@ -39,8 +39,8 @@ static inline bool iccp_candidate_is_positive(const iccp_plmap *map, uint32_t a,
 }
 
 /* Adds the triangle of three vertices of the map. */
-static inline void iccp_candidate_add(iccp_candidate *candidate, const iccp_plmap *map, uint32_t a,
-                                      uint32_t b, uint32_t c)
+static inline void iccp_quality_add(iccp_quality *quality, const iccp_plmap *map, uint32_t a,
+                                    uint32_t b, uint32_t c)
 {
     const uint32_t vertices[3] = {a, b, c};
     const double *point[3], *image[3], *stretched[3];
@@ -53,22 +53,22 @@ static inline void iccp_candidate_add(iccp_candidate *candidate, const iccp_plma
         stretched[k] = room[k];
     }
     iccp_element_fill(2, stretched, element);
-    candidate->energy += iccp_dirichlet_energy2(element, image);
-    candidate->area += element[0];
-    candidate->roundness =
-        iccp_min(candidate->roundness, iccp_min(iccp_roundness(point[0], point[1], point[2]),
-                                                iccp_roundness(image[0], image[1], image[2])));
+    quality->energy += iccp_dirichlet_energy2(element, image);
+    quality->area += element[0];
+    quality->roundness =
+        iccp_min(quality->roundness, iccp_min(iccp_roundness(point[0], point[1], point[2]),
+                                              iccp_roundness(image[0], image[1], image[2])));
 }
 
-/* Whether doubles, too, find area and energy in the triangle of three vertices, there and back. */
-static inline bool iccp_candidate_is_sound(const iccp_plmap *map, uint32_t a, uint32_t b,
-                                           uint32_t c)
+/* Whether doubles find area and a finite energy in a triangle of three vertices, for the map and
+ * for its inverse. */
+static inline bool iccp_quality_is_sound(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t c)
 {
     iccp_plmap inverse = *map;
-    iccp_candidate there = iccp_no_candidate(), back = there;
+    iccp_quality there = iccp_no_quality(), back = there;
     iccp_plmap_swap(&inverse);
-    iccp_candidate_add(&there, map, a, b, c);
-    iccp_candidate_add(&back, &inverse, a, b, c);
+    iccp_quality_add(&there, map, a, b, c);
+    iccp_quality_add(&back, &inverse, a, b, c);
     return there.area > 0 && there.energy < HUGE_VAL && back.area > 0 && back.energy < HUGE_VAL;
 }
 

@@ -1,0 +1,14 @@
+/* Steps for the images of a plane map and for its points, by turns. */
+#ifndef ICCP_BOTH_SIDES_H
+#define ICCP_BOTH_SIDES_H
+
+#include "map/compatible/plmap.h"
+#include "map/energy/descent.h"
+
+/* Takes the steps of iccp_improve_images() for the images. Then takes as many steps for the points
+ * of free vertices by the energy of the inverse map. Sets improvement->energy. The map is no worse
+ * than before. No triangle becomes so flat on either side that doubles see no area in it. */
+icc_status iccp_improve_both_sides(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
+                                   iccp_improvement *improvement, const iccp_env *env);
+
+#endif

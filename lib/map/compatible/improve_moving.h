@@ -1,0 +1,22 @@
+/* Keeping the mesh of a plane map fit while its fixed vertices move. */
+#ifndef ICCP_IMPROVE_MOVING_H
+#define ICCP_IMPROVE_MOVING_H
+
+#include "map/compatible/plmap.h"
+#include "map/energy/work.h"
+
+/* How fine a mesh should be. */
+typedef struct iccp_grain {
+    double longest; /* no edge becomes longer than this, or much shorter */
+    size_t many;    /* triangles: with more of them, vertices merge */
+} iccp_grain;
+
+/* Changes the mesh near triangles that have far more energy than others: cuts and flips edges, and
+ * moves points and images. Elsewhere it merges vertices if there are too many. `room` tells how
+ * many motions like the last one fit in before a triangle flips. If that is enough, nothing is
+ * done, unless a triangle has an extreme energy. All triangles stay exactly positive before and
+ * after the map. O(n) plus steps near such triangles. */
+icc_status iccp_improve_moving(iccp_plmap *map, const iccp_grain *grain, double room,
+                               iccp_work *work, const iccp_env *env);
+
+#endif
