@@ -1,17 +1,20 @@
-/* The curve of G. M. Morton, A computer oriented geodetic data base and a new technique in file
- * sequencing, 1966: the bits of the coordinates of a cell of a lattice take turns. */
+/* Arranges simplices along a space-filling curve.
+ *
+ * Source: G. M. Morton, A computer oriented geodetic data base and a new technique in file
+ * sequencing, 1966. The place of a lattice cell on the curve interleaves the bits of its
+ * coordinates. */
 #include "shelling/arranged.h"
 
 #include "base/sort.h"
 
 #include <math.h>
 
-/* A key is the place on the curve, then the number of the simplex. */
+/* A key consists of the place on the curve and the number of the simplex. */
 enum { PLACE_BITS = 32, PLACE_SHIFT = 32 };
 
-/* The lattice is a cube round all points. */
+/* A lattice in a cube round all points. */
 typedef struct lattice {
-    size_t dim, bits; /* for each axis */
+    size_t dim, bits; /* bits: for each axis */
     double low[ICC_MAX_DIM], scale;
 } lattice;
 
@@ -33,7 +36,7 @@ static lattice find_lattice(const iccp_simplices *mesh)
     return l;
 }
 
-/* The place of the mean of a simplex's corners. */
+/* The place on the curve of the mean of a simplex's corners. */
 static uint64_t find_place(const lattice *l, const iccp_simplices *mesh, size_t simplex)
 {
     const size_t n_corners = l->dim + 1;
@@ -59,7 +62,7 @@ static void sort_simplices(const iccp_simplices *mesh, uint64_t *keys, uint64_t 
     iccp_sort_keys(keys, work, mesh->n_simplices, PLACE_SHIFT);
 }
 
-/* `number`: the new one of each simplex. */
+/* `number` holds the new number of each simplex. */
 static void copy_sides(iccp_arranged *a, const iccp_simplices *mesh, const uint32_t *number)
 {
     const uint32_t n_corners = (uint32_t)mesh->dim + 1;

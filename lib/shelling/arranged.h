@@ -1,5 +1,5 @@
-/* A mesh with its simplices in another order: what is near in space is near in memory, whatever the
- * order that they were given in. */
+/* A copy of a mesh with its simplices in another order, so that simplices near in space are near
+ * in memory. Source: Morton's curve; see arranged.c. */
 #ifndef ICCP_ARRANGED_H
 #define ICCP_ARRANGED_H
 
@@ -7,14 +7,14 @@
 
 typedef struct iccp_arranged {
     iccp_simplices mesh; /* points are borrowed; corners of a simplex keep their order */
-    uint32_t *order;     /* of each simplex: its number in the mesh that this one was made from */
+    uint32_t *order;     /* the number of each simplex in the original mesh */
 } iccp_arranged;
 
-/* O(n). On failure nothing is left allocated. */
+/* O(n). Leaves nothing allocated on failure. */
 icc_status iccp_arranged_create(iccp_arranged *a, const iccp_simplices *mesh, const iccp_env *env);
 void iccp_arranged_free(iccp_arranged *a);
 
-/* From a number for each side to the order of the mesh that this one was made from. */
+/* Converts numbers for the sides of this mesh to the order of the original mesh. */
 void iccp_arranged_restore(const iccp_arranged *a, const double *of_sides, double *restored);
 
 #endif

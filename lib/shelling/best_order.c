@@ -1,8 +1,9 @@
-/* The reference flux says how good an order is: the less of it an order reverses, the nearer to it
- * a flux along the order can come. Which rule and which weight do best differs from mesh to mesh,
- * so some are tried, each with facets reversed. Where all get stuck, two are repeated with a bias
- * for the simplices that were left, as in D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization,
- * 1999. */
+/* Finds the best of several orders. The less of the reference flux an order reverses, the nearer to
+ * it a flux along the order can come. The best rule and weight differ from mesh to mesh, so several
+ * are tried, each with facets reversed.
+ *
+ * If all orders get stuck, two are repeated with a bias for the simplices that were left.
+ * Source: D. E. Joslin, D. P. Clements, Squeaky Wheel Optimization, 1999. */
 #include "shelling/best_order.h"
 
 #include "base/error.h"
@@ -14,24 +15,25 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* One order is peeled and one is grown with each weight. The weights follow each other until an
- * order is complete. */
+/* With each weight, one order is peeled and one is grown. The next weight follows only if
+ * neither is complete. */
 enum { N_BETAS = 2, N_RUNS = 2 * N_BETAS };
 
-/* On 16 meshes the best one, before facets were reversed, was one of 16 to 1024: the greater, the
- * less flux is reversed, until, the earlier the more simplices there are, simplices that had to
- * wait for long are closed in. With facets reversed, the better of two orders with 32 had .2 to .96
- * of the energy of that with 8, on all of 16 meshes of 900 to 82,000 tetrahedra. */
+/* Weights of reversed flux. The greater the weight, the less flux is reversed. But large meshes
+ * then get stuck earlier, because simplices that had to wait long are closed in. On 16 meshes
+ * the best weight, before facets were reversed, was one of 16 to 1024. With facets reversed, the
+ * better of two orders with weight 32 had 0.2 to 0.96 of the energy of that with 8. This held on
+ * all of 16 meshes of 900 to 82,000 tetrahedra. */
 static const double BETA[N_BETAS] = {32, 8};
 
-/* The energy was within 5 % then of what it was after 100. */
+/* After this many sweeps the energy was within 5 % of that after 100. */
 static const size_t SWEEPS = 20;
 
-/* Repetitions of an order that is not complete. */
+/* The most repetitions of an order that is not complete. */
 enum { N_ROUNDS = 12 };
 
-/* The bias of a simplex that was left, of the potential's range: growth that stopped short on real
- * meshes was complete after 2 to 4 rounds. */
+/* Bias of a simplex that was left, relative to the potential's range. With it, growth that had
+ * stopped on real meshes was complete after 2 to 4 rounds. */
 static const double BIAS_LEFT = 0.01;
 
 /* An order and the flux along it. */
@@ -39,16 +41,16 @@ typedef struct candidate {
     uint32_t *rank; /* of each simplex */
     double *flux;   /* of each side */
     size_t n_left;
-    double energy; /* HUGE_VAL for an order that was not complete */
+    double energy; /* HUGE_VAL if the order is not complete */
 } candidate;
 
 typedef struct best_order_search {
     iccp_order_priority priority;
     iccp_faces faces;
     iccp_circulation circulation;
-    iccp_env quiet; /* for other threads than the caller's */
+    iccp_env quiet; /* without the progress callback, for other threads than the caller's */
     candidate runs[N_RUNS];
-    size_t first_run; /* of those that compete now */
+    size_t first_run; /* the first of the runs that compete now */
 } best_order_search;
 
 static bool is_peeling(size_t run)
@@ -61,9 +63,9 @@ static double beta_of(size_t run)
     return BETA[run / 2];
 }
 
-/* Makes one order, reverses facets of it, and sends the flux along it. The greedy flux will do
- * to compare: an order whose energy was least then was within 10 % of the least after 100
- * sweeps, too. The energy is HUGE_VAL if the order is not complete. */
+/* Makes one order, reverses facets of it, and sends the flux along it. The greedy flux is enough
+ * for the comparison: the order that it ranks first was within 10 % of the least energy after
+ * 100 sweeps, too. The energy is HUGE_VAL if the order is not complete. */
 static icc_status try_order(const best_order_search *c, size_t run, const double *bias,
                             candidate *a, const iccp_env *env)
 {
@@ -91,7 +93,7 @@ static void free_candidate(candidate *a, const iccp_memory *memory)
     *a = (candidate){.energy = HUGE_VAL};
 }
 
-/* Kept, unless it is not complete, until all can be compared. */
+/* Tries one run. A complete result is kept until all can be compared. */
 static icc_status try_run(best_order_search *c, size_t run)
 {
     const iccp_simplices *mesh = c->priority.mesh;
@@ -116,7 +118,7 @@ static icc_status try_runs(void *argument, size_t begin, size_t end)
     return status;
 }
 
-/* The run that does best, or N_RUNS. */
+/* Returns the run with the least energy, or N_RUNS if none is complete. */
 static size_t find_best_run(const best_order_search *c, size_t *n_finished)
 {
     size_t best = N_RUNS;
@@ -129,8 +131,8 @@ static size_t find_best_run(const best_order_search *c, size_t *n_finished)
     return best;
 }
 
-/* Squeaky wheel: the simplices that were left get their turn earlier the next time, by a bias
- * that adds up over the rounds. Peeling wants the greatest potential first, growing the least. */
+/* The squeaky wheel: simplices that were left come earlier in the next round, by a bias that
+ * adds up over the rounds. Peeling takes the greatest potential first, growing the least. */
 static void raise_bias(const best_order_search *c, bool peeling, const uint32_t *rank, double *bias)
 {
     const size_t n = c->priority.mesh->n_simplices;
@@ -142,8 +144,8 @@ static void raise_bias(const best_order_search *c, bool peeling, const uint32_t 
             bias[s] += (peeling ? BIAS_LEFT : -BIAS_LEFT) * range;
 }
 
-/* Repeats an order, each time with a greater bias for the simplices that were left, until it is
- * complete. `n_least` is the least that was left in any round. */
+/* Repeats an order until it is complete, each time with a greater bias for the simplices that
+ * were left. `n_least` is the least number that was left in any round. */
 static icc_status retry_run(const best_order_search *c, size_t run, double *bias, candidate *a,
                             size_t *n_least, const iccp_env *env)
 {
@@ -158,7 +160,7 @@ static icc_status retry_run(const best_order_search *c, size_t run, double *bias
     return ICC_OK;
 }
 
-/* The winner's order and flux. */
+/* Copies the winner's order and flux. */
 static void copy_run(const best_order_search *c, size_t run, candidate *best)
 {
     const iccp_simplices *mesh = c->priority.mesh;
@@ -168,7 +170,8 @@ static void copy_run(const best_order_search *c, size_t run, candidate *best)
     best->energy = a->energy;
 }
 
-/* Anything that is complete in the end, where no run is. Small weights get stuck less often. */
+/* Repeats orders if no run is complete, and takes the first that becomes complete. It uses the
+ * smallest weight, because small weights get stuck less often. */
 static icc_status retry_runs(const best_order_search *c, size_t *run, candidate *a, size_t *n_least,
                              const iccp_env *env)
 {
@@ -183,7 +186,7 @@ static icc_status retry_runs(const best_order_search *c, size_t *run, candidate 
     return status;
 }
 
-/* Facets that the reference flux crosses from smaller to greater rank. */
+/* Counts the facets that the reference flux crosses from smaller to greater rank. */
 static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
 {
     size_t n = 0;
@@ -196,8 +199,8 @@ static size_t count_reversed(const iccp_circulation *c, const uint32_t *rank)
     return n;
 }
 
-/* Peeling and growing compete, in parallel, with one weight after the other until one of them is
- * complete. Returns the run that does best, or N_RUNS. */
+/* Lets peeling and growing compete in parallel, with one weight after the other, until one of
+ * them is complete. `*best` is the best run, or N_RUNS. */
 static icc_status compete(best_order_search *c, size_t *best, size_t *n_finished,
                           const iccp_env *env)
 {
@@ -212,7 +215,8 @@ static icc_status compete(best_order_search *c, size_t *best, size_t *n_finished
     return status;
 }
 
-/* The greedy flux of the best order is fitted to the reference, which pays for the winner only. */
+/* Finds the best order by its greedy flux. Only the winner's flux is then fitted to the
+ * reference, which is expensive. */
 static icc_status find_best_order(best_order_search *c, candidate *best, iccp_best_order_info *info,
                                   const iccp_env *env, icc_error *err)
 {

@@ -1,5 +1,8 @@
-/* Depths are distances from the boundary. They are found only where it matters: between two
- * vertices the depth differs by no more than their distance. */
+/* Chooses the vertices where leaves end. The depth of a vertex is its distance from the boundary.
+ * The depths of two vertices differ by no more than their distance, so few have to be computed.
+ *
+ * Sources: E. W. Dijkstra, 1959, for bounds along edges. W. T. Tutte, 1963, for the images of a
+ * pair. */
 #include "shelling/centres.h"
 
 #include "base/heap.h"
@@ -13,23 +16,23 @@
 
 #define NONE UINT32_MAX
 
-/* Vertices between looks at the progress callback. */
+/* Vertices between calls of the progress callback. */
 enum { VERTICES_PER_REPORT = 1 << 10 };
 
-/* How much deeper a vertex must be to be taken at some distance from where the image of the other
- * centre lies: with 1.2 to 1.5, pairs of real bodies are a fifth to a half deeper than with the
- * nearest vertex. */
+/* How much a vertex's depth must grow per distance from the image of the other centre for it to
+ * be chosen. With 1.2 to 1.5, centres of pairs of real bodies are a fifth to a half deeper than
+ * the nearest vertices. */
 static const double DEPTH_PER_DISTANCE = 1.5;
 
 typedef struct search {
-    const icc_domain *domain[2]; /* the second one: only with `image` */
+    const icc_domain *domain[2]; /* the second one is set only with `image` */
     const iccp_simplices *mesh;
-    const iccp_gram *edges; /* whose pattern is the edges of the mesh */
-    const double *image;    /* of each inner vertex in the second domain; or NULL */
-    double *bound;          /* of each vertex: depth is not more, in local units */
+    const iccp_gram *edges; /* its pattern is the edges of the mesh */
+    const double *image;    /* of each inner vertex, in the second domain; or NULL */
+    double *bound;          /* of each vertex: an upper bound of its depth, in local units */
     iccp_heap heap;
     uint32_t best;
-    double depth; /* of the best, relative */
+    double depth; /* of the best vertex, relative to the domain's size */
 } search;
 
 static double size_of(const icc_domain *domain)
@@ -42,7 +45,7 @@ static double distance(const iccp_simplices *mesh, size_t vertex, const double *
     return iccp_vec_distance(mesh->dim, mesh->points + mesh->dim * vertex, point);
 }
 
-/* 0 outside. */
+/* The depth of a point, or 0 if it is outside. */
 static double depth_of(const icc_domain *domain, const double *point)
 {
     double bary[ICC_MAX_DIM], square;
@@ -52,7 +55,8 @@ static double depth_of(const icc_domain *domain, const double *point)
     return sqrt(square);
 }
 
-/* Lengths of paths along edges from the boundary: E. W. Dijkstra, 1959. */
+/* Bounds the depths by the lengths of paths along edges from the boundary (Dijkstra's
+ * algorithm). */
 static icc_status bound_depths(search *s, const iccp_env *env)
 {
     icc_status status = ICC_OK;
@@ -78,7 +82,8 @@ static icc_status bound_depths(search *s, const iccp_env *env)
     return status;
 }
 
-/* The depth of a vertex, which bounds those of its neighbours that have not been looked at. */
+/* Measures the depth of a vertex, which lowers the bounds of its neighbours that are still in
+ * the queue. */
 static double measure(search *s, uint32_t v)
 {
     const double *point = s->mesh->points + s->mesh->dim * v;
@@ -94,8 +99,8 @@ static double measure(search *s, uint32_t v)
     return depth;
 }
 
-/* The inner vertex with the greatest depth, or lesser depth of it and its image; if all are 0,
- * NONE. */
+/* Finds the inner vertex with the greatest depth. If it has an image, the lesser of both depths
+ * counts. `best` is NONE if all depths are 0. */
 static icc_status find_deepest(search *s, const iccp_env *env)
 {
     const double size = size_of(s->domain[0]);
@@ -145,7 +150,7 @@ icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *m
     search s = {.domain = {domain, NULL}, .mesh = mesh, .edges = &edges};
     status = run_search(&s, env);
     iccp_gram_free(&edges);
-    /* Vertices as near to the boundary as its rounding are as good as any. */
+    /* If all inner vertices are within rounding of the boundary, each is as good as any other. */
     *centre = s.best != NONE ? s.best : (uint32_t)mesh->n_boundary;
     return status;
 }
@@ -159,8 +164,8 @@ uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
     return nearest;
 }
 
-/* Weights to the boundary bring the second domain's vertices to the right side, one number for each
- * dimension. */
+/* Fills in the right side, with one number for each dimension: the weights to boundary vertices,
+ * times the positions of these vertices in the second domain. */
 static void fill_right(const iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to,
                        double *right)
 {
@@ -171,7 +176,7 @@ static void fill_right(const iccp_gram *g, const iccp_simplices *mesh, const icc
                 right[dim * (v - n_rim) + k] -= g->value[p] * to->vertices[dim * g->column[p] + k];
 }
 
-/* The equations of the inner vertices. */
+/* Sets up the equations of the inner vertices. */
 static icc_status set_up(iccp_gram *inner, iccp_gram *edges, const iccp_simplices *mesh,
                          const icc_domain *to, double *right, const iccp_env *env)
 {
@@ -187,8 +192,8 @@ static icc_status set_up(iccp_gram *inner, iccp_gram *edges, const iccp_simplice
     return status;
 }
 
-/* The images of the inner vertices by the harmonic map: W. T. Tutte, How to draw a graph, 1963,
- * with the weights of the Laplacian. */
+/* Computes the images of the inner vertices by the harmonic map, with weights of the Laplacian.
+ * Source: W. T. Tutte, How to draw a graph, 1963. */
 static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, const icc_domain *to,
                               double *image, const iccp_env *env)
 {
@@ -206,8 +211,8 @@ static icc_status find_images(iccp_gram *edges, const iccp_simplices *mesh, cons
     return status;
 }
 
-/* An inner vertex near a point, a deep one rather than the nearest. No depth is more than that of
- * the point and the distance from it, so that few have to be measured. */
+/* Finds an inner vertex near a point, and prefers a deep one to the nearest. No depth exceeds
+ * the sum of the point's depth and the distance from it, so few depths have to be measured. */
 static uint32_t find_partner(const icc_domain *domain, const iccp_simplices *mesh,
                              const double *point)
 {
@@ -242,7 +247,7 @@ static icc_status pair(search *s, const iccp_simplices *const mesh[2], const uin
                                  s->image + mesh[0]->dim * (s->best - mesh[0]->n_boundary));
         return ICC_OK;
     }
-    /* No image is inside. */
+    /* No vertex has an image inside. */
     status = iccp_deepest_centre(s->domain[0], mesh[0], &centre[0], env);
     return status == ICC_OK ? iccp_deepest_centre(s->domain[1], mesh[1], &centre[1], env) : status;
 }

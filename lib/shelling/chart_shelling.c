@@ -1,5 +1,7 @@
-/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
- * Transactions on Graphics 35, 2016; docs/theory.md, foliations of simplices. */
+/* Creates charts of method foliation on the caller's mesh.
+ *
+ * Source: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
+ * Transactions on Graphics 35, 2016. See docs/theory.md, "foliations of simplices". */
 #include "shelling/chart_shelling.h"
 
 #include "base/clock.h"
@@ -12,28 +14,30 @@
 #include "shelling/shelling_split.h"
 #include "shelling/shelling_state.h"
 
-/* Share of the flux through the boundary that is harmonic, the rest goes by area: with more of it
- * median energies of maps fall, but so do their least determinants (bench_tets). */
+/* The share of the flux through the boundary that is harmonic. The rest goes by area. With a
+ * larger share the median energy of maps falls, but so does their least determinant
+ * (bench_tets). */
 static const double HARMONIC_SHARE = 0.6;
 
-/* One or two domains on their way to charts. */
+/* One or two domains for which charts are being made. */
 typedef struct job {
     size_t n;
     const icc_domain *const *domain;
     const icc_chart_options *options;
-    iccp_simplices *split[2]; /* owned: meshes that got a vertex inside; or NULL */
+    iccp_simplices *split[2]; /* owned: meshes that got a vertex inside; NULL if the domain's has
+                                 one */
     const iccp_simplices *mesh[2];
     uint32_t centre[2];
-    double seconds; /* to find the centres */
+    double seconds; /* time to find the centres */
 } job;
 
-/* What the order of one mesh is made from and what comes out. */
+/* The arrays from which the order of one mesh is made, and the result. */
 typedef struct work {
     double *inflow, *reference, *potential, *flux;
     uint32_t *rank;
 } work;
 
-/* Says which of two domains is at fault. */
+/* Adds to the message which of two domains caused the error. */
 static icc_status blame(const job *j, size_t k, icc_status status, icc_error *err)
 {
     (void)iccp_explain(err, status);
@@ -67,7 +71,7 @@ static icc_status choose_given(job *j, size_t k, icc_error *err)
     return ICC_OK;
 }
 
-/* Where only the target's is given, the pair is looked at the other way round. */
+/* If only the target's centre is given, pairs the domains in the opposite direction. */
 static icc_status pair(job *j, const iccp_env *env)
 {
     const bool given[2] = {j->options[0].maximum != NULL, j->options[1].maximum != NULL};
@@ -84,8 +88,8 @@ static icc_status pair(job *j, const iccp_env *env)
     return status;
 }
 
-/* Meshes without a vertex inside get one; then each centre is the caller's, the deepest vertex,
- * or one that suits both domains of a pair. */
+/* Chooses the centres. A mesh without a vertex inside gets one. Each centre is the caller's, the
+ * deepest vertex, or a vertex that suits both domains of a pair. */
 static icc_status choose_centres(job *j, const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
@@ -119,8 +123,8 @@ static void work_free(work *w, const iccp_memory *memory)
     iccp_free(memory, w->rank);
 }
 
-/* From a mesh to ranks and fluxes: what enters through the boundary, the harmonic flux with that
- * inflow, and the order that reverses least of it. */
+/* Makes ranks and fluxes from a mesh in three steps: the inflow through the boundary, the
+ * harmonic flux with that inflow, and the order that reverses the least of it. */
 static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
                              icc_shelling_info *info, const iccp_env *env, icc_error *err)
 {
@@ -158,8 +162,8 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     return status;
 }
 
-/* In place of the fluxes: each side's share of what leaves the simplex, negative, or of what enters
- * it. */
+/* Replaces the fluxes by directions: each side's share of the flux that enters the simplex, or,
+ * with a negative sign, of the flux that leaves it. */
 static void find_directions(const iccp_simplices *mesh, double *flux)
 {
     const size_t n = mesh->dim + 1;
@@ -174,7 +178,8 @@ static void find_directions(const iccp_simplices *mesh, double *flux)
     }
 }
 
-/* Certifies what the leaves will follow, ranks and directions, whoever made them. */
+/* Certifies the ranks and directions that the leaves will follow, independent of how they were
+ * made. */
 static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                           const work *w, const iccp_env *env, icc_error *err)
 {
@@ -196,8 +201,8 @@ static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t
                      found.n_directions);
 }
 
-/* The order, the directions that it leads to, their certificate, and the leaves. Directions take
- * the place of the reference flux once they are in the mesh's own order. */
+/* Makes the order, its directions, their certificate, and the leaves. The directions replace the
+ * reference flux after they have been put into the mesh's own order. */
 static icc_status make_leaves(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               const iccp_env *env, icc_error *err)
 {

@@ -1,13 +1,39 @@
 /* Method foliation on the caller's mesh, in any dimension from 2: coordinates along leaves that are
- * straight in every simplex. */
+ * straight in every simplex.
+ *
+ * Source: docs/theory.md, "foliations of simplices"; Campen, Silva, Zorin 2016.
+ *
+ * Legend of lib/shelling
+ * - side: a facet of the mesh as seen from one of its simplices; see geometry/simplices.h.
+ * - face: a set of corners of a simplex, of any dimension (faces.h).
+ * - centre, star: the vertex where all leaves end, and the simplices at it.
+ * - order, rank: the sequence in which simplices join a growing ball; a simplex's number in it.
+ * - leaf: a curve from the boundary to the centre through simplices of ever smaller rank.
+ * - enter, leave: as seen by a leaf that rises to the centre.
+ * - direction: the rates of the barycentric coordinates along a leaf.
+ * - flux: amount that leaves a simplex through a side; negative if it enters (reference.h).
+ * - potential: a function on the simplices that rises with the distance from the star.
+ * - link: the cycle of simplices round a face of dimension dim - 2 (links.h).
+ * - grow, peel, reverse: ways to make and to improve an order.
+ * - place, note: a point as simplex and barycentric coordinates; a place saved with its length.
+ *
+ * Invariants: along an order, every union of simplices is a ball. Leaves enter a simplex from
+ * greater rank and leave it to smaller rank. A chart exists only if shelling_certificate.h accepts
+ * it.
+ *
+ * Ways: centres.h chooses the centres. reference.h, best_order.h and circulation.h make the order
+ * and its flux. shelling_certificate.h proves the foliation, leafn.h follows leaves, and
+ * shelling_state.c has the coordinates.
+ *
+ * Begin with shelling_order.h and leafn.h. */
 #ifndef ICCP_CHART_SHELLING_H
 #define ICCP_CHART_SHELLING_H
 
 #include "chart/chart.h"
 
-/* Charts of one domain, or of two that correspond, whose maxima are then paired; the domains have
- * meshes. Of the options `maximum` is used. ICC_ERR_CERTIFICATE when a chart cannot be certified,
- * with the reason. */
+/* Creates the chart of one domain, or the charts of two that correspond, whose maxima are then
+ * paired. The domains must have meshes. Only the option `maximum` is used. Fails with
+ * ICC_ERR_CERTIFICATE and the reason if a chart cannot be certified. */
 icc_status iccp_chart_shelling_create(size_t n, icc_chart **out, const icc_domain *const *domain,
                                       const icc_chart_options *options, const iccp_env *env,
                                       icc_error *err);

@@ -1,7 +1,8 @@
-/* The sweeps are Gauss-Seidel relaxation (D. Young, Iterative Solution of Large Linear Systems,
- * 1971) of the flux problem of networks in the space of cycles; the bounds are those of projected
- *       relaxation (C. Cryer, SIAM J.
- * Control 9, 1971). */
+/* Fits a flux along an order to a reference flux. The sweeps are Gauss-Seidel relaxation of the
+ * flux problem of networks in the space of cycles, with bounds as in projected relaxation.
+ *
+ * Sources: D. Young, Iterative Solution of Large Linear Systems, 1971. C. Cryer, SIAM J. Control
+ * 9, 1971. */
 #include "shelling/circulation.h"
 
 #include "base/minmax.h"
@@ -10,26 +11,27 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* Of what a simplex receives: the least that the greedy flux sends through each of its sides. */
+/* The least share of what a simplex receives that the greedy flux sends through each side. */
 static const double LEAST_SHARE = 0.02;
 
-/* Of the mean flux density in the simplices at a facet: what the fitted flux keeps there at least,
- * where the greedy one has twice as much. */
+/* The least flux density that the fitted flux keeps at a facet, relative to the mean density in
+ * its two simplices, if the greedy flux has at least twice as much there. */
 static const double LEAST_DENSITY = 0.02;
 
-/* Over-relaxation of the sweeps: below 2, no step raises the energy. */
+/* Over-relaxation of the sweeps. Below 2 no step raises the energy. */
 static const double FACTOR = 1.5;
 
-/* Flux is kept above this, so that it never underflows to 0 along ever smaller shares. */
+/* Flux stays above this, so that it never underflows to 0 along ever smaller shares. */
 static const double LEAST_FLUX = 1e-290;
 
-/* Links between looks at the progress callback, and simplices. */
+/* Links, and simplices, between calls of the progress callback. */
 enum { LINKS_PER_REPORT = 1 << 16, SIMPLICES_PER_REPORT = 1 << 16 };
 
-/* Of memory for the sweeps: 4 to 16 were as good. */
+/* How many links ahead the sweeps prefetch. Values of 4 to 16 were equally fast. */
 enum { LINKS_AHEAD = 8 };
 
-/* What flows through each simplex, by the reference, over the sum of the areas of its sides. */
+/* The density of a simplex: what flows through it by the reference, over the total area of its
+ * sides. */
 static void find_densities(const iccp_circulation *c, double *density)
 {
     const size_t n_corners = c->mesh->dim + 1;
@@ -43,8 +45,7 @@ static void find_densities(const iccp_circulation *c, double *density)
     }
 }
 
-/* What the fit needs of each facet: how dear a difference from the reference is there, and the
- * least flux that it is to keep. */
+/* Sets for each facet the weight of a difference from the reference there, and the least flux. */
 static icc_status weigh_facets(iccp_circulation *c, const iccp_env *env)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -91,9 +92,9 @@ void iccp_circulation_free(iccp_circulation *circulation)
     circulation->least = NULL;
 }
 
-/* What a simplex receives leaves it through its sides to smaller rank as `wanted` has it, but at
- * least a share of all through each. Flux here only ever is added up, so that rounding is all that
- * is amiss. */
+/* Sends on what a simplex receives through its sides to smaller rank, in proportion to `wanted`,
+ * but at least the share `least` of it through each. It only adds up flux, so the only errors
+ * are those of rounding. */
 static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex,
                     const double *wanted, double least, double *flux)
 {
@@ -117,7 +118,7 @@ static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simp
         }
 }
 
-/* All that comes from the boundary goes to the star. */
+/* Sends everything that enters through the boundary to the star. */
 static icc_status send_all(const iccp_circulation *c, const uint32_t *rank, const double *wanted,
                            double least, double *flux, const iccp_env *env)
 {
@@ -148,14 +149,14 @@ icc_status iccp_circulation_greedy(const iccp_circulation *c, const uint32_t *ra
     return send_all(c, rank, c->reference, LEAST_SHARE, flux, env);
 }
 
-/* A facet during the sweeps: flux from the smaller of its sides, what that shall be, the weight of
- * the difference, and the least modulus. The sign never changes. */
+/* A facet during the sweeps: the flux from the smaller of its sides, the wanted flux, the weight
+ * of the difference, and the least modulus. The flux never changes its sign. */
 typedef struct gate {
     double flux, wanted, weight, least;
 } gate;
 
-/* The fluxes to be changed, in the order of the facets, so that a sweep reads one array. A facet
- * that starts with little flux may keep half of it. */
+/* Loads the fluxes in the order of the facets, so that a sweep reads one array. A facet that
+ * starts with little flux may fall to half of it. */
 static void open_gates(const iccp_circulation *c, const double *flux, gate *gates)
 {
     for (size_t f = 0; f < c->links.n_facets; ++f) {
@@ -165,9 +166,9 @@ static void open_gates(const iccp_circulation *c, const double *flux, gate *gate
     }
 }
 
-/* The best circulation is a mean of the differences; it may go too far by some. What runs along
- * with it can take all of it in one direction, what runs against it in the other, until little is
- * left. */
+/* Adds the best circulation round a link: the weighted mean of the differences, over-relaxed.
+ * Fluxes along the circulation limit it in one direction, fluxes against it in the other,
+ * because each must keep its least modulus. */
 static void relax_link(gate *gates, const uint32_t *step, size_t n_steps)
 {
     double sum = 0, weight = 0, room_back = HUGE_VAL, room_on = HUGE_VAL;
@@ -187,13 +188,13 @@ static void relax_link(gate *gates, const uint32_t *step, size_t n_steps)
         gate *g = gates + step[k] / 2;
         const double flux = g->flux + (step[k] % 2 == 0 ? round : -round);
         const double size = g->flux > 0 ? flux : -flux;
-        /* Rounding must not reverse it. */
+        /* Keeps the sign in spite of rounding. */
         g->flux = copysign(size > g->least ? size : g->least, g->flux);
     }
 }
 
-/* One Gauss-Seidel sweep over all cycles. Neighbours in the mesh are seldom so in memory: gates are
- * asked for some links ahead. */
+/* One Gauss-Seidel sweep over all links. Neighbours in the mesh are seldom neighbours in memory,
+ * so gates are prefetched some links ahead. */
 static icc_status sweep(const iccp_links *links, gate *gates, const iccp_env *env)
 {
     for (size_t r = 0; r < links->n; ++r) {
@@ -210,8 +211,8 @@ static icc_status sweep(const iccp_links *links, gate *gates, const iccp_env *en
     return ICC_OK;
 }
 
-/* Circulations keep the divergence that is there, which the greedy flux has only by rounding;
- * what they add is removed at the end by sending everything through once more. */
+/* Circulations do not change the divergence, and the greedy flux has only that of rounding.
+ * Sending everything through once more removes the rounding errors that the sweeps add. */
 icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *rank, size_t n_sweeps,
                                   double *flux, const iccp_env *env)
 {
@@ -230,7 +231,7 @@ icc_status iccp_circulation_relax(const iccp_circulation *c, const uint32_t *ran
     iccp_free(&env->memory, gates);
     for (size_t f = 0; f < c->links.n_facets; ++f)
         flux[c->mesh->across[c->links.side[f]]] = -flux[c->links.side[f]];
-    /* Where little is left of what there was, the rounding of that shows. */
+    /* If little is left of a large flux, the rounding errors of the large flux are noticeable. */
     return status == ICC_OK ? send_all(c, rank, flux, 0, flux, env) : status;
 }
 

@@ -1,3 +1,5 @@
+/* Volumes, areas, gradients and conductances of simplices. Source: linear algebra, with bounds
+ * for flat simplices. */
 #include "shelling/element.h"
 
 #include "base/compiler.h"
@@ -7,18 +9,18 @@
 
 #include <math.h>
 
-/* Of the longest edge: what an edge leaves the space of the ones before by counts as at least that
- * much. So matrices can be factorised whatever there is in the mesh: a single simplex of 1e-9 is
- * enough to spoil them. */
+/* The least height of an edge over the space of the earlier edges, relative to the longest edge.
+ * Smaller heights count as this much, so that matrices can always be factorised. A single
+ * simplex of height 1e-9 would spoil them. */
 static const double THINNEST = 1e-4;
 
-/* Local units, in which domains have the size 1: lengths that are divided by. */
+/* The least length to divide by, in local units, in which domains have size 1. */
 static const double LEAST_LENGTH = 1e-12;
 
-/* Functions that take the dimension are compiled for 3 as well, where loops are unrolled. What
- * takes an elimination elsewhere is a cross product there. */
+/* Functions that take the dimension are also compiled for 3, with unrolled loops. There a cross
+ * product replaces the elimination. */
 
-/* A matrix with the identity, or what became of it, to its right. */
+/* A matrix with the identity to its right, which elimination turns into the inverse. */
 typedef double tableau[ICC_MAX_DIM][2 * ICC_MAX_DIM];
 
 static void swap_rows(double *a, double *b, size_t n)
@@ -30,8 +32,8 @@ static void swap_rows(double *a, double *b, size_t n)
     }
 }
 
-/* Elimination as far as the inverse, with the greatest entry of each column for a pivot. Returns
- * the modulus of the determinant. */
+/* Inverts a matrix by elimination. The pivot is the greatest entry of each column. Returns the
+ * modulus of the determinant. */
 static ICCP_INLINE double invert(size_t n, tableau a, double size)
 {
     double determinant = 1;
@@ -58,8 +60,8 @@ static ICCP_INLINE const double *point_of(const iccp_simplices *mesh, size_t dim
     return mesh->points + dim * mesh->corners[side];
 }
 
-/* Gradients by inverting the matrix of the edges from corner 0; the first is minus the sum of
- * the others. */
+/* Finds the gradients by inverting the matrix of the edges from corner 0. The first gradient is
+ * minus the sum of the others. */
 static ICCP_INLINE double find_gradients(const iccp_simplices *mesh, size_t n, size_t simplex,
                                          double *gradient)
 {
@@ -87,9 +89,9 @@ static ICCP_INLINE double find_gradients(const iccp_simplices *mesh, size_t n, s
     return volume;
 }
 
-/* The same for tetrahedra, 0 for those that are so flat that a pivot might be below the least: if
- * none is then their product is at most four times that, since pivots below the first may grow to
- * twice the longest edge. */
+/* Like find_gradients(), for tetrahedra. Returns 0 for a tetrahedron so flat that a pivot might
+ * be below the least. If one is, the determinant is at most 4 THINNEST size^3, because the
+ * pivots after the first are at most twice the longest edge. */
 static double find_gradients_3(const iccp_simplices *mesh, size_t simplex, double *gradient)
 {
     const double *origin = point_of(mesh, 3, 4 * simplex);
@@ -115,7 +117,7 @@ static double find_gradients_3(const iccp_simplices *mesh, size_t simplex, doubl
     return fabs(determinant) / 6;
 }
 
-/* The product of the heights of the edges from one corner, by Gram and Schmidt, over (dim - 1)!. */
+/* The product of the heights of the edges from one corner, by Gram-Schmidt, over (dim - 1)!. */
 static ICCP_INLINE double find_area(const iccp_simplices *mesh, size_t dim, size_t side)
 {
     const size_t out = side % (dim + 1), first = side - out, base = out == 0;
@@ -158,7 +160,7 @@ static double find_area_3(const iccp_simplices *mesh, size_t side)
     return 0.5 * iccp_vec_norm(3, cross);
 }
 
-/* The mean of the corners of a simplex, without the one opposite a side if that is given. */
+/* The mean of the corners of a simplex. If a side is given, the opposite corner is left out. */
 static ICCP_INLINE void find_middle(const iccp_simplices *mesh, size_t dim, size_t simplex,
                                     size_t out, double *point)
 {

@@ -1,4 +1,4 @@
-/* Geometry of the simplices of a mesh. */
+/* Geometry of the simplices of a mesh: volumes, gradients, areas and conductances. */
 #ifndef ICCP_ELEMENT_H
 #define ICCP_ELEMENT_H
 
@@ -6,18 +6,19 @@
 
 #include <stdbool.h>
 
-/* The volume of a simplex, positive, and the gradients of its barycentric coordinates: dim + 1 rows
- * of dim numbers. Simplices that are all but flat count as a little thicker. */
+/* Returns the positive volume of a simplex. Writes the gradients of its barycentric coordinates:
+ * dim + 1 rows of dim numbers. An almost flat simplex counts as slightly thicker. */
 double iccp_element_gradients(const iccp_simplices *mesh, size_t simplex, double *gradient);
 
-/* The area of the facet at a side: length of an edge of a triangle, and so on. */
+/* The area of the facet at a side, for example the length of an edge of a triangle. */
 double iccp_element_area(const iccp_simplices *mesh, size_t side);
 
-/* That over the distance of the barycentres of the simplices at the facet, or from the simplex to
- * the domain's facet. The same from both sides but for rounding. */
+/* The conductance of a facet: its area over the distance of the barycentres of its two
+ * simplices, or of the simplex and the domain's facet. Both sides give the same value up to
+ * rounding. */
 double iccp_element_conductance(const iccp_simplices *mesh, size_t side);
 
-/* Whether a simplex belongs to the star of a vertex. */
+/* Returns true if a simplex belongs to the star of a vertex. */
 static inline bool iccp_element_has(const iccp_simplices *mesh, size_t simplex, uint32_t vertex)
 {
     const uint32_t *corner = mesh->corners + (mesh->dim + 1) * simplex;

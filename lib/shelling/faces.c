@@ -1,8 +1,9 @@
+/* Numbers the faces of a mesh by sorting their vertices. */
 #include "shelling/faces.h"
 
 #include "geometry/tuples.h"
 
-/* The sets of `size` of a simplex's corners. */
+/* Lists the sets of `size` of a simplex's corners. */
 static size_t list_sets(size_t dim, size_t size, unsigned *sets)
 {
     size_t n = 0;
@@ -21,7 +22,7 @@ static void copy_vertices(const uint32_t *corners, size_t size, unsigned set, ui
     (void)iccp_sort_vertices(size, vertices);
 }
 
-/* Faces with the same vertices get the same number. */
+/* Gives equal numbers to faces with the same vertices. */
 static void number_sorted(iccp_faces *faces, const iccp_tuples *t, size_t n_sets,
                           const unsigned *sets)
 {
@@ -35,8 +36,8 @@ static void number_sorted(iccp_faces *faces, const iccp_tuples *t, size_t n_sets
     }
 }
 
-/* Numbers the faces with `size` corners: listed by their sorted vertices, from every simplex
- * that has them, equal ones are neighbours after sorting. */
+/* Numbers the faces with `size` corners. Each simplex lists its faces by their sorted vertices.
+ * After sorting the lists, equal faces are neighbours. */
 static icc_status number_size(iccp_faces *faces, const iccp_simplices *mesh, size_t size,
                               const iccp_env *env)
 {

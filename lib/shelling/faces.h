@@ -1,7 +1,7 @@
-/* Numbers for the faces of a mesh, the same from every simplex that has the face.
+/* Numbers the faces of a mesh. All simplices that have a face know it by the same number.
  *
- * A face of a simplex is a set of its corners, corner i being bit i. The faces numbered are those
- * of dimension 0 to dim - 2: two simplices that have one need not have a facet in common. */
+ * A face of a simplex is a set of its corners, in which bit i stands for corner i. Only faces of
+ * dimension 0 to dim - 2 are numbered: two simplices with such a face need not share a facet. */
 #ifndef ICCP_FACES_H
 #define ICCP_FACES_H
 
@@ -12,11 +12,13 @@ typedef struct iccp_faces {
     iccp_memory memory;
     size_t n_faces;
     size_t per_simplex;
-    uint8_t place[2 << ICC_MAX_DIM]; /* of a set of corners among the faces of its simplex */
-    uint32_t *number;                /* per_simplex for each simplex */
+    uint8_t place[2 << ICC_MAX_DIM]; /* the number of a set of corners among the faces of its
+                                        simplex */
+    uint32_t *number;                /* per_simplex numbers for each simplex */
 } iccp_faces;
 
-/* ICC_ERR_MEMORY also when there are too many faces for 32 bits; ICC_ERR_CANCELLED. O(n). */
+/* Fails with ICC_ERR_MEMORY, also if there are too many faces for 32 bits, or with
+ * ICC_ERR_CANCELLED. O(n). */
 icc_status iccp_faces_create(iccp_faces *faces, const iccp_simplices *mesh, const iccp_env *env);
 void iccp_faces_free(iccp_faces *faces);
 

@@ -1,10 +1,14 @@
-/* Based on: P. Doyle, J. L. Snell, Random Walks and Electric Networks, 1984, section 1.3: a network
- * of the simplices, with the star of the centre at one pole and the boundary at the other. The
- * potential is that of the star here, so that small ones, at the ends of limbs, keep all their
- * digits. F. Bornemann, P. Deuflhard, The cascadic multigrid method for elliptic problems, Numer.
- * Math. 75, 1996: from the exact solution in a network of the vertices, which is much smaller, a
- * few sweeps lead to one that is near enough. Whatever is positive will do for the inflow, and all
- * of this is: there is nothing but means with positive weights. */
+/* Computes what flows in through each facet of the boundary.
+ *
+ * Source: P. Doyle, J. L. Snell, Random Walks and Electric Networks, 1984, section 1.3. The
+ * simplices form a network. The star of the centre is one pole, with potential 1, and the boundary
+ * is the other, with potential 0. So the small potentials at the ends of limbs keep all their
+ * digits.
+ *
+ * F. Bornemann, P. Deuflhard, The cascadic multigrid method for elliptic problems, Numer. Math.
+ * 75, 1996. The much smaller network of the vertices is solved exactly. A few sweeps lead from
+ * there to a solution that is near enough. Any positive inflow is admissible, and this one is
+ * positive, because it consists of means with positive weights. */
 #include "shelling/reference.h"
 
 #include "math/spd.h"
@@ -13,17 +17,17 @@
 
 #define NONE UINT32_MAX
 
-/* Simplices between looks at the progress callback. */
+/* Simplices between calls of the progress callback. */
 enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
-/* There and back. With more of them the maps of 8 pairs of bodies were no fairer, with one the
- * least of the determinants were smaller by a tenth. */
+/* Number of sweeps, each forwards and backwards. More sweeps did not lower the distortion of the
+ * maps of 8 pairs of bodies. With one sweep the least determinants were smaller by a tenth. */
 enum { SWEEPS = 3 };
 
 typedef struct network {
     const iccp_simplices *mesh;
-    bool *fixed;       /* of each vertex: on the boundary, where the potential is 0, or in the star,
-                          where it is 1 */
+    bool *fixed;       /* of each vertex: it is on the boundary, with potential 0, or in the star,
+                          with potential 1 */
     double *vertex;    /* of each vertex: the potential */
     double *wire;      /* of each side: the conductance through it */
     double *potential; /* of each simplex: 1 in the star */
@@ -54,7 +58,7 @@ static void fix_vertices(network *w, uint32_t centre)
         }
 }
 
-/* The equations of the vertices that are not fixed: what comes from those that are is their right
+/* Lists the equations of the free vertices. The potentials of the fixed vertices go to the right
  * side. */
 static icc_status list_rows(const network *w, const iccp_gram *wires, iccp_gram *inner,
                             uint32_t *row, double *value, const iccp_env *env)
@@ -111,7 +115,7 @@ static icc_status solve_vertices(network *w, const iccp_env *env)
 
 /* ---- simplices ---- */
 
-/* A simplex begins with the mean over its corners. */
+/* Starts each simplex with the mean potential of its corners. */
 static icc_status connect_simplices(network *w, uint32_t centre, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -131,7 +135,7 @@ static icc_status connect_simplices(network *w, uint32_t centre, const iccp_env 
     return status;
 }
 
-/* The mean over the neighbours and the boundary. */
+/* Sets a simplex to the weighted mean of its neighbours and the boundary. */
 static void relax_simplex(network *w, size_t simplex)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -157,7 +161,7 @@ static void relax(network *w, uint32_t centre)
             relax_simplex(w, t);
 }
 
-/* The harmonic inflow and the areas, each as shares of their sums. */
+/* Mixes the harmonic inflow and the areas, each as a share of its sum. */
 static void mix(const network *w, double harmonic, double *inflow)
 {
     const iccp_simplices *mesh = w->mesh;

@@ -1,7 +1,8 @@
-/* Based on: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
- * Transactions on Graphics 35, 2016: leaves through an ordered mesh. The side that a leaf leaves a
- * simplex by is the one whose barycentric coordinate vanishes first; as the corners are sorted, the
- * others keep their order when the next simplex is entered. */
+/* Follows leaves through an ordered mesh. Source: M. Campen, C. Silva, D. Zorin, Bijective Maps
+ * from Simplicial Foliations, ACM Transactions on Graphics 35, 2016.
+ *
+ * A leaf leaves a simplex by the side whose barycentric coordinate vanishes first. Corners are
+ * sorted, so the other coordinates keep their order in the next simplex. */
 #include "shelling/leafn.h"
 
 #include "math/vec.h"
@@ -11,11 +12,11 @@
 
 enum { CORNERS = ICCP_LEAFN_CORNERS, MAX = ICC_MAX_DIM };
 
-/* In which direction a leaf is followed, as a factor of the rates. */
+/* The direction in which a leaf is followed, as a factor of the rates. */
 static const double UP = 1, DOWN = -1;
 
-/* Everything that follows is written for n = dim + 1 corners; where the compiler knows n it need
- * not loop. */
+/* The functions below are written for n = dim + 1 corners. If the compiler knows n, it unrolls
+ * the loops. */
 
 static ICCP_INLINE const iccp_leafn_word *record_of(const iccp_leaves *leaves, size_t n,
                                                     uint32_t simplex)
@@ -33,8 +34,8 @@ static ICCP_INLINE uint32_t across(const iccp_leafn_word *record, size_t n, size
     return record[n + 2 + side / 2].side[side % 2];
 }
 
-/* As an integer: numbers that are not negative keep their order, and all negative ones come after
- * them. */
+/* The bits of x as an integer. Numbers that are not negative keep their order, and all negative
+ * ones come after them. */
 static ICCP_INLINE uint64_t bits_of(double x)
 {
     uint64_t bits;
@@ -42,9 +43,10 @@ static ICCP_INLINE uint64_t bits_of(double x)
     return bits;
 }
 
-/* The side that the leaf leaves by, and after how much of the rates; n where there is none, in the
- * star on the way up. Which it is cannot be predicted, so there are no branches: sides that are
- * entered have a negative reach, be it -0. Places never have a coordinate -0. */
+/* Finds the side by which the leaf leaves, and the parameter there in units of the rates.
+ * Returns n if there is none, which happens in the star on the way up. The side cannot be
+ * predicted, so the code has no branches. A side that is entered has a negative reach, possibly
+ * -0, because coordinates are never -0. */
 static ICCP_INLINE size_t find_exit(const iccp_leafn_word *record, size_t n, double way,
                                     const double *bary, double *share)
 {
@@ -69,11 +71,12 @@ static ICCP_INLINE void advance(const iccp_leafn_word *record, size_t n, double 
 {
     for (size_t i = 0; i < n; ++i) {
         const double next = bary[i] + share * (way * record[i].number);
-        bary[i] = 0.5 * (next + fabs(next)); /* 0 if rounded below it */
+        bary[i] = 0.5 * (next + fabs(next)); /* 0 if rounding made it negative */
     }
 }
 
-/* Takes the numbers of one side's corners to the other side, where a 0 is put in at corner `to`. */
+/* Moves the coordinates of one side's corners to the simplex across, and puts a 0 at its corner
+ * `to`. */
 static ICCP_INLINE void carry(size_t n, size_t from, size_t to, double *bary)
 {
     double shared[CORNERS] = {0};
@@ -97,7 +100,8 @@ static void carry_jet(size_t n, size_t from, size_t to, iccp_leafn_jet *jet)
     }
 }
 
-/* The share until the exit changes as its coordinate does. */
+/* Carries derivatives over a step. The parameter of the exit changes with the coordinate that
+ * vanishes there. */
 static void advance_jet(const iccp_leafn_word *record, size_t n, double way, size_t exit,
                         iccp_leafn_jet *jet)
 {
@@ -120,14 +124,14 @@ static size_t corner_of_centre(const iccp_leaves *leaves, uint32_t simplex)
     return corner;
 }
 
-/* From the centre to a place in the star: the offset, and its length. */
+/* Writes the offset from the centre to a place in the star, and returns its length. */
 static double from_centre(const iccp_leaves *leaves, const iccp_leafn_place *place, double *offset)
 {
     iccp_leafn_offset(leaves, place, corner_of_centre(leaves, place->simplex), offset);
     return iccp_vec_norm(leaves->dim, offset);
 }
 
-/* How the distance from the centre changes with the parameters of a jet. */
+/* Derivatives of the distance from the centre by the parameters of a jet. */
 static void distance_jet(const iccp_leaves *leaves, const iccp_leafn_place *place,
                          const iccp_leafn_jet *jet, double *slope)
 {
@@ -141,7 +145,7 @@ static void distance_jet(const iccp_leaves *leaves, const iccp_leafn_place *plac
     }
 }
 
-/* From a place in the star other than the centre to the side that faces the centre. */
+/* Moves a place in the star, other than the centre, to the side that faces the centre. */
 static double fall_through_star(const iccp_leaves *leaves, iccp_leafn_place *place, size_t corner,
                                 iccp_leafn_jet *jet)
 {
@@ -172,7 +176,8 @@ static double fall_through_star(const iccp_leaves *leaves, iccp_leafn_place *pla
 
 /* ---- walks ---- */
 
-/* Leaves the simplex through a side; false, with the facet, when that is the boundary. */
+/* Leaves the simplex through a side. If that is on the boundary, writes the facet and returns
+ * false. */
 static ICCP_INLINE bool cross(const iccp_leafn_word *record, size_t n, size_t exit,
                               iccp_leafn_place *place, iccp_leafn_jet *jet, uint32_t *facet)
 {
@@ -195,7 +200,7 @@ static ICCP_INLINE void prefetch(const iccp_leaves *leaves, const iccp_leafn_wor
             record_of(leaves, n, (across(record, n, i) & ~ICCP_ON_BOUNDARY) / (uint32_t)n));
 }
 
-/* Through one simplex outside the star; false where the walk ends. */
+/* Passes through one simplex outside the star. Returns false where the walk ends. */
 static ICCP_INLINE bool step(const iccp_leaves *leaves, size_t n, double way,
                              iccp_leafn_place *place, double *length, iccp_leafn_jet *jet,
                              uint32_t *facet)
@@ -235,7 +240,7 @@ double iccp_leafn_rise(const iccp_leaves *leaves, iccp_leafn_place *place)
     }
 }
 
-/* The way out of the star, if the place is there: whether it goes on behind. */
+/* Leaves the star if the place lies in it. Returns false if the walk ends there. */
 static bool leave_star(const iccp_leaves *leaves, iccp_leafn_place *place, double *length,
                        iccp_leafn_jet *jet, uint32_t *facet)
 {
@@ -295,7 +300,7 @@ double iccp_leafn_fall_jet(const iccp_leaves *leaves, iccp_leafn_place *place, u
     return length;
 }
 
-/* ---- notes: the barycentric coordinates, the simplex, and the length ---- */
+/* ---- notes: barycentric coordinates, simplex and length ---- */
 
 static ICCP_INLINE icc_status note(iccp_path *path, size_t n, const iccp_leafn_place *place,
                                    double length)
@@ -382,8 +387,8 @@ void iccp_leafn_ahead(const iccp_leaves *leaves, double length, double piece,
     place->bary[corner] += share * sum;
 }
 
-/* A move by `length` along the leaf adds its rate times length over speed; what the lengths' own
- * derivatives add is along the leaf, too. */
+/* A move by `length` along the leaf adds the rates times length over speed. The derivatives of
+ * the lengths move the place along the leaf, too. */
 void iccp_leafn_ahead_jet(const iccp_leaves *leaves, const iccp_leafn_place *place, double length,
                           double piece, const double *d_length, const double *d_piece,
                           iccp_leafn_jet *jet)

@@ -1,5 +1,6 @@
-/* Barycentric coordinates by elimination with pivoting, which is backward stable: they give the
- * point back to rounding however flat the simplex is. */
+/* Finds the simplex of a point. Barycentric coordinates come from elimination with pivoting,
+ * which is backward stable. So they reproduce the point up to rounding, however flat the simplex
+ * is. */
 #include "shelling/leafn.h"
 
 #include "base/minmax.h"
@@ -9,7 +10,7 @@
 
 enum { CORNERS = ICCP_LEAFN_CORNERS, MAX = ICC_MAX_DIM };
 
-/* Edges from the first corner as columns, and to their right n_right columns. */
+/* The edges from the first corner as columns, and n_right more columns to their right. */
 typedef double system[MAX][2 * MAX];
 
 static ICCP_INLINE void swap_rows(system a, size_t i, size_t j, size_t n)
@@ -21,7 +22,7 @@ static ICCP_INLINE void swap_rows(system a, size_t i, size_t j, size_t n)
     }
 }
 
-/* Puts the solutions in place of the right columns; false if the matrix is singular. */
+/* Replaces the right columns by the solutions. Returns false if the matrix is singular. */
 static ICCP_INLINE bool solve(system a, size_t dim, size_t n_right)
 {
     const size_t n = dim + n_right;
@@ -59,7 +60,7 @@ static ICCP_INLINE const double *set_edges(const iccp_leaves *leaves, size_t dim
     return origin;
 }
 
-/* Barycentric coordinates; returns the least, or -HUGE_VAL for a flat simplex. */
+/* Computes barycentric coordinates. Returns the least of them, or -HUGE_VAL for a flat simplex. */
 static ICCP_INLINE double coordinates(const iccp_leaves *leaves, size_t dim, uint32_t simplex,
                                       const double *point, double *bary)
 {
@@ -105,8 +106,8 @@ void iccp_leafn_gradient(const iccp_leaves *leaves, uint32_t simplex, iccp_leafn
         }
 }
 
-/* If rounding leaves the point outside all simplices, the one that it is least outside of, by about
- * its distance. */
+/* If rounding leaves the point outside all simplices, takes the one that it is least outside of,
+ * by an estimate of the distance. */
 bool iccp_leafn_find(const iccp_leaves *leaves, const double *point, double tolerance,
                      iccp_leafn_place *place, bool *inner)
 {

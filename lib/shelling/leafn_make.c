@@ -1,5 +1,5 @@
-/* The simplices are stored in the order of the leaves of their tree of boxes: what is near in space
- * is near in memory, and a simplex is one or two cache lines. */
+/* Makes the records of leaves. Simplices are stored in the order of the leaves of their tree of
+ * boxes. So simplices near in space are near in memory, and each takes one or two cache lines. */
 #include "shelling/leafn.h"
 
 #include "base/minmax.h"
@@ -17,8 +17,8 @@ typedef struct maker {
     uint32_t *side; /* of each side of the mesh: its number here */
 } maker;
 
-/* Numbers the simplices in the order of the tree's leaves, sorts the corners of each, and notes
- * in `side` what every side of the mesh is called here. */
+/* Numbers the simplices in the order of the tree's leaves and sorts the corners of each. Notes
+ * in `side` the new number of every side of the mesh. */
 static void number_simplices(const maker *m)
 {
     const iccp_simplices *mesh = m->mesh;
@@ -38,7 +38,7 @@ static void number_simplices(const maker *m)
     }
 }
 
-/* How fast the point moves, in length, when the barycentric coordinates change at these rates. */
+/* The speed of a point whose barycentric coordinates change at the given rates. */
 static double speed_of(const iccp_leaves *leaves, const uint32_t *corners, const double *rate)
 {
     const size_t dim = leaves->dim;
@@ -53,7 +53,7 @@ static double speed_of(const iccp_leaves *leaves, const uint32_t *corners, const
     return sqrt(sum);
 }
 
-/* Twice the tolerance over the least height, by the gradients of the barycentric coordinates. */
+/* Twice the tolerance over the least height, from the gradients of the barycentric coordinates. */
 static double margin_of(const maker *m, uint32_t simplex)
 {
     const size_t dim = m->leaves->dim;
@@ -69,8 +69,8 @@ static double margin_of(const maker *m, uint32_t simplex)
     return 2 * m->tolerance * sqrt(steepest);
 }
 
-/* Everything that a step of a leaf reads of its simplex. In the star all rates are 1: no side is
- * one that a rising leaf leaves by, so that it ends there. */
+/* Fills in everything that a step of a leaf reads of its simplex. In the star all rates are 1.
+ * So a rising leaf cannot leave by any side and ends there. */
 static void fill_record(const maker *m, uint32_t place)
 {
     const size_t n = m->leaves->dim + 1;
@@ -96,8 +96,8 @@ static void fill_record(const maker *m, uint32_t place)
     record[n + 1].number = margin_of(m, place);
 }
 
-/* The tree comes first, since its order of leaves is the order of everything else; in the end it
- * is told the new numbers, so that a query gives these. Records start at a cache line. */
+/* Builds the tree first, because the order of its leaves determines all numbers. At the end the
+ * tree gets the new numbers, so that queries return them. Records start at a cache line. */
 static icc_status build(maker *m)
 {
     iccp_leaves *leaves = m->leaves;

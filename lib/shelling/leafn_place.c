@@ -1,3 +1,4 @@
+/* Converts places to points, facets and movements. */
 #include "shelling/leafn.h"
 
 #include <string.h>
@@ -17,7 +18,7 @@ void iccp_leafn_offset(const iccp_leaves *leaves, const iccp_leafn_place *place,
             offset[k] += place->bary[i] / sum * (leaves->points[dim * v[i] + k] - origin[k]);
 }
 
-/* From the corner with the greatest weight, so that corners come out exactly. */
+/* Starts from the corner with the greatest weight, so that corners are exact. */
 void iccp_leafn_point(const iccp_leaves *leaves, const iccp_leafn_place *place, double *point)
 {
     const size_t dim = leaves->dim;
@@ -32,7 +33,7 @@ void iccp_leafn_point(const iccp_leaves *leaves, const iccp_leafn_place *place, 
         point[k] = origin[k] + offset[k];
 }
 
-/* The quotient rule, as the coordinates need not sum to 1. */
+/* Uses the quotient rule, because the coordinates need not sum to 1. */
 void iccp_leafn_movement(const iccp_leaves *leaves, const iccp_leafn_place *place,
                          const iccp_leafn_jet *jet, double movement[MAX][MAX])
 {
@@ -60,7 +61,7 @@ void iccp_leafn_enter(const iccp_leaves *leaves, uint32_t facet, const uint32_t 
         place->bary[i] = 0;
         for (size_t k = 0; k < dim; ++k)
             if (vertices[k] == v[i])
-                place->bary[i] = bary[k] + 0.0; /* -0 becomes 0 */
+                place->bary[i] = bary[k] + 0.0; /* turns -0 into 0 */
     }
 }
 

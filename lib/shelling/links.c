@@ -1,17 +1,17 @@
+/* Finds the links of a mesh by walking round its faces of dimension dim - 2. */
 #include "shelling/links.h"
 
 #include <stdbool.h>
 
 #define NONE UINT32_MAX
 
-/* Simplices between looks at the progress callback. */
+/* Simplices between calls of the progress callback. */
 enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
 typedef struct walk {
     const iccp_simplices *mesh;
-    uint32_t *facet; /* of each side: its number among iccp_links' facets, or NONE */
-    uint32_t
-        *visited; /* of each simplex: bit (a, b) stands for its face without the corners a and b */
+    uint32_t *facet;   /* of each side: its number among iccp_links' facets, or NONE */
+    uint32_t *visited; /* of each simplex: bit (a, b) marks its face without the corners a and b */
 } walk;
 
 static uint32_t pair_bit(size_t a, size_t b)
@@ -28,8 +28,8 @@ static bool touches(const iccp_simplices *mesh, size_t side, uint32_t vertex)
     return false;
 }
 
-/* Numbers the facets between simplices in the order of the smaller of their sides. NONE: on the
- * domain's boundary, or within the star. */
+/* Numbers the facets between simplices in the order of the smaller of their sides. Facets on the
+ * domain's boundary or within the star get NONE. */
 static void number_facets(iccp_links *links, const walk *w, uint32_t centre)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -46,9 +46,9 @@ static void number_facets(iccp_links *links, const walk *w, uint32_t centre)
     }
 }
 
-/* Writes the steps round the face of a simplex without the corners `out` and `in`, beginning
- * through the side opposite `out`. Returns how many; 0 if the way does not come back, or has been
- * gone before. */
+/* Writes the steps round the face of a simplex without the corners `out` and `in`. The walk
+ * begins through the side opposite `out`. Returns the number of steps, or 0 if the walk reaches
+ * the boundary or the face was visited before. */
 static size_t walk_round_face(const walk *w, size_t simplex, size_t out, size_t in, uint32_t *step)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -70,8 +70,8 @@ static size_t walk_round_face(const walk *w, size_t simplex, size_t out, size_t 
     return simplex == start ? n : 0;
 }
 
-/* Tries to walk round every face of every simplex with two corners left out; `visited` stops all
- * but the first try at each face. */
+/* Tries to walk round every face that a simplex has without two of its corners. `visited` stops
+ * all but the first try at each face. */
 static icc_status find_links(iccp_links *links, const walk *w, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;
@@ -91,7 +91,7 @@ static icc_status find_links(iccp_links *links, const walk *w, const iccp_env *e
     return status;
 }
 
-/* At most as many steps as there are faces of simplices, and at least two in a link. */
+/* There are at most as many steps as faces of simplices, and a link has at least two steps. */
 static icc_status allocate(iccp_links *links, walk *w, const iccp_env *env)
 {
     const iccp_simplices *mesh = w->mesh;

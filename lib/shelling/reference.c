@@ -1,7 +1,9 @@
-/* Based on: M. Crouzeix, P.-A. Raviart, Conforming and nonconforming finite element methods for
- * solving the stationary Stokes equations I, RAIRO 7, 1973: functions that are linear in each
+/* Computes the reference flux by nonconforming finite elements.
+ *
+ * Source: M. Crouzeix, P.-A. Raviart, Conforming and nonconforming finite element methods for
+ * solving the stationary Stokes equations I, RAIRO 7, 1973. The functions are linear in each
  * simplex and agree in the middles of the facets. The gradient is a constant vector in each
- * simplex, without sources on the facets between them. */
+ * simplex, and no flux arises on the facets between them. */
 #include "shelling/reference.h"
 
 #include "shelling/element.h"
@@ -11,11 +13,11 @@
 
 #define NONE UINT32_MAX
 
-/* Simplices between looks at the progress callback. */
+/* Simplices between calls of the progress callback. */
 enum { SIMPLICES_PER_REPORT = 1 << 14 };
 
-/* The unknowns are the values in the middles of the facets outside the star of the centre. On its
- * hull they are 0. */
+/* The unknowns are the values in the middles of the facets outside the star of the centre. On
+ * the star's hull the values are 0. */
 typedef struct equations {
     const iccp_simplices *mesh;
     uint32_t centre;
@@ -27,12 +29,12 @@ typedef struct equations {
     double *unknown;
 } equations;
 
-/* A matrix (dim + 1)^2: what a simplex adds for its facets. */
+/* A matrix of (dim + 1)^2 numbers: what a simplex adds for its facets. */
 typedef double element[(ICC_MAX_DIM + 1) * (ICC_MAX_DIM + 1)];
 
-/* dim^2 times the stiffness matrix of linear functions: the function that is 1 in the middle of
- * the facet opposite corner i, and 0 in the middles of the others, is 1 - dim * (barycentric
- * coordinate i). */
+/* Computes dim^2 times the stiffness matrix of linear functions. Reason: the function that is 1
+ * in the middle of the facet opposite corner i and 0 in the middles of the others is 1 - dim *
+ * (barycentric coordinate i). */
 static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
 {
     const size_t dim = mesh->dim;
@@ -47,8 +49,8 @@ static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
         }
 }
 
-/* A facet outside the star has one row, which both its sides know. Sides in the star or on its
- * hull have none. */
+/* Numbers the rows. A facet outside the star has one row, which both its sides know. Sides in
+ * the star or on its hull have none. */
 static void number_rows(equations *e)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -67,7 +69,7 @@ static void number_rows(equations *e)
         }
 }
 
-/* Where the rows end; filling them moves that to where they begin. */
+/* Sets `first` to the ends of the rows. Filling the rows moves it to their beginnings. */
 static void count_entries(equations *e)
 {
     const size_t n_corners = e->mesh->dim + 1;
@@ -84,8 +86,8 @@ static void count_entries(equations *e)
         e->first[r] += e->first[r - 1];
 }
 
-/* Adds a simplex to the rows of its facets. Filling moves `first` from the ends of the rows to
- * where they begin. */
+/* Adds a simplex to the rows of its facets. This moves `first` from the ends of the rows to
+ * their beginnings. */
 static void add_element(equations *e, size_t simplex)
 {
     const size_t n_corners = e->mesh->dim + 1;
@@ -128,7 +130,7 @@ static void free_equations(equations *e, const iccp_env *env)
     iccp_free(&env->memory, e->unknown);
 }
 
-/* Rows are counted before they are filled, so that the matrix is allocated once. */
+/* Counts the rows before it fills them, so that the matrix is allocated once. */
 static icc_status create_equations(equations *e, const iccp_simplices *mesh, uint32_t centre,
                                    const iccp_env *env)
 {
@@ -150,7 +152,8 @@ static icc_status create_equations(equations *e, const iccp_simplices *mesh, uin
     return add_elements(e, env);
 }
 
-/* The function of a facet is the mean over its corners of one that is linear. */
+/* Lists the points of each facet. The facet's value is the mean of a linear function over its
+ * corners. */
 static void list_points(const equations *e, uint32_t *point, bool *fixed)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -167,8 +170,8 @@ static void list_points(const equations *e, uint32_t *point, bool *fixed)
     }
 }
 
-/* The loads are the inflow, since the function of a facet is 1 there on average and 0 on the
- * others. */
+/* Solves the equations. The loads are the inflow, because a facet's function is on average 1 on
+ * the facet and 0 on the others. */
 static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -189,8 +192,8 @@ static icc_status solve(equations *e, const double *inflow, const iccp_env *env)
     return status;
 }
 
-/* What leaves a simplex through its sides: the gradient of a side's function is its outer normal
- * times its area over the volume. */
+/* The flux out of a simplex through its sides. The gradient of a side's function is its outer
+ * normal times its area over the volume. */
 static void find_flux(const equations *e, size_t simplex, double *flux, double *potential)
 {
     const size_t n_corners = e->mesh->dim + 1;
@@ -206,9 +209,8 @@ static void find_flux(const equations *e, size_t simplex, double *flux, double *
     }
 }
 
-/* Makes the two sides of each facet opposite to the last bit, by their mean, or, where one of
- * the simplices is in the star, by the one that was computed; facets of the domain get what was
- * prescribed. */
+/* Makes the two sides of each facet exactly opposite. They get their mean, or the computed one
+ * if the other simplex lies in the star. Facets of the domain get the prescribed inflow. */
 static void match_sides(const equations *e, const double *inflow, double *flux)
 {
     const iccp_simplices *mesh = e->mesh;
@@ -224,8 +226,8 @@ static void match_sides(const equations *e, const double *inflow, double *flux)
     }
 }
 
-/* Solves for the values in the middles of the facets; the gradients of these give the flux
- * through every side. */
+/* Solves for the values in the middles of the facets. Their gradients give the flux through
+ * every side. */
 icc_status iccp_reference_flux(const iccp_simplices *mesh, uint32_t centre, const double *inflow,
                                double *flux, double *potential, const iccp_env *env)
 {

@@ -1,9 +1,13 @@
-/* An order by itself is not what matters, but through which sides of each simplex leaves enter, and
- * at each face inside, that leaves come to it in one simplex and go from it in one (docs/theory.md,
- * foliations of simplices). Whether a facet can be crossed the other way is a question to the two
- * simplices at it: each still has sides of both kinds, and at each face of the facet the simplices
- * whose sides there are all entered, and those whose sides are all left, are as many as before.
- * Leaves must not run in circles either: where they do after a pass, its reversals there are
+/* Improves an order by reversing facets. Source: docs/theory.md, "foliations of simplices",
+ * hypotheses 2 and 3 of the theorem.
+ *
+ * Only two things about an order matter: through which sides leaves enter each simplex, and that at
+ * each face inside leaves come to it in one simplex and go from it in one. The two simplices at a
+ * facet alone decide whether leaves may cross it the other way. Each simplex must keep sides of
+ * both kinds. At each face of the facet, two counts must stay: the simplices whose sides there are
+ * all entered, and those whose sides there are all left.
+ *
+ * Leaves must not run in circles. If they do after a pass, its reversals on the circles are
  * undone. */
 #include "shelling/reverse.h"
 
@@ -16,21 +20,22 @@ enum { MOST_PASSES = 20 };
 
 typedef struct reversal {
     const iccp_order_priority *priority;
-    uint8_t *entered; /* of each simplex: the sides that leaves enter by, side i being bit i */
+    uint8_t *entered; /* of each simplex: the sides by which leaves enter; bit i stands for side i
+                         */
     uint8_t *inner;   /* likewise: the sides to simplices outside the star */
     uint32_t *wrong;  /* sides that the flux crosses the wrong way and that may be tried */
     size_t n_wrong;
-    uint32_t *reversed; /* sides: reversed in this pass, as seen from the simplex of greater rank
-                           before */
+    uint32_t *reversed; /* sides reversed in this pass, as seen from the simplex that had the
+                           greater rank */
     size_t n_reversed;
     iccp_heap heap;     /* of sides */
-    uint8_t *remaining; /* of each simplex: 0: it has been taken out */
-    uint32_t *waiting;  /* of each simplex: neighbours that must be taken out before it */
+    uint8_t *remaining; /* of each simplex: 0 if it has been taken out */
+    uint32_t *waiting;  /* of each simplex: number of neighbours that must be taken out before it */
     uint32_t *queue;    /* simplices */
 } reversal;
 
-/* Leaves enter a simplex from greater rank and from outside the domain. Wrong are sides that they
- * leave by and that the flux enters by; facets at the star are not tried. */
+/* Finds the sides by which leaves enter: from greater rank and from outside the domain. A side
+ * is wrong if leaves leave by it and the flux enters by it. Facets at the star are not tried. */
 static void find_sides(reversal *t, const uint32_t *rank)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -52,8 +57,8 @@ static void find_sides(reversal *t, const uint32_t *rank)
     }
 }
 
-/* Whether there is, at side i of a simplex, a neighbour that is still in and that leaves pass to
- * from here (`by_leaving`), or come from. */
+/* Returns true if side i of a simplex has a neighbour that has not been taken out, and if leaves
+ * pass to it (`by_leaving`) or come from it. */
 static bool has_neighbour(const reversal *t, size_t s, size_t i, bool by_leaving)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -63,8 +68,8 @@ static bool has_neighbour(const reversal *t, size_t s, size_t i, bool by_leaving
            t->remaining[iccp_simplex_of(mesh, across)] != 0;
 }
 
-/* Of each corner of simplex a, the bit of the same corner in simplex b, or 0: sets of corners
- * can then be carried from one to the other. */
+/* Writes for each corner of simplex a the bit of the same corner in simplex b, or 0. translate()
+ * uses this to carry sets of corners from a to b. */
 static void match_corners(const iccp_simplices *mesh, size_t a, size_t b, unsigned *bit)
 {
     const size_t n = mesh->dim + 1;
@@ -76,7 +81,7 @@ static void match_corners(const iccp_simplices *mesh, size_t a, size_t b, unsign
     }
 }
 
-/* The set of corners of the other simplex, by the bits that match_corners() found. */
+/* Translates a set of corners to the other simplex, by the bits from match_corners(). */
 static unsigned translate(unsigned set, const unsigned *bit)
 {
     unsigned other = 0;
@@ -85,8 +90,8 @@ static unsigned translate(unsigned set, const unsigned *bit)
     return other;
 }
 
-/* Of two simplices, by the sides that they enter by: how many have all of these sides entered, and
- * how many all left. */
+/* Counts how many of two simplices have all of the given sides entered, and how many have all of
+ * them left. `a` and `b` are the sides by which leaves enter. */
 static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_b)
 {
     const int entered = ((a & sides_a) == sides_a) + ((b & sides_b) == sides_b);
@@ -94,10 +99,10 @@ static int count_alike(unsigned a, unsigned sides_a, unsigned b, unsigned sides_
     return 3 * entered + left;
 }
 
-/* Whether a facet may be reversed: whether leaves may enter by a side that they leave by now.
- * Each simplex must keep sides of both kinds. For every face of the facet, the two simplices at
- * the facet must count as before: other simplices at the face do not change. The sides at a face
- * are those opposite to other corners. */
+/* Returns true if a facet may be reversed, so that leaves enter by a side that they leave by
+ * now. Each simplex must keep sides of both kinds. At every face of the facet, the two simplices
+ * must give the same counts as before, because other simplices at the face do not change. The
+ * sides at a face are those opposite to the corners outside it. */
 static bool can_reverse(const reversal *t, uint32_t side)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -121,7 +126,7 @@ static bool can_reverse(const reversal *t, uint32_t side)
     return true;
 }
 
-/* Reversing is its own inverse: both sides of the facet change kind. */
+/* Reverses a facet: both its sides change kind. Doing it twice changes nothing. */
 static void reverse_facet(reversal *t, uint32_t side)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -131,8 +136,8 @@ static void reverse_facet(reversal *t, uint32_t side)
     t->entered[twin / n] ^= (uint8_t)(1u << twin % n);
 }
 
-/* One pass: queues the facets that the flux crosses the wrong way, and reverses, with most flux
- * first, those that may be at that moment. No facet is reversed twice. */
+/* One pass. It queues the facets that the flux crosses the wrong way, and takes those with the
+ * most flux first. It reverses each that may be reversed at that moment, and none twice. */
 static icc_status reverse_pass(reversal *t, const iccp_env *env)
 {
     size_t n_left = 0;
@@ -152,9 +157,9 @@ static icc_status reverse_pass(reversal *t, const iccp_env *env)
     return iccp_progress(env, "order", 0);
 }
 
-/* A. B. Kahn, Topological sorting of large networks, 1962: takes out, one after the other,
- * simplices that leaves go from to none that is still in. `queue` holds them in this order. Returns
- * how many: fewer than were in if leaves run in circles. */
+/* Takes out, one after the other, simplices from which leaves go to no simplex that is still in.
+ * `queue` holds them in this order. Returns their number, which is too small if leaves run in
+ * circles. Source: A. B. Kahn, Topological sorting of large networks, 1962. */
 static size_t sort_from_below(reversal *t)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -179,8 +184,8 @@ static size_t sort_from_below(reversal *t)
     return n_out;
 }
 
-/* The same from above, of what is left: simplices that leaves come to from none that is still
- * in. */
+/* Sorts the rest from above: takes out simplices to which leaves come from no simplex that is
+ * still in. */
 static void sort_from_above(reversal *t)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -205,9 +210,9 @@ static void sort_from_above(reversal *t)
     }
 }
 
-/* Ranks all simplices but the star by sorting from below. Where leaves run in circles that is
- * impossible: sorting what is left from above as well leaves in only the simplices on circles or
- * between two of them. */
+/* Ranks all simplices outside the star by sorting from below. Returns false if leaves run in
+ * circles. The rest is then sorted from above, too, so only simplices on circles, or between two
+ * circles, stay in. */
 static bool rank_anew(reversal *t, uint32_t *rank)
 {
     const size_t n = t->priority->mesh->n_simplices;
@@ -226,8 +231,9 @@ static bool rank_anew(reversal *t, uint32_t *rank)
     return true;
 }
 
-/* Undoes reversals of this pass, the last one first: all of them, or those between simplices that
- * are in, where the circles are. Reversals that are kept stay in `reversed`. */
+/* Undoes reversals of this pass, the last one first: all of them, or only those between
+ * simplices that are still in, where the circles are. Reversals that are kept stay in
+ * `reversed`. Returns the number undone. */
 static size_t undo_reversals(reversal *t, bool all)
 {
     const iccp_simplices *mesh = t->priority->mesh;
@@ -248,8 +254,8 @@ static size_t undo_reversals(reversal *t, bool all)
     return n_back;
 }
 
-/* Passes until one changes nothing. Each ends with an order without circles: reversals on
- * circles are undone first, and all of the pass when none of these can be. */
+/* Runs passes until one changes nothing. Each ends with an order without circles. Reversals on
+ * circles are undone first. If none of them can be undone, the whole pass is. */
 static icc_status reverse_all(reversal *t, uint32_t *rank, size_t *n_reversed, const iccp_env *env)
 {
     icc_status status = ICC_OK;

@@ -1,5 +1,5 @@
-/* The theorem of docs/theory.md, foliations of simplices, hypothesis by hypothesis. Faces are sets
- * of vertices; each is looked at from its first vertex, among the simplices there. */
+/* Checks the theorem of docs/theory.md, "foliations of simplices", hypothesis by hypothesis. A
+ * face is a set of vertices. It is examined at its smallest vertex, among the simplices there. */
 #include "shelling/shelling_certificate.h"
 
 #include "base/sort.h"
@@ -14,12 +14,12 @@ enum { CORNERS = ICC_MAX_DIM + 1, OTHERS = ICC_MAX_DIM - 2, REPORT = 4096 };
 /* Sets of corners of a simplex, or of the sides opposite to them. */
 typedef struct sets {
     uint8_t in, out, boundary;
-    uint8_t centre; /* empty outside the star */
+    uint8_t centre; /* empty for simplices outside the star */
 } sets;
 
-/* A face whose smallest vertex is the one that is being looked at. */
+/* A face whose smallest vertex is the vertex that is being examined. */
 typedef struct face {
-    uint32_t others[OTHERS]; /* ascending, then UINT32_MAX */
+    uint32_t others[OTHERS]; /* the other vertices, ascending, then UINT32_MAX */
     uint32_t n_in, n_out;
     bool used, at_star, on_boundary;
 } face;
@@ -32,10 +32,10 @@ typedef struct checker {
     const double *direction;
     iccp_shelling_certificate *found;
     sets *sets;       /* of each simplex */
-    uint32_t *first;  /* n_points + 1: where those of a vertex begin in `around` */
+    uint32_t *first;  /* n_points + 1: where the simplices of each vertex begin in `around` */
     uint32_t *around; /* simplices */
-    face *table;      /* open addressing, `capacity` a power of two */
-    uint32_t *used;   /* places in the table */
+    face *table;      /* open addressing; `capacity` is a power of two */
+    uint32_t *used;   /* used places of the table */
     size_t capacity, n_used;
 } checker;
 
@@ -52,7 +52,8 @@ static const uint32_t *corners_of(const checker *c, size_t simplex)
 
 /* ---- the mesh ---- */
 
-/* False when there are corners that are no points: nothing else can be looked at then. */
+/* Returns false if a corner is not a point of the mesh, because nothing else can be checked
+ * then. */
 static bool check_simplices(const checker *c)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -68,9 +69,9 @@ static bool check_simplices(const checker *c)
     return c->found->n_topology == 0;
 }
 
-/* Whether two simplices that are both positive lie on opposite sides of a facet: the corners of the
- * second, with that opposite to the facet replaced by the first's, are an odd permutation of the
- * first's. */
+/* Returns true if two positive simplices lie on opposite sides of a facet. Replace the second's
+ * corner opposite to the facet by the first's. The result must be an odd permutation of the
+ * first's corners. */
 static bool is_joined(const checker *c, uint32_t side, uint32_t twin)
 {
     const uint32_t n = (uint32_t)c->mesh->dim + 1;
@@ -104,7 +105,7 @@ static bool is_on_facet(const checker *c, uint32_t side, uint32_t facet)
     return true;
 }
 
-/* Marks the facets that have a side in `met`. */
+/* Checks the sides, and marks the facets that have one in `met`. */
 static void check_sides(const checker *c, uint8_t *met)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -140,8 +141,9 @@ static void check_centre(const checker *c)
 
 /* ---- the order ---- */
 
-/* Sides to simplices of greater rank, and the boundary, are entered, those to simplices of smaller
- * rank left. Returns whether there are others. */
+/* Fills in the sides by which leaves enter, to simplices of greater rank and the boundary, and
+ * those by which they leave, to simplices of smaller rank. Returns true if a neighbour has the
+ * same rank. */
 static bool fill_sets(const checker *c, uint32_t s)
 {
     const iccp_simplices *mesh = c->mesh;
@@ -166,8 +168,8 @@ static bool fill_sets(const checker *c, uint32_t s)
     return tied;
 }
 
-/* Checks what concerns one simplex alone: its rank, that leaves both enter and leave it, and
- * that its direction agrees with the order. */
+/* Checks each simplex alone: its rank, that leaves both enter and leave it, and that its
+ * direction agrees with the order. */
 static void check_order(const checker *c)
 {
     const size_t n = c->mesh->dim + 1;
@@ -204,7 +206,7 @@ static icc_status list_around(checker *c, const iccp_memory *memory)
                      mesh->dim + 1);
     for (size_t v = 0; v < mesh->n_points; ++v)
         most = c->first[v + 1] - c->first[v] > most ? c->first[v + 1] - c->first[v] : most;
-    /* At most 2^dim faces of a simplex have a given first vertex. */
+    /* At most 2^dim faces of a simplex have a given smallest vertex. */
     for (c->capacity = 16; c->capacity < most << mesh->dim;)
         c->capacity *= 2;
     c->table = iccp_alloc_zero(memory, c->capacity, sizeof *c->table);
@@ -212,7 +214,7 @@ static icc_status list_around(checker *c, const iccp_memory *memory)
     return c->table != NULL && c->used != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* The face's place in the table, made if need be. */
+/* Finds a face in the table, or adds it. */
 static face *find_face(checker *c, const uint32_t *others)
 {
     uint64_t hash = 0;
@@ -231,7 +233,7 @@ static face *find_face(checker *c, const uint32_t *others)
     }
 }
 
-/* One face of a simplex, as a set of its corners. */
+/* Adds one face of a simplex, given as a set of its corners. */
 static void add_face(checker *c, const sets *set, unsigned corners, const uint32_t *others)
 {
     face *f = find_face(c, others);
@@ -244,8 +246,8 @@ static void add_face(checker *c, const sets *set, unsigned corners, const uint32
     f->n_out += (set->in & ~corners) == 0;
 }
 
-/* All faces of a simplex of dimension up to dim - 2 whose smallest vertex is v, but those at the
- * centre. */
+/* Adds all faces of a simplex of dimension up to dim - 2 whose smallest vertex is v, without
+ * those at the centre. */
 static void add_faces(checker *c, uint32_t simplex, uint32_t v)
 {
     const size_t dim = c->mesh->dim;

@@ -1,6 +1,6 @@
-/* The certificate wants an order of the simplices. Any order will do in which leaves come to
- * simplices of smaller rank only, so it is made from the directions: A. B. Kahn, Topological
- * Sorting of Large Networks, 1962. */
+/* Reads charts. The certificate needs an order of the simplices, and any order is suitable in
+ * which leaves pass only to smaller rank. So the order is not saved but made from the
+ * directions. Source: A. B. Kahn, Topological Sorting of Large Networks, 1962. */
 #include "shelling/shelling_file.h"
 
 #include "domain/domain_file.h"
@@ -10,18 +10,19 @@
 
 #include <math.h>
 
-/* Rates out of a simplex, and into it, sum up to 1 but for rounding. */
+/* Tolerance: the rates out of a simplex, and those into it, sum to 1 up to rounding. */
 static const double ROUNDING = 1e-9;
 
 typedef struct order {
     const iccp_simplices *mesh;
     const double *direction;
     uint32_t *rank;
-    uint32_t *n_ahead; /* of each: sides that leaves go out through to simplices without a rank */
+    uint32_t *n_ahead; /* of each simplex: sides by which leaves pass to simplices that have no rank
+                          yet */
     uint32_t *queue;
 } order;
 
-/* Ranks the simplices; false if leaves would go round. */
+/* Ranks the simplices. Returns false if leaves run in circles. */
 static bool find_ranks(const order *o, uint32_t centre)
 {
     const iccp_simplices *mesh = o->mesh;
@@ -51,7 +52,7 @@ static bool find_ranks(const order *o, uint32_t centre)
     return n_queue == mesh->n_simplices;
 }
 
-/* In the star all are written as 1. */
+/* Checks the rates in the star, which are all written as 1. */
 static bool are_ones(size_t n, const double *rate)
 {
     for (size_t i = 0; i < n; ++i)
@@ -60,7 +61,7 @@ static bool are_ones(size_t n, const double *rate)
     return true;
 }
 
-/* Of barycentric coordinates, per unit of what goes in and out. */
+/* Checks rates of barycentric coordinates, per unit of flux in and out. */
 static bool are_rates(size_t n, const double *rate)
 {
     double in = 0, out = 0;
@@ -93,7 +94,7 @@ static icc_status certify(const order *o, const icc_domain *domain, uint32_t cen
     return status != ICC_OK || iccp_shelling_certificate_holds(&found) ? status : ICC_ERR_FORMAT;
 }
 
-/* The directions, certified with an order made for them, become leaves. */
+/* Certifies the directions with an order made for them, and makes the leaves. */
 static icc_status read_leaves(icc_chart *chart, const iccp_simplices *mesh, uint32_t centre,
                               iccp_blob *b, const iccp_env *env)
 {

@@ -1,21 +1,23 @@
-/* Based on: G. M. Ziegler, Lectures on Polytopes, section 8.1, for shellings; M. Campen, C. Silva,
- * D. Zorin, Bijective Maps from Simplicial Foliations, 2016, for what they are good for.
+/* Makes orders by growing and peeling.
  *
- * Growing and peeling are one procedure. Simplices go over, one by one, to a set that is the star
- * of the centre at first when growing, and the outside of the domain when peeling. A simplex T may
- * go if what it has in common with the set is nothing but its facets there: no face that lies in
- * none of them. Such faces all contain R, the corners opposite to the facets, so that R is the one
- * to ask for.
+ * Sources: G. M. Ziegler, Lectures on Polytopes, section 8.1, for shellings. M. Campen, C. Silva,
+ * D. Zorin, Bijective Maps from Simplicial Foliations, 2016, for their use.
  *
- * When growing, this is the rule itself. When peeling, let U be what remains, a ball, and K the set
- * R of T: the face K is not on the boundary of U, so U without T is a ball again. The rule for the
- * way back is about the other corners, K'. The face K' lies in all facets of T on the boundary of
- * U, and its facets there are these; so the link of K' in U is a ball whose boundary is that of the
- * simplex K, with K as a member. It has no room for more: T is the only simplex of U with the face
- * K'.
+ * Growing and peeling are one procedure. Simplices pass, one by one, to a set. When growing, the
+ * set is at first the star of the centre. When peeling, it is the outside of the domain. A simplex
+ * T may pass if it shares with the set only facets and their faces, but no face outside these
+ * facets. All faces outside them contain R, the corners opposite to the facets, so only R has to be
+ * checked.
  *
- * Once a face touches the set it does so for good. So a simplex that may not go need not be looked
- * at again before one of its neighbours went. */
+ * When growing, this is the rule itself. When peeling, let U be the ball that remains, and K the
+ * set R of T. The face K is not on the boundary of U, so U without T is a ball again. The rule for
+ * the way back is about the other corners, K'. The face K' lies in all facets of T on the boundary
+ * of U, and its facets there are these. So the link of K' in U is a ball whose boundary is that of
+ * the simplex K, and K belongs to it. The link has no room for more, so T is the only simplex of U
+ * with the face K'.
+ *
+ * A face that touches the set does so for good. So a simplex that may not pass need not be
+ * checked again before one of its neighbours has passed. */
 #include "shelling/shelling_order.h"
 
 #include "base/heap.h"
@@ -26,7 +28,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GONE = 0x80 }; /* beyond the bits of 7 corners */
+enum { GONE = 0x80 }; /* a bit beyond the bits of 7 corners */
 
 static const size_t STEPS_PER_REPORT = 1 << 14;
 
@@ -35,15 +37,14 @@ typedef struct front {
     const iccp_env *env;
     bool peeling;
     uint32_t *rank;
-    uint8_t
-        *facing; /* of each simplex: its corners opposite to the set; GONE: it is not to be taken
+    uint8_t *facing; /* of each simplex: its corners opposite to the set; GONE: it must not be taken
                     (again) */
-    uint8_t *touched; /* whether a face belongs to the set */
+    uint8_t *touched; /* of each face: whether it belongs to the set */
     iccp_heap heap;
 } front;
 
-/* The rule of shelling/shelling_order.h, in constant time: whether the face with the corners
- * `facing` touches the set is a look at `touched`. */
+/* The rule of shelling/shelling_order.h, in constant time: `touched` tells whether the face with
+ * the corners `facing` belongs to the set. */
 static bool can_join(const front *f, size_t s)
 {
     const unsigned facing = f->facing[s];
@@ -53,7 +54,7 @@ static bool can_join(const front *f, size_t s)
             !f->touched[iccp_face(f->priority->faces, s, facing)]);
 }
 
-/* How much the potential of a simplex differs from that of a neighbour, at most. */
+/* The greatest difference between the potential of a simplex and that of a neighbour. */
 static double step_of(const iccp_order_priority *priority, size_t simplex)
 {
     const iccp_simplices *mesh = priority->mesh;
@@ -67,8 +68,9 @@ static double step_of(const iccp_order_priority *priority, size_t simplex)
     return step;
 }
 
-/* The potential, and a penalty: the share of the simplex's flux that would run from smaller to
- * greater rank if it went now, times a step of the potential. */
+/* The key of a simplex: its potential and a penalty. The penalty is the share of the simplex's
+ * flux that would run from smaller to greater rank if it passed now, times a step of the
+ * potential. */
 static double key_of(const front *f, size_t s)
 {
     const iccp_order_priority *w = f->priority;
@@ -84,8 +86,8 @@ static double key_of(const front *f, size_t s)
     return (f->peeling ? -potential : potential) + penalty;
 }
 
-/* The set has come to another side of a simplex, which may be taken now, or has another key than
- * before. */
+/* Notes that the set has reached another side of a simplex. The simplex may then become free to
+ * pass, or its key may change. */
 static void approach(front *f, size_t s, size_t corner)
 {
     f->facing[s] |= (uint8_t)(1u << corner);
@@ -109,7 +111,7 @@ static void join_simplex(front *f, size_t s)
     }
 }
 
-/* A side to the outside, with its faces. */
+/* Adds a side on the domain's boundary to the set, with its faces. */
 static void join_side(front *f, size_t s, size_t corner)
 {
     const size_t dim = f->priority->mesh->dim;
@@ -120,8 +122,8 @@ static void join_side(front *f, size_t s, size_t corner)
     approach(f, s, corner);
 }
 
-/* The star of the centre has rank 0 and is not to be taken. Returns how many simplices there are
- * besides. */
+/* Gives rank 0 to the star of the centre, whose simplices are never taken. Returns the number of
+ * the other simplices. */
 static uint32_t rank_star(front *f)
 {
     const iccp_simplices *mesh = f->priority->mesh;
@@ -135,8 +137,8 @@ static uint32_t rank_star(front *f)
     return n;
 }
 
-/* The set as it is at first. Only when it is complete can be told which simplices may go: they are
- * asked again when the queue gives them out. */
+/* Fills in the initial set. Only when it is complete is it known which simplices may pass. So
+ * they are checked again when the queue returns them. */
 static void begin(front *f)
 {
     const iccp_simplices *mesh = f->priority->mesh;
@@ -150,8 +152,8 @@ static void begin(front *f)
     }
 }
 
-/* Takes the simplex with the least key until none may go. A simplex that may not go any more
- * when its turn comes is dropped: its neighbours put it back when they go. */
+/* Takes the simplex with the least key until none may pass. A simplex that may no longer pass
+ * when its turn comes is dropped. Its neighbours put it back when they pass. */
 static icc_status advance(front *f, uint32_t n, size_t *n_left)
 {
     uint32_t n_gone = 0;
@@ -172,8 +174,8 @@ static icc_status advance(front *f, uint32_t n, size_t *n_left)
     return ICC_OK;
 }
 
-/* Growing and peeling differ in where the set starts, in the sign of the key and in the
- * direction of the ranks only. */
+/* Growing and peeling differ only in the initial set, the sign of the key, and the direction of
+ * the ranks. */
 static icc_status find_order(const iccp_order_priority *priority, bool peeling, uint32_t *rank,
                              size_t *n_left, const iccp_env *env)
 {

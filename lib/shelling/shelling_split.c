@@ -1,3 +1,4 @@
+/* Puts a vertex into a mesh that has none inside. */
 #include "shelling/shelling_split.h"
 
 #include "base/error.h"
@@ -20,7 +21,8 @@ static void find_middle(const iccp_simplices *mesh, size_t simplex, double *midd
     }
 }
 
-/* Whether the simplices with the point in place of each corner are positive, exactly. */
+/* Returns true if the simplices with the point in place of each corner are all positive,
+ * exactly. */
 static bool can_split(const iccp_simplices *mesh, size_t simplex, const double *point)
 {
     const size_t n = mesh->dim + 1;
@@ -34,7 +36,7 @@ static bool can_split(const iccp_simplices *mesh, size_t simplex, const double *
     return true;
 }
 
-/* The square of a point's distance from the boundary. */
+/* The squared distance of a point from the boundary. */
 static double depth_of(const icc_domain *domain, const double *point)
 {
     double bary[ICC_MAX_DIM], square;
@@ -42,8 +44,8 @@ static double depth_of(const icc_domain *domain, const double *point)
     return square;
 }
 
-/* The simplex whose barycentre is farthest from the boundary, of those that can be split there;
- * NONE if there is none. */
+/* Of the simplices that can be split at their barycentre, finds the one whose barycentre is
+ * farthest from the boundary. NONE if there is none. */
 static uint32_t find_deepest(const icc_domain *domain)
 {
     const iccp_simplices *mesh = domain->mesh;
@@ -61,7 +63,7 @@ static uint32_t find_deepest(const icc_domain *domain)
     return deepest;
 }
 
-/* A copy with room for one more point and the dim more simplices that it makes. */
+/* Makes a copy with room for one more point and the dim more simplices that it makes. */
 static icc_status copy(iccp_simplices **out, const iccp_simplices *mesh, const iccp_memory *memory)
 {
     const size_t dim = mesh->dim, n_sides = (dim + 1) * mesh->n_simplices;
@@ -86,7 +88,8 @@ static icc_status copy(iccp_simplices **out, const iccp_simplices *mesh, const i
     return ICC_OK;
 }
 
-/* Piece 0 takes the place of the simplex, piece i > 0 is new; piece i has the point as corner i. */
+/* Splits a simplex. Piece 0 replaces it, and the other pieces are new. Piece i has the point as
+ * corner i. */
 static void split(iccp_simplices *mesh, uint32_t simplex, const double *point)
 {
     const uint32_t dim = (uint32_t)mesh->dim, n = dim + 1;

@@ -1,5 +1,7 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 4; the curves are the leaves of docs/theory.md, foliations of simplices. */
+/* The operations of a chart of method foliation on a mesh.
+ *
+ * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 4. The curves are the leaves of docs/theory.md, "foliations of simplices". */
 #include "shelling/shelling_state.h"
 
 #include "base/minmax.h"
@@ -25,7 +27,7 @@ static iccp_leafn_place own_place(const iccp_chart_place *place)
     return own;
 }
 
-/* ICC_INSIDE and so on. The domain is asked only where the simplex cannot tell. */
+/* Returns ICC_INSIDE and so on. The domain is asked only if the simplex cannot decide. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                       iccp_coords *coords)
 {
@@ -82,8 +84,8 @@ static void end_on_facet(const icc_chart *chart, const iccp_leafn_place *end, ic
         coords->bary[k] /= sum;
 }
 
-/* Falls to the boundary and rises to the centre; t is the share of the length that lies below.
- * With a jet the same two walks carry derivatives by the point's coordinates. */
+/* Follows the leaf down to the boundary and up to the centre. t is the share of the length below
+ * the point. With a jet, the same two walks carry derivatives by the point's coordinates. */
 static icc_status encode(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                          iccp_coords *coords, iccp_encode_jet *jet)
 {
@@ -106,14 +108,14 @@ static icc_status encode(const icc_chart *chart, const double *point, const iccp
     return ICC_OK;
 }
 
-/* ---- and back ---- */
+/* ---- coordinates to Cartesian ---- */
 
-/* Where a point is on its leaf: a note before it, and lengths. */
+/* The place of a point on its leaf: a note before it, and lengths. */
 typedef struct spot {
     iccp_leafn_place from; /* where the leaf enters the simplex */
-    double before;         /* the leaf's length up to there */
-    double piece;          /* and within the simplex */
-    double ahead;          /* from there to the point */
+    double before;         /* the leaf's length up to `from` */
+    double piece;          /* the leaf's length within the simplex */
+    double ahead;          /* the length from `from` to the point */
     double total;
 } spot;
 
@@ -129,7 +131,8 @@ static spot find_spot(const iccp_path *path, double t)
     return s;
 }
 
-/* Parameters are the barycentric coordinates but the first, which gives way, and t. */
+/* The parameters are t and the barycentric coordinates except the first, which compensates for
+ * the others. */
 static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
                             const iccp_leafn_place *place, const spot *s, iccp_decode_jet *jet)
 {
@@ -169,8 +172,8 @@ static void fill_decode_jet(const icc_chart *chart, const iccp_coords *coords,
     }
 }
 
-/* Notes the whole leaf from the boundary, since t is a share of its length, and goes ahead from
- * the note below the point. */
+/* Notes the whole leaf from the boundary, because t is a share of its length. Then moves ahead
+ * from the note below the point. */
 static icc_status decode(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path)
 {
@@ -192,7 +195,8 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
 
 /* ---- the whole curve ---- */
 
-/* Steps of length 0, at faces that a leaf meets, are left out. */
+/* Emits the point of a note. Steps of length 0, which a leaf makes where it meets a face, are
+ * left out. */
 static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *path, size_t k,
                             iccp_emit emit, void *argument)
 {
@@ -205,7 +209,7 @@ static icc_status emit_note(const iccp_shelling_state *state, const iccp_path *p
     return emit(argument, point);
 }
 
-/* The notes of both halves of the leaf, those downhill in reverse. */
+/* Emits the notes of both parts of the leaf, those downhill in reverse order. */
 static icc_status trace(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument)
@@ -254,7 +258,7 @@ icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp
     return status == ICC_OK ? b->status : status;
 }
 
-/* The order of the simplices follows from the directions. */
+/* The order of the simplices is not saved, because the directions determine it. */
 static void save(const icc_chart *chart, iccp_blob *b)
 {
     const iccp_shelling_state *state = chart->state;
@@ -270,7 +274,8 @@ static void save(const icc_chart *chart, iccp_blob *b)
     }
 }
 
-/* The format's own number: ICC_METHOD_FOLIATION is that of method foliation without a mesh. */
+/* The number of this method in the format, where ICC_METHOD_FOLIATION means method foliation
+ * without a mesh. */
 enum { ON_MESH = 5 };
 
 const iccp_chart_ops iccp_shelling_ops = {

@@ -1,4 +1,5 @@
-/* What a chart of method foliation on the caller's mesh knows, and what it can do. */
+/* The state of a chart of method foliation on the caller's mesh, and its operations. Source: see
+ * shelling_state.c. */
 #ifndef ICCP_SHELLING_STATE_H
 #define ICCP_SHELLING_STATE_H
 
@@ -6,19 +7,19 @@
 #include "shelling/leafn.h"
 
 typedef struct iccp_shelling_state {
-    iccp_simplices *mesh; /* the chart's own, where the domain's has no vertex inside; or NULL */
+    iccp_simplices *mesh; /* the chart's own mesh if the domain's has no vertex inside; else NULL */
     iccp_leaves leaves;
 } iccp_shelling_state;
 
 extern const iccp_chart_ops iccp_shelling_ops;
 
-/* A chart with its mesh and its centre, but no fibres yet. `own` is taken over, on failure as well;
- * NULL: the domain's mesh is used. */
+/* Creates a chart with its mesh and its centre, but without leaves. Takes over `own`, even on
+ * failure. If it is NULL, the domain's mesh is used. */
 icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_simplices *own,
                                uint32_t centre, const iccp_env *env);
 
-/* The first part of the chart's bytes: how the order was found, on which nothing depends; the
- * chart's own mesh or NULL, and the centre. */
+/* Reads or writes the first part of the chart's bytes: how the order was found, which is only
+ * information; the chart's own mesh or NULL; and the centre. */
 icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp_simplices **own,
                                     uint64_t *centre, const icc_domain *domain);
 

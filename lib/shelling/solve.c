@@ -1,7 +1,9 @@
-/* Based on: J. Xu, The auxiliary space method and optimal multigrid preconditioning techniques for
- * unstructured grids, Computing 56, 1996: a smoother on the unknowns themselves and an exact
- * solution in a space that is smaller and easier, here of the continuous functions that are linear
- * in each simplex. The number of iterations does not grow with that of simplices. */
+/* Solves equations by conjugate gradients with an auxiliary space, or by factorisation.
+ *
+ * Source: J. Xu, The auxiliary space method and optimal multigrid preconditioning techniques for
+ * unstructured grids, Computing 56, 1996. A smoother acts on the unknowns. An exact solution is
+ * added in a smaller space: that of the continuous functions that are linear in each simplex.
+ * The number of iterations does not grow with the number of simplices. */
 #include "shelling/solve.h"
 
 #include "math/pcg.h"
@@ -10,21 +12,22 @@
 
 #define NONE UINT32_MAX
 
-/* Multiplications per entry of the matrix up to which the factorisation is chosen. A cube of 83,000
- * tetrahedra would take 66,000 and iterations a quarter of the time; the bodies of animals take 500
- * to 800, and iterations twenty times as long for the sake of their flat tetrahedra. */
+/* The matrix is factorised if that takes at most so many multiplications per entry. A cube of
+ * 83,000 tetrahedra would take 66,000, and iterations a quarter of the time. Bodies of animals
+ * take 500 to 800, and iterations twenty times as long, because of their flat tetrahedra. */
 static const double MOST_WORK = 20000;
 
 typedef struct auxiliary {
     const iccp_unknowns *unknowns;
-    size_t n;      /* of them */
+    size_t n;      /* number of unknowns */
     uint32_t *row; /* of each point, or NONE */
     iccp_ldlt solver;
     double *value; /* of each row */
     const iccp_env *env;
 } auxiliary;
 
-/* Down by the transpose of the way up. */
+/* Adds the solution in the auxiliary space. The residual goes down by the transpose of the way
+ * up. */
 static icc_status add_part(void *argument, const double *r, double *z)
 {
     auxiliary *a = argument;
@@ -43,7 +46,7 @@ static icc_status add_part(void *argument, const double *r, double *z)
     return status;
 }
 
-/* The stiffness of the points that are not fixed. */
+/* The stiffness matrix of the points that are not fixed. */
 static icc_status create_coarse(iccp_gram *coarse, auxiliary *a)
 {
     const iccp_simplices *mesh = a->unknowns->mesh;
@@ -114,7 +117,7 @@ icc_status iccp_shelling_solve(const iccp_symmetric *matrix, const iccp_unknowns
         return status;
     const bool is_cheap = factor.work <= MOST_WORK * (double)matrix->first[matrix->n];
     status = is_cheap ? ICC_ERR_SOLVER : iterate(matrix, unknowns, b, env);
-    /* Iterations may take too long where simplices are flat. */
+    /* Iterations may be too slow if simplices are flat, so the factorisation is the fallback. */
     if (status == ICC_ERR_SOLVER)
         status = factorise(&factor, matrix, b, env);
     iccp_ldlt_free(&factor);

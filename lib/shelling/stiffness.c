@@ -1,3 +1,4 @@
+/* Assembles the Laplacian of a mesh of simplices, with linear finite elements. */
 #include "shelling/stiffness.h"
 
 #include "base/minmax.h"
@@ -9,18 +10,19 @@
 
 #define NONE UINT32_MAX
 
-/* Of the weight of an edge: a share of the geometric mean of its ends' diagonals. */
+/* The least weight of an edge, relative to the geometric mean of the diagonal entries of its
+ * ends. */
 static const double LEAST_WEIGHT = 0.02;
 
-/* What the matrix is made from: of every vertex the sides opposite to it, of every simplex the
- * gradients times the root of its volume. */
+/* The data from which the matrix is made: for every vertex the sides opposite to it, and for
+ * every simplex the gradients times the square root of its volume. */
 typedef struct assembly {
     const iccp_simplices *mesh;
-    uint32_t *first; /* n_points + 1: where the sides of each begin */
-    uint32_t *side;  /* opposite to it, rising */
+    uint32_t *first; /* n_points + 1: where the sides of each point begin */
+    uint32_t *side;  /* sides opposite to each point, rising */
     double *gradient;
     uint32_t
-        *place; /* of each point: its entry in the row in the making, from the row's beginning */
+        *place; /* of each point: its entry in the current row, relative to the row's beginning */
 } assembly;
 
 static icc_status prepare(assembly *a, const iccp_simplices *mesh, const iccp_env *env)
@@ -51,7 +53,7 @@ static void discard(assembly *a, const iccp_env *env)
     iccp_free(&env->memory, a->place);
 }
 
-/* How many neighbours vertex v has; a place tells by which vertex a point was met last. */
+/* Counts the neighbours of vertex v. `place` holds the vertex at which a point was last met. */
 static size_t count_neighbours(const assembly *a, uint32_t v)
 {
     const size_t n_corners = a->mesh->dim + 1;
@@ -67,8 +69,8 @@ static size_t count_neighbours(const assembly *a, uint32_t v)
     return n;
 }
 
-/* A row: its columns in the order in which the simplices have them. A place that is not that of the
- * column in this row is one of an earlier row. */
+/* Fills a row, with columns in the order in which the simplices list them. A place that does not
+ * lead to its own column in this row belongs to an earlier row. */
 static void fill_row(const assembly *a, iccp_gram *g, uint32_t v)
 {
     const size_t dim = a->mesh->dim, n_corners = dim + 1, begin = g->first[v];
@@ -163,7 +165,7 @@ static size_t count_entries(const iccp_gram *gram, const uint32_t *row, size_t *
     return n_entries;
 }
 
-/* Two passes over the rows that are kept: count, then fill. */
+/* Makes two passes over the rows that are kept: one counts, one fills. */
 icc_status iccp_stiffness_restrict(iccp_gram *part, const iccp_gram *gram, const uint32_t *row,
                                    const iccp_env *env)
 {
