@@ -1,38 +1,38 @@
-/* H. Hoppe et al., Mesh optimization, 1993, edge collapse; guarded by exact signs before and after
- * the map, and by its energy.
+/* Merges vertices by edge collapse: H. Hoppe et al., Mesh optimization, 1993. Exact signs before
+ * and after the map guard it, and so does the energy.
  *
- * A vertex is merged into the neighbour that leaves the least energy. Vertices wait in a queue,
- * which those round a merged one join again, so the work is proportional to what is merged. */
+ * A vertex is merged into the neighbour that leaves the least energy. Vertices wait in a queue. The
+ * neighbours of a merged vertex join the queue again, so the work is proportional to the merges. */
 #include "map/compatible/coarsen.h"
 
 #include "map/compatible/triangle_quality.h"
 
 #include <string.h>
 
-/* Vertices with more neighbours stay. */
+/* Vertices with more neighbours are not merged. */
 enum { MOST_NEIGHBOURS = 64, LOOKS_PER_REPORT = 1 << 14 };
 
-/* No triangle is made that is flatter than this and than all that it replaces. */
+/* No new triangle is flatter than this, unless all that it replaces are flatter. */
 static const double LEAST_ROUNDNESS = 1e-4;
 
 typedef struct coarsening {
     const iccp_memory *memory;
     iccp_plmap *map;
-    double rise, mean; /* what is allowed: a share more than before, or the mean over the area */
-    double longest;    /* and no longer new edges */
-    uint32_t *corner;  /* of each vertex that is left: one at it */
+    double rise, mean; /* the energy around a vertex may rise by this share, or to this mean */
+    double longest;    /* of new edges */
+    uint32_t *corner;  /* of each vertex that is left: a corner at it */
     uint32_t *queue;   /* a ring of n_vertices: n_queued vertices from `first` on */
     size_t first, n_queued;
     uint8_t *is_queued, *is_gone; /* of each vertex */
     uint8_t *is_unused;           /* of each triangle */
-    uint32_t *number;             /* of each triangle, in the end */
+    uint32_t *number;             /* of each triangle: its number in the end */
 } coarsening;
 
-/* The triangles round an inner vertex, counter-clockwise. */
+/* The triangles around an inner vertex, counter-clockwise. */
 typedef struct star {
     size_t n;
     uint32_t corner[MOST_NEIGHBOURS];   /* at the vertex */
-    uint32_t ring[2 * MOST_NEIGHBOURS]; /* the vertex after it; then all of them once more */
+    uint32_t ring[2 * MOST_NEIGHBOURS]; /* the neighbours in this order, twice */
 } star;
 
 static bool find_star(const iccp_corners *c, uint32_t corner, star *s)
@@ -71,7 +71,7 @@ static uint32_t dequeue(coarsening *o)
 
 /* ---- merging ---- */
 
-/* Whether the triangles that are left when the vertex goes to ring vertex j may be there. */
+/* Whether the vertex may merge into ring vertex j, by the signs and edges of the new triangles. */
 static bool may_merge(const coarsening *o, const star *s, size_t j)
 {
     const iccp_plmap *map = o->map;
@@ -86,7 +86,8 @@ static bool may_merge(const coarsening *o, const star *s, size_t j)
     return true;
 }
 
-/* Of those triangles: no energy above `most`, no roundness below `least`, or HUGE_VAL. */
+/* The energy of the new triangles; HUGE_VAL if it is above `most` or one is flatter than
+ * `least`. */
 static double energy_merged(const coarsening *o, const star *s, size_t j, double most, double least)
 {
     iccp_quality merged = iccp_no_quality();
@@ -99,8 +100,8 @@ static double energy_merged(const coarsening *o, const star *s, size_t j, double
     return merged.energy;
 }
 
-/* The ring vertex to which the vertex of a star had best go; s->n when there is none, as with most
- * stars: what that takes least to find out comes first. */
+/* The best ring vertex to merge into, or s->n if there is none. There is none for most vertices, so
+ * cheap tests come first. */
 static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s)
 {
     bool may[MOST_NEIGHBOURS];
@@ -139,7 +140,7 @@ static void merge(coarsening *o, uint32_t vertex, const star *s, size_t j)
     }
 }
 
-/* Vertex after vertex from the queue, which holds all of them in the beginning. */
+/* Merges vertex after vertex. In the beginning the queue holds all of them. */
 static icc_status merge_all(coarsening *o, size_t *n_gone, const iccp_env *env)
 {
     const size_t n_vertices = o->map->n_vertices;
@@ -180,7 +181,7 @@ static void close_up_triangles(coarsening *o)
     c->n_triangles = n;
 }
 
-/* Takes over `corner` for the new numbers. */
+/* Uses `corner` for the new numbers. */
 static void close_up_vertices(coarsening *o)
 {
     iccp_plmap *map = o->map;

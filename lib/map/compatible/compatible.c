@@ -1,7 +1,8 @@
+/* Triangulates two polygons by diagonals and overlays them (overlay.h). */
 #include "map/compatible/compatible.h"
 
-/* By diagonals alone; `room`: 6 (n - 2). The inside is on the left of edges that run along the
- * border, and must be on that of the polygon. */
+/* Triangulates a polygon by diagonals alone. `room`: 6 (n - 2) numbers. ICC_ERR_BOUNDARY if the
+ * polygon is clockwise. */
 static icc_status triangulate(iccp_ngon *polygon, size_t n, const double *points, uint32_t *room,
                               const iccp_env *env)
 {

@@ -1,10 +1,9 @@
-/* M.-C. Rivara, Algorithms for refining triangular grids suitable for adaptive and multigrid
- * techniques, 1984: triangles are cut at their longest edges, which keeps their shapes. An edge is
- * cut when it is the longest of both its triangles; until then the way leads from one to the other,
- * on which edges grow. */
+/* Cuts triangles at their longest edges, which keeps their shapes: M.-C. Rivara, Algorithms for
+ * refining triangular grids suitable for adaptive and multigrid techniques, 1984. An edge is cut if
+ * it is the longest of both its triangles. Otherwise the search goes on across the longest edge. */
 #include "map/compatible/density.h"
 
-/* Bounds fall from so many times the last one, by this factor. */
+/* Bounds start at so many times the last one, and each is so many times the one before. */
 static const double FIRST_BOUND = 16, FALL = 0.85;
 
 static double length2(const iccp_plmap *map, uint32_t corner)
@@ -22,7 +21,8 @@ static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle)
     return best;
 }
 
-/* From a triangle to the one beside its longest edge, as long as edges grow. */
+/* Goes from a triangle to the one across its longest edge, as long as edges grow. Returns the
+ * corner that faces the last edge. */
 static uint32_t end_of_way(const iccp_plmap *map, uint32_t triangle)
 {
     uint32_t corner = longest_of(map, triangle);

@@ -1,5 +1,5 @@
-/* C. Lawson, Software for C1 surface interpolation, 1977: an edge is replaced by the other diagonal
- * of its two triangles where that is better; here, where the energy falls. */
+/* Replaces an edge by the other diagonal of its two triangles where that lowers the energy: C.
+ * Lawson, Software for C1 surface interpolation, 1977. */
 #include "map/compatible/flips.h"
 
 #include "base/threads.h"
@@ -7,14 +7,14 @@
 
 enum { PASSES = 5 };
 
-/* Triangles whose edges a thread looks at at once. */
+/* Triangles in a chunk for one thread. */
 enum { GRAIN = 256 };
 
-/* A flip lowers the energy of its two triangles by this share at least. */
+/* A flip must lower the energy of its two triangles by this share. */
 static const double LEAST_FALL = 1e-3;
 
-/* It makes no triangle that is flatter than this and than both that it replaces: Newton's steps
- * would be short. */
+/* A flip makes no triangle flatter than this, unless it replaces a flatter one. Flat triangles make
+ * Newton's steps short. */
 static const double LEAST_ROUNDNESS = 0.05;
 
 /* Flipping the edge makes triangles x a y and y b x from x a b and y b a. */
@@ -35,14 +35,13 @@ static bool is_better_flipped(const iccp_plmap *map, uint32_t corner)
            then.roundness >= iccp_min(now.roundness, LEAST_ROUNDNESS);
 }
 
-/* An edge whose two triangles are what they were when it was looked at last need not be looked at
- * again. Looks are numbered from 1 on: one at each corner in each pass. */
+/* An edge is tested again only if one of its two triangles has changed since. Tests are numbered
+ * from 1: one for each corner in each pass. */
 typedef struct search {
     iccp_plmap *map;
-    size_t *changed; /* of each triangle: the look after which it was flipped last, or 0; */
-    size_t *near;    /* and it or a neighbour */
-    uint8_t
-        *is_better; /* of each corner, on the mesh as it was in the beginning; NULL: not known */
+    size_t *changed;    /* of each triangle: the test after which it changed last, or 0 */
+    size_t *near;       /* the same for the triangle or a neighbour */
+    uint8_t *is_better; /* of each corner, for the mesh at the beginning; NULL: not known */
 } search;
 
 static icc_status look_ahead(void *argument, size_t begin, size_t end)
@@ -55,7 +54,7 @@ static icc_status look_ahead(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The same as is_better_flipped() at look number `look`, corner by corner in each of the passes. */
+/* The same result as is_better_flipped(), at test number `look`. */
 static bool is_better_now(const search *s, uint32_t corner, size_t look)
 {
     const iccp_corners *c = &s->map->corners;
@@ -79,7 +78,7 @@ static void flip(const search *s, uint32_t corner, size_t look)
     }
 }
 
-/* Whether a triangle has no edge to look at, from a look at its first corner on. */
+/* Whether no edge of a triangle has to be tested. `look`: the test of its first corner. */
 static bool is_settled(const search *s, size_t triangle, size_t look)
 {
     const size_t per_pass = 3 * s->map->corners.n_triangles;
@@ -110,7 +109,8 @@ static size_t flip_all(const search *s)
     return n;
 }
 
-/* With threads all edges are looked at first; what the flips leave of that is used. */
+/* With threads, all edges are tested at once beforehand. Results that flips do not outdate are
+ * used. */
 icc_status iccp_flip_edges(iccp_plmap *map, size_t *n_flips, const iccp_env *env)
 {
     const size_t n = map->corners.n_triangles;

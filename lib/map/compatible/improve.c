@@ -1,4 +1,5 @@
-/* docs/theory.md, the mesh map; energies and their derivatives: map/energy/dirichlet.c. */
+/* Refines a plane map where most of its energy is, as map/energy/refinement.c asks (docs/theory.md,
+ * the mesh map). */
 #include "map/compatible/improve.h"
 
 #include "base/sort.h"
@@ -14,17 +15,17 @@
  * converges. */
 enum { MAJORISED_STEPS = 3 };
 
-/* A refinement cuts the triangles that carry this share of the energy above an isometry's, but no
- * more than this share of all. */
+/* A refinement cuts the triangles that carry EXCESS_SHARE of the energy above an isometry's, but at
+ * most MOST_CUT of all triangles. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
 
-/* Before the first step, only if they are no more than this share. */
+/* Before the first step it cuts them only if they are at most this share of all. */
 static const double VERY_FEW = 0.002;
 
 /* A refinement in vain gains less than this share. */
 static const double LEAST_GAIN = 0.01;
 
-/* Triangles that a thread ranks at once. */
+/* Triangles in a chunk for one thread. */
 enum { GRAIN = 1024 };
 
 static size_t count(const void *map)
@@ -61,7 +62,7 @@ static int by_excess(const void *a, const void *b)
     return (p->triangle < q->triangle) - (p->triangle > q->triangle);
 }
 
-/* The corner that faces the edge which is longest, before and after the map taken together. */
+/* The corner that faces the longest edge. Squared lengths before and after the map are added. */
 static uint32_t longest_edge(const iccp_plmap *map, uint32_t triangle)
 {
     uint32_t best = 3 * triangle;
@@ -99,8 +100,8 @@ static icc_status rank(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* Cuts the triangles that carry EXCESS_SHARE, the one with most first: `most` of them at most, or
- * none if those are more and it is all or nothing. A heap is enough: they are few. */
+/* Cuts the triangles that carry EXCESS_SHARE, the one with most first, but at most `most` of them.
+ * With `all_or_nothing` it cuts none if there are more. They are few, so a heap sorts them. */
 static icc_status cut_worst(iccp_plmap *map, double most, bool all_or_nothing, size_t *n_cut,
                             const iccp_env *env)
 {
@@ -144,8 +145,8 @@ static icc_status refine_and_flip(void *map, size_t *n_cut, const iccp_env *env)
     return status == ICC_OK && *n_cut > 0 ? iccp_flip_edges(map, &n_flips, env) : status;
 }
 
-/* Where very few triangles have most of the energy, no step gets far before the first of them
- * flips, and all others wait for it. */
+/* Cuts the triangles with most of the energy if they are very few. No step would get far before the
+ * first of them flips, and all others would wait for it. */
 static icc_status unlock(iccp_plmap *map, const iccp_env *env)
 {
     size_t n_cut, n_flips;

@@ -1,7 +1,7 @@
 /* Triangles with far more energy than others are about to lock: the vertices that they hold cannot
  * move on, however much room there is around them. So their edges are cut, which gives the map more
- * freedom. Edges flip where that lowers the energy, and nearby points and images move by turns. In a
- * mesh with many triangles, vertices that matter little merge. */
+ * freedom. Edges flip where that lowers the energy, and nearby points and images move by turns. In
+ * a mesh with many triangles, vertices that matter little merge. */
 #include "map/compatible/improve_moving.h"
 
 #include "map/compatible/coarsen.h"
@@ -93,8 +93,8 @@ static icc_status cut_tense(iccp_plmap *map, double tense, double shortest)
     return status;
 }
 
-/* Marks the vertices that stay: fixed ones, and those far from tense triangles. While it runs, marks
- * count the triangles to the nearest tense one. */
+/* Marks the vertices that stay: fixed ones, and those far from tense triangles. While it runs,
+ * marks count the triangles to the nearest tense one. */
 static void mark_still(const iccp_plmap *map, double tense, uint8_t *still)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);

@@ -1,29 +1,30 @@
-/* B. Aronov, R. Seidel, D. Souvaine, On compatible triangulations of simple polygons, 1993: both
- * polygons are triangulated by diagonals alone, and all diagonals drawn in one convex polygon.
- * Which of them cross, and in which order, follows from the order of their ends: integers decide
- * everything. Where they cross there is a point, and the cells between them are convex in both
- * polygons wherever the points are put along the diagonals, as long as their order is kept. They
- * are spread evenly.
+/* The overlay of two triangulated polygons: B. Aronov, R. Seidel, D. Souvaine, On compatible
+ * triangulations of simple polygons, 1993. All diagonals of both polygons are drawn in one convex
+ * polygon. The order of their ends tells which of them cross, and in which order. So integers
+ * decide everything. Each crossing becomes a vertex. The cells between the diagonals are convex in
+ * both polygons wherever these vertices lie on the diagonals, as long as their order is kept. So
+ * they are spread evenly.
  *
- * Source diagonals are walked through the target's triangles; each triangle is then cut along the
- * pieces that run through it. */
+ * The code walks along the source's diagonals through the target's triangles. Then it cuts each
+ * triangle along the pieces of diagonals that run through it. */
 #include "map/compatible/overlay.h"
 
 #include "base/sort.h"
 
 #include <string.h>
 
-/* n corners have up to n^2. */
+/* n corners have up to n^2 crossings. */
 enum { MOST_CROSSINGS = 100000, MOST_CROSSINGS_PER_CORNER = 100, CHORDS_PER_REPORT = 1024 };
 
-/* Of a diagonal of each polygon; a vertex of the result, number n + its index. */
+/* The crossing of a diagonal of each polygon. It is vertex n + its index of the result. */
 typedef struct crossing {
-    uint32_t edge; /* the target's: the smaller of the two corners that face it */
+    uint32_t edge; /* of the target: the smaller of the two corners that face it */
     uint32_t vertex;
-    uint64_t along; /* grows along the half-edge that `edge` faces */
+    uint64_t along; /* grows from the first end of that edge to the second */
 } crossing;
 
-/* Of a source diagonal in one triangle of the target, between two vertices of the result. */
+/* The piece of a source diagonal in one triangle of the target, between two vertices of the
+ * result. */
 typedef struct piece {
     uint32_t triangle, from, to, span;
 } piece;
@@ -37,15 +38,13 @@ typedef struct overlay {
     piece *pieces;
     size_t n_crossings, crossing_room, n_pieces, piece_room;
     double *points, *images; /* of the result */
-    uint32_t *first;         /* of the crossings of a target edge, by corner; then the
-                                end */
-    uint32_t *place, *next;  /* of vertices on the border of the triangle that is being
-                                cut */
+    uint32_t *first;         /* of each target edge, by corner: its first crossing; then the end */
+    uint32_t *place, *next;  /* of each vertex on the border of the current triangle */
     uint32_t *border;
     iccp_corners result;
 } overlay;
 
-/* Whether x comes after a and before b on the way round. */
+/* Whether x comes after a and before b around the polygon. */
 static bool is_between(const overlay *o, uint32_t a, uint32_t x, uint32_t b)
 {
     const uint32_t n = o->n, to_x = (x + n - a) % n, to_b = (b + n - a) % n;
@@ -84,8 +83,8 @@ static icc_status push_crossing(overlay *o, const crossing *c)
     return ICC_OK;
 }
 
-/* The target's corner at i through whose opposite edge the way to j leaves; ICCP_NO_NEIGHBOUR when
- * i and j are joined by an edge. */
+/* The target's corner at i whose opposite edge the diagonal from i to j crosses first.
+ * ICCP_NO_NEIGHBOUR if i and j are joined by an edge. */
 static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
 {
     const uint32_t *v = o->side[1].triangles;
@@ -96,8 +95,9 @@ static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
 }
 
 /* The crossing of source diagonal i j with the target's edge that a corner faces. Diagonals that
- * cross the same edge do not cross each other, so the sum of the steps from its first end to both
- * of theirs, one each way round, orders them. */
+ * cross the same edge do not cross each other. So they are ordered by a sum of steps from the
+ * edge's first end: to one end of the diagonal one way around, and to its other end the other
+ * way. */
 static crossing crossing_of(const overlay *o, uint32_t corner, uint32_t i, uint32_t j)
 {
     const uint32_t twin = o->side[1].twins[corner], edge = corner < twin ? corner : twin;
@@ -108,8 +108,8 @@ static crossing crossing_of(const overlay *o, uint32_t corner, uint32_t i, uint3
     return (crossing){edge, n + (uint32_t)o->n_crossings, along};
 }
 
-/* From triangle to triangle of the target, each time through the edge that has j on its far side;
- * leaves a crossing at each edge and a piece in each triangle. */
+/* Walks from i to j through the target's triangles, each time across the edge that has j on its far
+ * side. Records a crossing at each edge and a piece in each triangle. */
 static icc_status walk(overlay *o, uint32_t i, uint32_t j)
 {
     uint32_t corner = leaving_corner(o, i, j), from = i;
@@ -159,7 +159,7 @@ static icc_status walk_all(overlay *o, const iccp_env *env)
     return status;
 }
 
-/* The polygons' vertices keep their places; crossings are spread along their source diagonal. */
+/* Corners keep their places. Crossings are spread along their source diagonals. */
 static icc_status place_points(overlay *o)
 {
     const size_t n = o->n + o->n_crossings;
@@ -187,7 +187,7 @@ static int by_place(const void *a, const void *b)
     return (x->along > y->along) - (x->along < y->along);
 }
 
-/* By edge, which are counted, and along each. */
+/* Sorts crossings by target edge, and along each edge. */
 static icc_status sort_crossings(overlay *o)
 {
     const size_t n_corners = 3 * ((size_t)o->n - 2);
@@ -245,7 +245,7 @@ static uint32_t list_border(overlay *o, uint32_t triangle)
     return n;
 }
 
-/* A convex cell: its border from place `from` to place `to`, and back. */
+/* Adds the triangles of a convex cell: the border from place `from` to place `to`. */
 static void emit_cell(overlay *o, uint32_t from, uint32_t to)
 {
     for (uint32_t k = o->next[from]; k != to; k = o->next[k]) {
@@ -263,7 +263,7 @@ static int by_span(const void *a, const void *b)
     return (x->span > y->span) - (x->span < y->span);
 }
 
-/* By triangle, where those of each begin. */
+/* Sorts pieces by triangle. first[t]: where those of triangle t begin. */
 static icc_status sort_pieces(overlay *o, uint32_t *first)
 {
     piece *sorted = iccp_alloc(o->memory, o->n_pieces, sizeof *sorted);
@@ -275,8 +275,8 @@ static icc_status sort_pieces(overlay *o, uint32_t *first)
     return ICC_OK;
 }
 
-/* Cuts off the cell behind the shortest piece first: what lies behind a longer one is cut off by
- * then. */
+/* Cuts a triangle into cells. The cell behind the shortest piece comes first, so all pieces behind
+ * a longer one are gone when its turn comes. */
 static void cut_triangle(overlay *o, uint32_t triangle, piece *pieces, size_t n)
 {
     const uint32_t n_border = list_border(o, triangle);
@@ -319,7 +319,7 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* Where walks begin: each vertex's corner on the edge after it. */
+/* Finds where walks begin: at each vertex the corner in the triangle on the edge after it. */
 static icc_status find_starts(overlay *o)
 {
     const iccp_ngon *target = &o->side[1];

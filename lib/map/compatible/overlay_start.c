@@ -1,9 +1,9 @@
-/* docs/theory.md, the mesh map: compatible triangulations of the two cages, made coarse.
+/* Makes a start from an overlay (docs/theory.md, the mesh map).
  *
- * Where diagonals of the two triangulations cross, their overlay has a vertex, and far more
- * triangles than it needs, most of them slivers, between which Newton's method can hardly move.
- * Merging vertices leaves few triangles; then both sides move, by turns, the images by the energy
- * of the map and the points by that of its inverse. Every state is one-to-one. */
+ * An overlay has a vertex wherever two diagonals cross. So it has far more triangles than it needs,
+ * and most of them are slivers that Newton's method can hardly move. Merging vertices leaves few
+ * triangles. Then both sides move by turns: the images by the energy of the map, the points by the
+ * energy of its inverse. Every state is one-to-one. */
 #include "map/compatible/overlay_start.h"
 
 #include "base/minmax.h"
@@ -15,15 +15,15 @@
 
 #include <math.h>
 
-/* Half of the rounds, as far as progress goes, are TYPICAL. The last is one that lowers the energy
- * by less than LEAST_GAIN. */
+/* Rounds end after one that lowers the energy by less than LEAST_GAIN. Reports of progress take
+ * TYPICAL_ROUNDS for half of them. */
 enum { ROUNDS = 12, TYPICAL_ROUNDS = 2 };
 static const double LEAST_GAIN = 0.05;
 
-/* Of a round, on each side. */
+/* Steps on each side in a round. */
 static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
 
-/* The overlay of the cages' own corners. */
+/* The overlay of the two cages. */
 static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                           const iccp_env *env)
 {
@@ -50,7 +50,7 @@ static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_d
     return status;
 }
 
-/* Untangles what rounding has spoilt, on one side and on the other. */
+/* Untangles what rounding has spoilt, on both sides. */
 static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     icc_status status = ICC_OK;

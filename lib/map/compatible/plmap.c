@@ -1,10 +1,12 @@
+/* A piecewise linear map as an object, and cuts of its edges. */
 #include "map/compatible/plmap.h"
 
 #include "math/predicates.h"
 
 #include <string.h>
 
-/* Half as much again as is needed, so that n cuts cost O(n). On failure the map is as before. */
+/* Makes room for half as much again as is needed, so that n cuts cost O(n). On failure the map
+ * stays as it is. */
 static icc_status make_room(iccp_plmap *map, size_t n_vertices, size_t n_triangles)
 {
     const iccp_memory *memory = &map->memory;
@@ -111,7 +113,7 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle)
                          iccp_plmap_image(map, c + 2)) > 0;
 }
 
-/* Whether the halves x a m and x m b of the triangle that a corner is in keep its sign at m. */
+/* Whether the halves x a m and x m b of triangle x a b keep its sign. */
 static bool can_halve(const double *x, const double *a, const double *b, const double m[2])
 {
     return iccp_orient2d(x, a, b) <= 0 ||
@@ -175,8 +177,8 @@ bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, u
     return n == source->n_vertices;
 }
 
-/* Vertex m in the middle of the edge from a to b, which may be one of the boundary, the inside
- * being on its left, or of a line. */
+/* Records what vertex m is fixed to, in the middle of the edge from a to b. An edge of the boundary
+ * has the inside on its left. */
 static void place_on_edge(iccp_plmap *map, size_t m, bool is_boundary, uint32_t a, uint32_t b)
 {
     uint32_t facet = 0;

@@ -1,4 +1,25 @@
-/* A piecewise linear map: a triangle mesh of the source and an image for every vertex. */
+/* A piecewise linear map of the plane: a triangle mesh of the source and an image for every vertex.
+ *
+ * Words of this folder
+ * - point, image: the place of a vertex before and after the map.
+ * - positive triangle: one that is counter-clockwise, by the exact sign of its determinant.
+ * - fixed vertex: one of the boundary, of a line or of a point, whose image is prescribed.
+ * - chord: an inner edge between two fixed vertices.
+ * - overlay: the common refinement of two triangulations.
+ * - energy: the mean symmetric Dirichlet energy; 4 for an isometry.
+ *
+ * Invariants
+ * - Points are positive everywhere. Images are positive once overlays have replaced inverted parts,
+ *   and then each operation keeps them so.
+ * - The vertices of the boundary stay on its facets.
+ *
+ * Ways
+ * - To a one-to-one map: overlay.h, compatible.h, overlay_start.h, overlay_patches.h.
+ * - To less energy on one mesh: both_sides.h, flips.h. To another mesh: improve.h, coarsen.h,
+ *   density.h.
+ * - To another target: move_targets.h, improve_moving.h.
+ *
+ * Begin with this file, then overlay.c. */
 #ifndef ICCP_PLMAP_H
 #define ICCP_PLMAP_H
 
@@ -8,15 +29,15 @@
 #include "mesh/corners.h"
 #include "mesh/planar.h"
 
-/* What holds a vertex, and what its facet is then. */
+/* What a vertex is fixed to, and what iccp_plmap::facet then means. */
 enum {
     ICCP_FREE = 0,
-    ICCP_ALONG,      /* the boundary: that with the edge which begins there, counter-clockwise as
-                        seen from inside, and runs along with it, */
-    ICCP_AGAINST,    /* or against it */
-    ICCP_LINE_BEGIN, /* a line, whose first vertex this is: its first segment */
-    ICCP_ON_LINE,    /* a line: the segment that begins there, or the last one */
-    ICCP_ON_POINT    /* a point: its own */
+    ICCP_ALONG,      /* to the boundary: the facet of the edge that begins there and has the inside
+                        on its left. The facet runs along with the edge */
+    ICCP_AGAINST,    /* the same, but the facet runs against the edge */
+    ICCP_LINE_BEGIN, /* to a line, as its first vertex: the line's first segment */
+    ICCP_ON_LINE,    /* to a line: the segment that begins there, or the last segment */
+    ICCP_ON_POINT    /* to a point: the point's own facet */
 };
 
 typedef struct iccp_plmap {
@@ -28,17 +49,17 @@ typedef struct iccp_plmap {
     double *images;  /* 2 n_vertices: local in the target */
     uint8_t *fixed;  /* of each vertex: as above */
     uint32_t *facet; /* of fixed vertices: the source's facet (domain/features.h) */
-    double *along;   /* of fixed vertices: where on that facet they lie, in [0, 1] */
-    double stretch;  /* lengths of the source are multiplied by this for energies, so that both
-                            areas are the same and energies are those of shape alone */
+    double *along;   /* of fixed vertices: their place on that facet, in [0, 1] */
+    double stretch;  /* multiplies lengths of the source in energies, so that both areas are
+                            the same and energies measure shape alone */
     const struct iccp_newton_plan *plan; /* as in iccp_simplicial_map, borrowed */
 } iccp_plmap;
 
-/* Room for so many vertices and triangles, which are still to be filled in. */
+/* Makes room for so many vertices and triangles. The caller fills them in. */
 icc_status iccp_plmap_begin(iccp_plmap *map, size_t n_vertices, size_t n_triangles, double stretch,
                             const iccp_memory *memory);
 
-/* Fills in the mesh and the images; what holds vertices is still to be said. */
+/* Fills in the mesh and the images. The caller then says which vertices are fixed. */
 void iccp_plmap_fill(iccp_plmap *map, const double *points, const double *images,
                      const uint32_t *vertex, const uint32_t *twin);
 
@@ -58,8 +79,8 @@ static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t cor
     return map->points + 2 * (size_t)map->corners.vertex[corner];
 }
 
-/* The square of the distance of two vertices after the map, or before it and stretched: the longer
- * one. */
+/* The square of the distance of two vertices: after the map, or before it and stretched, whichever
+ * is longer. */
 static inline double iccp_plmap_length2(const iccp_plmap *map, uint32_t a, uint32_t b)
 {
     const size_t i = 2 * (size_t)a, j = 2 * (size_t)b;
@@ -68,7 +89,7 @@ static inline double iccp_plmap_length2(const iccp_plmap *map, uint32_t a, uint3
                     iccp_vec_distance2(2, map->images + i, map->images + j));
 }
 
-/* The map without its neighbours, until its mesh changes. */
+/* A view of the map for what does not need neighbours. It ends when the mesh changes. */
 static inline iccp_simplicial_map iccp_plmap_simplicial(const iccp_plmap *map)
 {
     return (iccp_simplicial_map){.dim = 2,
@@ -94,7 +115,7 @@ static inline double iccp_plmap_energy(const iccp_plmap *map)
     return iccp_simplicial_energy(&simplicial);
 }
 
-/* Makes it the inverse map. */
+/* Replaces the map by its inverse. */
 static inline void iccp_plmap_swap(iccp_plmap *map)
 {
     double *points = map->points;
@@ -103,18 +124,18 @@ static inline void iccp_plmap_swap(iccp_plmap *map)
     map->stretch = 1 / map->stretch;
 }
 
-/* How the facets of a domain without features run. */
+/* ICCP_ALONG or ICCP_AGAINST for the facets of a domain without features. */
 static inline uint8_t iccp_plmap_sense(const icc_domain *domain)
 {
     return domain->orientation > 0 ? ICCP_ALONG : ICCP_AGAINST;
 }
 
-/* Whether the edge between two neighbours in the mesh is a piece of a line: *facet is then the
- * segment, and *from, *to say where on it they lie. */
+/* Whether the edge between two neighbours in the mesh is a piece of a line. Then *facet is the
+ * segment, and *from and *to are their places on it. */
 bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
                         double *from, double *to);
 
-/* Whether the edge that a corner faces is a piece of a line, which must stay. */
+/* Whether the edge that a corner faces is a piece of a line. Such an edge must stay. */
 static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
 {
     const uint32_t a = map->corners.vertex[iccp_after(corner)];
@@ -125,19 +146,20 @@ static inline bool iccp_plmap_is_line(const iccp_plmap *map, uint32_t corner)
            iccp_plmap_on_line(map, a, b, &facet, &from, &to);
 }
 
-/* The mesh's vertex at each vertex of the source. False unless there is one for each. */
+/* Finds the mesh's vertex at each vertex of the source. Returns false unless there is one for
+ * each. */
 bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, uint32_t *vertex);
 
 /* Whether a triangle is positive before and after the map, exactly. */
 bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);
 bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
 
-/* Cuts the edge that a corner faces at its middle, before and after the map, unless rounding would
- * make a triangle that is positive now, before or after, not positive. Makes room as needed. */
+/* Cuts the edge that a corner faces at its middle, before and after the map. *done is false if
+ * rounding would spoil a triangle that is positive now. Makes room as needed. */
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);
 
-/* Cuts the inner edges between two fixed vertices at their middle, which gives them something to
- * move. All triangles keep their signs. */
+/* Cuts all chords at their middles, so that there are free vertices between fixed ones. All
+ * triangles keep their signs. */
 icc_status iccp_cut_chords(iccp_plmap *map);
 
 #endif

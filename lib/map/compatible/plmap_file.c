@@ -1,3 +1,5 @@
+/* Reads and writes the mesh of a plane map (docs/formats.md), and checks what it reads: the mesh is
+ * a manifold, and its boundary and lines run along those of both domains. */
 #include "map/compatible/plmap_file.h"
 
 #include "domain/domain_file.h"
@@ -17,7 +19,7 @@ static icc_status link_triangles(iccp_plmap *map, const iccp_env *env)
     return status != ICC_OK || is_manifold ? status : ICC_ERR_FORMAT;
 }
 
-/* Fixed are the vertices of the boundary. */
+/* Fixes the vertices of the boundary. */
 static void find_boundary(iccp_plmap *map, const icc_domain *source)
 {
     for (size_t v = 0; v < map->n_vertices; ++v) {
@@ -41,13 +43,14 @@ static bool is_near(const icc_domain *domain, uint32_t facet, double along, cons
            fabs(point[1] - wanted[1]) <= domain->band.tolerance;
 }
 
-/* Where facets start, counter-clockwise. */
+/* Whether a vertex lies where a facet starts, counter-clockwise. */
 static bool starts_facet(const iccp_plmap *map, uint32_t v)
 {
     return map->fixed[v] == ICCP_ALONG ? !(map->along[v] > 0) : !(map->along[v] < 1);
 }
 
-/* Whether edge a b of the boundary goes on along a facet, or to the start of the next one. */
+/* Whether edge a b of the boundary goes on along a's facet, or ends at the start of the next
+ * one. */
 static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a, uint32_t b)
 {
     const size_t f = map->facet[a], g = map->facet[b], forward = map->fixed[a] == ICCP_ALONG;
@@ -57,8 +60,8 @@ static bool goes_on(const iccp_plmap *map, const icc_domain *domain, uint32_t a,
     return f == g && (forward ? ahead : -ahead) >= 0;
 }
 
-/* Once, since to the certificate rings are simple and apart; with features each vertex of the
- * domain is also met once. */
+/* Whether the boundary goes along the facets of both domains. It goes around only once, because the
+ * certificate demands simple rings. */
 static bool follows_facets(const iccp_plmap *map, const icc_domain *source,
                            const icc_domain *target)
 {
@@ -76,8 +79,8 @@ static bool follows_facets(const iccp_plmap *map, const icc_domain *source,
 
 /* ---- where lines and points are ---- */
 
-/* What a vertex on each facet of a domain with features is; of the first segment of a line, one at
- * its beginning. */
+/* Lists for each facet of a domain with features what a vertex on it is fixed to. For the first
+ * segment of a line that is the vertex at its beginning. */
 static void list_kinds(uint8_t *kind, const icc_domain *domain)
 {
     const iccp_features *features = domain->features;
@@ -95,17 +98,17 @@ static void list_kinds(uint8_t *kind, const icc_domain *domain)
     }
 }
 
-/* `kind`: as above. Places within [0, 1] that a vertex may have: the end of a segment has that of
- * the next one, but for the last of a line. */
+/* Whether a vertex may have this place on a facet. The end of a segment belongs to the next
+ * segment, except for a line's last one. `kind`: from list_kinds(). */
 static bool is_place(const uint8_t *kind, const icc_domain *domain, uint32_t facet, double along)
 {
     const bool is_last = facet + 1 == domain->features->n_places || kind[facet + 1] != ICCP_ON_LINE;
     return kind[facet] == ICCP_ON_POINT ? !(along > 0) : along < 1 || is_last;
 }
 
-/* Whether the edges that are pieces of lines lead from the beginning of each to its end: one leaves
- * each vertex but the last, and one reaches each but the first. `seen`: of each vertex, 1 for one
- * that leaves and 2 for one that arrives. */
+/* Whether the edges on lines lead from the beginning of each line to its end. One edge leaves each
+ * vertex except the last, and one reaches each vertex except the first. `seen` is work space: 1 for
+ * an edge that leaves a vertex, plus 2 for one that reaches it. */
 static bool follows_lines(const iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                           uint8_t *seen)
 {
@@ -136,7 +139,7 @@ static bool follows_lines(const iccp_plmap *map, const icc_domain *source, const
     return true;
 }
 
-/* Those not on the boundary; `kind` as above. */
+/* Reads the fixed vertices inside. `kind`: from list_kinds(). */
 static void read_inner(iccp_blob *b, iccp_plmap *map, const icc_domain *source, const uint8_t *kind)
 {
     size_t n = 0;
@@ -175,8 +178,7 @@ static void write_inner(iccp_blob *b, iccp_plmap *map)
         }
 }
 
-/* What holds the vertices of a mesh between domains with features, once those of the boundary have
- * their facets. */
+/* Reads what the vertices inside are fixed to, once those of the boundary have their facets. */
 static icc_status read_features(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
                                 const icc_domain *target, const iccp_env *env)
 {

@@ -5,9 +5,9 @@
 #include "base/blob.h"
 #include "map/compatible/plmap.h"
 
-/* Into a map that is all zero. ICC_ERR_FORMAT unless the triangles are a manifold, and its boundary
- * goes once along the facets of both domains. What is positive and simple is for the certificate
- * (map/plane/mesh_map.h). */
+/* Reads into a map that is all zero, or writes. ICC_ERR_FORMAT unless the triangles are a manifold
+ * whose boundary goes once along the facets of both domains. The certificate checks the signs
+ * (map/plane/plane_certificate.h). */
 icc_status iccp_plmap_visit(iccp_blob *b, iccp_plmap *map, const icc_domain *source,
                             const icc_domain *target, const iccp_env *env);
 

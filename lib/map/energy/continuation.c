@@ -4,8 +4,8 @@
  * no simplex flips. If nothing blocks the step to the energy's minimum, it is made as well. Without
  * the predictor, fixed points would run into their own triangles.
  *
- * If the way is blocked, the mesh blocks it, not the map. A mesh that fits the map so far lets it go
- * on. */
+ * If the way is blocked, the mesh blocks it, not the map. A mesh that fits the map so far lets it
+ * go on. */
 #include "map/energy/continuation.h"
 
 #include "base/minmax.h"

@@ -7,19 +7,19 @@
 
 #include <math.h>
 
-/* Half of all descents, as far as progress goes. */
+/* Reports of progress take this many levels for half of them. */
 static const double TYPICAL_LEVELS = 2;
 
-/* It multiplies the triangles by about GROWTH, and is made where there is work for so many STEPS on
- * what comes of it. */
+/* A refinement multiplies the simplices by about GROWTH. It is made if there is work for so many
+ * STEPS afterwards. */
 static const double GROWTH = 1.4, STEPS = 6;
 
-/* Steps on all meshes but the last end when two in turn gain less than this, and after so many: a
- * refinement gains more. */
+/* On all meshes but the last, steps end when two in turn gain less than SLOW, and after MOST_STEPS.
+ * A refinement gains more. */
 static const double SLOW = 5e-3;
 enum { MOST_STEPS = 20 };
 
-/* Where a map that was relaxed is as good as this, a refinement in vain can be told beforehand. */
+/* For a relaxed map with less energy than this, the gain of a refinement is foreseen. */
 static const double NEAR = 5;
 
 static bool may_refine(double n_simplices, const iccp_schedule *schedule, const iccp_work *work,
@@ -37,7 +37,7 @@ static bool is_settled(double energy, double least_gain, double gain, double gai
     return energy < NEAR && gain < gain_before && gain * gain < least_gain * gain_before;
 }
 
-/* Refinements, with steps after each, as long as they pay. */
+/* Refines and takes steps by turns, as long as that pays. */
 static icc_status refine_often(const iccp_profile *profile, void *map,
                                const iccp_schedule *schedule, double slow, iccp_work *work,
                                iccp_improvement *improvement, const iccp_env *env)

@@ -17,16 +17,16 @@ typedef struct iccp_profile {
     double (*energy)(const void *map, const iccp_env *env);
     icc_status (*descend)(void *map, const iccp_descent *descent, bool both_sides, iccp_work *work,
                           iccp_improvement *improvement, const iccp_env *env);
-    /* Changes the mesh in n_changes places where the map has most of its energy. The energy does not
-     * rise. */
+    /* Changes the mesh in n_changes places where the map has most of its energy. The energy does
+     * not rise. */
     icc_status (*refine)(void *map, size_t *n_changes, const iccp_env *env);
 } iccp_profile;
 
-/* Lowers the symmetric Dirichlet energy of a map whose simplices are all positive. They stay so, and
- * fixed vertices stay where they are. Takes steps as long as they gain enough. Then refines the mesh
- * and takes steps again, as long as that gains enough and there is work left. On the last mesh the
- * steps go down to the tolerance. On any failure, ICC_ERR_CANCELLED included, the map is valid and
- * no worse than before. */
+/* Lowers the symmetric Dirichlet energy of a map whose simplices are all positive. They stay so,
+ * and fixed vertices stay where they are. Takes steps as long as they gain enough. Then refines the
+ * mesh and takes steps again, as long as that gains enough and there is work left. On the last mesh
+ * the steps go down to the tolerance. On any failure, ICC_ERR_CANCELLED included, the map is valid
+ * and no worse than before. */
 icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_schedule *schedule,
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
 

@@ -1,9 +1,8 @@
-/* docs/theory.md, features. Both domains are cut open along paths that join their components to a
- * tree; the polygons that this leaves are overlaid as cages are (map/compatible/overlay.c), for the
- * map of one to the other must take the boundary of the polygon to that of the other; then the cuts
- * are closed again. Any two ways to cut the target that correspond to the source's give a map, and
- * none of these can be moved to another without tearing: which features the images of the cuts pass
- * on which side makes them different. */
+/* Makes a start between domains with features (docs/theory.md, features). Both domains are cut open
+ * along paths that join their components to a tree. That leaves two polygons whose corners
+ * correspond, which are overlaid as cages are (map/compatible/overlay.c). Then the cuts are closed
+ * again. Different cuts of the target give maps of different isotopy classes: they pass features on
+ * different sides. */
 #include "map/plane/feature_start.h"
 
 #include "base/error.h"
@@ -19,7 +18,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Trees at most; what one costs for each triangle of its overlay, in steps. */
+/* Trees at most, and the steps that one costs for each triangle of its overlay. */
 enum { TREES = 30, COST = 1 };
 
 /* No other tree is tried after one with energy GOOD or less. One with energy FAIR is enough if its
@@ -34,7 +33,7 @@ static const double TOO_MANY = 3;
 /* Steps on both sides of a start that is GOOD. */
 static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
 
-/* By one way to cut, as it comes. ICC_ERR_CERTIFICATE when rounding spoils it. */
+/* Makes the map of one tree of cuts, not relaxed. ICC_ERR_CERTIFICATE if rounding spoils it. */
 static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, const iccp_cuts *cuts,
                              const iccp_env *env)
 {
@@ -65,13 +64,13 @@ static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, con
     return status;
 }
 
-/* Whether another tree may do where one did not. */
+/* Whether a failure is final. After others, another tree may do. */
 static bool is_lost(icc_status status)
 {
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
 }
 
-/* Leaves no more triangles than a start needs. */
+/* Merges vertices, so that no more triangles are left than a start needs. */
 static icc_status thin_out(iccp_plmap *map, const iccp_env *env)
 {
     size_t n_gone;
@@ -79,7 +78,7 @@ static icc_status thin_out(iccp_plmap *map, const iccp_env *env)
     return status == ICC_OK ? iccp_coarsen(map, ICCP_RISE, &n_gone, env) : status;
 }
 
-/* Infinite, too, where doubles find no area in a triangle. */
+/* The energy; infinite if doubles find no area in a triangle. */
 static double energy_of(const iccp_plmap *map)
 {
     const uint32_t *v = map->corners.vertex;
@@ -118,7 +117,7 @@ static double detour_of(const iccp_cuts *cuts, int side)
     return cuts->straight[side] > 0 ? cuts->length[side] / cuts->straight[side] : 1;
 }
 
-/* The best start of several trees: as many as there is work for, unless the first is GOOD. */
+/* Finds the best start of several trees: as many as there is work for, until one is GOOD. */
 static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cutter *cutter,
                          iccp_work *work, iccp_feature_report *report, const iccp_env *env)
 {

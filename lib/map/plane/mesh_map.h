@@ -33,7 +33,7 @@ typedef struct iccp_mesh_map {
     iccp_finder after;     /* in the target */
     iccp_once plan;        /* Newton's, of the mesh: made when the map is first followed */
     iccp_isotopy *isotopy; /* with features; NULL where rounding is in the way */
-    double work;           /* that it took to make: see map/energy/work.h */
+    double work;           /* spent on making it: see map/energy/work.h */
 } iccp_mesh_map;
 
 /* All but `reach` is still to be filled in; NULL without memory. */

@@ -14,17 +14,17 @@
 #include <math.h>
 #include <string.h>
 
-/* Improvement steps after a motion. A frame of an animation has no time for more, and the next frame
- * continues from here. Features have made steps on the way, so they take none at the end. */
+/* Improvement steps after a motion. A frame of an animation has no time for more, and the next
+ * frame continues from here. Features have made steps on the way, so they take none at the end. */
 enum { CAGE_ITERATIONS = 8, FEATURE_ITERATIONS = -1 };
 
 /* A very coarse mesh cannot follow a motion. So a mesh with fewer triangles than ENOUGH is refined
- * until no edge is longer than a cell of a square with CELLS cells along a side. With more triangles
- * than MANY, and MANY_EACH for each given vertex, it is thinned out. */
+ * until no edge is longer than a cell of a square with CELLS cells along a side. With more
+ * triangles than MANY, and MANY_EACH for each given vertex, it is thinned out. */
 enum { ENOUGH = 1000, CELLS = 15, MANY = 1400, MANY_EACH = 8 };
 
-/* If the way is blocked: how often the mesh is changed before the map is rebuilt in its class, and how
- * often after that or where there are no features to rebuild it for. */
+/* If the way is blocked: how often the mesh is changed before the map is rebuilt in its class, and
+ * how often after that or where there are no features to rebuild it for. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
 /* Moves the boundary's images to where another target wants them. */
@@ -55,8 +55,8 @@ typedef struct journey {
     const icc_domain *source, *old_target, *target;
 } journey;
 
-/* Makes the map anew in the class that it would have come to. *made: whether that worked. If not, the
- * map stays as it is. */
+/* Makes the map anew in the class that it would have come to. *made: whether that worked. If not,
+ * the map stays as it is. */
 static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
                           bool *made, const iccp_env *env)
 {
@@ -121,8 +121,8 @@ static bool same_memory(const iccp_memory *a, const iccp_memory *b)
     return a->user == b->user && a->alloc == b->alloc && a->dealloc == b->dealloc;
 }
 
-/* Finds the plan of Newton's method for the map's mesh. The maps that follow a map share it, and the
- * first of them makes it. *plan is NULL if the two maps use different allocators. */
+/* Finds the plan of Newton's method for the map's mesh. The maps that follow a map share it, and
+ * the first of them makes it. *plan is NULL if the two maps use different allocators. */
 static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);

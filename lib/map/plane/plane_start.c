@@ -21,7 +21,7 @@
 #include <math.h>
 #include <stdatomic.h>
 
-/* Of a start between domains with features: the energy from which on it counts as entangled. */
+/* A start with features counts as entangled if its energy is higher. */
 static const double ENTANGLED = 20;
 
 /* If the borders of all patches have more corners than this part of the cage, the overlay of the
@@ -30,8 +30,8 @@ enum { PATCHES = 4 };
 
 /* ---- start ---- */
 
-/* The image of a mesh vertex: of a boundary vertex the corresponding point of the other cage, of
- * others what the charts say. */
+/* Finds the image of a mesh vertex. The charts give it, except for boundary vertices, which have
+ * corresponding points on the other cage. */
 static icc_status vertex_image(const icc_chart *source, const icc_chart *target,
                                const iccp_planar *mesh, size_t v, double image[2], iccp_path *path)
 {
@@ -71,15 +71,14 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     return status;
 }
 
-/* What the images of the source chart's mesh take, and what the steps that follow need to know of
- * the mesh: side by side, where that is. */
+/* Finding the images, and making Newton's plan of the mesh: side by side with threads. */
 typedef struct start_job {
     const icc_chart *source, *target;
     iccp_plmap *pl;
     iccp_newton_plan *plan;
 } start_job;
 
-/* What it takes to find images: a chart that is ready, and room. */
+/* Makes what finding images takes: a chart that is ready, and room. */
 static icc_status prepare(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     const start_job *job = argument;
@@ -154,7 +153,7 @@ static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_do
     return status == ICC_OK ? iccp_cut_chords(pl) : status;
 }
 
-/* Leaves what the charts give as it is if it is one-to-one. */
+/* Makes the start one-to-one. It stays as the charts give it if nothing is inverted. */
 static icc_status make_positive(iccp_mesh_map *map, const icc_domain *source,
                                 const icc_domain *target, iccp_allowance *work, icc_map_info *info,
                                 const iccp_env *env)
@@ -201,8 +200,8 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     return none ? ICC_OK : status;
 }
 
-/* Where the energy is high, features go far round one another, and there is far to go for the
- * points as well as for the images: with half the work, both move. */
+/* Where the energy is high, features go far around one another. Then points have as far to go as
+ * images, so both move, with half of the work. */
 static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options, iccp_work *work,
                               const iccp_env *env)
 {
