@@ -1,68 +1,21 @@
-/* Checks JSON values and converts them, with cJSON as the parser. */
+/* Checks JSON values and converts them. */
 #include "base/json_in.h"
 
 #include "base/allocate.h"
-#include "base/foreign.h"
-#include "base/json_scan.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-cJSON *json_parse(const char *text, size_t n, problem *wrong)
+bool json_is_object(const json_item *item, const char *where, const char *const *names,
+                    problem *wrong)
 {
-    const char *end = text;
-    size_t mark = n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-    cJSON *object = cJSON_ParseWithLengthOpts(text + mark, n + 1 - mark, &end, 0);
-    const char *rest = end + (object != NULL ? strspn(end, " \t\r\n\x1e") : 0);
-    if (object != NULL && rest == text + n)
-        return object;
-    if (object != NULL && *rest == '{')
-        foreign_vector(wrong, line_of(text, rest), "a second object, as in GeoJSONSeq");
-    else
-        spoilt(wrong, line_of(text, rest),
-               rest >= text + n ? "the JSON ends early" : "this is not valid JSON");
-    cJSON_Delete(object);
-    return NULL;
-}
-
-cJSON *json_parse_sequence(const char *text, size_t n, problem *wrong)
-{
-    cJSON *list = cJSON_CreateArray();
-    const char *p = text + (n >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0 ? 3 : 0),
-               *end = text + n;
-    bool apart;
-    p += json_scan_gap(p, &apart);
-    apart = true; /* the first text needs no separator before it */
-    while (p < end || cJSON_GetArraySize(list) == 0) {
-        const char *stop = p;
-        cJSON *item = apart ? cJSON_ParseWithLengthOpts(p, (size_t)(end - p) + 1, &stop, 0) : NULL;
-        if (item == NULL) {
-            spoilt(wrong, line_of(text, stop),
-                   stop >= end ? "the JSON ends early" : "this is not valid JSON");
-            cJSON_Delete(list);
-            return NULL;
-        }
-        cJSON_AddItemToArray(list, item);
-        p = stop + json_scan_gap(stop, &apart);
-    }
-    return list;
-}
-
-const cJSON *json_get(const cJSON *object, const char *name)
-{
-    return cJSON_GetObjectItemCaseSensitive(object, name);
-}
-
-bool json_is_object(const cJSON *item, const char *where, const char *const *names, problem *wrong)
-{
-    if (!cJSON_IsObject(item))
+    if (!json_is(item, JSON_OBJECT))
         return spoilt(wrong, 0, "%s is not an object { }", where);
-    const cJSON *member;
-    cJSON_ArrayForEach(member, item)
-    {
+    for (const json_item *member = json_first_member(item); member != NULL;
+         member = json_next(member)) {
         const char *const *name = names;
-        while (*name != NULL && strcmp(*name, member->string) != 0)
+        while (*name != NULL && strcmp(*name, member->name) != 0)
             name++;
         char shown[32], list[120] = "";
         if (*name != NULL)
@@ -71,44 +24,43 @@ bool json_is_object(const cJSON *item, const char *where, const char *const *nam
             snprintf(list + strlen(list), sizeof list - strlen(list), "%s%s", *list ? ", " : "",
                      *name);
         return spoilt(wrong, 0, "%s has a member '%s'; it may have: %s", where,
-                      quoted(shown, member->string), list);
+                      quoted(shown, member->name), list);
     }
     return true;
 }
 
-bool json_real(const cJSON *item, const char *where, double *out, problem *wrong)
+bool json_real(const json_item *item, const char *where, double *out, problem *wrong)
 {
-    if (!cJSON_IsNumber(item) || !isfinite(item->valuedouble))
+    if (!json_is(item, JSON_NUMBER) || !isfinite(item->number))
         return spoilt(wrong, 0, "%s is not a finite number", where);
-    *out = item->valuedouble;
+    *out = item->number;
     return true;
 }
 
-bool json_reals(const cJSON *item, const char *where, size_t n, double *out, problem *wrong)
+bool json_reals(const json_item *item, const char *where, size_t n, double *out, problem *wrong)
 {
     size_t k = 0;
-    bool good = cJSON_IsArray(item);
-    const cJSON *number = good ? item->child : NULL;
-    for (; number != NULL && good; number = number->next) {
-        good = k < n && cJSON_IsNumber(number) && isfinite(number->valuedouble);
+    bool good = json_is(item, JSON_LIST);
+    for (const json_item *x = json_first(item); x != NULL && good; x = json_next(x)) {
+        good = k < n && json_is(x, JSON_NUMBER) && isfinite(x->number);
         if (good)
-            out[k++] = number->valuedouble;
+            out[k++] = x->number;
     }
     return (good && k == n) || spoilt(wrong, 0, "%s is not a list of %zu finite numbers", where, n);
 }
 
-bool json_list(const cJSON *item, const char *where, size_t *n, problem *wrong)
+bool json_list(const json_item *item, const char *where, size_t *n, problem *wrong)
 {
     *n = 0;
     if (item == NULL)
         return true;
-    if (!cJSON_IsArray(item))
+    if (!json_is(item, JSON_LIST))
         return spoilt(wrong, 0, "%s is not a list [ ]", where);
-    *n = (size_t)cJSON_GetArraySize(item);
+    *n = json_size(item);
     return true;
 }
 
-bool json_points(const cJSON *item, const char *where, size_t dim, size_t *n, double **points,
+bool json_points(const json_item *item, const char *where, size_t dim, size_t *n, double **points,
                  problem *wrong)
 {
     *points = NULL;
@@ -116,9 +68,7 @@ bool json_points(const cJSON *item, const char *where, size_t dim, size_t *n, do
         return false;
     *points = need(*n, dim * sizeof **points);
     size_t i = 0;
-    const cJSON *point;
-    cJSON_ArrayForEach(point, item)
-    {
+    for (const json_item *point = json_first(item); point != NULL; point = json_next(point)) {
         char name[96];
         snprintf(name, sizeof name, "%s[%zu]", where, i);
         if (!json_reals(point, name, dim, *points + dim * i++, wrong))
@@ -127,10 +77,10 @@ bool json_points(const cJSON *item, const char *where, size_t dim, size_t *n, do
     return true;
 }
 
-bool json_index(const cJSON *item, const char *where, const char *what, size_t limit, uint32_t *out,
-                problem *wrong)
+bool json_index(const json_item *item, const char *where, const char *what, size_t limit,
+                uint32_t *out, problem *wrong)
 {
-    double value = cJSON_IsNumber(item) ? item->valuedouble : -1;
+    double value = json_is(item, JSON_NUMBER) ? item->number : -1;
     if (!(value >= 0 && value < (double)limit && value < UINT32_MAX && value == floor(value)))
         return limit == 0 ? spoilt(wrong, 0, "%s must be a %s, but there is none", where, what)
                           : spoilt(wrong, 0, "%s must be a %s, a whole number from 0 to %zu", where,
@@ -139,7 +89,7 @@ bool json_index(const cJSON *item, const char *where, const char *what, size_t l
     return true;
 }
 
-bool json_pairs(const cJSON *item, const char *where, const char *what, size_t limit, size_t *n,
+bool json_pairs(const json_item *item, const char *where, const char *what, size_t limit, size_t *n,
                 uint32_t **pairs, problem *wrong)
 {
     *pairs = NULL;
@@ -147,18 +97,14 @@ bool json_pairs(const cJSON *item, const char *where, const char *what, size_t l
         return false;
     *pairs = need(*n, 2 * sizeof **pairs);
     size_t i = 0;
-    const cJSON *pair;
-    cJSON_ArrayForEach(pair, item)
-    {
+    for (const json_item *pair = json_first(item); pair != NULL; pair = json_next(pair)) {
         char name[96];
-        snprintf(name, sizeof name, "%s[%zu]", where, i);
-        if (!cJSON_IsArray(pair) || cJSON_GetArraySize(pair) != 2)
+        snprintf(name, sizeof name, "%s[%zu]", where, i / 2);
+        if (json_size(pair) != 2)
             return spoilt(wrong, 0, "%s is not a pair of numbers", name);
-        const cJSON *end = pair->child;
-        for (size_t k = 0; k < 2; k++, end = end->next)
-            if (!json_index(end, name, what, limit, *pairs + 2 * i + k, wrong))
+        for (const json_item *end = json_first(pair); end != NULL; end = json_next(end))
+            if (!json_index(end, name, what, limit, *pairs + i++, wrong))
                 return false;
-        i++;
     }
     return true;
 }

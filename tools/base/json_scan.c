@@ -2,6 +2,7 @@
 #include "base/json_scan.h"
 
 #include "base/allocate.h"
+#include "base/json_decode.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -50,17 +51,11 @@ static json_kind open_bracket(json_scan *s, char bracket)
 static json_kind close_bracket(json_scan *s)
 {
     if (s->depth == 0 || s->text[s->at] != s->open[s->depth - 1] + 2)
-        return bad(s, "this bracket closes none");
+        return bad(s, "this is not valid JSON: this bracket closes none");
     s->depth--;
     s->at++;
     s->expected = COMMA_OR_CLOSE;
     return JSON_CLOSE;
-}
-
-static int hex_digit(char c)
-{
-    char lower = (char)(c | 0x20);
-    return c >= '0' && c <= '9' ? c - '0' : lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
 /* Scans a string, with `at` on its first quote. On failure `at` is at the fault. */
@@ -73,7 +68,7 @@ static bool scan_string(json_scan *s)
         p++;
         bool known = *p != '\0' && strchr("\"\\/bfnrtu", *p) != NULL;
         for (int k = 0; known && *p == 'u' && k < 4; k++)
-            known = hex_digit(p[1 + k]) >= 0;
+            known = json_hex_digit(p[1 + k]) >= 0;
         if (!known)
             break;
         p += *p == 'u' ? 4 : 0;
@@ -110,15 +105,16 @@ static bool scan_number(json_scan *s)
     return good;
 }
 
-static bool scan_word(json_scan *s)
+static json_kind scan_word(json_scan *s)
 {
     static const char *const words[] = {"true", "false", "null"};
+    static const json_kind kinds[] = {JSON_TRUE, JSON_FALSE, JSON_NULL};
     for (size_t w = 0; w < 3; w++)
         if (strncmp(s->text + s->at, words[w], strlen(words[w])) == 0) {
             s->at += strlen(words[w]);
-            return true;
+            return kinds[w];
         }
-    return false;
+    return bad(s, "this is not valid JSON");
 }
 
 static json_kind scan_value(json_scan *s)
@@ -131,7 +127,7 @@ static json_kind scan_value(json_scan *s)
         return scan_string(s) ? JSON_STRING : bad(s, "this string is not valid JSON");
     if (c == '-' || (c >= '0' && c <= '9'))
         return scan_number(s) ? JSON_NUMBER : bad(s, "this number is not valid JSON");
-    return scan_word(s) ? JSON_WORD : bad(s, "this is not valid JSON");
+    return scan_word(s);
 }
 
 static json_kind scan_name(json_scan *s)
@@ -154,7 +150,7 @@ json_kind json_scan_next(json_scan *s)
     skip_blanks(s);
     if (s->expected == COMMA_OR_CLOSE && s->depth == 0) {
         if (s->at < s->n)
-            return bad(s, "there is something behind the end of the JSON");
+            return bad(s, "this is not valid JSON: something follows its end");
         s->begin = s->end = s->at;
         return JSON_END;
     }
@@ -210,6 +206,14 @@ json_kind json_scan_skip(json_scan *s, json_kind kind)
     return kind;
 }
 
+int json_fault(const char *text, size_t at, const char *why, problem *wrong)
+{
+    size_t line = at;
+    while (line > 0 && text[line - 1] != '\n')
+        line--;
+    return spoilt(wrong, line_of(text, text + at), "%s (column %zu)", why, at - line + 1);
+}
+
 /* Returns the next character of a string if it is ASCII, else 0. */
 static char next_char(const char **cursor)
 {
@@ -223,7 +227,7 @@ static char next_char(const char **cursor)
     *cursor = p + 6;
     int code = 0;
     for (int k = 2; k < 6; k++)
-        code = 16 * code + hex_digit(p[k]);
+        code = 16 * code + json_hex_digit(p[k]);
     return (char)(code < 128 ? code : 0);
 }
 

@@ -3,6 +3,8 @@
 #ifndef JSON_SCAN_H
 #define JSON_SCAN_H
 
+#include "base/say.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -13,9 +15,11 @@ typedef enum json_kind {
     JSON_NAME,   /* of a member; the colon after it has been read */
     JSON_STRING,
     JSON_NUMBER,
-    JSON_WORD, /* true, false, null */
-    JSON_END,  /* of the text, after one value */
-    JSON_BAD   /* see `why`; `begin` is the place */
+    JSON_TRUE,
+    JSON_FALSE,
+    JSON_NULL,
+    JSON_END, /* of the text, after one value */
+    JSON_BAD  /* see `why`; `begin` is the place */
 } json_kind;
 
 typedef struct json_scan {
@@ -42,6 +46,9 @@ bool json_scan_more(json_scan *s);
 /* Skips the rest of a value that began with a piece of this kind. Returns the kind, or JSON_BAD. */
 json_kind json_scan_skip(json_scan *s, json_kind kind);
 void json_scan_end(json_scan *s);
+
+/* Fills in `wrong` with a fault at text[at]. Returns false. */
+int json_fault(const char *text, size_t at, const char *why, problem *wrong);
 
 /* True if a string, with its quotes, is this word of ASCII letters. The letters may be escaped. */
 bool json_string_is(const char *begin, const char *end, const char *word);

@@ -18,48 +18,52 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *type_of(const cJSON *object)
+/* A file of one text, or of a sequence of Features. */
+typedef struct geojson {
+    json_tree tree;
+    const json_item *object;   /* the text, or NULL */
+    const json_item *features; /* the list of features, or NULL */
+    bool sequence;
+} geojson;
+
+static const char *type_of(const json_item *object)
 {
-    const char *type = cJSON_GetStringValue(json_get(object, "type"));
+    const char *type = json_string_of(json_get(object, "type"));
     return type != NULL ? type : "";
 }
 
 /* The place being read, for messages: "", or a text like " of line 7". */
 typedef const char *place;
 
-static bool read_position(cage *out, const cJSON *position, size_t number, place of, problem *wrong)
+static bool read_position(cage *out, const json_item *position, size_t number, place of,
+                          problem *wrong)
 {
-    const cJSON *x = cJSON_GetArrayItem(position, 0), *y = cJSON_GetArrayItem(position, 1);
-    if (!cJSON_IsArray(position) || !cJSON_IsNumber(x) || !cJSON_IsNumber(y))
+    const json_item *x = json_first(position), *y = json_next(x);
+    if (!json_is(x, JSON_NUMBER) || !json_is(y, JSON_NUMBER))
         return spoilt(wrong, 0, "vertex %zu%s is not a pair of numbers [x, y]", number, of);
-    out->n_heights += cJSON_GetArraySize(position) > 2;
-    if (!isfinite(x->valuedouble) || !isfinite(y->valuedouble))
+    out->n_heights += json_size(position) > 2;
+    if (!isfinite(x->number) || !isfinite(y->number))
         return spoilt(wrong, 0, "vertex %zu%s is not finite", number, of);
-    cage_add(out, x->valuedouble, y->valuedouble, 0);
+    cage_add(out, x->number, y->number, 0);
     return true;
 }
 
-static bool read_positions(cage *out, const cJSON *list, place of, problem *wrong)
+static bool read_positions(cage *out, const json_item *list, place of, problem *wrong)
 {
-    const cJSON *position;
     size_t n = 0;
-    cJSON_ArrayForEach(position, list)
-    {
-        if (!read_position(out, position, n++, of, wrong))
+    for (const json_item *x = json_first(list); x != NULL; x = json_next(x))
+        if (!read_position(out, x, n++, of, wrong))
             return false;
-    }
     return true;
 }
 
 /* Reads the outer ring, then the holes. */
-static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
+static bool read_rings(cage *out, const json_item *rings, problem *wrong)
 {
-    if (!cJSON_IsArray(rings) || cJSON_GetArraySize(rings) == 0)
+    if (json_size(rings) == 0)
         return spoilt(wrong, 0, "the polygon has no coordinates");
-    const cJSON *ring;
     size_t n = 0;
-    cJSON_ArrayForEach(ring, rings)
-    {
+    for (const json_item *ring = json_first(rings); ring != NULL; ring = json_next(ring)) {
         char of[40] = "";
         if (n > 0)
             snprintf(of, sizeof of, " of hole %zu", n);
@@ -72,33 +76,44 @@ static bool read_rings(cage *out, const cJSON *rings, problem *wrong)
 }
 
 /* Reads polygons. The first one is the cage, and the others are its further polygons. */
-static bool read_polygons(cage *out, const cJSON *polygons, problem *wrong)
+static bool read_polygons(cage *out, const json_item *polygons, problem *wrong)
 {
-    int n = cJSON_GetArraySize(polygons);
-    if (n == 0)
+    const json_item *first = json_first(polygons);
+    if (first == NULL)
         return spoilt(wrong, 0, "the MultiPolygon has no polygons");
-    out->more = need((size_t)n, sizeof *out->more);
-    for (const cJSON *polygon = polygons->child->next; polygon != NULL; polygon = polygon->next) {
+    out->more = need(json_size(polygons), sizeof *out->more);
+    for (const json_item *x = json_next(first); x != NULL; x = json_next(x)) {
         cage *c = &out->more[out->n_more++];
         c->dim = 2;
-        if (!read_rings(c, polygon, wrong))
+        if (!read_rings(c, x, wrong))
             return false;
         out->n_heights += c->n_heights;
     }
-    return read_rings(out, polygons->child, wrong);
+    return read_rings(out, first, wrong);
+}
+
+static bool is_same_position(const json_item *a, const json_item *b)
+{
+    bool same = json_size(a) == json_size(b);
+    for (a = json_first(a), b = json_first(b); same && a != NULL;
+         a = json_next(a), b = json_next(b))
+        same = json_is(a, JSON_NUMBER) && json_is(b, JSON_NUMBER) && a->number == b->number;
+    return same;
 }
 
 /* True if a line ends where it begins. Drawings have such outlines. */
-static bool is_closed(const cJSON *line)
+static bool is_closed(const json_item *line)
 {
-    int n = cJSON_GetArraySize(line);
-    return n > 3 && cJSON_Compare(cJSON_GetArrayItem(line, 0), cJSON_GetArrayItem(line, n - 1), 1);
+    const json_item *first = json_first(line), *last = first;
+    for (const json_item *x = first; x != NULL; x = json_next(x))
+        last = x;
+    return json_size(line) > 3 && is_same_position(first, last);
 }
 
-static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
+static bool read_geometry(cage *out, const json_item *geometry, problem *wrong)
 {
     const char *type = type_of(geometry);
-    const cJSON *coordinates = json_get(geometry, "coordinates");
+    const json_item *coordinates = json_get(geometry, "coordinates");
     if (strcmp(type, "Polygon") == 0)
         return read_rings(out, coordinates, wrong);
     if (strcmp(type, "MultiPolygon") == 0)
@@ -115,25 +130,24 @@ static bool read_geometry(cage *out, const cJSON *geometry, problem *wrong)
 
 /* True if a feature has the role "source" or "target", or, if `behind` is "-tie", the role of a
  * tie. */
-static bool has_role(const cJSON *feature, cage_role role, const char *behind)
+static bool has_role(const json_item *feature, cage_role role, const char *behind)
 {
-    const cJSON *properties = json_get(feature, "properties");
-    const char *value = cJSON_GetStringValue(json_get(properties, "role")),
-               *name = cage_role_name(role);
+    const json_item *properties = json_get(feature, "properties");
+    const char *value = json_string_of(json_get(properties, "role")), *name = cage_role_name(role);
     size_t n = strlen(name);
     return value != NULL && strncmp(value, name, n) == 0 && strcmp(value + n, behind) == 0;
 }
 
 enum { IS_CAGE = 0, IS_UNKNOWN = -1 };
 
-static const cJSON *number_of(const cJSON *feature)
+static const json_item *number_of(const json_item *feature)
 {
     return json_get(json_get(feature, "properties"), "feature");
 }
 
 /* The kind of a feature with a role: an ICC_FEATURE_*, or the cage. A feature with a number is not
  * the cage. */
-static int32_t kind_of(const cJSON *feature)
+static int32_t kind_of(const json_item *feature)
 {
     const char *type = type_of(json_get(feature, "geometry"));
     bool numbered = number_of(feature) != NULL && strstr(type, "Polygon") == NULL;
@@ -144,31 +158,31 @@ static int32_t kind_of(const cJSON *feature)
 }
 
 /* Reads the radius of a Point, if it has one. */
-static bool read_radius(double *out, const cJSON *feature, const char *name, problem *wrong)
+static bool read_radius(double *out, const json_item *feature, const char *name, problem *wrong)
 {
-    const cJSON *radius = json_get(json_get(feature, "properties"), "radius");
-    if (radius == NULL || cJSON_IsNull(radius))
+    const json_item *radius = json_get(json_get(feature, "properties"), "radius");
+    if (radius == NULL || json_is(radius, JSON_NULL))
         return true;
-    *out = radius->valuedouble;
-    return (cJSON_IsNumber(radius) && *out >= 0 && isfinite(*out)) ||
+    *out = radius->number;
+    return (json_is(radius, JSON_NUMBER) && *out >= 0 && isfinite(*out)) ||
            spoilt(wrong, 0, "the radius of %s is no number from 0 up", name);
 }
 
 /* Reads a Point, a LineString or a tie, with the number that pairs it. */
-static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem *wrong)
+static bool read_feature(cage *out, int32_t kind, const json_item *feature, problem *wrong)
 {
     const double most = 9007199254740992; /* 2^53 */
-    const cJSON *number = number_of(feature);
-    const cJSON *coordinates = json_get(json_get(feature, "geometry"), "coordinates");
+    const json_item *number = number_of(feature);
+    const json_item *coordinates = json_get(json_get(feature, "geometry"), "coordinates");
     const char *type = type_of(json_get(feature, "geometry"));
     char shown[32], of[64];
-    if (!cJSON_IsNumber(number) || !(fabs(number->valuedouble) <= most) ||
-        floor(number->valuedouble) != number->valuedouble)
+    if (!json_is(number, JSON_NUMBER) || !(fabs(number->number) <= most) ||
+        floor(number->number) != number->number)
         return spoilt(wrong, 0,
                       "a %s with a role has no whole number as its property \"feature\", which "
                       "pairs it",
                       quoted(shown, type));
-    cage_feature named = {.kind = kind, .number = (int64_t)number->valuedouble};
+    cage_feature named = {.kind = kind, .number = (int64_t)number->number};
     feature_text name;
     size_t first = out->n;
     snprintf(of, sizeof of, " of %s", feature_name(name, &named));
@@ -191,96 +205,88 @@ static bool read_feature(cage *out, int32_t kind, const cJSON *feature, problem 
 }
 
 /* Reads the features inside the cage, and the ties. */
-static bool read_features(cage *out, cage_role role, const cJSON *collection, problem *wrong)
+static bool read_features(cage *out, cage_role role, const json_item *features, problem *wrong)
 {
-    const cJSON *feature;
-    cJSON_ArrayForEach(feature, json_get(collection, "features"))
-    {
-        bool tie = has_role(feature, role, "-tie");
-        int32_t kind = tie ? CAGE_TIE : has_role(feature, role, "") ? kind_of(feature) : IS_CAGE;
-        if (kind != IS_CAGE && !read_feature(out, kind, feature, wrong))
+    for (const json_item *x = json_first(features); x != NULL; x = json_next(x)) {
+        bool tie = has_role(x, role, "-tie");
+        int32_t kind = tie ? CAGE_TIE : has_role(x, role, "") ? kind_of(x) : IS_CAGE;
+        if (kind != IS_CAGE && !read_feature(out, kind, x, wrong))
             return false;
     }
     return true;
 }
 
 /* True if a string equals `wanted`, or a number or a word means it. */
-static bool is_value(const cJSON *item, const char *wanted)
+static bool is_value(const json_item *item, const char *wanted)
 {
-    const char *string = cJSON_GetStringValue(item);
+    const char *string = json_string_of(item);
     double number;
     return string != NULL ? strcmp(string, wanted) == 0
-           : cJSON_IsNumber(item)
-               ? number_parse(wanted, &number) == NUMBER_OK && number == item->valuedouble
-           : cJSON_IsBool(item) ? strcmp(wanted, cJSON_IsTrue(item) ? "true" : "false") == 0
-                                : false;
+           : json_is(item, JSON_NUMBER)
+               ? number_parse(wanted, &number) == NUMBER_OK && number == item->number
+           : json_is(item, JSON_TRUE)  ? strcmp(wanted, "true") == 0
+           : json_is(item, JSON_FALSE) ? strcmp(wanted, "false") == 0
+                                       : false;
 }
 
 /* True if a feature has the name: a property with the value, or the id. */
-static bool has_name(const cJSON *feature, const char *named)
+static bool has_name(const json_item *feature, const char *named)
 {
     size_t n = strcspn(named, "=");
-    const cJSON *property;
     bool found = false;
     if (named[n] == '\0')
         return is_value(json_get(feature, "id"), named);
-    cJSON_ArrayForEach(property, json_get(feature, "properties")) found =
-        found || (strlen(property->string) == n && strncmp(property->string, named, n) == 0 &&
-                  is_value(property, named + n + 1));
+    const json_item *x = json_first_member(json_get(feature, "properties"));
+    for (; x != NULL && !found; x = json_next(x))
+        found =
+            strlen(x->name) == n && strncmp(x->name, named, n) == 0 && is_value(x, named + n + 1);
     return found ||
            (n == 2 && strncmp(named, "id", 2) == 0 && is_value(json_get(feature, "id"), named + 3));
 }
 
-static const cJSON *choose_named(const cJSON *collection, const char *named, problem *wrong)
+static const json_item *choose_named(const json_item *features, const char *named, problem *wrong)
 {
-    const cJSON *feature, *chosen = NULL;
-    int n = 0;
+    const json_item *chosen = NULL;
+    size_t n = 0;
     char shown[64];
-    cJSON_ArrayForEach(feature, json_get(collection, "features"))
-    {
-        if (has_name(feature, named)) {
-            chosen = feature;
+    for (const json_item *x = json_first(features); x != NULL; x = json_next(x))
+        if (has_name(x, named)) {
+            chosen = x;
             n++;
         }
-    }
     if (n == 1)
         return chosen;
-    spoilt(wrong, 0, "%d of the %d features have %s; exactly one must", n,
-           cJSON_GetArraySize(json_get(collection, "features")), choice_text(shown, named));
+    spoilt(wrong, 0, "%zu of the %zu features have %s; exactly one must", n, json_size(features),
+           choice_text(shown, named));
     return NULL;
 }
 
 /* True if all features are lines of two points without roles, as georeferencers write them. */
-static bool are_links(const cJSON *features)
+static bool are_links(const json_item *features)
 {
-    const cJSON *feature;
-    bool are = cJSON_GetArraySize(features) > 0;
-    cJSON_ArrayForEach(feature, features)
-    {
-        const cJSON *line = json_get(feature, "geometry");
+    bool are = json_size(features) > 0;
+    for (const json_item *x = json_first(features); x != NULL; x = json_next(x)) {
+        const json_item *line = json_get(x, "geometry");
         are = are && strcmp(type_of(line), "LineString") == 0 &&
-              cJSON_GetArraySize(json_get(line, "coordinates")) == 2 &&
-              json_get(json_get(feature, "properties"), "role") == NULL;
+              json_size(json_get(line, "coordinates")) == 2 &&
+              json_get(json_get(x, "properties"), "role") == NULL;
     }
     return are;
 }
 
 /* Chooses the feature that is the cage. It is the feature with the role that is no line or point,
  * or else the only feature. */
-static const cJSON *choose_feature(const cJSON *collection, cage_role role, problem *wrong)
+static const json_item *choose_feature(const geojson *file, cage_role role, problem *wrong)
 {
-    const cJSON *features = json_get(collection, "features");
-    const cJSON *feature, *chosen = NULL;
-    int n_chosen = 0;
-    cJSON_ArrayForEach(feature, features)
-    {
-        if (has_role(feature, role, "") && kind_of(feature) == IS_CAGE) {
-            chosen = feature;
+    const json_item *features = file->features, *chosen = NULL;
+    size_t n_chosen = 0;
+    for (const json_item *x = json_first(features); x != NULL; x = json_next(x))
+        if (has_role(x, role, "") && kind_of(x) == IS_CAGE) {
+            chosen = x;
             n_chosen++;
         }
-    }
-    if (n_chosen == 0 && cJSON_GetArraySize(features) == 1)
-        return cJSON_GetArrayItem(features, 0);
+    if (n_chosen == 0 && json_size(features) == 1)
+        return json_first(features);
     if (n_chosen == 0 && are_links(features)) {
         spoilt(
             wrong, 0,
@@ -292,23 +298,22 @@ static const cJSON *choose_feature(const cJSON *collection, cage_role role, prob
     if (n_chosen != 1) {
         spoilt(
             wrong, 0,
-            "%s of the %d features%s is a Polygon with the property \"role\": \"%s\"; exactly one "
+            "%s of the %zu features%s is a Polygon with the property \"role\": \"%s\"; exactly one "
             "must be",
-            n_chosen == 0 ? "none" : "more than one", cJSON_GetArraySize(features),
-            json_get(collection, "sequence") != NULL ? " of the sequence" : "",
-            cage_role_name(role));
+            n_chosen == 0 ? "none" : "more than one", json_size(features),
+            file->sequence ? " of the sequence" : "", cage_role_name(role));
         return NULL;
     }
     return chosen;
 }
 
-static bool read_object(cage *out, const cage_choice *choice, const cJSON *object, problem *wrong)
+static bool read_file(cage *out, const cage_choice *choice, const geojson *file, problem *wrong)
 {
-    const cJSON *collection = NULL;
-    if (strcmp(type_of(object), "FeatureCollection") == 0) {
-        collection = object;
-        object = choice->named != NULL ? choose_named(collection, choice->named, wrong)
-                                       : choose_feature(collection, choice->role, wrong);
+    const json_item *object = file->object;
+    bool many = file->sequence || strcmp(type_of(object), "FeatureCollection") == 0;
+    if (many) {
+        object = choice->named != NULL ? choose_named(file->features, choice->named, wrong)
+                                       : choose_feature(file, choice->role, wrong);
         if (object == NULL)
             return false;
     } else if (choice->named != NULL) {
@@ -318,69 +323,61 @@ static bool read_object(cage *out, const cage_choice *choice, const cJSON *objec
     }
     if (strcmp(type_of(object), "Feature") == 0)
         object = json_get(object, "geometry");
-    return read_geometry(out, object, wrong) && read_features(out, choice->role, collection, wrong);
+    return read_geometry(out, object, wrong) &&
+           (!many || read_features(out, choice->role, file->features, wrong));
 }
 
 /* Files from before 2016 name their reference system if their coordinates are not degrees. */
-static bool is_in_degrees(const cJSON *object)
+static bool is_in_degrees(const json_item *object)
 {
-    const cJSON *crs = json_get(json_get(json_get(object, "crs"), "properties"), "name");
-    const char *name = cJSON_GetStringValue(crs);
+    const json_item *crs = json_get(json_get(json_get(object, "crs"), "properties"), "name");
+    const char *name = json_string_of(crs);
     return name == NULL || strstr(name, "CRS84") != NULL || strstr(name, "4326") != NULL;
 }
 
-/* Parses the file's one text, or its sequence of Features, which becomes a collection. */
-static cJSON *parse(const char *text, size_t n, problem *wrong)
+/* Reads the file's one text, or its sequence of Features. */
+static bool read_tree(geojson *out, const char *text, size_t n, problem *wrong)
 {
-    cJSON *texts = json_parse_sequence(text, n, wrong), *all = NULL;
-    int n_texts = cJSON_GetArraySize(texts);
-    if (texts == NULL)
-        return NULL;
-    if (n_texts == 1) {
-        all = cJSON_DetachItemFromArray(texts, 0);
-        cJSON_Delete(texts);
-        return all;
+    *out = (geojson){.sequence = false};
+    if (!json_tree_read_sequence(&out->tree, text, n, wrong))
+        return false;
+    const json_item *texts = out->tree.root;
+    out->sequence = json_size(texts) > 1;
+    if (!out->sequence) {
+        out->object = json_first(texts);
+        out->features = json_get(out->object, "features");
+        return true;
     }
-    const cJSON *item;
-    int number = 0;
-    cJSON_ArrayForEach(item, texts)
-    {
+    size_t number = 0;
+    for (const json_item *item = json_first(texts); item != NULL; item = json_next(item)) {
         char shown[32];
         number++;
-        if (strcmp(type_of(item), "Feature") == 0)
-            continue;
-        spoilt(wrong, 0, "text %d of %d is a '%s'; in a sequence each is a Feature", number,
-               n_texts, quoted(shown, type_of(item)));
-        cJSON_Delete(texts);
-        return NULL;
+        if (strcmp(type_of(item), "Feature") != 0)
+            return spoilt(wrong, 0, "text %zu of %zu is a '%s'; in a sequence each is a Feature",
+                          number, json_size(texts), quoted(shown, type_of(item)));
     }
-    all = cJSON_CreateObject();
-    cJSON_AddStringToObject(all, "type", "FeatureCollection");
-    cJSON_AddTrueToObject(all, "sequence");
-    cJSON_AddItemToObject(all, "features", texts);
-    return all;
+    out->features = texts;
+    return true;
 }
 
 bool cage_geojson_has(cage_role role, const char *text, size_t n)
 {
+    geojson file;
     problem ignored;
-    cJSON *object = parse(text, n, &ignored);
-    const cJSON *feature;
     bool found = false;
-    cJSON_ArrayForEach(feature, json_get(object, "features")) found =
-        found || has_role(feature, role, "");
-    cJSON_Delete(object);
+    if (read_tree(&file, text, n, &ignored))
+        for (const json_item *x = json_first(file.features); x != NULL; x = json_next(x))
+            found = found || has_role(x, role, "");
+    json_tree_free(&file.tree);
     return found;
 }
 
 bool cage_read_geojson(cage *out, const cage_choice *choice, const char *text, size_t n,
                        problem *wrong)
 {
-    cJSON *object = parse(text, n, wrong);
-    if (object == NULL)
-        return false;
-    bool good = read_object(out, choice, object, wrong) &&
-                (!is_in_degrees(object) || cage_check_degrees(out, wrong));
-    cJSON_Delete(object);
+    geojson file;
+    bool good = read_tree(&file, text, n, wrong) && read_file(out, choice, &file, wrong) &&
+                (!is_in_degrees(file.object) || cage_check_degrees(out, wrong));
+    json_tree_free(&file.tree);
     return good;
 }

@@ -15,7 +15,7 @@
 #ifndef GEO_CARRY_H
 #define GEO_CARRY_H
 
-#include "geo/edits.h"
+#include "base/edits.h"
 #include "geo/geo_index.h"
 #include "geo/noding.h"
 

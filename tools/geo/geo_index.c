@@ -244,7 +244,7 @@ bool geo_index_read(geo_index *out, const char *text, size_t n, problem *wrong)
         kind = json_scan_next(&x.scan);
     bool good = kind == JSON_END;
     if (kind == JSON_BAD)
-        spoilt(wrong, line_of(text, text + x.scan.begin), "%s", x.scan.why);
+        json_fault(text, x.scan.begin, x.scan.why, wrong);
     else if (!good)
         spoilt(wrong, 0, "this GeoJSON has too many objects");
     else if (!object)

@@ -2,8 +2,8 @@
 #ifndef GEO_WRITE_H
 #define GEO_WRITE_H
 
+#include "base/edits.h"
 #include "geo/densify.h"
-#include "geo/edits.h"
 #include "geo/geo_shape.h"
 
 /* A rectangle around images; empty if lower > upper. */

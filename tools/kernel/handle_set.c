@@ -9,20 +9,20 @@
 #include <stdlib.h>
 
 /* Reads the handles. The first one decides between the plane and space. */
-static bool read_handles(handle_set *set, const cJSON *list, problem *wrong)
+static bool read_handles(handle_set *set, const json_item *list, problem *wrong)
 {
-    int n_coordinates = cJSON_GetArraySize(cJSON_GetArrayItem(list, 0));
-    if (!cJSON_IsArray(list) || cJSON_GetArraySize(list) == 0)
+    size_t n_coordinates = json_size(json_first(list));
+    if (json_size(list) == 0)
         return spoilt(wrong, 0, "there is no list \"handles\" of points [x, y] or [x, y, z]");
     if (n_coordinates != 2 && n_coordinates != 3)
         return spoilt(wrong, 0, "handles[0] is not a point [x, y] or [x, y, z]");
-    set->dim = (size_t)n_coordinates;
+    set->dim = n_coordinates;
     return json_points(list, "handles", set->dim, &set->n_handles, &set->handles, wrong);
 }
 
 /* Reads one of "lines". A parallel line may only refer to earlier ones. They count from 0 in the
  * file and from 1 in icc_line, where 0 means none. */
-static bool read_line(handle_set *set, size_t i, const cJSON *item, problem *wrong)
+static bool read_line(handle_set *set, size_t i, const json_item *item, problem *wrong)
 {
     static const char *const members[] = {"from", "to", "parallel", NULL};
     icc_line *line = &set->lines[i];
@@ -35,7 +35,7 @@ static bool read_line(handle_set *set, size_t i, const cJSON *item, problem *wro
         !json_reals(json_get(item, "from"), from, set->dim, line->from, wrong) ||
         !json_reals(json_get(item, "to"), to, set->dim, line->to, wrong))
         return false;
-    const cJSON *other = json_get(item, "parallel");
+    const json_item *other = json_get(item, "parallel");
     uint32_t earlier;
     if (other == NULL)
         return true;
@@ -45,22 +45,20 @@ static bool read_line(handle_set *set, size_t i, const cJSON *item, problem *wro
     return true;
 }
 
-static bool read_lines(handle_set *set, const cJSON *list, problem *wrong)
+static bool read_lines(handle_set *set, const json_item *list, problem *wrong)
 {
     if (!json_list(list, "lines", &set->n_lines, wrong))
         return false;
     set->lines = need(set->n_lines, sizeof *set->lines);
     size_t i = 0;
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
+    for (const json_item *item = json_first(list); item != NULL; item = json_next(item)) {
         if (!read_line(set, i++, item, wrong))
             return false;
     }
     return true;
 }
 
-static bool read_outline(outline *out, const cJSON *list, const char *where, size_t dim,
+static bool read_outline(outline *out, const json_item *list, const char *where, size_t dim,
                          problem *wrong)
 {
     if (dim != 2)
@@ -74,15 +72,13 @@ static bool read_outline(outline *out, const cJSON *list, const char *where, siz
                                  out->n, out->n == 1 ? "ex" : "ices");
 }
 
-static bool read_regions(handle_set *set, const cJSON *list, problem *wrong)
+static bool read_regions(handle_set *set, const json_item *list, problem *wrong)
 {
     if (!json_list(list, "regions", &set->n_regions, wrong))
         return false;
     set->regions = need(set->n_regions, sizeof *set->regions);
     size_t i = 0;
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
+    for (const json_item *item = json_first(list); item != NULL; item = json_next(item)) {
         char where[48];
         snprintf(where, sizeof where, "regions[%zu]", i);
         if (!read_outline(&set->regions[i++], item, where, set->dim, wrong))
@@ -91,7 +87,7 @@ static bool read_regions(handle_set *set, const cJSON *list, problem *wrong)
     return true;
 }
 
-static bool read_curves(handle_set *set, const cJSON *curves, problem *wrong)
+static bool read_curves(handle_set *set, const json_item *curves, problem *wrong)
 {
     static const char *const members[] = {"vertices", "segments", NULL};
     return curves == NULL ||
@@ -102,7 +98,7 @@ static bool read_curves(handle_set *set, const cJSON *curves, problem *wrong)
                        set->n_vertices, &set->n_segments, &set->segments, wrong));
 }
 
-static bool read_ball(double *centre, double *radius, const cJSON *item, const char *where,
+static bool read_ball(double *centre, double *radius, const json_item *item, const char *where,
                       size_t dim, problem *wrong)
 {
     char middle[64], size[64];
@@ -113,8 +109,8 @@ static bool read_ball(double *centre, double *radius, const cJSON *item, const c
            (*radius > 0 || spoilt(wrong, 0, "%s must be above 0", size));
 }
 
-static bool read_stroke(const handle_set *set, stroke *out, const cJSON *item, const char *where,
-                        problem *wrong)
+static bool read_stroke(const handle_set *set, stroke *out, const json_item *item,
+                        const char *where, problem *wrong)
 {
     static const char *const members[] = {"handle", "centre", "radius", "amount", "weights", NULL};
     char handle[64], amount[64], weights[64];
@@ -136,15 +132,13 @@ static bool read_stroke(const handle_set *set, stroke *out, const cJSON *item, c
            json_reals(json_get(item, "weights"), weights, set->n_handles, out->weights, wrong);
 }
 
-static bool read_paint(handle_set *set, const cJSON *list, problem *wrong)
+static bool read_paint(handle_set *set, const json_item *list, problem *wrong)
 {
     if (!json_list(list, "paint", &set->n_strokes, wrong))
         return false;
     set->strokes = need(set->n_strokes, sizeof *set->strokes);
     size_t i = 0;
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
+    for (const json_item *item = json_first(list); item != NULL; item = json_next(item)) {
         char where[48];
         snprintf(where, sizeof where, "paint[%zu]", i);
         if (!read_stroke(set, &set->strokes[i++], item, where, wrong))
@@ -155,7 +149,7 @@ static bool read_paint(handle_set *set, const cJSON *list, problem *wrong)
 
 /* Reads one of "rigid": an outline or a ball, never both, and its stiffness compared with the
  * others. */
-static bool read_part(rigid_part *part, const cJSON *item, const char *where, size_t dim,
+static bool read_part(rigid_part *part, const json_item *item, const char *where, size_t dim,
                       problem *wrong)
 {
     static const char *const members[] = {"region", "centre", "radius", "rigidity", NULL};
@@ -178,15 +172,13 @@ static bool read_part(rigid_part *part, const cJSON *item, const char *where, si
                : read_ball(part->centre, &part->radius, item, where, dim, wrong);
 }
 
-static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
+static bool read_rigid(handle_set *set, const json_item *list, problem *wrong)
 {
     if (!json_list(list, "rigid", &set->n_rigid, wrong))
         return false;
     set->rigid = need(set->n_rigid, sizeof *set->rigid);
     size_t i = 0;
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
+    for (const json_item *item = json_first(list); item != NULL; item = json_next(item)) {
         char where[48];
         snprintf(where, sizeof where, "rigid[%zu]", i);
         if (!read_part(&set->rigid[i++], item, where, set->dim, wrong))
@@ -195,11 +187,11 @@ static bool read_rigid(handle_set *set, const cJSON *list, problem *wrong)
     return true;
 }
 
-static bool read_linear_edges(handle_set *set, const cJSON *item, problem *wrong)
+static bool read_linear_edges(handle_set *set, const json_item *item, problem *wrong)
 {
-    if (item != NULL && !cJSON_IsBool(item))
+    if (item != NULL && !json_is(item, JSON_TRUE) && !json_is(item, JSON_FALSE))
         return spoilt(wrong, 0, "linear_edges must be true or false");
-    set->linear_edges = cJSON_IsTrue(item);
+    set->linear_edges = json_is(item, JSON_TRUE);
     return !set->linear_edges || set->n_edges > 0 || spoilt(wrong, 0, "linear_edges needs edges");
 }
 
@@ -208,20 +200,20 @@ bool handle_set_read(handle_set *out, const char *text, size_t n, problem *wrong
     static const char *const members[] = {"handles", "edges", "lines",        "regions", "curves",
                                           "paint",   "rigid", "linear_edges", NULL};
     *out = (handle_set){0};
-    cJSON *file = foreign_told(text, n, wrong) ? NULL : json_parse(text, n, wrong);
-    if (file == NULL)
-        return false;
-    bool good = json_is_object(file, "the file", members, wrong) &&
-                read_handles(out, json_get(file, "handles"), wrong) &&
-                json_pairs(json_get(file, "edges"), "edges", "handle", out->n_handles,
-                           &out->n_edges, &out->edges, wrong) &&
-                read_linear_edges(out, json_get(file, "linear_edges"), wrong) &&
-                read_lines(out, json_get(file, "lines"), wrong) &&
-                read_regions(out, json_get(file, "regions"), wrong) &&
-                read_curves(out, json_get(file, "curves"), wrong) &&
-                read_paint(out, json_get(file, "paint"), wrong) &&
-                read_rigid(out, json_get(file, "rigid"), wrong);
-    cJSON_Delete(file);
+    json_tree tree = {0};
+    bool good = !foreign_told(text, n, wrong) && json_tree_read(&tree, text, n, wrong);
+    const json_item *file = tree.root;
+    good = good && json_is_object(file, "the file", members, wrong) &&
+           read_handles(out, json_get(file, "handles"), wrong) &&
+           json_pairs(json_get(file, "edges"), "edges", "handle", out->n_handles, &out->n_edges,
+                      &out->edges, wrong) &&
+           read_linear_edges(out, json_get(file, "linear_edges"), wrong) &&
+           read_lines(out, json_get(file, "lines"), wrong) &&
+           read_regions(out, json_get(file, "regions"), wrong) &&
+           read_curves(out, json_get(file, "curves"), wrong) &&
+           read_paint(out, json_get(file, "paint"), wrong) &&
+           read_rigid(out, json_get(file, "rigid"), wrong);
+    json_tree_free(&tree);
     if (!good)
         handle_set_free(out);
     return good;

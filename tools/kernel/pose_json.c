@@ -19,7 +19,7 @@ typedef struct pose_file {
 } pose_file;
 
 /* Reads dim rows of `columns` numbers to rows of dim + 1. */
-static bool read_rows(const pose_file *p, const cJSON *list, const char *where, size_t columns,
+static bool read_rows(const pose_file *p, const json_item *list, const char *where, size_t columns,
                       double *to)
 {
     double *rows;
@@ -33,16 +33,14 @@ static bool read_rows(const pose_file *p, const cJSON *list, const char *where, 
     return good;
 }
 
-static bool read_transforms(const pose_file *p, const cJSON *list)
+static bool read_transforms(const pose_file *p, const json_item *list)
 {
     size_t n, i = 0;
     if (!json_list(list, "transforms", &n, p->wrong))
         return false;
     if (n != p->n_handles)
         return spoilt(p->wrong, 0, "there are %zu transforms, but %zu handles", n, p->n_handles);
-    const cJSON *item;
-    cJSON_ArrayForEach(item, list)
-    {
+    for (const json_item *item = json_first(list); item != NULL; item = json_next(item)) {
         char where[64];
         snprintf(where, sizeof where, "transforms[%zu]", i);
         if (!read_rows(p, item, where, p->dim + 1, p->transforms + p->dim * (p->dim + 1) * i++))
@@ -52,7 +50,7 @@ static bool read_transforms(const pose_file *p, const cJSON *list)
 }
 
 /* x -> h + A (x - h) */
-static bool read_matrix(const pose_file *p, const cJSON *matrix, const char *where,
+static bool read_matrix(const pose_file *p, const json_item *matrix, const char *where,
                         const double *handle, double *transform)
 {
     char name[64];
@@ -70,13 +68,13 @@ static bool read_matrix(const pose_file *p, const cJSON *matrix, const char *whe
     return true;
 }
 
-static bool read_turn(const pose_file *p, const cJSON *move, const char *where,
+static bool read_turn(const pose_file *p, const json_item *move, const char *where,
                       const double *handle, double *transform)
 {
     static const double degree = 3.14159265358979323846 / 180;
     char turn[64], axis[64];
     double angle, tip[3] = {0, 0, 1};
-    const cJSON *given = json_get(move, "axis");
+    const json_item *given = json_get(move, "axis");
     snprintf(turn, sizeof turn, "%s.turn", where);
     snprintf(axis, sizeof axis, "%s.axis", where);
     if (given != NULL && (p->dim == 2 || json_get(move, "turn") == NULL))
@@ -91,7 +89,7 @@ static bool read_turn(const pose_file *p, const cJSON *move, const char *where,
            spoilt(p->wrong, 0, "%s has no direction", axis);
 }
 
-static bool read_offset(const pose_file *p, const cJSON *offset, const char *where,
+static bool read_offset(const pose_file *p, const json_item *offset, const char *where,
                         double *transform)
 {
     char name[64];
@@ -103,7 +101,7 @@ static bool read_offset(const pose_file *p, const cJSON *offset, const char *whe
            icc_pose_move((int32_t)p->dim, transform, by) == ICC_OK;
 }
 
-static bool read_move(const pose_file *p, const cJSON *move, size_t i, bool *moved)
+static bool read_move(const pose_file *p, const json_item *move, size_t i, bool *moved)
 {
     static const char *const members[] = {"handle", "move", "turn", "axis", "matrix", NULL};
     char where[48], name[64];
@@ -123,22 +121,22 @@ static bool read_move(const pose_file *p, const cJSON *move, size_t i, bool *mov
            read_offset(p, json_get(move, "move"), where, transform);
 }
 
-static bool read_moves(const pose_file *p, const cJSON *list)
+static bool read_moves(const pose_file *p, const json_item *list)
 {
     size_t n, i = 0;
     if (!json_list(list, "moves", &n, p->wrong))
         return false;
     bool *moved = need(p->n_handles, sizeof *moved), good = true;
-    for (const cJSON *move = list->child; move != NULL && good; move = move->next)
+    for (const json_item *move = json_first(list); move != NULL && good; move = json_next(move))
         good = read_move(p, move, i++, moved);
     free(moved);
     return good;
 }
 
-static bool read_file(const pose_file *p, const cJSON *file)
+static bool read_file(const pose_file *p, const json_item *file)
 {
     static const char *const members[] = {"transforms", "moves", NULL};
-    const cJSON *transforms = json_get(file, "transforms"), *moves = json_get(file, "moves");
+    const json_item *transforms = json_get(file, "transforms"), *moves = json_get(file, "moves");
     if (!json_is_object(file, "the file", members, p->wrong))
         return false;
     if ((transforms == NULL) == (moves == NULL))
@@ -160,14 +158,13 @@ static bool check_finite(const pose_file *p)
 double *pose_read(size_t dim, size_t n_handles, const double *handles, const char *text, size_t n,
                   problem *wrong)
 {
-    cJSON *file = foreign_told(text, n, wrong) ? NULL : json_parse(text, n, wrong);
-    if (file == NULL)
-        return NULL;
+    json_tree file = {0};
+    bool good = !foreign_told(text, n, wrong) && json_tree_read(&file, text, n, wrong);
     pose_file p = {.dim = dim, .n_handles = n_handles, .handles = handles, .wrong = wrong};
     p.transforms = need(n_handles, dim * (dim + 1) * sizeof *p.transforms);
-    bool good = icc_pose_reset((int32_t)dim, n_handles, p.transforms) == ICC_OK &&
-                read_file(&p, file) && check_finite(&p);
-    cJSON_Delete(file);
+    good = good && icc_pose_reset((int32_t)dim, n_handles, p.transforms) == ICC_OK &&
+           read_file(&p, file.root) && check_finite(&p);
+    json_tree_free(&file);
     if (good)
         return p.transforms;
     free(p.transforms);

@@ -31,19 +31,17 @@ static bool take_chunk(const char *text, size_t n, size_t *at, const char *type,
     return true;
 }
 
-static bool read_json(glb *g, size_t begin, size_t n, problem *wrong)
+static bool read_json(glb *g, size_t n, problem *wrong)
 {
-    char *copy = need(n + 1, 1);
-    memcpy(copy, g->text + begin, n);
-    g->json = json_parse(copy, n, wrong);
+    bool good = json_tree_read(&g->tree, g->text + g->json_at, n, wrong);
+    g->json = g->tree.root;
     wrong->line = 0;
-    free(copy);
-    return g->json != NULL;
+    return good;
 }
 
 static bool read_chunks(glb *g, size_t n, problem *wrong)
 {
-    size_t at = N_HEAD, begin, length;
+    size_t at = N_HEAD, length;
     if (n < N_HEAD)
         return spoilt(wrong, 0, "the file ends early");
     unsigned version = little_endian(g->text + 4, 4), total = little_endian(g->text + 8, 4);
@@ -51,8 +49,8 @@ static bool read_chunks(glb *g, size_t n, problem *wrong)
         return spoilt(wrong, 0, "byte 4: glTF of version %u; 2 is read", version);
     if (total != n)
         return spoilt(wrong, 0, "byte 8: the file shall have %u bytes, but it has %zu", total, n);
-    if (!take_chunk(g->text, n, &at, "JSON", &begin, &length, wrong) ||
-        !read_json(g, begin, length, wrong))
+    if (!take_chunk(g->text, n, &at, "JSON", &g->json_at, &length, wrong) ||
+        !read_json(g, length, wrong))
         return false;
     g->json_end = at;
     return at == n || take_chunk(g->text, n, &at, "BIN", &g->bin_at, &g->bin_n, wrong);
@@ -60,20 +58,35 @@ static bool read_chunks(glb *g, size_t n, problem *wrong)
 
 /* --------------------------------------------------------------- accessors */
 
-static const cJSON **list_items(const cJSON *array, size_t *n)
+static const json_item **list_items(const json_item *array, size_t *n)
 {
-    *n = (size_t)cJSON_GetArraySize(array);
-    const cJSON **items = need(*n, sizeof(cJSON *)), *item;
+    *n = json_size(array);
+    const json_item **items = need(*n, sizeof *items);
     size_t i = 0;
-    cJSON_ArrayForEach(item, array) items[i++] = item;
+    for (const json_item *item = json_first(array); item != NULL; item = json_next(item))
+        items[i++] = item;
     return items;
 }
 
+static void list_primitives(glb *g)
+{
+    const json_item *meshes = json_get(g->json, "meshes");
+    size_t room = 0;
+    for (const json_item *mesh = json_first(meshes); mesh != NULL; mesh = json_next(mesh)) {
+        const json_item *x = json_first(json_get(mesh, "primitives"));
+        for (; x != NULL; x = json_next(x)) {
+            g->primitives = grow(g->primitives, &room, g->n_primitives + 1, sizeof *g->primitives);
+            g->primitives[g->n_primitives++] = (glb_primitive){x, g->n_meshes};
+        }
+        g->n_meshes++;
+    }
+}
+
 /* Reads an integer of an object. `missing` is the value if it is absent. */
-static bool take_count(const cJSON *object, const char *where, const char *name, size_t missing,
+static bool take_count(const json_item *object, const char *where, const char *name, size_t missing,
                        size_t *out, problem *wrong)
 {
-    const cJSON *item = json_get(object, name);
+    const json_item *item = json_get(object, name);
     char place[80];
     uint32_t value;
     *out = missing;
@@ -90,11 +103,11 @@ static bool take_count(const cJSON *object, const char *where, const char *name,
 static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t *stride,
                       problem *wrong)
 {
-    const cJSON *view = g->views[index];
+    const json_item *view = g->views[index];
     char where[40];
     size_t buffer;
     snprintf(where, sizeof where, "bufferViews[%zu]", index);
-    const cJSON *extensions = json_get(view, "extensions");
+    const json_item *extensions = json_get(view, "extensions");
     if (extensions != NULL && json_get(extensions, "EXT_meshopt_compression") != NULL)
         return spoilt(wrong, 0, "%s is compressed; save without compression", where);
     if (!take_count(view, where, "buffer", 0, &buffer, wrong) ||
@@ -111,12 +124,12 @@ static bool find_view(const glb *g, size_t index, size_t *at, size_t *n, size_t 
 }
 
 /* The bytes of an item, or 0 if it is not of that kind. */
-static size_t item_size(const cJSON *accessor, glb_kind kind)
+static size_t item_size(const json_item *accessor, glb_kind kind)
 {
     static const char *const types[] = {"SCALAR", "VEC3", "VEC4"};
-    const char *type = cJSON_GetStringValue(json_get(accessor, "type"));
-    const cJSON *component = json_get(accessor, "componentType");
-    int number = cJSON_IsNumber(component) ? component->valueint : 0;
+    const char *type = json_string_of(json_get(accessor, "type"));
+    const json_item *component = json_get(accessor, "componentType");
+    double number = component != NULL ? component->number : 0;
     if (type == NULL || strcmp(type, types[kind]) != 0)
         return 0;
     if (kind != GLB_INDICES)
@@ -130,7 +143,7 @@ static bool fits(const glb_items *items, size_t offset, size_t n_view)
     return offset <= n_view && last <= n_view - offset;
 }
 
-bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind kind,
+bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_kind kind,
                     size_t *accessor, glb_items *out, problem *wrong)
 {
     uint32_t which, view;
@@ -139,7 +152,7 @@ bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind k
     if (!json_index(index, of, "glTF accessor", (uint32_t)g->n_accessors, &which, wrong))
         return false;
     *accessor = which;
-    const cJSON *object = g->accessors[which];
+    const json_item *object = g->accessors[which];
     snprintf(where, sizeof where, "accessors[%u]", (unsigned)which);
     out->size = item_size(object, kind);
     if (out->size == 0)
@@ -166,9 +179,9 @@ bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind k
 
 /* --------------------------------------------------------------- positions */
 
-static bool add_positions(glb *g, const cJSON *primitive, problem *wrong)
+static bool add_positions(glb *g, const json_item *primitive, problem *wrong)
 {
-    const cJSON *index = json_get(json_get(primitive, "attributes"), "POSITION");
+    const json_item *index = json_get(json_get(primitive, "attributes"), "POSITION");
     glb_positions set = {.first = 0};
     if (index == NULL)
         return spoilt(wrong, 0, "a primitive has no POSITION");
@@ -211,15 +224,9 @@ static bool number_sets(glb *g, problem *wrong)
 
 static bool find_positions(glb *g, problem *wrong)
 {
-    const cJSON *mesh, *primitive;
-    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
-    {
-        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
-        {
-            if (!add_positions(g, primitive, wrong))
-                return false;
-        }
-    }
+    for (size_t i = 0; i < g->n_primitives; i++)
+        if (!add_positions(g, g->primitives[i].json, wrong))
+            return false;
     return number_sets(g, wrong);
 }
 
@@ -230,15 +237,17 @@ bool glb_open(glb *out, const char *text, size_t n, problem *wrong)
         return false;
     out->accessors = list_items(json_get(out->json, "accessors"), &out->n_accessors);
     out->views = list_items(json_get(out->json, "bufferViews"), &out->n_views);
+    list_primitives(out);
     out->set_of = need(out->n_accessors, sizeof *out->set_of);
     return find_positions(out, wrong);
 }
 
 void glb_close(glb *g)
 {
-    cJSON_Delete(g->json);
+    json_tree_free(&g->tree);
     free(g->accessors);
     free(g->views);
+    free(g->primitives);
     free(g->set_of);
     free(g->sets);
     *g = (glb){0};

@@ -3,9 +3,9 @@
 #ifndef GLB_H
 #define GLB_H
 
+#include "base/json_tree.h"
 #include "base/say.h"
 
-#include <cjson/cJSON.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -43,13 +43,21 @@ typedef struct glb_vectors {
     glb_items items;
 } glb_vectors;
 
+typedef struct glb_primitive {
+    const json_item *json;
+    size_t mesh; /* its mesh's number */
+} glb_primitive;
+
 typedef struct glb {
     const char *text; /* borrowed */
-    cJSON *json;
-    size_t json_end;      /* of its chunk, in the text */
-    size_t bin_at, bin_n; /* the binary chunk */
+    json_tree tree;
+    const json_item *json;    /* the root of the tree */
+    size_t json_at, json_end; /* its chunk, in the text */
+    size_t bin_at, bin_n;     /* the binary chunk */
     size_t n_accessors, n_views;
-    const cJSON **accessors, **views;
+    const json_item **accessors, **views;
+    size_t n_meshes, n_primitives;
+    glb_primitive *primitives;
     size_t *set_of;      /* of an accessor that holds positions: its number among the sets below */
     size_t n_sets, room; /* in rising order in the file, without overlap */
     glb_positions *sets;
@@ -60,7 +68,7 @@ bool glb_open(glb *out, const char *text, size_t n, problem *wrong);
 void glb_close(glb *g);
 
 /* Finds the items of the accessor that `index` names. `of` names its use in messages. */
-bool glb_find_items(const glb *g, const cJSON *index, const char *of, glb_kind kind,
+bool glb_find_items(const glb *g, const json_item *index, const char *of, glb_kind kind,
                     size_t *accessor, glb_items *out, problem *wrong);
 
 /* The affine maps (affine_map.h) by which nodes place each of the n_sets sets of positions; free()

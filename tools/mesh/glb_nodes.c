@@ -15,7 +15,7 @@
 #include <string.h>
 
 typedef struct node {
-    const cJSON *json;
+    const json_item *json;
     size_t parent;      /* or SIZE_MAX */
     size_t below;       /* during the search for parents: the node that asked */
     double matrix[12];  /* its own matrix; once `placed`, composed with those of all nodes above
@@ -32,17 +32,17 @@ typedef struct scene {
 
 static const char *name_of(char out[32], const node *x)
 {
-    const char *name = cJSON_GetStringValue(json_get(x->json, "name"));
+    const char *name = json_string_of(json_get(x->json, "name"));
     return quoted(out, name != NULL ? name : "");
 }
 
 /* ---------------------------------------------------------------- matrices */
 
 /* Reads a list of n numbers of a node. Without the list `values` stay as they are. */
-static bool take_numbers(const cJSON *json, size_t index, const char *name, size_t n,
+static bool take_numbers(const json_item *json, size_t index, const char *name, size_t n,
                          double *values, problem *wrong)
 {
-    const cJSON *list = json_get(json, name);
+    const json_item *list = json_get(json, name);
     char where[40];
     snprintf(where, sizeof where, "nodes[%zu].%s", index, name);
     return list == NULL || json_reals(list, where, n, values, wrong);
@@ -87,22 +87,20 @@ static bool read_parts(node *x, size_t index, problem *wrong)
 
 /* ------------------------------------------------------------------- scene */
 
-static bool read_nodes(scene *s, const cJSON *json, problem *wrong)
+static bool read_nodes(scene *s, const json_item *json, problem *wrong)
 {
-    const cJSON *item, *child;
     size_t i = 0;
-    s->n = (size_t)cJSON_GetArraySize(json);
+    s->n = json_size(json);
     s->nodes = need(s->n, sizeof *s->nodes);
-    cJSON_ArrayForEach(item, json)
-    {
+    for (const json_item *item = json_first(json); item != NULL; item = json_next(item)) {
         node *x = &s->nodes[i];
         *x = (node){.json = item, .parent = SIZE_MAX};
         if (!(json_get(item, "matrix") != NULL ? read_matrix : read_parts)(x, i++, wrong))
             return false;
     }
-    for (i = 0; i < s->n; i++)
-        cJSON_ArrayForEach(child, json_get(s->nodes[i].json, "children"))
-        {
+    for (i = 0; i < s->n; i++) {
+        const json_item *child = json_first(json_get(s->nodes[i].json, "children"));
+        for (; child != NULL; child = json_next(child)) {
             uint32_t index;
             if (!json_index(child, "children", "glTF node", s->n, &index, wrong))
                 return false;
@@ -110,6 +108,7 @@ static bool read_nodes(scene *s, const cJSON *json, problem *wrong)
                 return spoilt(wrong, 0, "nodes[%u] is a child twice", (unsigned)index);
             s->nodes[index].parent = i;
         }
+    }
     return true;
 }
 
@@ -173,7 +172,7 @@ static bool is_same(const double a[12], const double b[12])
 static bool place_meshes(scene *s, problem *wrong)
 {
     for (size_t i = 0; i < s->n; i++) {
-        const cJSON *mesh = json_get(s->nodes[i].json, "mesh");
+        const json_item *mesh = json_get(s->nodes[i].json, "mesh");
         uint32_t which;
         double matrix[12];
         char a[32], b[32];
@@ -199,26 +198,22 @@ static bool place_meshes(scene *s, problem *wrong)
 /* Places the positions of each mesh that is drawn. Two meshes may share positions. */
 static bool place_sets(const glb *g, const scene *s, double (*out)[12], problem *wrong)
 {
-    size_t which = 0, *seen = need(g->n_sets, sizeof *seen);
-    const cJSON *mesh, *primitive;
+    size_t *seen = need(g->n_sets, sizeof *seen); /* a mesh's number, from 1 */
     bool good = true;
-    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
-    {
-        size_t i = which++;
-        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
-        {
-            const cJSON *index = json_get(json_get(primitive, "attributes"), "POSITION");
-            size_t set = g->set_of[(size_t)index->valuedouble];
-            if (s->users[i] == SIZE_MAX || !good)
-                continue;
-            if (seen[set] > 0 && !is_same(out[set], s->matrices[i]))
-                good = spoilt(wrong, 0,
-                              "meshes[%zu] and meshes[%zu] have the same positions, but nodes "
-                              "place them differently; give each its own",
-                              seen[set] - 1, i);
-            memcpy(out[set], s->matrices[i], sizeof *out);
-            seen[set] = i + 1;
-        }
+    for (size_t i = 0; i < g->n_primitives && good; i++) {
+        size_t mesh = g->primitives[i].mesh;
+        const json_item *attributes = json_get(g->primitives[i].json, "attributes");
+        size_t set = g->set_of[(size_t)json_get(attributes, "POSITION")->number];
+        if (s->users[mesh] == SIZE_MAX)
+            continue;
+        if (seen[set] > 0 && !is_same(out[set], s->matrices[mesh]))
+            good =
+                spoilt(wrong, 0,
+                       "meshes[%zu] and meshes[%zu] have the same positions, but nodes place them "
+                       "differently; give each its own",
+                       seen[set] - 1, mesh);
+        memcpy(out[set], s->matrices[mesh], sizeof *out);
+        seen[set] = mesh + 1;
     }
     free(seen);
     return good;
@@ -226,12 +221,11 @@ static bool place_sets(const glb *g, const scene *s, double (*out)[12], problem 
 
 double (*glb_find_places(const glb *g, problem *wrong))[12]
 {
-    size_t n_meshes = (size_t)cJSON_GetArraySize(json_get(g->json, "meshes"));
     double(*out)[12] = need(g->n_sets, sizeof *out);
-    scene s = {.n_meshes = n_meshes,
-               .users = need(n_meshes, sizeof *s.users),
-               .matrices = need(n_meshes, sizeof *s.matrices)};
-    for (size_t i = 0; i < n_meshes; i++)
+    scene s = {.n_meshes = g->n_meshes,
+               .users = need(g->n_meshes, sizeof *s.users),
+               .matrices = need(g->n_meshes, sizeof *s.matrices)};
+    for (size_t i = 0; i < g->n_meshes; i++)
         s.users[i] = SIZE_MAX;
     for (size_t i = 0; i < g->n_sets; i++)
         affine_identity(out[i]);
@@ -247,23 +241,20 @@ double (*glb_find_places(const glb *g, problem *wrong))[12]
 
 bool glb_has_skins(const glb *g)
 {
-    const cJSON *item;
-    cJSON_ArrayForEach(item, json_get(g->json, "nodes"))
-    {
-        if (json_get(item, "skin") != NULL && json_get(item, "mesh") != NULL)
+    const json_item *x = json_first(json_get(g->json, "nodes"));
+    for (; x != NULL; x = json_next(x))
+        if (json_get(x, "skin") != NULL && json_get(x, "mesh") != NULL)
             return true;
-    }
     return false;
 }
 
 bool glb_has_animations(const glb *g)
 {
-    const cJSON *animation, *channel;
-    cJSON_ArrayForEach(animation, json_get(g->json, "animations"))
-    {
-        cJSON_ArrayForEach(channel, json_get(animation, "channels"))
-        {
-            const char *path = cJSON_GetStringValue(json_get(json_get(channel, "target"), "path"));
+    const json_item *animation = json_first(json_get(g->json, "animations"));
+    for (; animation != NULL; animation = json_next(animation)) {
+        const json_item *channel = json_first(json_get(animation, "channels"));
+        for (; channel != NULL; channel = json_next(channel)) {
+            const char *path = json_string_of(json_get(json_get(channel, "target"), "path"));
             if (path != NULL && strcmp(path, "weights") != 0)
                 return true;
         }

@@ -32,7 +32,7 @@ typedef struct finder {
 
 /* Adds vectors to the list. Directions that cannot be read stay as they are. Displacements would
  * then be wrong, so they are refused. */
-static bool find(finder *f, const cJSON *index, glb_vectors v)
+static bool find(finder *f, const json_item *index, glb_vectors v)
 {
     static const char *const names[] = {"NORMAL", "TANGENT", "a morph target's POSITION",
                                         "a morph target's NORMAL", "a morph target's TANGENT"};
@@ -66,13 +66,14 @@ static bool find(finder *f, const cJSON *index, glb_vectors v)
     return true;
 }
 
-static size_t number_of(const cJSON *index)
+static size_t number_of(const json_item *index)
 {
-    return cJSON_IsNumber(index) && index->valuedouble >= 0 ? (size_t)index->valuedouble : SIZE_MAX;
+    bool good = json_is(index, JSON_NUMBER) && index->number >= 0 && index->number < UINT32_MAX;
+    return good ? (size_t)index->number : SIZE_MAX;
 }
 
 /* NULL for an accessor of zeros, which has no bytes. */
-static const cJSON *with_bytes(const glb *g, const cJSON *index)
+static const json_item *with_bytes(const glb *g, const json_item *index)
 {
     size_t i = number_of(index);
     bool zeros = i < g->n_accessors && json_get(g->accessors[i], "bufferView") == NULL &&
@@ -80,20 +81,20 @@ static const cJSON *with_bytes(const glb *g, const cJSON *index)
     return zeros ? NULL : index;
 }
 
-static bool find_all(finder *f, const cJSON *primitive)
+static bool find_all(finder *f, const json_item *primitive)
 {
-    const cJSON *attributes = json_get(primitive, "attributes"), *target;
-    const cJSON *normal = json_get(attributes, "NORMAL"),
-                *tangent = json_get(attributes, "TANGENT");
+    const json_item *attributes = json_get(primitive, "attributes");
+    const json_item *normal = json_get(attributes, "NORMAL"),
+                    *tangent = json_get(attributes, "TANGENT");
     size_t set = f->g->set_of[number_of(json_get(attributes, "POSITION"))];
     glb_vectors v = {.set = set, .base = SIZE_MAX, .morph = SIZE_MAX};
     v.use = GLB_NORMAL;
     bool good = find(f, normal, v);
     v.use = GLB_TANGENT;
     good = good && find(f, tangent, v);
-    cJSON_ArrayForEach(target, json_get(primitive, "targets"))
-    {
-        const cJSON *places = with_bytes(f->g, json_get(target, "POSITION"));
+    const json_item *target = json_first(json_get(primitive, "targets"));
+    for (; target != NULL; target = json_next(target)) {
+        const json_item *places = with_bytes(f->g, json_get(target, "POSITION"));
         v.use = GLB_MORPH;
         v.base = v.morph = SIZE_MAX;
         good = good && find(f, places, v);
@@ -111,15 +112,11 @@ static bool find_all(finder *f, const cJSON *primitive)
 glb_vectors *glb_find_vectors(const glb *g, size_t *n, bool *other, problem *wrong)
 {
     finder f = {.g = g, .other = other, .wrong = wrong};
-    const cJSON *mesh, *primitive;
     bool good = true;
     *other = false;
     f.of = need(g->n_accessors, sizeof *f.of);
-    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
-    {
-        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives")) good =
-            good && find_all(&f, primitive);
-    }
+    for (size_t i = 0; i < g->n_primitives && good; i++)
+        good = find_all(&f, g->primitives[i].json);
     free(f.of);
     if (!good)
         free(f.list);
@@ -150,27 +147,21 @@ static bool claim(bool *taken, size_t accessor, const glb_items *items, problem 
  * written. */
 static bool leaves_indices(const glb *g, const uint32_t *before, problem *wrong)
 {
-    const cJSON *mesh, *primitive;
-    bool good = true;
-    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
-    {
-        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
-        {
-            const cJSON *indices = json_get(primitive, "indices");
-            problem none;
-            size_t accessor;
-            glb_items x;
-            if (!good || indices == NULL ||
-                !glb_find_items(g, indices, "indices", GLB_INDICES, &accessor, &x, &none))
-                continue;
-            if (before[x.at] != before[x.at + (x.n - 1) * x.stride + x.size])
-                good = spoilt(wrong, 0,
-                              "accessors[%zu], for indices, has bytes of vertices, which become "
-                              "different",
-                              accessor);
-        }
+    for (size_t i = 0; i < g->n_primitives; i++) {
+        const json_item *indices = json_get(g->primitives[i].json, "indices");
+        problem none;
+        size_t accessor;
+        glb_items x;
+        if (indices == NULL ||
+            !glb_find_items(g, indices, "indices", GLB_INDICES, &accessor, &x, &none))
+            continue;
+        if (before[x.at] != before[x.at + (x.n - 1) * x.stride + x.size])
+            return spoilt(wrong, 0,
+                          "accessors[%zu], for indices, has bytes of vertices, which become "
+                          "different",
+                          accessor);
     }
-    return good;
+    return true;
 }
 
 bool glb_is_apart(const glb *g, size_t n_text, size_t n, const glb_vectors *vectors, problem *wrong)

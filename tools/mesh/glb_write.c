@@ -4,6 +4,7 @@
 
 #include "base/allocate.h"
 #include "base/bytes.h"
+#include "base/edits.h"
 #include "mesh/affine_map.h"
 #include "mesh/glb.h"
 
@@ -79,44 +80,51 @@ static void put_positions(char *text, const mesh_file *m, const glb_positions *s
     }
 }
 
-/* Sets the bounds of an accessor to the least and the greatest of each coordinate. */
-static void set_bounds(cJSON *accessor, const char *text, const glb_items *items)
+/* The least or the greatest of a coordinate, as JSON. */
+static void put_bound(edits *e, const char *text, const glb_items *items, size_t k, bool greatest)
 {
-    static const char *const names[] = {"min", "max"};
+    double bound = 0;
+    for (size_t i = 0; i < items->n; i++) {
+        double x = (double)little_endian_float(text + items->at + i * items->stride + 4 * k);
+        bound = i == 0 || (greatest ? x > bound : x < bound) ? x : bound;
+    }
+    edits_put_number(e, bound);
+}
+
+/* Sets the bounds of an accessor. Bounds that it does not have are added at its end. */
+static void set_bounds(edits *e, const json_item *accessor, const char *text,
+                       const glb_items *items)
+{
+    static const char *const names[] = {"min", "max"}, *const added[] = {",\"min\":", ",\"max\":"};
     for (size_t side = 0; side < 2; side++) {
-        double bounds[4] = {0};
-        for (size_t k = 0; k < items->size / 4; k++)
-            for (size_t i = 0; i < items->n; i++) {
-                double x =
-                    (double)little_endian_float(text + items->at + i * items->stride + 4 * k);
-                bounds[k] = i == 0 || (side == 0 ? x < bounds[k] : x > bounds[k]) ? x : bounds[k];
-            }
-        cJSON_DeleteItemFromObjectCaseSensitive(accessor, names[side]);
-        cJSON_AddItemToObject(accessor, names[side],
-                              cJSON_CreateDoubleArray(bounds, (int)items->size / 4));
+        const json_item *bounds = json_get(accessor, names[side]);
+        size_t end = accessor->end - 1;
+        edits_replace(e, bounds != NULL ? bounds->begin : end, bounds != NULL ? bounds->end : end);
+        edits_put_text(e, bounds != NULL ? "" : added[side]);
+        for (size_t k = 0; k < items->size / 4; k++) {
+            edits_put_text(e, k == 0 ? "[" : ",");
+            put_bound(e, text, items, k, side == 1);
+        }
+        edits_put_text(e, "]");
     }
 }
 
 /* Updates the bounds of positions, and of vectors that were carried and whose bounds are stated. */
-static void update_bounds(const mesh_file *m, const glb *g, const char *text)
+static void update_bounds(edits *e, const mesh_file *m, const glb *g, const char *text)
 {
     problem none;
     bool other;
-    size_t n_vectors = 0, i = 0;
+    size_t n_vectors = 0;
     glb_vectors *vectors = m->carried ? glb_find_vectors(g, &n_vectors, &other, &none) : NULL;
     const glb_items **items = need(g->n_accessors, sizeof *items);
     for (size_t s = 0; s < g->n_sets; s++)
         items[g->sets[s].accessor] = &g->sets[s].items;
     for (size_t v = 0; v < n_vectors; v++)
-        if (cJSON_GetObjectItemCaseSensitive(g->accessors[vectors[v].accessor], "min") != NULL)
+        if (json_get(g->accessors[vectors[v].accessor], "min") != NULL)
             items[vectors[v].accessor] = &vectors[v].items;
-    cJSON *accessor;
-    cJSON_ArrayForEach(accessor, cJSON_GetObjectItemCaseSensitive(g->json, "accessors"))
-    {
+    for (size_t i = 0; i < g->n_accessors; i++)
         if (items[i] != NULL)
-            set_bounds(accessor, text, items[i]);
-        i++;
-    }
+            set_bounds(e, g->accessors[i], text, items[i]);
     free(vectors);
     free(items);
 }
@@ -129,16 +137,17 @@ static void write_chunk_head(size_t n, const char *type, FILE *stream)
     fwrite(type, 1, 4, stream);
 }
 
-/* The JSON is padded with blanks to a multiple of four bytes. */
-static void write_json(const mesh_file *m, const glb *g, const char *json, FILE *stream)
+/* Writes all up to the binary chunk. The JSON is padded with blanks to a multiple of four bytes. */
+static void write_json(const mesh_file *m, const glb *g, edits *e, FILE *stream)
 {
-    size_t n = strlen(json), padded = (n + 3) / 4 * 4, behind = m->n_text - g->json_end;
+    const char *json = m->text + g->json_at;
+    size_t n = edits_write(e, json, g->json->end, NULL), padded = (n + 3) / 4 * 4;
     unsigned char total[4];
-    put_little_endian(total, (uint32_t)(20 + padded + behind));
+    put_little_endian(total, (uint32_t)(20 + padded + m->n_text - g->json_end));
     fwrite(m->text, 1, 8, stream);
     fwrite(total, 1, 4, stream);
     write_chunk_head(padded, "JSON", stream);
-    fwrite(json, 1, n, stream);
+    edits_write(e, json, g->json->end, stream);
     fwrite("   ", 1, padded - n, stream);
 }
 
@@ -146,18 +155,16 @@ void glb_write(const mesh_file *m, const double *points, FILE *stream)
 {
     problem none;
     glb g;
+    edits e = {0};
     glb_open(&g, m->text, m->n_text, &none); /* this succeeded before */
     char *text = need(m->n_text, 1);
     memcpy(text, m->text, m->n_text);
     for (size_t s = 0; s < g.n_sets; s++)
         put_positions(text, m, &g.sets[s], points);
-    update_bounds(m, &g, text);
-    char *json = cJSON_PrintUnformatted(g.json);
-    if (json == NULL)
-        exit(failed(NULL, 0, "not enough memory to write glTF"));
-    write_json(m, &g, json, stream);
+    update_bounds(&e, m, &g, text);
+    write_json(m, &g, &e, stream);
     fwrite(text + g.json_end, 1, m->n_text - g.json_end, stream);
-    cJSON_free(json);
+    edits_free(&e);
     free(text);
     glb_close(&g);
 }

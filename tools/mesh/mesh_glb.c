@@ -136,10 +136,10 @@ static bool is_mirrored(const mesh_file *m, const glb_positions *set)
 }
 
 /* Primitives of points and lines have vertices, but no triangles. */
-static bool read_primitive(lines *r, const glb *g, const cJSON *primitive)
+static bool read_primitive(lines *r, const glb *g, const json_item *primitive)
 {
-    const cJSON *mode = json_get(primitive, "mode"), *indices = json_get(primitive, "indices");
-    int kind = mode == NULL ? TRIANGLES : mode->valueint;
+    const json_item *mode = json_get(primitive, "mode"), *indices = json_get(primitive, "indices");
+    double kind = mode == NULL ? TRIANGLES : mode->number;
     corner_list list = {.g = g};
     glb_items positions;
     if (kind < TRIANGLES || kind > FAN)
@@ -156,20 +156,14 @@ static bool read_primitive(lines *r, const glb *g, const cJSON *primitive)
             return false;
         list.n = list.indices.n;
     }
-    return read_corners(r, &list, kind);
+    return read_corners(r, &list, (int)kind);
 }
 
 static bool read_faces(lines *r, const glb *g)
 {
-    const cJSON *mesh, *primitive;
-    cJSON_ArrayForEach(mesh, json_get(g->json, "meshes"))
-    {
-        cJSON_ArrayForEach(primitive, json_get(mesh, "primitives"))
-        {
-            if (!read_primitive(r, g, primitive))
-                return false;
-        }
-    }
+    for (size_t i = 0; i < g->n_primitives; i++)
+        if (!read_primitive(r, g, g->primitives[i].json))
+            return false;
     return true;
 }
 

@@ -1,5 +1,5 @@
 /* Sorts the edits by place and writes them between copied pieces of the text. */
-#include "geo/edits.h"
+#include "base/edits.h"
 
 #include "base/allocate.h"
 
@@ -40,24 +40,34 @@ void edits_put_number(edits *e, double value)
 static int by_begin(const void *a, const void *b)
 {
     const edit *p = a, *q = b;
-    return p->begin != q->begin ? (p->begin < q->begin ? -1 : 1) : p->end < q->end ? 1 : -1;
+    if (p->begin != q->begin)
+        return p->begin < q->begin ? -1 : 1;
+    return p->end != q->end ? (p->end > q->end ? -1 : 1)
+                            : (p->from > q->from) - (p->from < q->from);
 }
 
-void edits_write(edits *e, const char *text, size_t n, FILE *stream)
+static size_t put(const char *bytes, size_t n, FILE *stream)
 {
-    size_t at = 0;
+    if (n > 0 && stream != NULL)
+        fwrite(bytes, 1, n, stream);
+    return n;
+}
+
+size_t edits_write(edits *e, const char *text, size_t n, FILE *stream)
+{
+    size_t at = 0, written = 0;
     if (e->n > 0)
         qsort(e->list, e->n, sizeof *e->list, by_begin);
     for (size_t i = 0; i < e->n; i++) {
         const edit *one = &e->list[i];
         if (one->begin < at)
             continue;
-        fwrite(text + at, 1, one->begin - at, stream);
+        written += put(text + at, one->begin - at, stream);
         if (one->to > one->from)
-            fwrite(e->bytes + one->from, 1, one->to - one->from, stream);
+            written += put(e->bytes + one->from, one->to - one->from, stream);
         at = one->end;
     }
-    fwrite(text + at, 1, n - at, stream);
+    return written + put(text + at, n - at, stream);
 }
 
 void edits_free(edits *e)

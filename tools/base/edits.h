@@ -18,7 +18,7 @@ typedef struct edits {
 } edits;
 
 /* Begins to replace a piece of the text. Pieces may come in any order. One that lies inside another
- * is lost with it. */
+ * is lost with it. Replacements of the same place, which may be empty, come one after another. */
 void edits_replace(edits *e, size_t begin, size_t end);
 
 /* Adds to the last replacement: bytes, or a number that reads back as the same number. */
@@ -26,8 +26,9 @@ void edits_put(edits *e, size_t n, const char *bytes);
 void edits_put_text(edits *e, const char *text);
 void edits_put_number(edits *e, double value);
 
-/* Writes the text with its edits. */
-void edits_write(edits *e, const char *text, size_t n, FILE *stream);
+/* Writes the text with its edits and returns the number of bytes. With NULL as the stream it only
+ * counts them. */
+size_t edits_write(edits *e, const char *text, size_t n, FILE *stream);
 void edits_free(edits *e);
 
 #endif
