@@ -6,7 +6,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev libcjson-dev python3-numpy
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev python3-numpy
 
 page=docs/papers.md
 out=build/papers

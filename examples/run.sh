@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev libcjson-dev python3-numpy
+need gcc libc6-dev make cmake pkg-config libpng-dev libjpeg-dev python3-numpy
 
 build=build/examples
 stage=$PWD/$build/stage

@@ -6,7 +6,7 @@ set -eu
 cd "$1"
 standard='assert|complex|ctype|errno|fenv|float|inttypes|iso646|limits|locale|math|setjmp|signal|stdalign|stdarg|stdatomic'
 standard="$standard|stdbool|stddef|stdint|stdio|stdlib|stdnoreturn|string|tgmath|threads|time|uchar|wchar|wctype"
-others='icc/|cjson/|png|jpeglib|jerror|zlib' # our own, and libraries that CMake looks for
+others='icc/|png|jpeglib|jerror|zlib' # our own, and libraries that CMake looks for
 # shellcheck disable=SC2016 # Markdown's quotes
 listed=$(sed -n '/^## Other systems/,/^## Benchmarks/p' CONTRIBUTING.md | grep -oE '`[a-z]+/[a-z0-9_/]+[.][a-z]+`' | tr -d '`' | sort -u)
 

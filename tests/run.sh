@@ -18,7 +18,7 @@ case ${1:-} in
         shift
         ;;
 esac
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev libcjson-dev check libgmp-dev \
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev check libgmp-dev \
     abigail-tools python3-numpy python3-pytest python3-cffi tetgen
 if [ "$tier" = long ]; then
     need clang libclang-rt-dev llvm
