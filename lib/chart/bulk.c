@@ -1,3 +1,5 @@
+/* Bulk conversions: points in chunks, in parallel, between the caller's coordinates and a
+ * chart's. */
 #include "chart/bulk.h"
 
 #include "base/threads.h"
@@ -5,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* How far barycentric coordinates may miss a sum of 1: a text file with nine digits will do. */
+/* How far the sum of barycentric coordinates may be from 1. Text files with nine digits are
+ * accepted. */
 static const double SUM_TOLERANCE = 1e-9;
 
 static icc_status to_local(const icc_chart *chart, const double *point, double *local)
@@ -26,7 +29,7 @@ icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_c
     return status == ICC_OK ? iccp_chart_encode(chart, local, coords, jet) : status;
 }
 
-/* Range checks in the form that NaN fails. Scales a sum that is off within tolerance to 1. */
+/* Checks the ranges, with comparisons that fail for NaN. Scales a sum within the tolerance to 1. */
 static bool normalise(const icc_domain *domain, iccp_coords *coords)
 {
     double sum = 0;
@@ -43,7 +46,7 @@ static bool normalise(const icc_domain *domain, iccp_coords *coords)
     return true;
 }
 
-/* Back to the caller's coordinates. */
+/* Converts a point to the caller's coordinates, or to NaN if it failed. */
 static void from_local(const icc_chart *chart, icc_status status, const double *local,
                        double *point)
 {
@@ -69,7 +72,7 @@ icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, 
 
 /* ---- many points ---- */
 
-/* Those that have curves of their own go to the method together. */
+/* Passes the points that have a curve of their own to the method together. */
 static icc_status encode_many(const icc_chart *chart, size_t n, const double *points,
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path)
@@ -103,7 +106,7 @@ icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *po
     return iccp_is_point_status(all) ? ICC_OK : all;
 }
 
-/* Likewise. */
+/* Passes the coordinates whose points have a curve of their own to the method together. */
 static icc_status decode_many(const icc_chart *chart, size_t n, const iccp_coords *coords,
                               double *local, double *volume, icc_status *status, iccp_path *path)
 {
@@ -188,7 +191,7 @@ static icc_status encode_chunk(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* One path serves all points of a chunk: its memory is the only allocation. */
+/* One path serves all points of a chunk, so its memory is the only allocation. */
 static icc_status decode_chunk(void *argument, size_t begin, size_t end)
 {
     bulk *b = argument;

@@ -1,31 +1,31 @@
-/* Bulk conversions between the caller's coordinates and a chart's. */
+/* Converts one or many points between the caller's coordinates and a chart's. */
 #ifndef ICCP_BULK_H
 #define ICCP_BULK_H
 
 #include "chart/chart.h"
 
-/* One point in the caller's coordinates: checked, made local, encoded. */
+/* Encodes one point in the caller's coordinates: checks it, makes it local and encodes it. */
 icc_status iccp_encode_point(const icc_chart *chart, const double *point, iccp_coords *coords,
                              iccp_encode_jet *jet);
 
-/* One point's coordinates decoded, in the caller's coordinates; NaN when it fails. */
+/* Decodes one point to the caller's coordinates, or to NaN if that fails. */
 icc_status iccp_decode_point(const icc_chart *chart, const iccp_coords *coords, double *point,
                              iccp_decode_jet *jet, iccp_path *path);
 
-/* The same without derivatives for at most ICCP_CHART_MANY points, whose own outcomes are `status`;
- * returned is what concerns all. Coordinates of points that fail are undefined. `volume`: as
- * iccp_chart_ops has it, where the method has encode_many, and NaN on the boundary and at the
- * maximum; else NULL. */
+/* Encodes at most ICCP_CHART_MANY points without derivatives. `status` gets the outcome of each
+ * point. The return value is an error that concerns all of them, or ICC_OK. The coordinates of
+ * points that fail are undefined. `volume` is that of encode_many in iccp_chart_ops, and NaN on
+ * the boundary and at the maximum. It must be NULL if the method has no encode_many. */
 icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *points,
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path);
 
-/* Points whose status is not ICC_OK already fail. Scales the barycentric coordinates to a sum of
- * 1. */
+/* Decodes points likewise. Points whose status is already an error stay failed. Scales the
+ * barycentric coordinates to a sum of 1. */
 icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
                               double *volume, icc_status *status, iccp_path *path);
 
-/* Whether an outcome concerns one point only, so that the call goes on. */
+/* Returns true if an outcome concerns one point only, so that the call continues. */
 static inline bool iccp_is_point_status(icc_status status)
 {
     return status == ICC_OK || status == ICC_ERR_OUTSIDE || status == ICC_ERR_TRACE ||

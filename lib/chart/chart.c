@@ -1,3 +1,4 @@
+/* The chart object, and the operations on one point that all methods share. */
 #include "chart/chart.h"
 
 #include <math.h>
@@ -43,7 +44,7 @@ void iccp_chart_set_maximum(icc_chart *chart, const double *local)
 
 /* ---- one local point ---- */
 
-enum { MAXIMUM = ICC_OUTSIDE + 1 }; /* beside ICC_INSIDE, ICC_BOUNDARY and ICC_OUTSIDE */
+enum { MAXIMUM = ICC_OUTSIDE + 1 }; /* in addition to ICC_INSIDE, ICC_BOUNDARY and ICC_OUTSIDE */
 
 static bool is_maximum(const icc_chart *chart, const double *point)
 {
@@ -53,7 +54,7 @@ static bool is_maximum(const icc_chart *chart, const double *point)
     return true;
 }
 
-/* The maximum has all boundary points: it stands with the middle of facet 0. */
+/* The maximum belongs to every boundary point. Its coordinates name the middle of facet 0. */
 static void put_maximum(int32_t dim, iccp_coords *coords)
 {
     *coords = (iccp_coords){.facet = 0, .t = 1};
@@ -66,8 +67,8 @@ bool iccp_chart_is_shelling(const icc_chart *chart)
     return chart->ops->number == ICC_METHOD_FOLIATION && chart->ops->needs_mesh;
 }
 
-/* The maximum comes before the boundary: it may lie in a corridor so narrow that all of it counts
- * as boundary, and has to come back all the same. */
+/* Locates a point. The maximum has priority over the boundary: it may lie in a corridor so
+ * narrow that all of it counts as boundary, and must still be found. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                       iccp_coords *coords)
 {
