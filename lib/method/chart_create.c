@@ -1,3 +1,4 @@
+/* Completes the options of a chart and calls its method. */
 #include "method/chart_create.h"
 
 #include "base/error.h"
@@ -7,9 +8,9 @@
 
 static const char CHART_DOMAIN[] = "the domain of a chart";
 
-/* Replaces the defaults, 0, by what they stand for in this dimension, and refuses combinations
- * that no method offers. `has_mesh`: the domain has a mesh of its inside, and so has the other
- * domain of a pair. */
+/* Replaces defaults, which are 0, by their values in this dimension. Refuses combinations that
+ * no method offers. `has_mesh` means that the domain has a mesh of its inside, and in a pair
+ * both domains. */
 static icc_status complete_options(icc_chart_options *options, int32_t dim, bool has_mesh,
                                    icc_error *err)
 {
@@ -37,7 +38,7 @@ static icc_status complete_options(icc_chart_options *options, int32_t dim, bool
     return ICC_OK;
 }
 
-/* One chart, or two; `options` has room for what is filled in. */
+/* Creates one chart or two. Defaults are filled in to `options`. */
 static icc_status create(size_t n, icc_chart **out, const icc_domain *const *domain,
                          icc_chart_options *options, const iccp_env *env, icc_error *err)
 {

@@ -1,3 +1,4 @@
+/* Saves and loads charts: the domain, the method's number, and the method's own bytes. */
 #include "method/load.h"
 
 #include "base/budget.h"

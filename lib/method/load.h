@@ -1,14 +1,14 @@
-/* Charts as bytes; see docs/formats.md. */
+/* Charts as bytes. Format: docs/formats.md. */
 #ifndef ICCP_CHART_LOAD_H
 #define ICCP_CHART_LOAD_H
 
 #include "chart/chart.h"
 
-/* A chart as part of other bytes, without its domain. */
+/* Writes a chart as part of other bytes, without its domain. */
 void iccp_chart_write(const icc_chart *chart, iccp_blob *w);
 
-/* ICC_ERR_VERSION, with its reason, for a chart that gives different values here; without words for
- * others. */
+/* Reads such a chart. Fails with ICC_ERR_VERSION and a message if the chart gives different
+ * values here, and with other errors without a message. */
 icc_status iccp_chart_read(icc_chart **out, const icc_domain *domain, iccp_blob *r,
                            const iccp_env *env, icc_error *err);
 

@@ -1,3 +1,5 @@
+/* The table of all methods. A method for meshes stands before the method of the same number that
+ * needs none. */
 #include "method/methods.h"
 
 #include "field/chart_field.h"

@@ -1,12 +1,23 @@
-/* The methods of coordinates that there are. */
+/* The list of all methods for charts.
+ *
+ * Legend of lib/method. Begin with this file and chart_create.h.
+ * - method: a table of operations that makes and evaluates charts (chart/chart.h).
+ * - number: ICC_METHOD_..; two methods may share one if only one of them needs a mesh.
+ * - format: the method's number in saved bytes. Every method has its own.
+ *
+ * This folder is the only one that names all methods. To add a method, write its iccp_chart_ops in
+ * a folder of its own and add it to the table in methods.c. Invariant: a method that needs a mesh
+ * is only called if all domains have one.
+ *
+ * Ways: chart_create.h creates charts, load.h saves and loads them. */
 #ifndef ICCP_METHODS_H
 #define ICCP_METHODS_H
 
 #include "chart/chart.h"
 
-/* The method with this number, or the one with this number in bytes; NULL if there is none. With
- * `has_mesh` all domains have a mesh of their inside, and what is made for such meshes comes
- * first. */
+/* iccp_method_find() finds a method by its number, and iccp_method_of_format() by its number in
+ * saved bytes. Both return NULL if there is none. `has_mesh` means that all domains have a mesh
+ * of their inside. Methods for such meshes are then preferred. */
 const iccp_chart_ops *iccp_method_find(int32_t number, bool has_mesh);
 const iccp_chart_ops *iccp_method_of_format(uint64_t format);
 
