@@ -1,5 +1,8 @@
-/* Based on: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 4, steps 3-5: the image of a point has the same coordinates in the other domain. */
+/* Maps points through two charts: the image of a point has the same coordinates in the other
+ * domain.
+ *
+ * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
+ * section 4, steps 3-5. */
 #include "map/curves/curves.h"
 
 #include "chart/bulk.h"
@@ -7,7 +10,7 @@
 
 #include <math.h>
 
-/* The chain rule through the coordinates, and the scales of the two frames. */
+/* Applies the chain rule through the coordinates, and the scales of the two frames. */
 static void multiply(const icc_chart *from, const icc_chart *to, const iccp_decode_jet *outer,
                      const iccp_encode_jet *inner, double *jacobian)
 {
@@ -40,8 +43,8 @@ icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const d
     return status;
 }
 
-/* The extent of a facet, but for a factor that is the same for all: by Gram and Schmidt, which
- * keeps the digits of slivers. */
+/* The extent of a facet, up to a factor that is the same for all facets. Gram-Schmidt keeps the
+ * digits of slivers. */
 static double extent_of(const icc_domain *domain, uint32_t facet)
 {
     const int32_t dim = domain->dim;

@@ -1,5 +1,6 @@
-/* Each chart is a homeomorphism of its domain onto the same coordinates if it is certified. In
- * doubles, those of method field need more: digits.h. */
+/* Certifies a curve map. A certified chart is a homeomorphism of its domain onto the
+ * coordinates, so two of them give a one-to-one map. In doubles, charts of method field need one
+ * more check (digits.h). */
 #include "map/curves/curves_certificate.h"
 
 #include "map/curves/digits.h"

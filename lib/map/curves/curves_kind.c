@@ -1,3 +1,4 @@
+/* The table of operations of curve maps. See map/kind/kind.h. */
 #include "map/curves/curves_kind.h"
 
 #include "chart/bulk.h"
@@ -18,7 +19,7 @@ static bool takes(const icc_chart *source)
     return true;
 }
 
-/* The charts are all that there is. */
+/* A curve map consists of its charts, so there is nothing to create. */
 static icc_status create(icc_map *map, const icc_map_options *options, const iccp_env *env,
                          icc_error *err)
 {
@@ -29,8 +30,8 @@ static icc_status create(icc_map *map, const icc_map_options *options, const icc
     return ICC_OK;
 }
 
-/* True if the charts do not warrant that images come back: then points whose images do not have
- * none. */
+/* Returns true if the charts alone do not guarantee that images come back. Points whose images
+ * do not come back then have no image. */
 static bool is_guarded(const icc_map *map)
 {
     return map->info.certified && map->source->info.method == ICC_METHOD_FIELD;
@@ -42,7 +43,7 @@ static icc_status ready(const icc_map *map, bool inverse)
     return status == ICC_OK ? iccp_chart_ready(inverse ? map->source : map->target, true) : status;
 }
 
-/* Images and Jacobians one by one. */
+/* Computes images and Jacobians point by point. */
 static icc_status differentiate(const icc_map *map, bool inverse, size_t n, const double *points,
                                 double *images, double *jacobians, icc_status *status,
                                 iccp_path *path)

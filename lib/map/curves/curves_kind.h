@@ -1,4 +1,4 @@
-/* Maps point by point through two charts as a kind of map: the table of their operations. */
+/* The table of operations of curve maps, which map point by point through two charts. */
 #ifndef ICCP_CURVES_KIND_H
 #define ICCP_CURVES_KIND_H
 

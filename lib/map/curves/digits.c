@@ -1,8 +1,9 @@
-/* A map is as good as its way back: a point is mapped, its image mapped back, and what lies between
- * the two is what the doubles have lost. The way back costs as much as the map, so of the points
- * that are mapped only those are sent whose surroundings shrink so much that digits may be missing;
- * how much they do follows from the divergence of the two fields along the curves, which rounding
- * cannot spoil. */
+/* Checks the digits of a map by its way back. A point is mapped, and its image is mapped back. The
+ * distance of the two is what the doubles have lost.
+ *
+ * The way back costs as much as the map. So only points are sent back whose surroundings shrink
+ * so much that digits may be missing. The divergence of the two fields along the curves tells
+ * how much they shrink, and rounding cannot spoil it. Source: docs/theory.md, "fields on grids". */
 #include "map/curves/digits.h"
 
 #include "base/minmax.h"
@@ -17,26 +18,26 @@
 #include <math.h>
 #include <string.h>
 
-/* Of the diagonal of the bounding box. How far images of a certified map may come back from their
- * points, and how far those of the samples may: by rounding alone it is some 1e-13, and it grows
- * tenfold within a small part of the smallest width of a domain, so that what passes among samples
- * is still far from what fails between them. */
+/* Relative to the diagonal of the bounding box: how far from its point an image may come back,
+ * for points of a certified map and for samples. Rounding alone gives about 1e-13. The distance
+ * grows tenfold within a small part of a domain's smallest width. So points among accepted
+ * samples are still far from AWAY. */
 static const double AWAY = 1e-6, SAMPLE_AWAY = 1e-9;
 
-/* Of the ratio of the two volumes: below the first a point is sent back; below the second it is
+/* Ratios of the two volumes. Below SUSPECT a point is sent back. Below FLAT it counts as
  * flattened. */
 static const double SUSPECT = 1e-4, FLAT = 1e-6;
 
-/* Samples of each domain; how many of 1,000 may be flattened; how many of each domain, where the
- * charts contract most, have their derivatives compared with those of the way back, and by how much
- * the products of the two may be off. */
+/* N_SAMPLES: samples of each domain. MOST_FLAT: how many of 1,000 may be flattened. N_STEEP: how
+ * many of each domain, where the charts contract most, have their derivatives compared with
+ * those of the way back. JACOBIAN_OFF: how far the products of the two may be from the identity. */
 enum { N_SAMPLES = 1024, MOST_FLAT = 2, N_STEEP = 4 };
 static const double JACOBIAN_OFF = 1e-3;
 
 /* ---- points ---- */
 
-/* What the caller's coordinates are rounded to, as a share of the domain's diagonal: some units in
- * the last place of a shape far from the origin. */
+/* The rounding of the caller's coordinates, relative to the domain's diagonal: some units in the
+ * last place. It matters for shapes far from the origin. */
 static double rounding_of(const icc_domain *domain, double diagonal)
 {
     const iccp_frame *frame = &domain->frame;
@@ -56,8 +57,8 @@ static double diagonal_of(const icc_domain *domain)
     return sqrt(sum);
 }
 
-/* In the caller's coordinates; `most`: what is allowed, as a share of the diagonal and besides
- * rounding. */
+/* Returns true if a point has come back, in the caller's coordinates. `most` is the allowed
+ * distance relative to the diagonal, to which rounding is added. */
 static bool comes_back(const icc_domain *domain, const icc_domain *other, const double *point,
                        const double *back, double most)
 {
@@ -71,7 +72,7 @@ static bool comes_back(const icc_domain *domain, const icc_domain *other, const 
     return sqrt(sum) <= (most + rounding) * diagonal;
 }
 
-/* Sends the images of n points, those that `which` names, back, and says which of them come
+/* Sends back the images of the n points that `which` selects. `home` tells which of them come
  * back. */
 static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n,
                             const size_t *which, const double *points, const double *images,
@@ -91,7 +92,7 @@ static icc_status send_back(const icc_chart *from, const icc_chart *to, size_t n
     return all;
 }
 
-/* Whether digits may be missing: not a number is suspect, too. */
+/* Returns true if digits may be missing. NaN is suspect, too. */
 static bool is_suspect(const iccp_shares *shares)
 {
     return !(shares->to - shares->from >= iccp_ln(SUSPECT));
@@ -102,7 +103,8 @@ icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t
                               iccp_path *path)
 {
     const size_t dim = (size_t)from->info.dim;
-    double own[ICCP_CHART_MANY * ICC_MAX_DIM]; /* the images may take the place of the points */
+    double own[ICCP_CHART_MANY * ICC_MAX_DIM]; /* a copy, because the images may overwrite the
+                                                  points */
     iccp_shares shares[ICCP_CHART_MANY];
     size_t which[ICCP_CHART_MANY] = {0}, n_suspect = 0;
     bool home[ICCP_CHART_MANY];
@@ -124,7 +126,7 @@ icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t
 
 /* ---- derivatives ---- */
 
-/* Whether the determinant is positive; its size may be anything. */
+/* Returns true if the determinant is positive. Its size may be anything. */
 static bool is_positive(int32_t dim, const double *jacobian)
 {
     const double zero[ICC_MAX_DIM] = {0};
@@ -153,7 +155,7 @@ icc_status iccp_digits_point(const icc_chart *from, const icc_chart *to, const d
     return status == ICC_OK && !home ? ICC_ERR_TRACE : status;
 }
 
-/* How far the product of two matrices is from the identity. */
+/* The largest entry of the product of two matrices minus the identity. */
 static double miss_of(int32_t dim, const double *a, const double *b)
 {
     double worst = 0;
@@ -167,8 +169,8 @@ static double miss_of(int32_t dim, const double *a, const double *b)
     return worst;
 }
 
-/* Whether the derivative has digits: the one of the way back is its inverse. Where there is none,
- * as on a kink that curves run along, there is nothing to be compared. */
+/* Tells whether the derivative is accurate: the derivative of the way back must be its inverse,
+ * and its determinant positive. */
 static icc_status compare_derivatives(const icc_chart *from, const icc_chart *to,
                                       const double *point, bool *agree, const iccp_memory *memory)
 {
@@ -195,12 +197,12 @@ typedef struct verdict {
 typedef struct samples {
     const icc_chart *from, *to;
     const icc_grid *grid;
-    const uint32_t *inside; /* its vertices */
+    const uint32_t *inside; /* the grid's inside vertices */
     const iccp_memory *memory;
-    verdict *verdict; /* for each */
+    verdict *verdict; /* one for each sample */
 } samples;
 
-/* In the caller's coordinates, somewhere around a vertex inside, and so maybe outside. */
+/* A point in the caller's coordinates near an inside vertex. It may be outside the domain. */
 static void find_point(const samples *s, size_t index, double *point)
 {
     const icc_grid *grid = s->grid;
@@ -214,7 +216,7 @@ static void find_point(const samples *s, size_t index, double *point)
     iccp_frame_out(&s->from->domain->frame, dim, local, point);
 }
 
-/* Maps points, and some of them back: all that are suspect, and of the others one in four. */
+/* Maps points, and maps some of them back: all that are suspect, and one in four of the others. */
 static icc_status judge_chunk(void *argument, size_t begin, size_t end)
 {
     enum { ONE_IN = 4 };
@@ -249,8 +251,8 @@ static icc_status judge_chunk(void *argument, size_t begin, size_t end)
     return all;
 }
 
-/* The samples where the charts contract most: derivatives are products of theirs, and lose digits
- * first. */
+/* Compares derivatives at the samples where the charts contract most. A map's derivative is a
+ * product of the charts' derivatives, so it loses digits first. */
 static icc_status judge_derivatives(samples *s)
 {
     for (int i = 0; i < N_STEEP; ++i) {
@@ -279,7 +281,7 @@ static void list_inside(const icc_grid *grid, uint32_t *inside)
             inside[n++] = (uint32_t)v;
 }
 
-/* From one domain to the other: the samples of the first. */
+/* Checks the map in one direction, with samples of the first domain. */
 static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_info *info,
                             const iccp_env *env)
 {

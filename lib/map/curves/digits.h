@@ -1,24 +1,27 @@
-/* Whether doubles have digits enough for a map along curves of method field. Each of its charts may
- * be one-to-one and bring every point back to rounding, and the map lose all digits between the
- * two: points that one chart tells apart are one to the other. */
+/* Checks whether doubles have enough digits for a curve map with charts of method field. Each chart
+ * may be one-to-one and bring every point back up to rounding, and the map may still lose all
+ * digits. The reason is that points which one chart distinguishes may be the same for the other.
+ *
+ * Source: docs/theory.md, "fields on grids". */
 #ifndef ICCP_DIGITS_H
 #define ICCP_DIGITS_H
 
 #include "chart/chart.h"
 
-/* Fills in what `info` says of that, and takes the certificate away from a map that does not come
- * back, by evenly spread points of both domains and both ways. The charts are of method field and
- * certified. */
+/* Fills in the members of `info` on this check. Clears `certified` if points do not come back.
+ * It tests evenly spread points of both domains in both directions. The charts must be of method
+ * field and certified. */
 icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, icc_map_info *info,
                              const iccp_env *env);
 
-/* As iccp_curves_points(), with ICC_ERR_TRACE for points whose images do not come back. */
+/* Like iccp_curves_points(), but with ICC_ERR_TRACE for suspect points whose images do not come
+ * back. */
 icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t n,
                               const double *points, double *images, icc_status *status,
                               iccp_path *path);
 
-/* As iccp_curves_point() with a derivative; ICC_ERR_TRACE also where its determinant is not
- * positive. */
+/* Like iccp_curves_point() with a derivative, but fails with ICC_ERR_TRACE if the image does not
+ * come back or the determinant is not positive. */
 icc_status iccp_digits_point(const icc_chart *from, const icc_chart *to, const double *point,
                              double *image, double *jacobian, iccp_path *path);
 
