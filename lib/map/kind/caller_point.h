@@ -1,4 +1,4 @@
-/* What mesh maps say of one point, in the caller's coordinates. */
+/* Helpers of mesh maps for one point in the caller's coordinates. */
 #ifndef ICCP_CALLER_POINT_H
 #define ICCP_CALLER_POINT_H
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/* The point of the other cage where a boundary point goes, which has no Jacobian. */
+/* Maps a boundary point to the other cage's boundary. There is no Jacobian there. */
 static inline icc_status iccp_image_on_boundary(const icc_domain *to, uint32_t facet,
                                                 const double *bary, double *image,
                                                 const double *jacobian)
@@ -18,7 +18,7 @@ static inline icc_status iccp_image_on_boundary(const icc_domain *to, uint32_t f
     return ICC_OK;
 }
 
-/* A local image, in the caller's coordinates. */
+/* Converts a local image and Jacobian to the caller's coordinates. */
 static ICCP_INLINE void iccp_image_out(const icc_domain *from, const icc_domain *to, int32_t dim,
                                        const double *local, double *image, double *jacobian)
 {
