@@ -17,12 +17,12 @@ typedef struct iccp_extension {
     uint8_t *needed;   /* by vertex: 1 if it belongs to a simplex that meets the domain */
 } iccp_extension;
 
-/* Inside, the values are those of `field`. Outside vertices next to the inside get 0. If the domain
- * continues between the vertices of the grid, the values beyond fall with every step.
+/* Copies the values of the function `field` inside. Outside vertices next to the inside get 0. If
+ * the domain continues between the vertices of the grid, the values beyond fall with every step.
  *
- * Then each of the `sweeps` replaces every value but the root's by the mean of itself and the
- * mean of its neighbours. This smooths steps of the grid. It removes nearly all vertices that
- * have gradients without a common uphill vector (bench_field). Free the extension in any case. */
+ * Then each of the `sweeps` replaces every value but the root's by the mean of itself and the mean
+ * of its neighbours. This smooths steps of the grid. It removes nearly all vertices that have
+ * gradients without a common uphill vector (bench_field). Free the extension in any case. */
 icc_status iccp_extension_create(iccp_extension *extension, const icc_function *field,
                                  const iccp_incidence *incidence, int sweeps, const iccp_env *env);
 void iccp_extension_free(iccp_extension *extension);

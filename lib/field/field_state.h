@@ -13,7 +13,7 @@
 typedef struct iccp_field_state {
     iccp_chart_parameters parameters;
     icc_tree *tree;
-    icc_function *field;
+    icc_function *field; /* the function on the tree; the field itself is `vectors` */
     iccp_incidence incidence;
     iccp_vectors vectors;
     iccp_flow flow;

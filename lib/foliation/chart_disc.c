@@ -313,7 +313,7 @@ static size_t count_boundary_faults(const iccp_planar *mesh, const double *image
     return n_faults + (n_wraps != 1);
 }
 
-/* `domain` holds the checks of the mesh in the domain. */
+/* Certifies the map to the disc. `domain` counts the faults of the mesh before the map. */
 static icc_status certify(const iccp_planar *mesh, const iccp_certificate *domain,
                           const double *image, icc_error *err)
 {

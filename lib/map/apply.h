@@ -1,4 +1,4 @@
-/* Maps of either kind applied to many points. */
+/* Applies a map of any kind to many points. */
 #ifndef ICCP_APPLY_H
 #define ICCP_APPLY_H
 

@@ -1,5 +1,8 @@
-/* Every triangle positive before and after, a disc by Euler's formula, and both boundaries simple:
- * then the map of the closed polygons is a homeomorphism (docs/theory.md, the mesh map). */
+/* Proves that a piecewise linear map in the plane is one-to-one (docs/theory.md, the mesh map).
+ *
+ * Three facts are enough. Every triangle is positive before and after the map. By Euler's formula
+ * the mesh is a disc, or a disc with one hole for each further ring. Before and after the map, the
+ * rings of its boundary are simple, touch nowhere and bound one region. */
 #include "map/plane/plane_certificate.h"
 
 #include "base/error.h"

@@ -4,8 +4,9 @@
 
 #include "map/plane/mesh_map.h"
 
-/* ICC_ERR_CERTIFICATE unless every triangle is positive before and after the map, exactly, the mesh
- * is a disc, and its boundary is one polygon that is simple before and after. */
+/* Returns ICC_ERR_CERTIFICATE unless all of this holds: every triangle is exactly positive before
+ * and after the map; the mesh is a disc, with a hole for each ring but one; and before and after
+ * the map the boundary's rings are simple and bound one region (domain/outlines.h). */
 icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_error *err);
 
 /* See iccp_map_kind. */
