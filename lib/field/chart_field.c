@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "base/minmax.h"
+#include "field/field_certificate.h"
 #include "field/field_charts.h"
 #include "field/field_measure.h"
 #include "field/field_state.h"
@@ -172,12 +173,11 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
 }
 
 /* Sets what the vectors determine: the root's place, the bound on the steps of a curve, and the
- * verdict. The verdict follows the three conditions of docs/theory.md, "fields on grids". */
+ * certificate. */
 static void finish(iccp_field_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
     const int32_t dim = grid->dim;
-    icc_field_info *own = &chart->own.field;
     double root[ICC_MAX_DIM];
     size_t steps = 1000;
     for (int32_t k = 0; k < dim; ++k) {
@@ -193,16 +193,8 @@ static void finish(iccp_field_state *state, icc_chart *chart)
                               .most_steps = steps};
     iccp_chart_set_maximum(chart, root);
     chart->info.spacing = grid->spacing * chart->domain->frame.out[0] * chart->domain->frame.out[1];
-    own->n_inside = grid->n_inside;
-    own->n_infeasible = state->vectors.n_infeasible;
-    own->n_contacts = state->vectors.n_contacts;
-    own->n_not_inward = state->vectors.n_not_inward;
-    own->n_stray = grid->n_stray;
-    chart->info.reason = own->n_infeasible > 0   ? ICC_REASON_INFEASIBLE
-                         : own->n_not_inward > 0 ? ICC_REASON_NOT_INWARD
-                         : own->n_stray > 0      ? ICC_REASON_STRAY
-                                                 : ICC_REASON_NONE;
-    chart->info.certified = chart->info.reason == ICC_REASON_NONE;
+    chart->own.field.n_inside = grid->n_inside;
+    iccp_field_certify(state, chart);
 }
 
 static void free_state(icc_chart *chart)
