@@ -1,3 +1,4 @@
+/* The library's version and the names of statuses. */
 #include "base/version.h"
 #include "icc/base.h"
 

@@ -1,4 +1,4 @@
-/* Argument checks of kernel coordinates: bindings and poses. */
+/* Checks the arguments of the functions on bindings and poses (kernel coordinates). */
 #include "api/check.h"
 #include "base/error.h"
 #include "kernel/pose/pose.h"

@@ -1,4 +1,4 @@
-/* Argument checks of the chart functions. */
+/* Checks the arguments of the chart functions. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
@@ -41,7 +41,8 @@ icc_status icc_chart_get_info(const icc_chart *chart, icc_chart_info *info)
     return iccp_write_struct(info, &chart->info, sizeof chart->info, "icc_chart_info", NULL);
 }
 
-/* The members that only one method has. */
+/* Writes the members that only one method has. Fails with ICC_ERR_UNSUPPORTED for charts of other
+ * methods. */
 static icc_status write_own(const icc_chart *chart, int32_t method, bool shelling, void *info,
                             const void *own, size_t size, const char *name)
 {

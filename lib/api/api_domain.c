@@ -1,3 +1,4 @@
+/* Checks the arguments of the domain functions. */
 #include "api/check.h"
 #include "base/env.h"
 #include "base/error.h"
@@ -139,7 +140,8 @@ static icc_status check_feature(size_t f, const icc_feature *feature, icc_error 
     return ICC_OK;
 }
 
-/* Reads the caller's features, of whatever size, and checks their numbers. */
+/* Reads the caller's features and checks their numbers. The caller's struct may be of any
+ * version, so its size gives the distance between features. */
 static icc_status read_features(icc_feature *full, size_t n_outer, size_t n,
                                 const icc_feature *features, icc_error *err)
 {

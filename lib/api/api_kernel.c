@@ -1,4 +1,4 @@
-/* Argument checks of kernel coordinates: kernels. */
+/* Checks the arguments of the functions on kernel weights (kernel coordinates). */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
@@ -9,10 +9,10 @@
 
 ICCP_END(weights)
 
-static const int32_t DEFAULT_STEPS = 5; /* the thesis', section 4.7 */
+static const int32_t DEFAULT_STEPS = 5; /* from the thesis, section 4.7 */
 static const int32_t MAX_STEPS = 100000;
-static const double DEFAULT_CUTOFF = 5; /* the thesis', section 6.1 */
-static const double MAX_CUTOFF = 40;    /* beyond it the Gaussian is 0 */
+static const double DEFAULT_CUTOFF = 5; /* from the thesis, section 6.1 */
+static const double MAX_CUTOFF = 40;    /* farther away the Gaussian is 0 */
 static const size_t MAX_HANDLES = (size_t)1 << 20;
 
 static bool are_finite(size_t n, const double *values)
@@ -23,7 +23,8 @@ static bool are_finite(size_t n, const double *values)
     return true;
 }
 
-/* The first of n rows of `width` numbers with one that is not finite; n if there is none. */
+/* The first of n rows of `width` numbers that has a number that is not finite, or n if there is
+ * none. */
 static size_t first_infinite(size_t n, size_t width, const double *values)
 {
     size_t i = 0;
@@ -49,7 +50,7 @@ static icc_status check_amount(double value, double most, const char *member, ic
     return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
 }
 
-/* Options that are wrong whatever the sampling. */
+/* Refuses options that are wrong for any sampling. */
 static icc_status check_choices(const icc_weights_options *o, icc_error *err)
 {
     icc_status status = check_choice(o->kernel, 0, ICC_KERNEL_GAUSS, "kernel", err);
@@ -194,7 +195,7 @@ void icc_weights_free(icc_weights *weights)
     iccp_weights_release(weights);
 }
 
-/* ---- what is known ---- */
+/* ---- information ---- */
 
 icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info)
 {

@@ -1,4 +1,4 @@
-/* Argument checks of the map functions. */
+/* Checks the arguments of the map functions. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
@@ -60,7 +60,7 @@ icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_dom
     return iccp_end_map(create(out, source, target, options, &full, err), out, &full, err);
 }
 
-/* The domains take the first twentieth of the call. */
+/* Creates a map of two polygons. Their domains take the first 5 % of the progress. */
 static icc_status create_from_polygons(icc_map **out, size_t n, const double *const vertices[2],
                                        const iccp_env *env, icc_error *err)
 {
@@ -147,7 +147,7 @@ icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, d
         return ICC_ERR_ARGUMENT;
     icc_tie_info full;
     const icc_status status = iccp_map_get_tie(map, tie, &full, target);
-    (void)source; /* there are no bends */
+    (void)source; /* the source's ties are straight, so they have no bends */
     if (status != ICC_OK)
         return status;
     return iccp_write_struct(info, &full, sizeof full, "icc_tie_info", NULL);
@@ -301,7 +301,7 @@ static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_sim
     return ICC_OK;
 }
 
-/* Both ways of carrying a caller's mesh along. */
+/* Carries a caller's mesh along, with or without repair. */
 static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double *vertices,
                              size_t n_simplices, const uint32_t *simplices, bool repaired,
                              double *images, icc_certificate *certificate, const icc_env *env,

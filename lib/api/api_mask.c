@@ -1,4 +1,4 @@
-/* Argument checks of masks of cells. */
+/* Checks the arguments of the functions on masks of cells. */
 #include "api/check.h"
 #include "base/env.h"
 #include "base/error.h"

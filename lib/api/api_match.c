@@ -1,3 +1,4 @@
+/* Checks the arguments of the match functions. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"

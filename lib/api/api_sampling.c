@@ -1,4 +1,4 @@
-/* Argument checks of shapes and samplings. */
+/* Checks the arguments of the functions on shapes and samplings. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"

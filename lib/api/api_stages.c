@@ -1,4 +1,5 @@
-/* Argument checks of the stages. */
+/* Checks the arguments of the functions on single stages: grid, tree, function and
+ * triangulation. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
@@ -24,8 +25,9 @@ ICCP_END(grid)
 ICCP_END(tree)
 ICCP_END(function)
 
-static const int32_t DEFAULT_CELLS = 50;          /* the papers' */
-static const size_t MAX_POINTS = UINT32_MAX / 16; /* corners of triangles are numbered too */
+static const int32_t DEFAULT_CELLS = 50;          /* from the papers */
+static const size_t MAX_POINTS = UINT32_MAX / 16; /* the corners of triangles also need numbers of
+                                                     32 bits */
 
 /* -------------------------------------------------------------------- grid */
 
@@ -165,7 +167,7 @@ icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point, uint
 
 /* -------------------------------------------------------------------- tree */
 
-/* A permutation of the dim axes, each seen once; NULL is the given order. */
+/* Checks that the order is a permutation of the dim axes. NULL stands for the given order. */
 static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
 {
     if (order == NULL)
@@ -259,7 +261,8 @@ icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *report, co
     return iccp_write_struct(report, &full, sizeof full, "icc_tree_report", err);
 }
 
-/* Values of the grid's vertices; only those of the tree count, in its order. */
+/* Checks the values at the grid's vertices. Only those of the tree's vertices count, in its
+ * order. */
 static icc_status check_values(const icc_tree *tree, const double *values, icc_error *err)
 {
     for (size_t i = 0; values != NULL && i < tree->n_inside; ++i)
@@ -313,7 +316,7 @@ icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t *rank,
 
 /* ------------------------------------------------------------------- function */
 
-/* With its logarithms, so that icc_function_logs() cannot fail. */
+/* Creates a function and its logarithms, so that icc_function_logs() cannot fail. */
 static icc_status create_function(icc_function **out, const icc_tree *tree,
                                   const icc_function_options *options, const iccp_env *env,
                                   icc_error *err)
@@ -415,8 +418,8 @@ icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
 
 /* ----------------------------------------------------------- triangulation */
 
-/* The points inside, in the polygon's local coordinates. Those within its bounding box are shifted
- * and scaled as exactly as its vertices (geometry/frame.h). */
+/* Converts the inner points to the polygon's local coordinates. Points within its bounding box
+ * are shifted and scaled as exactly as its vertices (geometry/frame.h). */
 static icc_status localise(double *local, const icc_domain *polygon, size_t n_points,
                            const double *points, icc_error *err)
 {

@@ -1,12 +1,12 @@
-/* Argument checks of icc_map_warp(). */
+/* Checks the arguments of icc_map_warp(). */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "map/picture/picture_values.h"
 #include "map/picture/warp.h"
 
-/* Reads a picture of the caller's version and refuses one whose pixels would not fit in memory:
- * below api/ every pixel of width * height is taken to be there. */
+/* Reads a picture struct of the caller's version. Refuses a picture whose pixels would not fit
+ * in memory, because the functions below api/ rely on all width * height pixels. */
 static icc_status read_picture(icc_picture *full, const icc_picture *given, icc_error *err)
 {
     const icc_status status = iccp_read_struct(full, sizeof *full, given, "icc_picture", err);

@@ -1,3 +1,4 @@
+/* Argument checks that several functions share. */
 #include "api/check.h"
 
 #include "base/error.h"
@@ -29,7 +30,7 @@ static icc_status check_choice(int32_t value, int32_t last, const char *name, co
     return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.%s is %ld", name, member, (long)value);
 }
 
-/* Small relative amounts; 0 stands for a default. Refuses NaN. */
+/* Checks a small relative amount. 0 stands for a default, and NaN is refused. */
 static icc_status check_share(double value, const char *name, const char *member, icc_error *err)
 {
     if (value >= 0 && value <= ICCP_MAX_SHARE)

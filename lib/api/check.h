@@ -1,4 +1,18 @@
-/* Argument checks that several functions share. */
+/* Argument checks that several functions share, and how a call begins and ends.
+ *
+ * Legend of lib/api
+ * - api_*.c: one file for each group of exported functions. It checks arguments, calls lib/ and
+ *   writes results.
+ * - begin, end: iccp_begin() reads the environment, iccp_end_*() makes the last progress report.
+ * - struct of the caller's version: a struct with `size`, read and written by base/options.h.
+ * - missing: the name of the first required argument that is NULL.
+ *
+ * Invariants: every exported function that computes starts with ICCP_ENTER (base/fpenv.h).
+ * Checks of plain arguments (NULL, ranges, struct sizes) stand here, and functions below rely on
+ * them. Checks of geometry stand with the algorithms, and no algorithm stands here. A failed call
+ * that makes an object sets it to NULL.
+ *
+ * Begin with the api_*.c file of your function. include/icc has the contracts. */
 #ifndef ICCP_CHECK_H
 #define ICCP_CHECK_H
 
@@ -7,23 +21,24 @@
 #include "base/fpenv.h"
 #include "icc/stages.h"
 
-/* Reads the caller's options (which may be NULL). Members that are not given stay 0. */
+/* Reads the caller's options, which may be NULL. Members that are not given stay 0. */
 icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_options *options,
                                    int32_t dim, icc_error *err);
 
-/* How a function is made: by the options of a field and of a chart alike. `name`: of the struct. */
+/* Checks how a function is made. The options of a function and of a chart both say it. `name` is
+ * the name of the options' struct in messages. */
 icc_status iccp_check_function(const icc_function_options *options, const char *name,
                                icc_error *err);
 
-/* A maximum that the caller wants; NULL is fine. */
+/* Checks a maximum that the caller wants. NULL is accepted. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 
-/* How a call begins: `missing` names the first argument that is NULL, or is NULL itself. Reads the
- * caller's environment. */
+/* Begins a call: reads the caller's environment. `missing` is the name of the first argument
+ * that is NULL, or NULL if none is. */
 icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err);
 
-/* How a call ends that makes an object: by its last report. Whoever wants to stop even then gets
- * no object. */
+/* Ends a call that makes an object with its last progress report. A caller that cancels even
+ * then gets no object. */
 #define ICCP_END(type)                                                                             \
     static inline icc_status iccp_end_##type(icc_status status, icc_##type **out,                  \
                                              const iccp_env *env, icc_error *err)                  \
