@@ -1,6 +1,6 @@
 /* The caller's environment, with its defaults filled in.
  *
- * Legend of lib/base, which knows nothing of geometry. Begin with this file.
+ * Words of this folder, which knows nothing of geometry. Begin with this file.
  * - environment: memory functions, callbacks and threads of one call. Each function that allocates,
  *   reports or runs loops takes one.
  * - part: the environment of one step of a call. It maps the step's progress from 0 to 1 into the

@@ -2,7 +2,7 @@
  * operations on local points that have a curve of their own. Bulk calls are written once on top of
  * the table. So are points without a curve: outside, on the boundary and at the maximum.
  *
- * Legend of lib/chart. Begin with iccp_chart_ops.
+ * Words of this folder. Begin with iccp_chart_ops.
  * - coordinates: where the curve of a point meets the boundary (facet, barycentric coordinates),
  *   and the share t of the curve's length below the point.
  * - local: in the domain's frame, in which its size is about 1; see geometry/frame.h.

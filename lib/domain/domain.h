@@ -1,11 +1,13 @@
 /* The domain object: a validated boundary in local coordinates, and point queries.
  *
- * Legend of lib/domain. Begin with this file.
+ * Words of this folder. Begin with this file.
  * - domain: a bounded region that is given by its boundary, by a mask or by a mesh.
  * - given: data as the caller passed it. All other coordinates are local (geometry/frame.h).
  * - facet: a simplex of the boundary. A ridge is a face between two facets.
  * - feature: a hole, line or point inside a polygon (features.h). Its rim is the circle that a
  *   radius adds.
+ * - checks: geometry/polygon_check.h checks polygons, features_check.h their features. Both ask
+ *   geometry/sweep.h what touches or crosses. complex.h checks surfaces.
  * - mask: a solid made of lattice cells (mask.h).
  * - mesh: simplices that fill the domain (geometry/simplices.h). Another mesh of the same domain is
  *   a filling.

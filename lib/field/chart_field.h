@@ -2,7 +2,7 @@
  *
  * Source: docs/theory.md, "fields on grids". Grid, tree and function are those of lib/gradient.
  *
- * Legend of lib/field
+ * Words of this folder
  * - function: the piecewise linear function on the grid that rises along every curve.
  * - vector: the direction of the field at a vertex of the grid. It is interpolated linearly.
  * - uphill: a vector is uphill if the function rises along it in every simplex at its vertex.

@@ -1,6 +1,6 @@
 /* Fills closed surfaces with tetrahedra, and makes them domains.
  *
- * Legend of lib/fill. Begin with fill_domain.c, which lists the stages, then tets.h.
+ * Words of this folder. Begin with fill_domain.c, which lists the stages, then tets.h.
  * - given points: the vertices of the surface. A box around them contains all tetrahedra at first.
  * - segment, facet: an edge and a triangle of the surface (surface.h).
  * - recover: to change the mesh until a segment or facet is made of its edges or faces (segments.h,
@@ -12,7 +12,8 @@
  * - lift: to move a point from the surface to the inside (lift.h).
  * - star, ring, link: tetrahedra at a point, those around an edge, and the points opposite to it.
  * - cavity, rim: tetrahedra that a new point replaces, and the boundary of their space (insert.h).
- * - settle, refine, improve: contract and smooth inner points, add points, flip and smooth.
+ * - settle: contract and smooth inner points (reshape.h, contract.h).
+ * - refine: add inner points (inner_points.h). improve: flip and smooth (reshape.h).
  * - metric: a linear map in which a stretched surface has the same extent in all directions
  *   (metric.h).
  *

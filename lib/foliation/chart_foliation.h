@@ -2,7 +2,7 @@
  *
  * Source: docs/theory.md, "method foliation". A caller's own mesh uses lib/shelling instead.
  *
- * Legend of lib/foliation (methods foliation and disc in the plane)
+ * Words of this folder (methods foliation and disc in the plane)
  * - base: the mesh of the domain, its Laplacian, and the factor of that (harmonic.h).
  * - centre: the vertex of the chart's maximum, where all leaves end.
  * - star: the triangles at the centre. There, leaves are straight lines to it.

@@ -1,6 +1,6 @@
 /* Points and segments of the plane, exact unless said otherwise.
  *
- * Legend of lib/geometry, which works on raw coordinates. Begin with this file, then polygon.h and
+ * Words of this folder, which works on raw coordinates. Begin with this file, then polygon.h and
  * simplices.h.
  * - local coordinates: the caller's coordinates, shifted and scaled exactly to a size of about 1
  *   (frame.h).

@@ -1,4 +1,19 @@
-/* Maps between two domains whose boundaries correspond, whatever their kind (map/kind/kind.h). */
+/* Maps between two domains whose boundaries correspond, whatever their kind.
+ *
+ * Words of this folder
+ * - kind: how a map is stored and applied (map/kind/kind.h): curves, or a mesh map in the plane or
+ *   in space.
+ * - state: what only the kind knows of a map. charts: the coordinates of both domains that the
+ *   kinds begin with; maps of domains with features have none.
+ * - correspond: two boundaries with the same facets (correspondence.h), so vertex i goes to vertex
+ *   i.
+ * - certificate: the proof that the map is one-to-one.
+ * - certify, repair: to check a mesh of the caller's under the map, and to mend its images.
+ * - retarget: to make the map to a target that has moved from the map to the target before.
+ * - spoilt: a simplex that rounding to the caller's coordinates inverts or flattens (rounded.h).
+ *
+ * Ways: map.c makes, improves and retargets maps, apply.c applies them, certify.c checks the
+ * caller's meshes, map_file.c saves and reads maps. Begin with map.c. */
 #ifndef ICCP_MAP_H
 #define ICCP_MAP_H
 

@@ -1,7 +1,7 @@
 /* The object icc_match: two domains with common vertices, made from two domains that have none in
  * common.
  *
- * Words of lib/match
+ * Words of this folder
  * - common vertices: vertices that correspond one by one; a match adds those that each domain
  *   lacks.
  * - origin: the given vertex that a common vertex comes from.

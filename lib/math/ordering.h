@@ -1,4 +1,5 @@
-/* Fill-reducing ordering of a sparse symmetric matrix. */
+/* Fill-reducing ordering of any sparse symmetric matrix. Lattices have nested dissection of their
+ * own (gradient/solver/dissection.h). */
 #ifndef ICCP_ORDERING_H
 #define ICCP_ORDERING_H
 

@@ -3,7 +3,7 @@
  * Source: J. R. Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric
  * Predicates, 1997. A filter in plain doubles decides most signs. Exact expansions decide the rest.
  *
- * Legend of lib/math. Begin with this file for geometry, and with math/spd.h for linear systems.
+ * Words of this folder. Begin with this file for geometry, and with math/spd.h for linear systems.
  * - predicate: a function that returns the exact sign of a determinant: -1, 0 or +1.
  * - expansion: an exact sum of doubles (expansion.h).
  * - filter: a test in doubles with an error bound, which decides a sign if the bound allows.

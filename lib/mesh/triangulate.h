@@ -1,6 +1,6 @@
 /* Constrained Delaunay triangulation of a simple polygon with points inside, or of walls.
  *
- * Legend of lib/mesh. Begin with this file, then trimesh.h and planar.h.
+ * Words of this folder. Begin with this file, then trimesh.h and planar.h.
  * - corner: a vertex of one triangle, number 3 t + k. It faces the opposite edge, which is
  *   half-edge 3 t + k.
  * - twin, neighbour: the corner that faces the same edge from the other triangle.

@@ -1,6 +1,6 @@
 /* The list of all methods for charts.
  *
- * Legend of lib/method. Begin with this file and chart_create.h.
+ * Words of this folder. Begin with this file and chart_create.h.
  * - method: a table of operations that makes and evaluates charts (chart/chart.h).
  * - number: ICC_METHOD_..; two methods may share one if only one of them needs a mesh.
  * - format: the method's number in saved bytes. Every method has its own.

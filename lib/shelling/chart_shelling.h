@@ -3,7 +3,7 @@
  *
  * Source: docs/theory.md, "foliations of simplices"; Campen, Silva, Zorin 2016.
  *
- * Legend of lib/shelling
+ * Words of this folder
  * - side: a facet of the mesh as seen from one of its simplices; see geometry/simplices.h.
  * - face: a set of corners of a simplex, of any dimension (faces.h).
  * - centre, star: the vertex where all leaves end, and the simplices at it.

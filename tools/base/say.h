@@ -6,6 +6,12 @@
  * - Memory comes from need() and grow() (allocate.h), which end the program when there is none.
  * - Only system_posix.c and system_windows.c depend on the operating system (system.h).
  *
+ * Words of this folder
+ * - problem: what is wrong with an input, and in which line.
+ * - column, table: numbers in the lines of a text (columns.h, table.h).
+ * - foreign: a file of a format that the command cannot read (foreign.h).
+ * - piece, tree: JSON as places in a text (json_scan.h), and as values (json_tree.h).
+ *
  * Begin with table.h, which shows all of these. */
 #ifndef SAY_H
 #define SAY_H

@@ -1,7 +1,12 @@
 /* The commands. Each returns the exit code of the program.
  *
- * A command is a file cmd_NAME.c with one function run_NAME() and one row in main.c. Its options
- * are in job/option_table.c. Begin with cmd_map.c. */
+ * Words of this folder
+ * - command: a file cmd_NAME.c with one function run_NAME(), and one row in main.c. Its options are
+ *   in job/option_table.c.
+ * - job: the steps that all commands begin with (job/job.h).
+ * - completion: what a shell offers after the Tab key (completion.h).
+ *
+ * Begin with cmd_map.c. */
 #ifndef COMMANDS_H
 #define COMMANDS_H
 

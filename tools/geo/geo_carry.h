@@ -5,6 +5,8 @@
  * - object, span: a GeoJSON object, and its place in the text (geo_index.h).
  * - shape, path: the coordinates of a geometry; a line or ring of it (geo_shape.h).
  * - node: a vertex, or a place where a line meets the cage (noding.h).
+ * - height: a third number of a position. It is copied, or interpolated where a vertex is new
+ *   (geo_write.c).
  * - policy, fate: the choice for geometries that leave the cage, and its result.
  *
  * Ways

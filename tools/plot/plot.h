@@ -6,7 +6,8 @@
  * - stages: the intermediate results of a chart that are drawn (stages.h).
  * - sheet: the cut through a solid (solid_cut.h).
  *
- * A format is a file NAME_io.c. Begin with plot_shape.c, or with picture_file.h for pictures. */
+ * A format of pictures is a file NAME_io.c, and a line each in picture.h, picture_file.c and
+ * job/output_name.c. Begin with plot_shape.c, or with picture_file.h for pictures. */
 #ifndef PLOT_H
 #define PLOT_H
 

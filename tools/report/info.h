@@ -3,9 +3,10 @@
  * Words of this folder
  * - facts: data of a chart that all methods share (chart_facts.h).
  * - reason: words that tell why a chart or a map is not certified (reason.h).
- * - report: the JSON of --json. shares: how areas change under a map.
+ * - report: the JSON of --json (info_report.c, check_report.c).
+ * - shares: how areas change under a map (info_shares.c).
  *
- * Begin with check_job.h for `libicc check`, and with this file for `libicc info`. */
+ * Begin with this file for `libicc info`, and with check_job.h for `libicc check`. */
 #ifndef INFO_H
 #define INFO_H
 

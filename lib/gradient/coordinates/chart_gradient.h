@@ -1,6 +1,6 @@
 /* Method gradient: Integral Curve Coordinates as published.
  *
- * Legend of lib/gradient/coordinates, which puts the stages of the papers together. Begin with
+ * Words of this folder, which puts the stages of the papers together. Begin with
  * chart_gradient.c.
  * - state: the tree, the function and the boundary of a chart (gradient_state.h).
  * - field: the function whose gradient lines are the chart's curves.

@@ -1,6 +1,6 @@
 /* The function object: values on the vertices of a tree.
  *
- * Legend of lib/gradient/function. Begin with this file, then make_function.h.
+ * Words of this folder. Begin with this file, then make_function.h.
  * - function: f of the papers, highest at the root and falling along the tree.
  * - unknowns: the inside vertices at which an equation is solved (gradient/solver/unknowns.h).
  * - exponent, plain: f may exceed the range of doubles. Then it is values * 2^exponent, and `plain`

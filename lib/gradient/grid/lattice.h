@@ -1,7 +1,7 @@
 /* The grid object: a regular n-D lattice whose vertices are inside or outside. Only the code that
  * makes a grid from a domain (rasterise.h) knows what the domain is.
  *
- * Legend of lib/gradient/grid, stage 1 of the papers. Begin with this file.
+ * Words of this folder, stage 1 of the papers. Begin with this file.
  * - vertex: a lattice point, numbered along the first axis first. Its neighbours along an axis
  *   differ by one step.
  * - inside: vertices strictly inside the domain. All others are outside.

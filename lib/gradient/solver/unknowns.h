@@ -2,7 +2,7 @@
  * Unknown 0 is the root, whose value most problems fix. Parents come before their children. So a
  * forward pass goes from the root to the leaves, and a backward pass from the leaves to the root.
  *
- * Legend of lib/gradient/solver, stage 3 of the papers. Begin with this file, then tied.h and
+ * Words of this folder, stage 3 of the papers. Begin with this file, then tied.h and
  * bilaplace.h.
  * - unknown, root, leaf: an inside vertex; unknown 0; an unknown without children.
  * - reach: the share of the way to an outside neighbour at which the function is 0.

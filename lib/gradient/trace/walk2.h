@@ -4,7 +4,7 @@
  * edge comes next (topology). Doubles give the place where the line crosses it (geometry). In
  * lattice coordinates, vertex (i, j) is at x = i, y = j.
  *
- * Legend of lib/gradient/trace, stage 4 of the papers. This header has the plane;
+ * Words of this folder, stage 4 of the papers. This header has the plane;
  * walkn.h is the same in any dimension.
  * - line: an integral line of the function's gradient. A walk follows it uphill to the maximum or
  *   downhill to the boundary.

@@ -1,6 +1,6 @@
 /* The tree object, and Algorithm 2 in both published forms.
  *
- * Legend of lib/gradient/tree, stage 2 of the papers. Begin with this file.
+ * Words of this folder, stage 2 of the papers. Begin with this file.
  * - root: the vertex of the maximum, where the tree begins.
  * - generation: the number of steps from the root along the tree.
  * - cousins: vertices whose parents are neighbours. By the cousin rule, neighbours are parent and

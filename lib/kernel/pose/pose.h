@@ -1,6 +1,6 @@
 /* Linear blend skinning, and transforms of handles.
  *
- * Legend of lib/kernel/pose. Begin with this file; for rigid parts, with rigid.c.
+ * Words of this folder. Begin with this file; for rigid parts, with rigid.c.
  * - pose: one affine transform for each handle. The image of a point is their mean by the point's
  *   weights.
  * - rest pose: all transforms are the identity.

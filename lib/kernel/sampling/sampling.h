@@ -1,6 +1,6 @@
 /* Samples of a shape.
  *
- * Legend of lib/kernel/sampling, which prepares kernel coordinates. Begin with shape.h, then this
+ * Words of this folder, which prepares kernel coordinates. Begin with shape.h, then this
  * file. "Thesis" is Sakaridis, Kernel Coordinates (ETH Zurich 2016).
  * - shape: regions, which are domains, with walls between them, and curves (shape.h).
  * - wall: a facet of a region's boundary. Curves consist of segments.

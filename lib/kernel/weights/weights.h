@@ -1,7 +1,7 @@
 /* Weights at single nodes: initial weights, and their optimisation. Arrays of weights are sorted by
  * node, n_handles each.
  *
- * Legend of lib/kernel/weights. Begin with this file, then handle_weights.h, which has the object.
+ * Words of this folder. Begin with this file, then handle_weights.h, which has the object.
  * Numbers in parentheses are equations of Sakaridis, Kernel Coordinates (ETH Zurich 2016), "the
  * thesis".
  * - handle: a point that the caller moves. Each handle has a weight at every point.

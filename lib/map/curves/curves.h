@@ -3,7 +3,7 @@
  * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, section
  * 4. docs/theory.md, "fields on grids", has the volumes.
  *
- * Legend of lib/map/curves
+ * Words of this folder
  * - curve map: a map of kind ICC_MAP_CURVES, which has no mesh of its own.
  * - share: the part of a domain's measure near a point, per piece of a facet and of the curve.
  * - digits: the accuracy that doubles keep between the two charts (digits.h).

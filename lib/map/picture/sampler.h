@@ -6,6 +6,7 @@
  * - origin: the source point of a target point, that is its image under the inverse map.
  * - line: equally spaced positions in the source (iccp_line). walk: the same in fixed point.
  * - kernel: code that samples along a walk, compiled for one format and one processor.
+ * - blend: to interpolate four pixels (sampler_portable.c; sampler_lanes.h, the same in vectors).
  * - gather: to add samples to pixels, and to store their means later.
  * - run: the samples that a triangle has in one row.
  *
@@ -18,7 +19,7 @@
  * - Colours and a mesh map: triangle by triangle (warp.c, scan.h).
  * - Any other map, or values: pixel by pixel (warp_points.c, picture_values.h).
  *
- * Begin with warp.c. */
+ * Begin with warp.c for the picture, and with sampler_portable.c for one sample. */
 #ifndef ICCP_SAMPLER_H
 #define ICCP_SAMPLER_H
 

@@ -9,6 +9,8 @@
  * - landmark: a pair of points that the caller knows to correspond. pin: a place where a pairing is
  *   held.
  * - sample: one of ICCP_MATCH_SAMPLES places at equal distances, for comparing shapes.
+ * - descriptor: what an outline looks like from a sample, in several sizes (descriptor.h). Its
+ *   weights decide which samples match.
  * - candidate: a pairing of samples that the elastic search refines.
  * - join: a vertex of the source and one of the target that become one vertex.
  *

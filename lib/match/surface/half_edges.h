@@ -5,7 +5,7 @@
  * D. E. Knuth, Dancing Links, 2000. If collapses are undone in reverse order, the surface is the
  * same as before, number by number.
  *
- * Words of lib/match/surface, lib/match/sphere and lib/match/common_mesh
+ * Words of this folder, and of lib/match/sphere and lib/match/common_mesh
  * - present: a vertex or face that no collapse has removed.
  * - drawing: a direction for each vertex of a surface, so that its faces become triangles on the
  *   sphere.
