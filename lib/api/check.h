@@ -1,6 +1,6 @@
 /* Argument checks that several functions share, and how a call begins and ends.
  *
- * Legend of lib/api
+ * Words of this folder
  * - api_*.c: one file for each group of exported functions. It checks arguments, calls lib/ and
  *   writes results.
  * - begin, end: iccp_begin() reads the environment, iccp_end_*() makes the last progress report.
