@@ -45,7 +45,7 @@ esac
 benchmarks=OFF
 [ "$tier" = plain ] || [ "$sanitized" = yes ] || benchmarks=ON
 case $tier in
-    plain) share=8 left_to_others='all|long' ;;
+    plain) share=4 left_to_others='all|long' ;;
     all) share=20 left_to_others=long ;;
     long) share=100 left_to_others=none ;;
 esac
