@@ -1,3 +1,5 @@
+/* Applies a map to many points on all threads, chunk by chunk. The kind of the map does the
+ * work. */
 #include "map/apply.h"
 
 #include "base/threads.h"

@@ -1,7 +1,9 @@
-/* A piecewise linear map of a mesh is one-to-one when every simplex keeps its orientation and the
- * image of the boundary is simple and winds round each point once or not at all, because the images
- * of as many simplices contain that point. The mesh itself must pass the same check
- * (domain/boundary_parts.h). */
+/* Checks the image of a mesh of the caller's under a map, and repairs it if asked to.
+ *
+ * The map of the mesh is one-to-one if two things hold. Every simplex keeps its orientation. The
+ * image of the boundary is simple and winds around each point at most once, because this winding
+ * number counts the simplices whose images contain the point. The mesh itself must pass the same
+ * check (domain/boundary_parts.h). */
 #include "map/certify.h"
 
 #include "base/error.h"
@@ -19,7 +21,7 @@ typedef struct mesh_check {
     size_t dim, n_vertices, n_simplices;
     const uint32_t *simplices;
     double *before, *after; /* local copies of the vertices and of their images */
-    iccp_frame frame;       /* of the latter */
+    iccp_frame frame;       /* of `after` */
     double *images;         /* as the caller gets them */
     icc_certificate *result;
 } mesh_check;
@@ -46,8 +48,8 @@ static bool is_finite(size_t dim, const double *point)
     return true;
 }
 
-/* Copies points into coordinates for exact signs. Those that are not finite become 0; their
- * simplices are not looked at. */
+/* Converts points to local coordinates, for exact signs. A point that is not finite becomes 0, and
+ * check_simplices() tests no simplex at it. */
 static icc_status localise(mesh_check *m, double *local, const double *points, icc_error *err)
 {
     const size_t dim = m->dim;
@@ -91,7 +93,7 @@ static void check_simplices(const mesh_check *m)
 
 /* ---- repair ---- */
 
-/* Without images on the boundary there is nothing to go by. */
+/* Whether there is a fault, and all vertices of the boundary have images. A repair keeps these. */
 static bool can_repair(const mesh_check *m, const iccp_simplices *mesh)
 {
     for (size_t v = 0; v < mesh->n_boundary; ++v)
@@ -100,8 +102,8 @@ static bool can_repair(const mesh_check *m, const iccp_simplices *mesh)
     return m->result->first >= 0;
 }
 
-/* Moves the images of inner vertices until every simplex is positive, as far as that goes. What is
- * judged afterwards is what the caller gets, rounded. */
+/* Moves the images of inner vertices until every simplex is positive, or as many as can be. Rounds
+ * them to the caller's coordinates, and converts these back, because the check concerns them. */
 static icc_status repair(mesh_check *m, const iccp_simplices *mesh, const iccp_env *env)
 {
     const size_t dim = m->dim, size = dim * sizeof(double);
@@ -179,7 +181,8 @@ static icc_status check_after(mesh_check *m, const iccp_boundary_parts *boundary
     return status;
 }
 
-/* Repairs if asked to and possible, and judges. */
+/* Checks the boundary before the map, repairs the images if wanted and possible, and then checks
+ * the boundary after the map. */
 static icc_status check_joined(mesh_check *m, const iccp_simplices *mesh, bool repaired,
                                const iccp_env *env)
 {

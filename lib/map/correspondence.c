@@ -1,3 +1,4 @@
+/* Checks that the boundaries and features of two domains correspond, and says what does not. */
 #include "map/correspondence.h"
 
 #include "base/error.h"
@@ -10,8 +11,8 @@ static const char *turn_of(const icc_domain *domain)
     return domain->orientation > 0 ? "oriented outward" : "oriented inward";
 }
 
-/* Feature i goes to feature i: both are of one kind, with as many vertices, and holes turn the same
- * way. */
+/* Checks that feature i of both domains has one kind and the same number of vertices, and that
+ * holes turn the same way. */
 static icc_status check_features(const iccp_features *source, const iccp_features *target,
                                  icc_error *err)
 {

@@ -1,11 +1,12 @@
-/* Whether vertex i of one domain can go to vertex i of another. */
+/* Tests whether a map can take vertex i of one domain to vertex i of another. */
 #ifndef ICCP_CORRESPONDENCE_H
 #define ICCP_CORRESPONDENCE_H
 
 #include "domain/domain.h"
 
-/* ICC_ERR_BOUNDARY, and why, unless the boundaries correspond: their facets join the same vertices,
- * they turn the same way, and the same holds for features. */
+/* Returns ICC_ERR_BOUNDARY with a message unless the boundaries correspond. Then facet i joins the
+ * same vertices in both, and both turn the same way. Feature i has the same kind and the same
+ * number of vertices in both, and holes turn the same way. */
 icc_status iccp_check_correspondence(const icc_domain *source, const icc_domain *target,
                                      icc_error *err);
 

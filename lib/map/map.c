@@ -1,3 +1,7 @@
+/* Makes, improves and retargets maps.
+ *
+ * The table KINDS lists what can be made. A new map gets its domains and charts first, and then the
+ * state of its kind. iccp_map_conclude() certifies it before it is handed out. */
 #include "map/map.h"
 
 #include "base/clock.h"
@@ -14,10 +18,11 @@
 
 #include <string.h>
 
-/* Cells of a mesh along the longest side: where the boundary is no finer, coarse is fair enough. */
+/* Cells along the longest side in the meshes of the charts that a mesh map starts from. Coarse
+ * meshes are enough, because they are finer where the boundary is. */
 enum { MESH_CELLS = 20 };
 
-/* From the best to the one that takes every chart. */
+/* All kinds, the best first. The last one accepts any two charts. */
 static const iccp_map_kind *const KINDS[] = {&iccp_plane_kind, &iccp_solid_kind, &iccp_curves_kind};
 enum { N_KINDS = sizeof KINDS / sizeof *KINDS };
 
@@ -117,7 +122,8 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
     return status == ICC_OK && kept ? certify(map, &quiet, err) : status;
 }
 
-/* Whether the isotopy class of the features of `map` is kept by `next`, which came of it. */
+/* Sets class_kept of `next`, which was made from `map`: whether the isotopy class of the features
+ * is the one that it should be. */
 static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, const iccp_env *env)
 {
     bool kept = false;
@@ -128,8 +134,8 @@ static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, con
     return status;
 }
 
-/* Makes the state of the kind. Without a mesh map the best that can be had is one of kind curves,
- * but a caller who asks for a mesh gets that or an error. */
+/* Makes the state of the kind. If no mesh map is found, kind 0 becomes kind curves, and a caller
+ * who asked for kind mesh gets an error. */
 static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
                           const iccp_env *env, icc_error *err)
 {
@@ -151,7 +157,8 @@ static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map
     return status;
 }
 
-/* A map between two domains, by charts of them. Those of domains with features have none: NULL. */
+/* Makes a map of the given kind. `charts` belong to the two domains, or are NULL for domains with
+ * features. */
 static icc_status create_of_kind(icc_map **out, const icc_domain *source, const icc_domain *target,
                                  const icc_chart *const charts[2], const iccp_map_kind *kind,
                                  const icc_map_options *options, const iccp_env *env,
@@ -200,9 +207,10 @@ icc_status iccp_map_create_from_charts(icc_map **out, const icc_chart *source,
     return status;
 }
 
-/* The method that suits the kind, where the caller leaves it open: discs are the better start for a
- * mesh, unless a maximum is given, which they do not have. The caller's own meshes are for
- * foliations. */
+/* Completes the charts' options in the plane if a mesh map starts from them. Method disc is the
+ * better start, but its charts have no maximum of the caller's choice. So a given maximum means
+ * method foliation. With kind 0, meshes of the caller's are left to method/chart_create.c, which
+ * chooses foliation for them. */
 static void complete(icc_chart_options chart_options[2], const icc_domain *const domains[2],
                      int32_t kind)
 {
@@ -218,7 +226,7 @@ static void complete(icc_chart_options chart_options[2], const icc_domain *const
     }
 }
 
-/* What the options ask for must be there for these domains. */
+/* Returns an error if these domains cannot have what the options ask for. */
 static icc_status check_request(const icc_domain *source, const icc_map_options *options,
                                 const icc_chart_options chart_options[2], icc_error *err)
 {
@@ -258,8 +266,8 @@ static icc_status create_without_features(icc_map **out, const icc_domain *const
     return status;
 }
 
-/* Whether the domains are surfaces in space, one of them without a mesh, that are to have some:
- * unless a grid is asked for. */
+/* Whether both domains are surfaces in space, at least one of them has no mesh, and the options ask
+ * for no method on a grid. Then both are filled with tetrahedra first. */
 static bool are_to_be_filled(const icc_domain *const domains[2],
                              const icc_chart_options chart_options[2])
 {
@@ -368,9 +376,10 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
 /* Stands for no vertex. */
 static const size_t NO_VERTEX = SIZE_MAX;
 
-/* Makes a new map where the old one cannot go. Boundaries that correspond have one map, up to how
- * low its distortion is, so a new one will do. The map keeps the new mesh alone, and in space the
- * target that was filled for it. `vertex`: where the way was blocked, or NO_VERTEX. */
+/* Makes a map from the domains alone after retarget() was blocked. Maps with features do not come
+ * here, so there is no isotopy class to keep. The map takes the state of the new map without its
+ * charts, and in space the target that was filled for it. `vertex`: where the way was blocked, or
+ * NO_VERTEX. */
 static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, const iccp_env *env,
                              icc_error *err)
 {

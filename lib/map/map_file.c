@@ -1,3 +1,5 @@
+/* Saves and reads maps: the domains, the charts, how the map was made, and the state of its kind. A
+ * map that was read must pass its certificate again. */
 #include "map/map_file.h"
 
 #include "base/blob.h"
@@ -7,10 +9,10 @@
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";
-/* With features, and without. */
+/* Versions of the format: 2 for maps with features, 1 for maps without. */
 static const uint32_t VERSION = 2, PLAIN_VERSION = 1;
 
-/* Each version has domains of its own kind, so that a map is saved in one way only. */
+/* Version 2 requires features, and version 1 has none. So a map is saved in one way only. */
 static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env *env)
 {
     if (b->version == PLAIN_VERSION)
@@ -23,7 +25,7 @@ static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env
     return ICC_ERR_FORMAT;
 }
 
-/* The domains, which the map then keeps. */
+/* Reads or writes the domains. When it reads, it begins the map with them. */
 static icc_status visit_domains(iccp_blob *b, icc_map **map, const iccp_env *env)
 {
     icc_domain *source = b->reads ? NULL : (*map)->source_domain;
@@ -71,7 +73,7 @@ static icc_status visit_charts(iccp_blob *b, icc_map *map, int32_t kind, const i
     return ICC_OK;
 }
 
-/* How the map was made; nothing depends on it. */
+/* Reads or writes how the map was made, which is only information. */
 static icc_status visit_story(iccp_blob *b, icc_map_info *info)
 {
     iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &info->n_levels);
@@ -97,7 +99,7 @@ static icc_status visit_state(iccp_blob *b, icc_map *map, int32_t number, const 
     return kind->visit != NULL ? kind->visit(b, map, env) : ICC_OK;
 }
 
-/* A map that is written is a copy of the caller's. */
+/* Reads or writes a map. When it writes, *map is a shallow copy of the caller's map. */
 static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_error *err)
 {
     int32_t kind = b->reads ? 0 : (*map)->info.kind;

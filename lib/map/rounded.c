@@ -1,7 +1,9 @@
-/* The certificate of a mesh map is about local coordinates. The caller's coordinates are these
- * scaled by a power of two, which is exact except near the smallest doubles, and shifted, which
- * rounds. The way back to local coordinates does not round (geometry/frame.h), so exact signs there
- * tell whether a rounded simplex is positive. */
+/* Counts the simplices that rounding to the caller's coordinates spoils.
+ *
+ * The certificate of a mesh map is about local coordinates. The caller's coordinates are these
+ * scaled by a power of two and shifted. Scaling is exact except near the smallest doubles, and
+ * shifting rounds. The way back to local coordinates does not round (geometry/frame.h), so exact
+ * signs there tell whether a rounded simplex is positive. */
 #include "map/rounded.h"
 
 #include "math/orient.h"

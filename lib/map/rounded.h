@@ -1,4 +1,4 @@
-/* The effect of rounding to the caller's coordinates on the mesh of a map. */
+/* Tells how much rounding to the caller's coordinates harms the mesh of a map. */
 #ifndef ICCP_ROUNDED_H
 #define ICCP_ROUNDED_H
 
