@@ -67,7 +67,7 @@ bool iccp_chart_is_shelling(const icc_chart *chart)
     return chart->ops->number == ICC_METHOD_FOLIATION && chart->ops->needs_mesh;
 }
 
-/* Locates a point. The maximum has priority over the boundary: it may lie in a corridor so
+/* Locates a point. The maximum has priority over the boundary. It may lie in a corridor so
  * narrow that all of it counts as boundary, and must still be found. */
 static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                       iccp_coords *coords)

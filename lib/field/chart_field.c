@@ -148,8 +148,8 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
 static const double VECTOR_WORK = 20;
 
 /* Makes the vectors from the function in three steps. It finds the simplices that meet the
- * domain, extends the values to all their vertices, and chooses at each vertex a vector along
- * which these values rise. */
+ * domain. It extends the values to all their vertices. Then it chooses at each vertex a vector
+ * along which these values rise. */
 static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const iccp_env *env,
                                icc_error *err)
 {

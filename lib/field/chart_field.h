@@ -19,6 +19,7 @@
  *
  * Ways: incidence.h finds the simplices, extension.h the values, vectors.h the vectors. flow.h
  * follows one curve, flow_follow.h many. field_encode.c and field_decode.c compute the coordinates.
+ * field_certificate.h certifies the chart.
  *
  * Begin with vectors.h and flow.h. */
 #ifndef ICCP_CHART_FIELD_H
@@ -36,8 +37,7 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const iccp_env *env, icc_error *err);
 
 /* Returns true if another grid may get the certificate. Then only vertices that were given up,
- * or a few contacts that are not inward, stand in the way, and these depend on where the grid
- * lies. */
+ * or a few contacts that are not inward, stand in the way. Both depend on where the grid lies. */
 bool iccp_chart_field_is_unlucky(const icc_chart *chart);
 
 /* Makes the chart again with one cell more, so that the grid lies elsewhere. If the caller left

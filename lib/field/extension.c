@@ -22,8 +22,8 @@ static void mark_simplex(iccp_extension *s, const iccp_orders *orders, uint32_t 
     }
 }
 
-/* Marks the corners of simplices with an inside vertex, which are the vertices joined to one,
- * and the corners of simplices that a facet runs through. */
+/* Marks the corners of simplices with an inside vertex, which are the vertices joined to one.
+ * Marks also the corners of simplices that a facet runs through. */
 static void mark_needed(iccp_extension *s, const iccp_orders *orders,
                         const iccp_incidence *incidence)
 {
@@ -150,8 +150,8 @@ typedef struct sweep {
 } sweep;
 
 /* New value of an inside vertex. Its outside neighbours count at most as much as the vertex
- * itself, because they may belong to a part of the domain across a gap, where the function is
- * larger by any factor. */
+ * itself. They may belong to a part of the domain across a gap, where the function is larger by
+ * any factor. */
 static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
 {
     const icc_grid *grid = s->grid;
@@ -165,8 +165,8 @@ static double mean_inside(const iccp_extension *s, size_t v, int32_t exponent)
     return 0.5 * (own + sum / (2.0 * grid->dim));
 }
 
-/* New value of an outside vertex: at most half the value of any inside vertex joined to it,
- * because the function across a gap may be larger by any factor. */
+/* New value of an outside vertex: at most half the value of any inside vertex joined to it. The
+ * function across a gap may be larger by any factor. */
 static double mean_outside(const sweep *w, size_t v, int32_t exponent)
 {
     const iccp_extension *s = w->from;

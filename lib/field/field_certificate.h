@@ -1,4 +1,4 @@
-/* The certificate of a chart of method field. */
+/* The certificate of a chart of method field. Source: docs/theory.md, "fields on grids". */
 #ifndef ICCP_FIELD_CERTIFICATE_H
 #define ICCP_FIELD_CERTIFICATE_H
 

@@ -1,6 +1,6 @@
 /* Follows LANES curves side by side, each at its own place. A lane whose curve has ended takes the
  * next curve. If a lane's step did not finish its piece, that lane tries again while the others
- * continue.
+ * continue. Source: see flow_step.h.
  *
  * The file that includes this one defines LANES and TARGET, the processor for which the
  * arithmetic is compiled. */

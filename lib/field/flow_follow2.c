@@ -1,4 +1,4 @@
-/* Two curves side by side, with SSE 4.2. */
+/* Follows two curves side by side, with SSE 4.2. See flow_batch.h. */
 #include "field/flow_follow.h"
 
 #ifdef ICCP_HAS_SIMD

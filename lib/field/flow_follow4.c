@@ -1,4 +1,4 @@
-/* Four curves side by side, with AVX2. */
+/* Follows four curves side by side, with AVX2. See flow_batch.h. */
 #include "field/flow_follow.h"
 
 #ifdef ICCP_HAS_SIMD

@@ -1,6 +1,6 @@
-/* Derivatives of curves by where they start. The variational equation of x' = A x + b is y' = A
- * y, and the same power series solves it. When the curve moves, it meets an end plane sooner or
- * later, which changes the derivative of its end. */
+/* Derivatives of curves by their start. Source: the variational equation of x' = A x + b, which
+ * is y' = A y; the same power series solves it (flow_step.h). When the curve moves, it meets an
+ * end plane sooner or later, which changes the derivative of its end. */
 #include "field/flow_jet.h"
 
 #include "base/compiler.h"

@@ -204,8 +204,7 @@ TARGET static ICCP_INLINE void vector_at(const series *x, int32_t dim, const lan
 enum { N_RULES = 4, MOST_NODES = 5 };
 
 static const struct rule {
-    double most; /* the largest relative change of the vector along the piece that the rule allows
-                    */
+    double most; /* the largest relative change of the vector that the rule allows */
     double end, slope;
     int n;
     double node[MOST_NODES], weight[MOST_NODES];

@@ -87,8 +87,7 @@ typedef struct scan {
                                                 apart */
     bool second;                             /* second pass: all bits are known */
     uint32_t *seen;                          /* by vertex: 1 + the last facet noted there */
-    uint32_t *count;                         /* by vertex: number of facets noted in the second pass
-                                                */
+    uint32_t *count;                         /* by vertex: number of facets, in the second pass */
     uint32_t *noted;                         /* the vertices of one facet after the other */
     size_t n_noted, room;
     size_t *end;       /* by facet: where its vertices end in `noted` */

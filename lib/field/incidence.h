@@ -32,8 +32,8 @@ typedef struct iccp_incidence {
     uint32_t *bits;
     double *normal; /* dim numbers for each facet: its inward normal of length 1 */
     /* These are there until iccp_incidence_trim(): */
-    uint32_t *faces; /* by cell, with bits of iccp_incidence_face_bit(): a facet may meet that face
-                        */
+    uint32_t *faces; /* by cell: bits of the faces that a facet may meet; see
+                        iccp_incidence_face_bit() */
     uint32_t *first; /* n_vertices + 1: where the facets of each vertex begin in `facet` */
     uint32_t *facet; /* facets that run through simplices at each vertex, vertex by vertex */
 } iccp_incidence;

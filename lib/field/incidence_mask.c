@@ -1,7 +1,8 @@
-/* Incidence of masks, in whole numbers. A facet of a mask's boundary follows an order of all
- * axes but one, like the simplices of the grid, with a number of grid steps on each axis
- * (domain/mask_boundary.c). So each boundary vertex of the grid is examined once, instead of
- * each pair of a facet and a simplex. */
+/* Incidence of masks, in whole numbers. Source: docs/theory.md, "fields on grids", step 4.
+ *
+ * A facet of a mask's boundary follows an order of all axes but one, like the simplices of the
+ * grid. It takes a number of grid steps on each of these axes (domain/mask_boundary.c). So each
+ * boundary vertex of the grid is examined once, instead of each pair of a facet and a simplex. */
 #include "field/incidence_mask.h"
 
 #include "base/minmax.h"
@@ -37,9 +38,9 @@ static bool is_whole(double x)
     return fabs(x - round(x)) < ROUNDING;
 }
 
-/* Finds where the mask lies in the lattice. Returns false unless half a cell is a whole number
- * of grid steps, the mask's corner is a lattice point, and a layer of the grid lies beyond on
- * all sides. */
+/* Finds where the mask lies in the lattice. Half a cell must be a whole number of grid steps,
+ * and the mask's corner a lattice point. A layer of the grid must lie beyond the mask on all
+ * sides. Otherwise it returns false. */
 static bool find_layout(layout *l)
 {
     const icc_grid *grid = l->incidence->grid;

@@ -204,8 +204,8 @@ static bool holds_origin(const disc_state *state, uint32_t triangle)
     return true;
 }
 
-/* Emits the point of the domain that goes to a crossing: that of the line through the origin and
- * r with the image of the edge that a corner faces. */
+/* Emits the point of the domain whose image is a crossing. In the image, the line through the
+ * origin and r crosses the edge that a corner faces. */
 static icc_status emit_crossing(const disc_state *state, uint32_t corner, const double r[2],
                                 iccp_emit emit, void *argument)
 {

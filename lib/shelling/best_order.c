@@ -63,9 +63,9 @@ static double beta_of(size_t run)
     return BETA[run / 2];
 }
 
-/* Makes one order, reverses facets of it, and sends the flux along it. The greedy flux is enough
- * for the comparison: the order that it ranks first was within 10 % of the least energy after
- * 100 sweeps, too. The energy is HUGE_VAL if the order is not complete. */
+/* Makes one order, reverses facets of it, and sends the greedy flux along it. The greedy flux is
+ * enough to compare orders. The order that it ranked first was within 10 % of the least energy
+ * after 100 sweeps, too. The energy is HUGE_VAL if the order is not complete. */
 static icc_status try_order(const best_order_search *c, size_t run, const double *bias,
                             candidate *a, const iccp_env *env)
 {

@@ -164,8 +164,8 @@ uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point)
     return nearest;
 }
 
-/* Fills in the right side, with one number for each dimension: the weights to boundary vertices,
- * times the positions of these vertices in the second domain. */
+/* Fills in the right side, with one number for each dimension. Each weight to a boundary vertex
+ * is multiplied by that vertex's position in the second domain. */
 static void fill_right(const iccp_gram *g, const iccp_simplices *mesh, const icc_domain *to,
                        double *right)
 {

@@ -14,11 +14,10 @@ icc_status iccp_deepest_centre(const icc_domain *domain, const iccp_simplices *m
 uint32_t iccp_nearest_centre(const iccp_simplices *mesh, const double *point);
 
 /* Finds a pair of centres for two domains that correspond. A discretely harmonic map takes the
- * inside of the first mesh to the second domain. The first centre is the vertex with the
- * greatest depth, where the lesser of its depth and its image's counts, each relative to its
- * domain's size. The second centre is a vertex near the image, and a deep one rather than the
- * nearest. `given`, unless NULL, is the centre of the first domain. Both meshes must have inner
- * vertices. */
+ * inside of the first mesh to the second domain. The first centre is the deepest vertex, where
+ * the lesser of its own depth and its image's counts. Both depths are relative to their domains'
+ * sizes. The second centre is a vertex near the image, and a deep one rather than the nearest.
+ * `given`, unless NULL, is the centre of the first domain. Both meshes must have inner vertices. */
 icc_status iccp_paired_centres(const icc_domain *const domain[2],
                                const iccp_simplices *const mesh[2], const uint32_t *given,
                                uint32_t centre[2], const iccp_env *env);

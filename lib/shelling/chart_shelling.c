@@ -123,8 +123,8 @@ static void work_free(work *w, const iccp_memory *memory)
     iccp_free(memory, w->rank);
 }
 
-/* Makes ranks and fluxes from a mesh in three steps: the inflow through the boundary, the
- * harmonic flux with that inflow, and the order that reverses the least of it. */
+/* Makes ranks and fluxes from a mesh in three steps. They are the inflow through the boundary,
+ * the harmonic flux with that inflow, and the order that reverses the least of that flux. */
 static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
                              icc_shelling_info *info, const iccp_env *env, icc_error *err)
 {
@@ -162,8 +162,8 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
     return status;
 }
 
-/* Replaces the fluxes by directions: each side's share of the flux that enters the simplex, or,
- * with a negative sign, of the flux that leaves it. */
+/* Replaces the fluxes by directions. A side by which leaves enter gets its share of the entering
+ * flux. A side by which they leave gets minus its share of the leaving flux. */
 static void find_directions(const iccp_simplices *mesh, double *flux)
 {
     const size_t n = mesh->dim + 1;

@@ -15,7 +15,8 @@
 static const double LEAST_SHARE = 0.02;
 
 /* The least flux density that the fitted flux keeps at a facet, relative to the mean density in
- * its two simplices, if the greedy flux has at least twice as much there. */
+ * its two simplices. If the greedy flux has less than twice this density there, half of the
+ * greedy flux is kept. */
 static const double LEAST_DENSITY = 0.02;
 
 /* Over-relaxation of the sweeps. Below 2 no step raises the energy. */
@@ -92,9 +93,9 @@ void iccp_circulation_free(iccp_circulation *circulation)
     circulation->least = NULL;
 }
 
-/* Sends on what a simplex receives through its sides to smaller rank, in proportion to `wanted`,
- * but at least the share `least` of it through each. It only adds up flux, so the only errors
- * are those of rounding. */
+/* Sends on what a simplex receives through its sides to smaller rank, in proportion to `wanted`.
+ * Each of these sides gets at least the share `least`. The function only adds up flux, so the
+ * only errors are those of rounding. */
 static void send_on(const iccp_circulation *c, const uint32_t *rank, size_t simplex,
                     const double *wanted, double least, double *flux)
 {

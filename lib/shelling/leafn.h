@@ -1,4 +1,4 @@
-/* Leaves of a foliation that are straight in every simplex of a mesh: along a leaf, the barycentric
+/* Leaves of a foliation that are straight in every simplex of a mesh. Along a leaf, the barycentric
  * coordinates of a simplex change at constant rates. Source: docs/theory.md, "foliations of
  * simplices".
  *

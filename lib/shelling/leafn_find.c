@@ -1,6 +1,6 @@
-/* Finds the simplex of a point. Barycentric coordinates come from elimination with pivoting,
- * which is backward stable. So they reproduce the point up to rounding, however flat the simplex
- * is. */
+/* Finds the simplex of a point. Source: Gaussian elimination with pivoting, which is backward
+ * stable. So the barycentric coordinates reproduce the point up to rounding, however flat the
+ * simplex is. */
 #include "shelling/leafn.h"
 
 #include "base/minmax.h"

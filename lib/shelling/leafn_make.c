@@ -1,5 +1,6 @@
-/* Makes the records of leaves. Simplices are stored in the order of the leaves of their tree of
- * boxes. So simplices near in space are near in memory, and each takes one or two cache lines. */
+/* Makes the records that leafn.h describes. Simplices are stored in the order of the leaves of
+ * their tree of boxes. So simplices near in space are near in memory, and each takes one or two
+ * cache lines. */
 #include "shelling/leafn.h"
 
 #include "base/minmax.h"

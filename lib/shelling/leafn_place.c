@@ -1,4 +1,4 @@
-/* Converts places to points, facets and movements. */
+/* Converts the places of leafn.h to points, facets and movements. */
 #include "shelling/leafn.h"
 
 #include <string.h>

@@ -1,5 +1,6 @@
 /* The links of a mesh's faces of dimension dim - 2: the cycles of simplices round them. These
- * faces are the vertices of triangles or the edges of tetrahedra. */
+ * faces are the vertices of triangles or the edges of tetrahedra. circulation.h sends flux round
+ * the links. */
 #ifndef ICCP_LINKS_H
 #define ICCP_LINKS_H
 

@@ -32,8 +32,8 @@ typedef struct equations {
 /* A matrix of (dim + 1)^2 numbers: what a simplex adds for its facets. */
 typedef double element[(ICC_MAX_DIM + 1) * (ICC_MAX_DIM + 1)];
 
-/* Computes dim^2 times the stiffness matrix of linear functions. Reason: the function that is 1
- * in the middle of the facet opposite corner i and 0 in the middles of the others is 1 - dim *
+/* Computes dim^2 times the stiffness matrix of linear functions. A facet's function is 1 in the
+ * middle of the facet opposite corner i, and 0 in the middles of the others. So it is 1 - dim *
  * (barycentric coordinate i). */
 static void find_element(const iccp_simplices *mesh, size_t simplex, element a)
 {

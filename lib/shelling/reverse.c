@@ -1,11 +1,14 @@
 /* Improves an order by reversing facets. Source: docs/theory.md, "foliations of simplices",
  * hypotheses 2 and 3 of the theorem.
  *
- * Only two things about an order matter: through which sides leaves enter each simplex, and that at
- * each face inside leaves come to it in one simplex and go from it in one. The two simplices at a
- * facet alone decide whether leaves may cross it the other way. Each simplex must keep sides of
- * both kinds. At each face of the facet, two counts must stay: the simplices whose sides there are
- * all entered, and those whose sides there are all left.
+ * Only two things about an order matter. Leaves enter each simplex by some sides and leave it by
+ * others. At each face inside, leaves come to it in exactly one simplex and go from it in exactly
+ * one.
+ *
+ * So the two simplices at a facet decide whether leaves may cross it the other way. Each simplex
+ * must keep sides of both kinds. At each face of the facet, two counts must not change. One is the
+ * number of simplices whose sides there are all entered, the other the number whose sides there are
+ * all left.
  *
  * Leaves must not run in circles. If they do after a pass, its reversals on the circles are
  * undone. */
@@ -20,8 +23,7 @@ enum { MOST_PASSES = 20 };
 
 typedef struct reversal {
     const iccp_order_priority *priority;
-    uint8_t *entered; /* of each simplex: the sides by which leaves enter; bit i stands for side i
-                         */
+    uint8_t *entered; /* of each simplex: the sides by which leaves enter; bit i is side i */
     uint8_t *inner;   /* likewise: the sides to simplices outside the star */
     uint32_t *wrong;  /* sides that the flux crosses the wrong way and that may be tried */
     size_t n_wrong;
@@ -57,8 +59,8 @@ static void find_sides(reversal *t, const uint32_t *rank)
     }
 }
 
-/* Returns true if side i of a simplex has a neighbour that has not been taken out, and if leaves
- * pass to it (`by_leaving`) or come from it. */
+/* Returns true if side i of a simplex has a neighbour that has not been taken out. In addition,
+ * leaves must pass to it (`by_leaving`) or come from it. */
 static bool has_neighbour(const reversal *t, size_t s, size_t i, bool by_leaving)
 {
     const iccp_simplices *mesh = t->priority->mesh;

@@ -141,9 +141,9 @@ static void check_centre(const checker *c)
 
 /* ---- the order ---- */
 
-/* Fills in the sides by which leaves enter, to simplices of greater rank and the boundary, and
- * those by which they leave, to simplices of smaller rank. Returns true if a neighbour has the
- * same rank. */
+/* Fills in the sides by which leaves enter and leave a simplex. They enter from simplices of
+ * greater rank and the boundary, and leave to simplices of smaller rank. Returns true if a
+ * neighbour has the same rank. */
 static bool fill_sets(const checker *c, uint32_t s)
 {
     const iccp_simplices *mesh = c->mesh;

@@ -6,7 +6,9 @@
 
 #include "geometry/simplices.h"
 
-/* Counts of the checks. All must be 0. */
+/* Counts of the checks. All must be 0. For n_irregular, faces at the centre are not checked, and
+ * the star counts as one simplex. Exactly one simplex at a face must have all its sides there
+ * entered. Exactly one must have them all left, or none if the face lies on the boundary. */
 typedef struct iccp_shelling_certificate {
     size_t n_inverted;   /* simplices that are not positively oriented */
     size_t n_topology;   /* sides without a proper partner, and facets of the domain that do not
@@ -16,11 +18,7 @@ typedef struct iccp_shelling_certificate {
                             a side to greater rank or the boundary, or with a neighbour outside the
                             star of the same rank; simplices of the star whose rank is not 0, and
                             others whose rank is 0 */
-    size_t n_irregular;  /* faces of dimension 0 to dim - 2 with a wrong count; of the simplices
-                            round a face, exactly one must have all its sides at the face entered,
-                            where the star counts as one; exactly one must have them all left, or
-                            none if the face lies on the boundary; faces at the centre are not
-                            checked */
+    size_t n_irregular;  /* faces of dimension 0 to dim - 2 with a wrong count; see above */
     size_t n_directions; /* simplices outside the star whose direction does not enter and leave as
                             the order demands */
 } iccp_shelling_certificate;

@@ -68,8 +68,8 @@ static double step_of(const iccp_order_priority *priority, size_t simplex)
     return step;
 }
 
-/* The key of a simplex: its potential and a penalty. The penalty is the share of the simplex's
- * flux that would run from smaller to greater rank if it passed now, times a step of the
+/* The key of a simplex: its potential and a penalty. If the simplex passed now, a share of its
+ * flux would run from smaller to greater rank. The penalty is that share times a step of the
  * potential. */
 static double key_of(const front *f, size_t s)
 {

@@ -32,7 +32,7 @@ icc_status iccp_order_grow(const iccp_order_priority *priority, uint32_t *rank, 
                            const iccp_env *env);
 
 /* Works from the other end: takes simplices at the boundary away, one by one, so that a ball is
- * left each time, until only the star of the centre remains. */
+ * left each time. It ends when only the star of the centre remains. */
 icc_status iccp_order_peel(const iccp_order_priority *priority, uint32_t *rank, size_t *n_left,
                            const iccp_env *env);
 

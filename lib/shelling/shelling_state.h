@@ -18,8 +18,8 @@ extern const iccp_chart_ops iccp_shelling_ops;
 icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_simplices *own,
                                uint32_t centre, const iccp_env *env);
 
-/* Reads or writes the first part of the chart's bytes: how the order was found, which is only
- * information; the chart's own mesh or NULL; and the centre. */
+/* Reads or writes the first part of the chart's bytes: information on how the order was found,
+ * the chart's own mesh or NULL, and the centre. */
 icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp_simplices **own,
                                     uint64_t *centre, const icc_domain *domain);
 

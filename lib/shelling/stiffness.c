@@ -14,8 +14,8 @@
  * ends. */
 static const double LEAST_WEIGHT = 0.02;
 
-/* The data from which the matrix is made: for every vertex the sides opposite to it, and for
- * every simplex the gradients times the square root of its volume. */
+/* The data from which the matrix is made. For every vertex these are the sides opposite to it.
+ * For every simplex these are the gradients times the square root of its volume. */
 typedef struct assembly {
     const iccp_simplices *mesh;
     uint32_t *first; /* n_points + 1: where the sides of each point begin */

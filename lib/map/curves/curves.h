@@ -26,9 +26,9 @@
 icc_status iccp_curves_point(const icc_chart *from, const icc_chart *to, const double *point,
                              double *image, double *jacobian, iccp_path *path);
 
-/* Logarithms of the shares of the domains' measures near a point and near its image, for the
- * same piece of a facet and of the curve. Their difference tells how much the map shrinks there.
- * Both are 0 on the boundary and at the maximum. */
+/* Logarithms of the shares of the domains' measures near a point and near its image. Both are
+ * for the same piece of a facet and of the curve. Their difference tells how much the map
+ * shrinks there. Both are 0 on the boundary and at the maximum. */
 typedef struct iccp_shares {
     double from, to;
 } iccp_shares;

@@ -18,10 +18,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Relative to the diagonal of the bounding box: how far from its point an image may come back,
- * for points of a certified map and for samples. Rounding alone gives about 1e-13. The distance
- * grows tenfold within a small part of a domain's smallest width. So points among accepted
- * samples are still far from AWAY. */
+/* Allowed distance of a point from its image mapped back, relative to the diagonal of the
+ * bounding box. AWAY is for points of a certified map, SAMPLE_AWAY for samples. Rounding alone
+ * gives about 1e-13. The distance grows tenfold within a small part of a domain's smallest
+ * width. So points among accepted samples are still far from AWAY. */
 static const double AWAY = 1e-6, SAMPLE_AWAY = 1e-9;
 
 /* Ratios of the two volumes. Below SUSPECT a point is sent back. Below FLAT it counts as

@@ -55,9 +55,10 @@ typedef struct iccp_map_kind {
 
     /* `improve` makes the state of a better map, `retarget` that of a map to the domain
      * next->target_domain. `next` has its domains. If they are those of `map`, it also has the
-     * charts and the info of `map`. `retarget` leaves the state NULL, with ICC_OK, if it cannot
-     * reach the domain; see `create`. *vertex is then a vertex of the boundary where the way is
-     * blocked, if the kind knows one. */
+     * charts and the info of `map`.
+     * If `retarget` cannot reach the domain, it leaves the state NULL, with ICC_OK; see
+     * `create`. *vertex is then a vertex of the boundary where the way is blocked, if the kind
+     * knows one. */
     icc_status (*improve)(icc_map *next, const icc_map *map, const icc_improve_options *options,
                           icc_improve_report *report, const iccp_env *env, icc_error *err);
     icc_status (*retarget)(icc_map *next, const icc_map *map, int32_t iterations, size_t *vertex,
