@@ -18,7 +18,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Trees at most, and the steps that one costs for each triangle of its overlay. */
+/* TREES: trees that are tried at most. COST: steps that a tree costs for each triangle of its
+ * overlay. */
 enum { TREES = 30, COST = 1 };
 
 /* No other tree is tried after one with energy GOOD or less. One with energy FAIR is enough if its
@@ -33,7 +34,8 @@ static const double TOO_MANY = 3;
 /* Steps on both sides of a start that is GOOD. */
 static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
 
-/* Makes the map of one tree of cuts, not relaxed. ICC_ERR_CERTIFICATE if rounding spoils it. */
+/* Makes the map of one tree of cuts, without relaxing it. Returns ICC_ERR_CERTIFICATE if rounding
+ * spoils it. */
 static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, const iccp_cuts *cuts,
                              const iccp_env *env)
 {
@@ -64,7 +66,7 @@ static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, con
     return status;
 }
 
-/* Whether a failure is final. After others, another tree may do. */
+/* Whether a failure is final: no memory, or cancelled. After others, another tree may succeed. */
 static bool is_lost(icc_status status)
 {
     return status == ICC_ERR_MEMORY || status == ICC_ERR_CANCELLED;
@@ -78,7 +80,7 @@ static icc_status thin_out(iccp_plmap *map, const iccp_env *env)
     return status == ICC_OK ? iccp_coarsen(map, ICCP_RISE, &n_gone, env) : status;
 }
 
-/* The energy; infinite if doubles find no area in a triangle. */
+/* Returns the energy, or HUGE_VAL if a triangle has no area in doubles, or no finite energy. */
 static double energy_of(const iccp_plmap *map)
 {
     const uint32_t *v = map->corners.vertex;
@@ -88,8 +90,8 @@ static double energy_of(const iccp_plmap *map)
     return iccp_plmap_energy(map);
 }
 
-/* A start and its energy, HUGE_VAL where there is none. `least`: the fewest triangles of all
- * overlays so far. */
+/* Tries one tree: makes the start and its energy. The energy is HUGE_VAL if there is no start, or
+ * if its overlay is too large. *least: the fewest triangles of all overlays so far. */
 static icc_status try_tree(iccp_plmap *map, double *energy, size_t *least, iccp_cuts *cuts,
                            const iccp_domain_pair *scene, iccp_cutter *cutter, uint64_t tree,
                            iccp_work *work, const iccp_env *env)
@@ -117,7 +119,7 @@ static double detour_of(const iccp_cuts *cuts, int side)
     return cuts->straight[side] > 0 ? cuts->length[side] / cuts->straight[side] : 1;
 }
 
-/* Finds the best start of several trees: as many as there is work for, until one is GOOD. */
+/* Finds the best start of several trees. Ends when one is good enough, or no work is left. */
 static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cutter *cutter,
                          iccp_work *work, iccp_feature_report *report, const iccp_env *env)
 {
@@ -154,7 +156,7 @@ static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cu
     return best < HUGE_VAL ? ICC_OK : ICC_ERR_RESOLUTION;
 }
 
-/* The start that ties lead to. */
+/* Makes the start that has the class of the caller's ties. */
 static icc_status start_from_ties(iccp_plmap *map, const iccp_domain_pair *scene,
                                   const icc_map_options *options, iccp_feature_report *report,
                                   const iccp_env *env, icc_error *err)
@@ -170,7 +172,8 @@ static icc_status start_from_ties(iccp_plmap *map, const iccp_domain_pair *scene
     return is_lost(status) || status == ICC_OK ? status : ICC_ERR_RESOLUTION;
 }
 
-/* From a GOOD start the images will find the rest of the way alone. */
+/* Relaxes a start. A GOOD one needs only flips and a few steps on both sides. Another one is
+ * relaxed as an overlay is, which merges vertices, too. */
 static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     size_t n_flips;

@@ -8,25 +8,25 @@
 
 /* What is known of a start. The caller frees it in any case. */
 typedef struct iccp_feature_report {
-    size_t n_trees;         /* of cuts that led to a start */
-    iccp_cuts cuts;         /* those that it was made with */
-    iccp_domain_pair scene; /* of both domains */
+    size_t n_trees;         /* trees of cuts that led to a start */
+    iccp_cuts cuts;         /* the cuts of the start */
+    iccp_domain_pair scene; /* the two domains */
 } iccp_feature_report;
 
-/* A map that takes every feature of one domain to the same of the other, vertex by vertex, and is
- * one-to-one, exactly. With ties, their images can be moved to what they say without crossing a
- * feature; else it is the fairest of those that several trees of cuts lead to, before improvement.
- * `trees`, `relaxing`: what finding trees and making the start fair may take.
+/* Makes a map that is exactly one-to-one and takes each feature of one domain to the feature of the
+ * same number in the other, vertex by vertex. With ties, the map has the isotopy class that they
+ * describe. Without ties, several trees of cuts are tried, and the map of least energy is taken.
+ * `trees` and `relaxing` limit the work of trying trees and of relaxing the start.
  *
- * ICC_ERR_RESOLUTION when rounding is in the way of all trees; for ties as iccp_ties_read(). */
+ * Returns ICC_ERR_RESOLUTION if rounding spoils the start of every tree, and the errors of
+ * iccp_ties_read() for ties. */
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                               const icc_map_options *options, iccp_work *trees, iccp_work *relaxing,
                               iccp_feature_report *report, const iccp_env *env, icc_error *err);
 
 void iccp_feature_report_free(iccp_feature_report *report);
 
-/* The start that cuts lead to, which the caller has. ICC_ERR_RESOLUTION when rounding is in the
- * way. */
+/* Makes the start of the given cuts. Returns ICC_ERR_RESOLUTION if rounding spoils it. */
 icc_status iccp_feature_start_from(iccp_plmap *map, const icc_domain *source,
                                    const icc_domain *target, const iccp_cuts *cuts,
                                    iccp_work *relaxing, const iccp_env *env);

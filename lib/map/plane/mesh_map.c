@@ -82,7 +82,8 @@ void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const 
     iccp_finder_find_many(finder_of(map, inverse), n, points, images_of(map, inverse), found);
 }
 
-/* Its own coordinate may be rounded. Most points are settled before the memory is asked. */
+/* A point is a vertex if the other two weights are 0; its own weight may be rounded. The weights
+ * are tested first, because that needs no memory access. */
 bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex)
 {
     const uint32_t *v = map->pl.corners.vertex + 3 * (size_t)found->triangle;

@@ -36,32 +36,35 @@ typedef struct iccp_mesh_map {
     double work;           /* spent on making it: see map/energy/work.h */
 } iccp_mesh_map;
 
-/* All but `reach` is still to be filled in; NULL without memory. */
+/* Allocates a map and sets `reach`. The rest is 0. Returns NULL without memory. */
 iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *target,
                                  const iccp_memory *memory);
 
-/* The rest of a map whose `pl` is there: prepares what finds points, and fills in the members of
- * `info` about the mesh's size. */
+/* Completes a map that has its `pl`: prepares the finders of points, and fills in the members of
+ * `info` about the size of the mesh. */
 icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env);
 
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 
-/* One local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. ICC_ERR_TRACE when
- * no triangle holds the point, which can only be within rounding of the boundary; ICC_ERR_MEMORY
- * when nothing of the kind has been asked before, and what that takes cannot be allocated. */
+/* Maps one local point, forward or back. `jacobian`: 4 numbers row by row, or NULL. Returns
+ * ICC_ERR_TRACE if no triangle holds the point; an inside point is then within rounding of the
+ * boundary. Returns ICC_ERR_MEMORY if this is the first call and the finder cannot be made. */
 icc_status iccp_mesh_map_point(const iccp_mesh_map *map, bool inverse, const double *point,
                                double *image, double *jacobian);
 
-/* Makes what points forward or back need; and for at most ICCP_FINDER_MANY of them, 2 local
- * coordinates each, the triangles that hold them, and the image of one that was found. */
+/* Makes the finder of points, forward or back. Call it before the next two functions. */
 icc_status iccp_mesh_map_ready(const iccp_mesh_map *map, bool inverse);
+
+/* Finds the triangles of at most ICCP_FINDER_MANY local points. */
 void iccp_mesh_map_find(const iccp_mesh_map *map, bool inverse, size_t n, const double *points,
                         iccp_found *found);
+
+/* Maps a point that was found. */
 void iccp_mesh_map_image(const iccp_mesh_map *map, bool inverse, const iccp_found *found,
                          double *image, double *jacobian);
 
-/* Whether what was found is a vertex of the mesh on a line or point inside, whose image is that of
- * the vertex bit for bit. */
+/* Whether a point that was found is a vertex of the mesh on a line or point inside. Its image is
+ * then exactly the image of the vertex. */
 bool iccp_mesh_map_is_given(const iccp_mesh_map *map, const iccp_found *found, uint32_t *vertex);
 
 #endif

@@ -1,10 +1,12 @@
+/* Applies a mesh map in the plane to points: asks the mesh, and near the boundary the domain. */
 #include "map/plane/plane_apply.h"
 
 #include "map/kind/caller_point.h"
 
 #include <assert.h>
 
-/* Given vertices go to theirs, be they as near as that. */
+/* Whether a point is a vertex of the mesh on a line or point inside. It goes to that vertex's
+ * image, however near the boundary is. */
 static bool is_given(const icc_map *map, const iccp_found *found)
 {
     uint32_t vertex;
@@ -12,11 +14,13 @@ static bool is_given(const icc_map *map, const iccp_found *found)
            iccp_mesh_map_is_given(map->state, found, &vertex);
 }
 
-/* Where a triangle holds a point and the boundary is not near, the point is inside, and where none
- * does it is outside, as the domain would say: it counts as on the boundary only within the reach
- * of the band, and the mesh's own boundary follows the domain's to within 1.5 times that, so that
- * neither lies between the other and a point farther than 4 times the reach from the mesh's. Near
- * it, the domain is asked. */
+/* Maps a point that was looked up in the mesh.
+ *
+ * Far from the mesh's boundary, the triangles decide: a point is inside if a triangle holds it, and
+ * outside otherwise. The domain would say the same. It counts points as on its boundary only within
+ * the reach of the band, and the mesh's boundary is at most 1.5 times the reach away from it. So
+ * the two agree farther than 4 times the reach from the mesh's boundary. Nearer, the domain
+ * decides. */
 static icc_status map_point(const icc_map *map, bool inverse, const double *point,
                             const double *local, const iccp_found *found, double *image,
                             double *jacobian)

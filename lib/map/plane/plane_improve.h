@@ -1,4 +1,4 @@
-/* Improving a mesh map in the plane. */
+/* Improves a mesh map in the plane. */
 #ifndef ICCP_PLANE_IMPROVE_H
 #define ICCP_PLANE_IMPROVE_H
 
@@ -11,7 +11,7 @@ icc_status iccp_plane_improve(iccp_plmap *pl, const icc_improve_options *options
                               const iccp_schedule *how, iccp_work *work, bool *cancelled,
                               iccp_improvement *improvement, const iccp_env *env);
 
-/* Improves map->pl, which is one-to-one, and makes what points need. */
+/* Improves map->pl, which is one-to-one, and then calls iccp_mesh_map_finish(). */
 icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *options,
                                const iccp_schedule *how, iccp_work *work, icc_map_info *info,
                                const iccp_env *env);

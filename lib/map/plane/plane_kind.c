@@ -1,3 +1,4 @@
+/* The operations of mesh maps in the plane, gathered in one table. */
 #include "map/plane/plane_kind.h"
 
 #include "domain/features.h"
@@ -18,8 +19,8 @@ static bool takes(const icc_chart *source)
     return source->mesh != NULL;
 }
 
-/* Between domains with features: the isotopy, and what the info says of features, but for
- * class_kept. */
+/* Finds the isotopy of a map with features, and fills in the members of its info about features,
+ * except for class_kept. */
 static icc_status describe(icc_map *map, const iccp_env *env)
 {
     const iccp_features *features = map->source_domain->features;
@@ -62,8 +63,8 @@ static iccp_simplicial_map mesh(const icc_map *map)
     return iccp_plmap_simplicial(&plane->pl);
 }
 
-/* Points are found by what is made when it is first needed, so the isotopy alone depends on the
- * images. */
+/* Makes the isotopy again. Nothing else depends on the images, because the finders of points are
+ * made when they are first needed. */
 static icc_status renew(icc_map *map, bool *kept, const iccp_env *env)
 {
     iccp_mesh_map *plane = map->state;

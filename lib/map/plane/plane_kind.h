@@ -6,7 +6,7 @@
 
 extern const iccp_map_kind iccp_plane_kind;
 
-/* The mesh map that a map is, or NULL if it is of another kind. */
+/* Returns the mesh map of a map, or NULL if the map is of another kind. */
 static inline iccp_mesh_map *iccp_plane_of(const icc_map *map)
 {
     return map->kind == &iccp_plane_kind ? map->state : NULL;

@@ -1,4 +1,4 @@
-/* Moving a mesh map in the plane to a target that has moved. */
+/* Moves a mesh map in the plane to a target that has moved. */
 #ifndef ICCP_PLANE_RETARGET_H
 #define ICCP_PLANE_RETARGET_H
 

@@ -71,14 +71,15 @@ static icc_status find_images(void *argument, size_t begin, size_t end)
     return status;
 }
 
-/* Finding the images, and making Newton's plan of the mesh: side by side with threads. */
+/* Two jobs that run side by side if there are threads: finding the images, and making Newton's plan
+ * of the mesh. */
 typedef struct start_job {
     const icc_chart *source, *target;
     iccp_plmap *pl;
     iccp_newton_plan *plan;
 } start_job;
 
-/* Makes what finding images takes: a chart that is ready, and room. */
+/* Prepares for finding images: makes a chart ready, and allocates room. */
 static icc_status prepare(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     const start_job *job = argument;
@@ -116,8 +117,8 @@ static icc_status run_start(void *argument, size_t k, const iccp_env *env, icc_e
     return iccp_newton_plan_create(&job->plan, &map, env);
 }
 
-/* The map of the source chart's mesh that the two charts give, which may be inverted in places.
- * `plan`: Newton's plan of that mesh, if it can be made meanwhile; or NULL. */
+/* Maps the mesh of the source's chart by the two charts. The result may be inverted in places.
+ * *plan: Newton's plan of that mesh if it could be made meanwhile, or NULL. */
 static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart *source,
                         const icc_chart *target, bool is_improved, const iccp_env *env,
                         icc_error *err)
@@ -131,8 +132,9 @@ static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart
     return status;
 }
 
-/* Replaces the inverted parts of a start by overlays: patches around them, or the whole where that
- * costs less. ICC_ERR_RESOLUTION or ICC_ERR_CERTIFICATE when there is none in doubles. */
+/* Replaces the inverted parts of a start by overlays: patches around them, or the whole if that
+ * costs less. Returns ICC_ERR_RESOLUTION if the overlay would be too large, and ICC_ERR_CERTIFICATE
+ * if rounding spoils it. */
 static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_domain *target,
                           iccp_allowance *work, const iccp_env *env)
 {
@@ -200,8 +202,8 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
     return none ? ICC_OK : status;
 }
 
-/* Where the energy is high, features go far around one another. Then points have as far to go as
- * images, so both move, with half of the work. */
+/* Moves points as well as images if the energy is high, with half of the work. Then features go far
+ * around one another, and points have as far to go as images. */
 static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options, iccp_work *work,
                               const iccp_env *env)
 {

@@ -1,4 +1,4 @@
-/* Making a mesh map in the plane. */
+/* Makes a mesh map in the plane. */
 #ifndef ICCP_PLANE_START_H
 #define ICCP_PLANE_START_H
 
