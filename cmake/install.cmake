@@ -13,7 +13,7 @@ foreach(target IN ITEMS icc icc_static)
 endforeach()
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/icc DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
+  COMPONENT Development FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN "api.json")
 install(FILES ${PROJECT_SOURCE_DIR}/docs/man/libicc.3 DESTINATION ${CMAKE_INSTALL_MANDIR}/man3
   COMPONENT Development)
 

@@ -116,10 +116,10 @@ int main(int argc, char **argv)
             .size = sizeof chart, .method = ICC_METHOD_GRADIENT, .cells = row == 0 ? 50 : 100};
         const icc_map_options options = {.size = sizeof options, .chart = &chart};
         icc_map *map;
-        icc_map_info info = {.size = sizeof info};
+        icc_map_report report = ICC_INIT(icc_map_report);
         check(icc_map_create(&map, source, target, &options, NULL, &error), &error);
-        check(icc_map_get_info(map, &info), &error);
-        printf("  making the map with %3d cells %8.2f ms\n", chart.cells, 1e3 * info.seconds);
+        check(icc_map_get_report(map, &report), &error);
+        printf("  making the map with %3d cells %8.2f ms\n", chart.cells, 1e3 * report.seconds);
         draw_panel(svg, map, 0, row);
         draw_panel(svg, map, 1, row);
         icc_map_free(map);

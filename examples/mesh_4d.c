@@ -86,9 +86,13 @@ static icc_domain *make_domain(const mesh *m)
 {
     icc_domain *domain;
     icc_error err = {.size = sizeof err};
-    check(icc_domain_create_mesh(&domain, 4, N_VERTICES, m->vertices[0], N_SIMPLICES, m->corners[0],
-                                 0, NULL, NULL, &err),
-          &err);
+    const icc_mesh own = {.size = sizeof own,
+                          .dim = 4,
+                          .n_vertices = N_VERTICES,
+                          .vertices = (double *)m->vertices[0],
+                          .n_cells = N_SIMPLICES,
+                          .cells = (uint32_t *)m->corners[0]};
+    check(icc_domain_create_mesh(&domain, &own, 0, NULL, NULL, &err), &err);
     return domain;
 }
 

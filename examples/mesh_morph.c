@@ -176,13 +176,23 @@ static void tell(const char *what, const mesh *m, const double *vertices, const 
     putchar('\n');
 }
 
+/* As the library takes it. */
+static icc_mesh mesh_of(const mesh *m)
+{
+    return (icc_mesh){.size = sizeof(icc_mesh),
+                      .dim = 3,
+                      .n_vertices = m->n_vertices,
+                      .vertices = m->vertices,
+                      .n_cells = m->n,
+                      .cells = m->corners};
+}
+
 static icc_domain *make_domain(const mesh *m)
 {
     icc_domain *domain;
     icc_error err = {.size = sizeof err};
-    check(icc_domain_create_mesh(&domain, 3, m->n_vertices, m->vertices, m->n, m->corners, 0, NULL,
-                                 NULL, &err),
-          &err);
+    const icc_mesh own = mesh_of(m);
+    check(icc_domain_create_mesh(&domain, &own, 0, NULL, NULL, &err), &err);
     return domain;
 }
 
@@ -197,18 +207,15 @@ static void morph(const mesh *source, const mesh *target, double *images)
     icc_certificate certificate = {.size = sizeof certificate};
     icc_map_info info = {.size = sizeof info};
     const icc_map_options options = {.size = sizeof options, .kind = ICC_MAP_CURVES};
+    const icc_mesh own = mesh_of(source);
     icc_map *map;
     check(icc_map_create(&map, before, after, &options, &env, &err), &err);
     check(icc_map_get_info(map, &info), NULL);
     printf("the map is %scertified\n", info.certified ? "" : "not ");
     tell("before", source, source->vertices, NULL);
-    check(icc_map_certify(map, source->n_vertices, source->vertices, source->n, source->corners,
-                          images, &certificate, &env, &err),
-          &err);
+    check(icc_map_certify(map, &own, images, &certificate, &env, &err), &err);
     tell("mapped", source, images, &certificate);
-    check(icc_map_repair(map, source->n_vertices, source->vertices, source->n, source->corners,
-                         images, &certificate, &env, &err),
-          &err);
+    check(icc_map_repair(map, &own, images, &certificate, &env, &err), &err);
     tell("repaired", source, images, &certificate);
     icc_map_free(map);
     icc_domain_free(after);

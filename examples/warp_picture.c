@@ -82,12 +82,13 @@ static void print_time(const char *stage, double time)
 /* What the map is, and what making it took. */
 static void describe(const icc_map *map)
 {
-    icc_map_info info = {.size = sizeof info};
-    if (icc_map_get_info(map, &info) != ICC_OK)
+    icc_map_info info = ICC_INIT(icc_map_info);
+    icc_map_report report = ICC_INIT(icc_map_report);
+    if (icc_map_get_info(map, &info) != ICC_OK || icc_map_get_report(map, &report) != ICC_OK)
         return;
-    print_time("  of that, repairing it", info.seconds_repair);
-    print_time("  making it fair", info.seconds_improve);
-    print_time("  certifying it", info.seconds_certify);
+    print_time("  of that, repairing it", report.seconds_repair);
+    print_time("  making it fair", report.seconds_improve);
+    print_time("  certifying it", report.seconds_certify);
     printf("  the map has %zu triangles and is %s\n", info.n_simplices,
            info.certified ? "certified to be one-to-one" : "not certified");
 }

@@ -7,6 +7,7 @@
 #ifndef TESTS_DRAGGING_H
 #define TESTS_DRAGGING_H
 
+#include "flat_mesh.h"
 #include <icc/icc.h>
 
 #include <math.h>
@@ -75,7 +76,7 @@ static inline icc_status drag_domain(icc_domain **out, const drag *d, double ang
     icc_feature features[DRAG_MOST];
     for (int k = 0; k < d->n; ++k) {
         drag_place(d, k, angle, places[k]);
-        features[k] = (icc_feature){sizeof *features, ICC_FEATURE_POINT, 1, places[k], 0};
+        features[k] = (icc_feature){sizeof *features, ICC_FEATURE_POINT, 1, places[k], 0, 0, NULL};
     }
     return icc_domain_create_features(out, 4, SQUARE, (size_t)d->n, features, NULL, err);
 }
@@ -231,7 +232,7 @@ static inline void drag_words(const icc_map *map, const drag *d, double angle, d
     if (points == NULL || triangles == NULL || pieces == NULL)
         abort();
     double *images = points + 2 * info.n_vertices;
-    (void)icc_map_get_mesh(map, points, images, triangles);
+    (void)flat_get_mesh(map, points, images, triangles);
     for (int k = 0; k < d->n; ++k)
         drag_place(d, k, angle, places[k]);
     for (int path = 0; path < DRAG_PATHS; ++path) {

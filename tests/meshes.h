@@ -3,6 +3,7 @@
 #ifndef TESTS_MESHES_H
 #define TESTS_MESHES_H
 
+#include "flat_mesh.h"
 #include "obj.h"
 #include "random.h"
 
@@ -69,8 +70,8 @@ static inline test_mesh mesh_moved(const test_mesh *m,
 static inline icc_status mesh_domain(icc_domain **out, const test_mesh *m, const icc_env *env,
                                      icc_error *err)
 {
-    return icc_domain_create_mesh(out, m->dim, m->n_vertices, m->vertices, m->n_simplices,
-                                  m->simplices, m->n_facets, m->facets, env, err);
+    return flat_create_mesh(out, m->dim, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
+                            m->n_facets, m->facets, env, err);
 }
 
 /* ---- cubes ---- */

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Compares libicc-sys with the headers: sizes and offsets of structs, constants, signatures, and that nothing
-# is missing on either side.
+# Compares libicc-sys with include/icc/api.json: sizes and offsets of structs, constants, and that nothing is missing on
+# either side. The compiler compares its signatures with the headers.
 # usage: check_layout.sh PREFIX      where libicc is installed
 set -eu
 prefix=$(cd "$1" && pwd)
@@ -82,22 +82,27 @@ awk -F'|' '
     }
 ' "$work/items" >"$work/signatures.c"
 
-{
-    echo '#include <icc/icc.h>'
-    echo '#include <icc/stages.h>'
-    echo '#include <icc/kernel.h>'
-    echo '#include <stdio.h>'
-    echo 'int main(void) {'
-    awk '
-        $1 == "struct" { printf "printf(\"%s %%zu\\n\", sizeof(%s));\n", $2, $2 }
-        $1 == "field" {
-            printf "printf(\"%s.%s %%zu %%zu\\n\",", $2, $3
-            printf " offsetof(%s, %s), sizeof(((%s *)0)->%s));\n", $2, $3, $2, $3
-        }
-        $1 == "const" { printf "printf(\"%s %%ld\\n\", (long)%s);\n", $2, $2 }
-    ' "$work/items"
-    echo 'return 0; }'
-} >"$work/layout.c"
+# What api.json says of the same items, in the same order.
+python3 - "$prefix/include/icc/api.json" "$work/items" >"$work/api.txt" <<'END'
+import json
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    api = json.load(file)
+SIZES = {"double": 8, "int64_t": 8, "uint64_t": 8, "size_t": 8, "callback": 8, "char": 1, "uint8_t": 1}
+values = {name: value for enum in api["enums"].values() for name, value in enum["values"].items()}
+members = {(name, m["name"]): m for name, struct in api["structs"].items() for m in struct["members"]}
+for line in open(sys.argv[2], encoding="utf-8"):
+    kind, name, *rest = line.split()
+    if kind == "struct":
+        print(name, api["structs"][name]["size"]["lp64"])
+    elif kind == "const":
+        print(name, values[name])
+    elif kind == "field":
+        m = members[name, rest[0]]
+        size = 8 if "*" in m["type"] else SIZES.get(m["type"], 4)
+        print(f"{name}.{rest[0]} {m['offset']['lp64']} {size * m.get('length', 1)}")
+END
 
 {
     echo 'use libicc_sys::*;'
@@ -118,23 +123,23 @@ awk -F'|' '
 
 cc=${CC:-cc}
 $cc -std=c11 -Werror=incompatible-pointer-types -Werror=pointer-sign -fsyntax-only -I"$prefix/include" "$work/signatures.c"
-$cc -std=c11 -I"$prefix/include" -o "$work/layout_c" "$work/layout.c"
-"$work/layout_c" >"$work/c.txt"
 
 # The library itself is not linked: nothing of it is called.
 rustc=${RUSTC:-rustc}
 "$rustc" --edition 2021 --crate-type rlib --crate-name libicc_sys --out-dir "$work" "$source"
 "$rustc" --edition 2021 --extern libicc_sys="$work/liblibicc_sys.rlib" -o "$work/layout_rust" "$work/layout.rs"
 "$work/layout_rust" >"$work/rust.txt"
-diff "$work/c.txt" "$work/rust.txt"
+diff "$work/api.txt" "$work/rust.txt"
 
-# What the headers declare, and what Rust does.
-cat "$prefix"/include/icc/*.h >"$work/headers"
-{
-    grep -o 'ICC_API .*' "$work/headers" | grep -o 'icc_[a-z_0-9]* *(' | tr -d ' ('
-    grep -o '^typedef struct icc_[a-z_0-9]*' "$work/headers" | sed 's/.* //'
-    grep -o '^ *ICC_[A-Z_0-9]* = ' "$work/headers" | tr -d ' ='
-} | sort >"$work/declared"
+# What api.json lists, and what Rust does.
+python3 - "$prefix/include/icc/api.json" <<'END' | sort >"$work/declared"
+import json
+import sys
+
+with open(sys.argv[1], encoding="utf-8") as file:
+    api = json.load(file)
+print(*api["functions"], *api["structs"], *api["opaque"], *(n for e in api["enums"].values() for n in e["values"]), sep="\n")
+END
 {
     sed -n 's/^fn [^|]*|\([^|]*\)|.*/\1/p; s/^struct //p; s/^const //p' "$work/items"
     awk '/^opaque!\(/ { inside = 1 } inside && /^ *icc_/ { print $1; inside = 0 }' "$source"

@@ -59,8 +59,9 @@ enum {
      *  icc_field_info::n_infeasible, n_not_inward and n_stray count what is wrong.
      *
      *  Two certified charts do not suffice for a certified map: doubles must have enough digits for
-     *  it, too, see icc_map_info::n_lost and n_flat. Curves converge on their way, and points that
-     *  one chart tells apart may coincide in the other, as when a ball is mapped to a pancake. */
+     *  it, too, see icc_map_report::n_lost and n_flat. Curves converge on their way, and points
+     *  that one chart tells apart may coincide in the other, as when a ball is mapped to a pancake.
+     */
     ICC_METHOD_FIELD = 3,
     /** Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism
      *  under the same certificate; the curves are the preimages of radii. A slit as narrow as about

@@ -188,6 +188,18 @@ template <class T> std::size_t count(view<T> list, std::int64_t each)
     return list.size() / n;
 }
 
+/** A mesh that the library only reads. */
+inline icc_mesh mesh_of(std::int32_t dim, view<const double> vertices, view<const std::uint32_t> simplices)
+{
+    auto mesh = sized<icc_mesh>();
+    mesh.dim = dim;
+    mesh.n_vertices = count(vertices, dim);
+    mesh.vertices = const_cast<double *>(vertices.data());
+    mesh.n_cells = count(simplices, std::int64_t{dim} + 1);
+    mesh.cells = const_cast<std::uint32_t *>(simplices.data());
+    return mesh;
+}
+
 /** Throws icc::error unless a list that the caller provides has room for exactly so many. */
 template <class T> void expect(view<T> list, std::size_t n)
 {
@@ -304,9 +316,8 @@ public:
                             view<const std::uint32_t> facets = {}, const env &e = {})
     {
         return domain(e, [&](auto out, auto... rest) {
-            return icc_domain_create_mesh(out, dim, count(vertices, dim), vertices.data(),
-                                          count(simplices, std::int64_t{dim} + 1), simplices.data(),
-                                          count(facets, dim), facets.data(), rest...);
+            const icc_mesh mesh = mesh_of(dim, vertices, simplices);
+            return icc_domain_create_mesh(out, &mesh, count(facets, dim), facets.data(), rest...);
         });
     }
 
@@ -372,14 +383,14 @@ public:
     /** The vertices of the mesh of its inside, those of the boundary first, and its simplices. */
     std::pair<std::vector<double>, std::vector<std::uint32_t>> mesh() const
     {
-        const auto i = info();
-        const auto dim = static_cast<std::size_t>(i.dim);
+        auto own = sized<icc_mesh>();
+        call({}, [&](auto...) { return icc_domain_get_mesh(get(), &own); });
+        const auto dim = static_cast<std::size_t>(own.dim);
         std::pair<std::vector<double>, std::vector<std::uint32_t>> result(
-            std::vector<double>(i.n_mesh_vertices * dim),
-            std::vector<std::uint32_t>(i.n_mesh_simplices * (dim + 1)));
-        call({}, [&](auto...) {
-            return icc_domain_get_mesh(get(), result.first.data(), result.second.data());
-        });
+            std::vector<double>(own.n_vertices * dim), std::vector<std::uint32_t>(own.n_cells * (dim + 1)));
+        own.vertices = result.first.data();
+        own.cells = result.second.data();
+        call({}, [&](auto...) { return icc_domain_get_mesh(get(), &own); });
         return result;
     }
 
@@ -724,6 +735,7 @@ public:
 
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
+    icc_map_report report() const { return tell(icc_map_get_report); }  /**< how it was made */
     bool certified() const { return info().certified == 1; }            /**< else info() says why */
 
     /** Which way round one another features go: icc_map_get_tie(). None without features. */
@@ -759,24 +771,25 @@ public:
     }
 
     /** The map to a target that has moved: icc_map_retarget(). */
-    map retarget(const domain &target, std::int32_t iterations = 0, const env &e = {}) const
+    map retarget(const domain &target, const icc_retarget_options &options = sized<icc_retarget_options>(),
+                 const env &e = {}) const
     {
         return map(e, [&](auto out, auto... rest) {
-            return icc_map_retarget(out, get(), target.get(), iterations, rest...);
+            return icc_map_retarget(out, get(), target.get(), &options, rest...);
         });
     }
 
     /** A copy of the mesh of a map of kind mesh. */
     map_mesh mesh() const
     {
-        const auto about = info();
-        const auto width = static_cast<std::size_t>(about.dim);
-        map_mesh m{std::vector<double>(about.n_vertices * width),
-                   std::vector<double>(about.n_vertices * width),
-                   std::vector<std::uint32_t>(about.n_simplices * (width + 1))};
-        call({}, [&](auto...) {
-            return icc_map_get_mesh(get(), m.vertices.data(), m.images.data(), m.simplices.data());
-        });
+        auto own = sized<icc_mesh>();
+        call({}, [&](auto...) { return icc_map_get_mesh(get(), &own, nullptr); });
+        const auto width = static_cast<std::size_t>(own.dim);
+        map_mesh m{std::vector<double>(own.n_vertices * width), std::vector<double>(own.n_vertices * width),
+                   std::vector<std::uint32_t>(own.n_cells * (width + 1))};
+        own.vertices = m.vertices.data();
+        own.cells = m.simplices.data();
+        call({}, [&](auto...) { return icc_map_get_mesh(get(), &own, m.images.data()); });
         return m;
     }
 
@@ -910,11 +923,10 @@ private:
     carried_mesh carry_mesh(F f, view<const double> vertices, view<const std::uint32_t> simplices,
                             const env &e) const
     {
-        const std::int32_t dim = info().dim;
+        const icc_mesh mesh = mesh_of(info().dim, vertices, simplices);
         carried_mesh result{std::vector<double>(vertices.size()), sized<icc_certificate>()};
         call(e, [&](auto... rest) {
-            return f(get(), count(vertices, dim), vertices.data(), count(simplices, std::int64_t{dim} + 1),
-                     simplices.data(), result.images.data(), &result.certificate, rest...);
+            return f(get(), &mesh, result.images.data(), &result.certificate, rest...);
         });
         return result;
     }

@@ -123,6 +123,8 @@ typedef struct icc_feature {
     size_t n_vertices;      /**< hole: at least 3; line: at least 2; point: 1 */
     const double *vertices; /**< 2 n_vertices coordinates */
     double radius;          /**< of a point with a size: above 0; else 0 */
+    size_t n_facets;        /**< of a surface inside a domain in space; 0 as yet */
+    const uint32_t *facets; /**< 3 n_facets vertex indices; NULL as yet */
 } icc_feature;
 
 /**
@@ -196,6 +198,32 @@ ICC_API icc_status icc_domain_create_features(icc_domain **out, size_t n_outer, 
 ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const size_t *shape,
                                           const uint8_t *cells, const icc_env *env, icc_error *err);
 
+/** A mesh of triangles in 2-D, of tetrahedra in 3-D, of simplices beyond: a caller's, which is only
+ *  read, or room for one of the library's.
+ *
+ *  To be given a mesh, call icc_domain_get_mesh() or icc_map_get_mesh() twice: with `vertices` and
+ *  `cells` NULL for dim and the numbers, then with arrays of that size. Either may stay NULL. */
+typedef struct icc_mesh {
+    size_t size;       /**< set by the caller: `sizeof(icc_mesh)` */
+    int32_t dim;       /**< dimension */
+    size_t n_vertices; /**< vertices, fewer than 2^26; where a mesh is written, how many `vertices`
+                               has room for */
+    double *vertices;  /**< n_vertices * dim coordinates */
+    size_t n_cells;    /**< cells, fewer than 2^26; where a mesh is written, how many `cells` has
+                               room for */
+    uint32_t *cells;   /**< vertex indices of all cells, one cell after the other: n_cells * (dim +
+                               1). A cell may list its vertices in any order */
+    const size_t
+        *offsets; /**< NULL: every cell has dim + 1 vertices. Else n_cells + 1 numbers: where
+                               in `cells` each cell begins, and where the last one ends, as VTK has
+                               it */
+    const uint8_t
+        *types; /**< VTK's types of the n_cells cells, or NULL. Only simplices are supported
+                               as yet: 5 in 2-D, 10 in 3-D; others are ::ICC_ERR_UNSUPPORTED */
+    const int32_t *regions; /**< numbers of n_cells regions; NULL. Nothing reads them as yet: else
+                               ::ICC_ERR_UNSUPPORTED */
+} icc_mesh;
+
 /**
  * Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D,
  * simplices beyond. On such a domain ::ICC_METHOD_FOLIATION works in every dimension, with leaves
@@ -215,11 +243,7 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
  * are ignored.
  *
  * @param[out] out    the domain; owned by the caller
- * @param dim         2..::ICC_MAX_DIM
- * @param n_vertices  vertices of the mesh, fewer than 2^26
- * @param vertices    n_vertices * dim coordinates
- * @param n_simplices simplices, from 1 to fewer than 2^26
- * @param simplices   n_simplices * (dim + 1) vertex indices
+  * @param mesh        the mesh, of dimension 2..::ICC_MAX_DIM
  * @param n_facets    facets of the boundary; ignored when `facets` is NULL
  * @param facets      n_facets * dim vertex indices: the boundary of the mesh, in the caller's order
  *                    and all seen from the same side; or NULL
@@ -234,9 +258,7 @@ ICC_API icc_status icc_domain_create_mask(icc_domain **out, int32_t dim, const s
  *
  * Cost: O(n) time and memory on top of icc_domain_create(): 0.5 us a tetrahedron.
  */
-ICC_API icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
-                                          const double *vertices, size_t n_simplices,
-                                          const uint32_t *simplices, size_t n_facets,
+ICC_API icc_status icc_domain_create_mesh(icc_domain **out, const icc_mesh *mesh, size_t n_facets,
                                           const uint32_t *facets, const icc_env *env,
                                           icc_error *err);
 
@@ -326,15 +348,14 @@ ICC_API icc_status icc_domain_get_feature(const icc_domain *domain, size_t featu
 /**
  * Copies the mesh of the inside: icc_domain_create_mesh(), icc_domain_fill().
  *
- * @param domain         a domain with a mesh: icc_domain_info::n_mesh_vertices is not 0
- * @param[out] vertices  room for n_mesh_vertices * dim doubles, or NULL: those of the boundary, in
- *                       the order of icc_domain_get_boundary(), then those inside
- * @param[out] simplices room for n_mesh_simplices * (dim + 1) indices, or NULL; each has a positive
- *                       determinant
- * @return ::ICC_OK; ::ICC_ERR_ARGUMENT without a domain; ::ICC_ERR_UNSUPPORTED without a mesh
+ * @param domain       a domain with a mesh: icc_domain_info::n_mesh_vertices is not 0
+ * @param[in,out] mesh what it has room for is filled: the vertices of the boundary, in the order of
+ *                     icc_domain_get_boundary(), then those inside; and the cells, each with a
+ *                     positive determinant. Then its dimension and its numbers are set
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT without a domain or a mesh, or if it has too little room;
+ *         ::ICC_ERR_UNSUPPORTED if the domain has no mesh
  */
-ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices,
-                                       uint32_t *simplices);
+ICC_API icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh);
 
 /**
  * Copies the boundary as it was given: of a domain with features, the vertices of the outer ring
@@ -660,17 +681,15 @@ typedef struct icc_map_options {
                              mesh map is found, curves */
     int32_t iterations; /**< mesh: at most so many improvement steps on each level of
                            refinement; 0: as long as they pay off; -1: no improvement */
-    const struct icc_chart_options
-        *chart;                   /**< for both charts, or NULL; its `maximum` is the source's.
-                                         For kind mesh in 2-D method 0 means disc (foliation when a
-                                         maximum is given), and cells 0 means 20. In 3-D method 0
-                                         means foliation, but field for masks. */
+    /** For both charts, or NULL; its `maximum` is the source's. For kind mesh in 2-D method 0 means
+     *  disc (foliation when a maximum is given), and cells 0 means 20. In 3-D method 0 means
+     *  foliation, but field for masks. */
+    const struct icc_chart_options *chart;
     const double *target_maximum; /**< the target's maximum, or NULL: as the method chooses */
     size_t n_ties;                /**< with features: as many as there are features; or 0 */
     const icc_tie *ties;          /**< which way round one another the features go: paths that join
-                                         all of them and the outer ring to a tree, inside both
-                                         domains and without crossing; or NULL: as seems least
-                                         twisted */
+                                       all of them and the outer ring to a tree, inside both domains
+                                       and without crossing; or NULL: as seems least twisted */
 } icc_map_options;
 
 /** Why a chart or a map is not certified: the first of several reasons. The counts named here
@@ -681,35 +700,54 @@ enum {
     ICC_REASON_INFEASIBLE = 2, /**< field: icc_field_info::n_infeasible */
     ICC_REASON_NOT_INWARD = 3, /**< field: icc_field_info::n_not_inward */
     ICC_REASON_STRAY = 4,      /**< field: icc_field_info::n_stray */
-    ICC_REASON_LOST = 5,       /**< maps of method field: icc_map_info::n_lost */
-    ICC_REASON_FLAT = 6        /**< maps of method field: icc_map_info::n_flat */
+    ICC_REASON_LOST = 5,       /**< maps of method field: icc_map_report::n_lost */
+    ICC_REASON_FLAT = 6        /**< maps of method field: icc_map_report::n_flat */
 };
 
-/** What icc_map_get_info() reports. Members that do not apply to the kind are 0. */
+/** What icc_map_get_info() reports: what the map is. It is saved with the map. Members that do not
+ *  apply to the kind are 0. */
 typedef struct icc_map_info {
-    size_t size;            /**< set by the caller: `sizeof(icc_map_info)` */
-    int32_t dim;            /**< dimension */
-    int32_t kind;           /**< `ICC_MAP_*`: curves, even if mesh was requested, when the repair
-                                 failed */
-    int32_t certified;      /**< 1: proved to be one-to-one, exactly (field: in doubles, see
-                                 n_lost); 0: not, see `reason` */
-    int32_t n_levels;       /**< mesh: refinements */
-    size_t n_vertices;      /**< mesh: vertices */
-    size_t n_simplices;     /**< mesh: triangles; in 3-D tetrahedra, also in what follows */
-    size_t n_inverted;      /**< mesh: triangles that were not positive before the repair */
-    size_t n_unrepaired;    /**< triangles that the repair could not make positive, in 3-D the
-                                 fewest that a way of it has left; the map is then of kind
-                                 curves */
-    size_t n_iterations;    /**< mesh: steps of improvement */
-    double energy_start;    /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
-                                 scaled to the source's area or volume, after the repair; 4 for an
-                                 isometry, in 3-D 6 */
-    double energy;          /**< the same at the end */
-    double seconds;         /**< time to make the map, including the charts */
-    double seconds_repair;  /**< mesh: of that, time to repair it */
+    size_t size;         /**< set by the caller: `sizeof(icc_map_info)` */
+    int32_t dim;         /**< dimension */
+    int32_t kind;        /**< `ICC_MAP_*`: never 0 */
+    int32_t certified;   /**< 1: proved to be one-to-one, exactly (field: in doubles, see
+                              icc_map_report::n_lost); 0: not, see `reason` */
+    int32_t reason;      /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
+    int32_t reason_side; /**< 1: because the source's chart is not, 2: the target's; else 0 */
+    int32_t class_kept;  /**< with features, 1: the map can be moved, while it stays one-to-one, to
+                              what its ties, or the cuts chosen for it, said; and after
+                              icc_map_retarget() to what became of the map before while every vertex
+                              of the target went straight to its new place. 0: not so, or rounding
+                              or the way of the vertices leaves it open */
+    size_t n_vertices;   /**< mesh: vertices */
+    size_t n_simplices;  /**< mesh: triangles, or in 3-D tetrahedra */
+    double energy;       /**< mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
+                              scaled to the source's area or volume; 4 for an isometry, in 3-D 6 */
+    size_t n_holes;      /**< features inside: holes, */
+    size_t n_lines;      /**< lines */
+    size_t n_points;     /**< and points */
+    size_t n_ties;       /**< with features: as many ties, see icc_map_get_tie() */
+    double detour; /**< lengths of these in the target over those of the straight lines between
+                              their ends: what is much more than 1 is twisted */
+} icc_map_info;
+
+/** What icc_map_get_report() reports: how the map was made. Members that do not apply to the kind
+ *  are 0, and seconds are 0 where the map was loaded. */
+typedef struct icc_map_report {
+    size_t size;            /**< set by the caller: `sizeof(icc_map_report)` */
+    double seconds;         /**< time to make the map, including the charts; or to load it */
+    double seconds_repair;  /**< mesh: of that, time to make all simplices positive */
     double seconds_improve; /**< of that, time to improve it */
     double seconds_certify; /**< of that, time to certify it; kind curves of method field
                                  likewise */
+    double energy_start;    /**< mesh: icc_map_info::energy before the improvement */
+    size_t n_inverted;      /**< mesh: simplices that were not positive at first */
+    size_t n_unrepaired;    /**< kind curves although kind mesh was tried: simplices that stay
+                                 inverted, in 3-D by the best way */
+    size_t n_iterations;    /**< mesh: steps of improvement */
+    int32_t n_levels;       /**< mesh: refinements */
+    int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
+                                 map; 1 with ties */
     size_t n_samples;       /**< field: evenly spread points, half of them in the target, that were
                                  mapped there and back; 0 unless both charts are certified */
     size_t n_lost;          /**< field: of these, points that come back more than 1e-9 of the
@@ -717,26 +755,10 @@ typedef struct icc_map_info {
                                  that of the way back. None if certified */
     size_t n_flat;          /**< field: of these, points around which volume shrinks to less than
                                  1e-6 of its mean. At most 0.2 % if certified */
-    int32_t reason;         /**< `ICC_REASON_*`: why it is not certified; 0 if it is */
-    int32_t reason_side;    /**< 1: because the source's chart is not, 2: the target's; else 0 */
-    size_t n_holes;         /**< features inside: holes, */
-    size_t n_lines;         /**< lines */
-    size_t n_points;        /**< and points */
-    size_t n_ties;          /**< with features: as many ties, see icc_map_get_tie() */
-    double detour;          /**< lengths of these in the target over those of the straight lines
-                                 between their ends: what is much more than 1 is twisted */
-    int32_t class_kept;     /**< with features, 1: the map can be moved, while it stays one-to-one,
-                                 to what its ties, or the cuts chosen for it, said; and after
-                                 icc_map_retarget() to what became of the map before while every
-                                 vertex of the target went straight to its new place. Checked by
-                                 which edges of a triangulation the images of cuts cross; 0: not
-                                 so, or rounding or the way of the vertices leaves it open */
-    int32_t n_trees;        /**< with features: ways to cut them apart that were tried and led to a
-                                 map; 1 with ties */
     size_t n_spoilt;        /**< mesh: simplices that rounding makes flat or reversed, on either
                                  side, when icc_map_get_mesh() hands them out; 0 unless a shape is
                                  about 1e9 times as far from the origin as it is large */
-} icc_map_info;
+} icc_map_report;
 
 /**
  * Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
@@ -760,7 +782,8 @@ typedef struct icc_map_info {
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL; `side` is 1 for the source, 2 for the target
- * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY
+ * @return as icc_chart_create(), or ::ICC_ERR_BOUNDARY; ::ICC_ERR_CERTIFICATE also if the options
+ *         ask for kind mesh and no such map was found
  *
  * Cost of kind mesh: that of two charts, and a number of improvement steps that is limited in
  * proportion to the size of the boundary in 2-D, and by a number of passes over the tetrahedra in
@@ -837,6 +860,13 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
                                    const icc_improve_options *options, icc_improve_report *report,
                                    const icc_env *env, icc_error *err);
 
+/** Options of icc_map_retarget(). */
+typedef struct icc_retarget_options {
+    size_t size;        /**< set by the caller: `sizeof(icc_retarget_options)` */
+    int32_t iterations; /**< at most so many improvement steps; 0: what a frame has time for; -1:
+                             none */
+} icc_retarget_options;
+
 /**
  * Makes the map to a target that has moved. The source stays; the mesh and the images of its inner
  * vertices are taken from `map`, moved along, and improved by a few steps. For dragging a cage or a
@@ -862,29 +892,30 @@ ICC_API icc_status icc_map_improve(icc_map **out, const icc_map *map,
  * @param map        a map of kind mesh, else ::ICC_ERR_UNSUPPORTED. It stays as it is
  * @param target     the new target, which must correspond as icc_map_create() requires; in 3-D a
  *                   surface or a mesh, whose inside is used by a map that is made anew only
- * @param iterations at most so many improvement steps; 0: what a frame has time for; -1: none
+  * @param options    may be NULL
  * @param env        may be NULL
  * @param err        may be NULL
  * @return as icc_map_create(); ::ICC_ERR_CERTIFICATE when the target cannot be reached; in 3-D
  *         `err` then names a vertex of the surface where the way is blocked
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                                    int32_t iterations, const icc_env *env, icc_error *err);
+                                    const icc_retarget_options *options, const icc_env *env,
+                                    icc_error *err);
 
 /**
  * Copies the mesh of a map of kind mesh, in the caller's coordinates. They are rounded once, but
- * the certificate is about the unrounded numbers inside. icc_map_info::n_spoilt counts the
+ * the certificate is about the unrounded numbers inside. icc_map_report::n_spoilt counts the
  * simplices that rounding makes flat or reversed.
  *
- * @param map            the map
- * @param[out] vertices  room for icc_map_info::n_vertices * dim doubles, or NULL
- * @param[out] images    the same, or NULL
- * @param[out] simplices room for icc_map_info::n_simplices * (dim + 1) indices, or NULL. Triangles
- *                       are counter-clockwise, tetrahedra have positive determinants.
- * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not of kind mesh)
+ * @param map          the map
+ * @param[in,out] mesh what it has room for is filled, on the source: its vertices and its cells,
+ *                     triangles counter-clockwise, tetrahedra with positive determinants. Then its
+ *                     dimension and its numbers are set
+ * @param[out] images  room for icc_map_info::n_vertices * dim coordinates in the target, or NULL
+ * @return ::ICC_OK; ::ICC_ERR_ARGUMENT without a map or a mesh, or if it has too little room;
+ *         ::ICC_ERR_UNSUPPORTED (not of kind mesh)
  */
-ICC_API icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
-                                    uint32_t *simplices);
+ICC_API icc_status icc_map_get_mesh(const icc_map *map, icc_mesh *mesh, double *images);
 
 /** What icc_map_certify() found out about the image of a caller-supplied mesh. */
 typedef struct icc_certificate {
@@ -909,18 +940,14 @@ typedef struct icc_certificate {
  * one simplex or two, and no vertex or edge belongs to two parts of the boundary.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
- * @param n_vertices       vertices of the mesh, fewer than 2^26
- * @param vertices         n_vertices * dim coordinates in the source
- * @param n_simplices      simplices, fewer than 2^26
- * @param simplices        n_simplices * (dim + 1) vertex indices; each may be listed in any order
- * @param[out] images      n_vertices * dim coordinates, or NULL
+ * @param mesh             of the dimension of the map; its vertices are in the source
+ * @param[out] images      the images of its vertices: n_vertices * dim coordinates, or NULL
  * @param[out] certificate its `size` is set by the caller
  * @param env              may be NULL
  * @param err              may be NULL
  * @return ::ICC_OK once the check has run, whatever it found; ::ICC_ERR_ARGUMENT, ...
  */
-ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                                   size_t n_simplices, const uint32_t *simplices, double *images,
+ICC_API icc_status icc_map_certify(const icc_map *map, const icc_mesh *mesh, double *images,
                                    icc_certificate *certificate, const icc_env *env,
                                    icc_error *err);
 
@@ -935,11 +962,8 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  * certified itself, or if a vertex of its boundary has no image.
  *
  * @param map              a map in 2-D or 3-D, else ::ICC_ERR_UNSUPPORTED
- * @param n_vertices       vertices of the mesh, fewer than 2^26
- * @param vertices         n_vertices * dim coordinates in the source
- * @param n_simplices      simplices, fewer than 2^26
- * @param simplices        n_simplices * (dim + 1) vertex indices; each may be listed in any order
- * @param[out] images      n_vertices * dim coordinates
+ * @param mesh             of the dimension of the map; its vertices are in the source
+ * @param[out] images      the images of its vertices: n_vertices * dim coordinates
  * @param[out] certificate of the images returned; its `size` is set by the caller
  * @param env              may be NULL
  * @param err              may be NULL
@@ -948,16 +972,18 @@ ICC_API icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const 
  * Cost: proportional to the number of inverted simplices; at worst a limited number of passes over
  * the mesh. Deterministic: iterations are capped, and no clock is read.
  */
-ICC_API icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
-                                  size_t n_simplices, const uint32_t *simplices, double *images,
+ICC_API icc_status icc_map_repair(const icc_map *map, const icc_mesh *mesh, double *images,
                                   icc_certificate *certificate, const icc_env *env, icc_error *err);
 
 /** Frees a map. */
 ICC_API void icc_map_free(icc_map *map);
 
-/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. If the mesh's
- *  coordinates have to be rounded, counting n_spoilt takes a pass over the mesh. */
+/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_map_get_info(const icc_map *map, icc_map_info *info);
+
+/** The same for `report`. If the mesh's coordinates have to be rounded, counting n_spoilt takes a
+ *  pass over the mesh. */
+ICC_API icc_status icc_map_get_report(const icc_map *map, icc_map_report *report);
 
 /**
  * Source -> target. Returns ::ICC_OK even if every point failed: see `status` and `n_failed`. A

@@ -216,35 +216,41 @@ typedef struct icc_function_options {
 
 /** What icc_function_get_info() reports. Members that do not apply to the function are 0. */
 typedef struct icc_function_info {
-    size_t size;            /**< set by the caller: `sizeof(icc_function_info)` */
-    int32_t function;       /**< `ICC_FUNCTION_*` */
-    int32_t constrained;    /**< 1: the tree's inequalities were imposed */
-    int32_t solver;         /**< `ICC_SOLVER_*` */
-    size_t n_unknowns;      /**< vertices inside that the tree reaches, except the root */
-    size_t n_violated;      /**< tree edges where the function without constraints breaks the
-                                 inequality; where this function does, if it was not constrained */
-    size_t n_active;        /**< inequalities that hold with equality */
+    size_t size;         /**< set by the caller: `sizeof(icc_function_info)` */
+    int32_t function;    /**< `ICC_FUNCTION_*` */
+    int32_t constrained; /**< 1: the tree's inequalities were imposed */
+    int32_t solver;      /**< `ICC_SOLVER_*` */
+    int32_t beside;      /**< 1: `highest` is not the root, where curves should end. Only seen for
+                              bilaplace and clamped without inequalities; icc_chart_create() then
+                              moves the root */
+    size_t n_unknowns;   /**< vertices inside that the tree reaches, except the root */
+    size_t n_violated;   /**< tree edges where the function without constraints breaks the
+                              inequality; where this function does, if it was not constrained */
+    size_t n_active;     /**< inequalities that hold with equality */
+    double residual;     /**< KKT residual: the largest |min(slack, multiplier)| of an inequality,
+                              or |row of the equation| if there are none; f is 1 at the root */
+    double least_log;    /**< the smallest of icc_function_logs() inside; 0 if there are none */
+    double excess;       /**< by what share of its value at the root the function is greater at
+                              `highest`; 0 if that is the root */
+    uint32_t highest;    /**< the vertex inside with the greatest value */
+} icc_function_info;
+
+/** What icc_function_get_solver_report() reports: how the function was computed. Members that do
+ *  not apply are 0. */
+typedef struct icc_solver_report {
+    size_t size;            /**< set by the caller: `sizeof(icc_solver_report)` */
     size_t n_iterations;    /**< iterations of the active set or the interior point method; 0
                                  without constraints */
     size_t n_inner;         /**< iterations of conjugate gradients, in total */
     double work;            /**< multiplications of the largest factorisation */
-    double residual_before; /**< KKT residual before the final sweep from the root to the leaves:
-                                 the largest |min(slack, multiplier)| of an inequality, or |row of
-                                 the equation| if there are none; f is 1 at the root */
-    double residual;        /**< the same after the sweep: for the function that is returned */
-    double least_log;       /**< the smallest of icc_function_logs() inside; 0 if there are none */
+    double residual_before; /**< icc_function_info::residual before the final sweep from the root to
+                                 the leaves */
     double seconds_setup;   /**< time to number the unknowns and build the matrices */
     double seconds_order;   /**< time for orderings and symbolic factorisations */
     double seconds_factor;  /**< time for factorisations */
     double seconds_solve;   /**< time for triangular solves and conjugate gradients */
     double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
-    double excess;          /**< by what share of its value at the root the function is greater at
-                                 `highest`; 0 if that is the root */
-    uint32_t highest;       /**< the vertex inside with the greatest value */
-    int32_t beside;         /**< 1: `highest` is not the root, where curves should end. Only seen
-                                 for bilaplace and clamped without inequalities; icc_chart_create()
-                                 then moves the root */
-} icc_function_info;
+} icc_solver_report;
 
 /** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
 typedef struct icc_function_report {
@@ -335,6 +341,10 @@ ICC_API void icc_function_free(icc_function *function);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
+
+/** The same for `report`. */
+ICC_API icc_status icc_function_get_solver_report(const icc_function *function,
+                                                  icc_solver_report *report);
 
 /** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function
  *  of a gradient chart extends to some vertices outside.) Laplace and bilaplace decay exponentially

@@ -55,38 +55,24 @@ icc_status icc_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
         &full, err);
 }
 
-static icc_status check_simplices(size_t n_simplices, const uint32_t *simplices, icc_error *err)
-{
-    if (simplices == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "simplices is NULL");
-    if (n_simplices == 0 || n_simplices > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu simplices; there must be 1 to %zu",
-                         n_simplices, ICCP_MAX_COUNT);
-    return ICC_OK;
-}
-
-icc_status icc_domain_create_mesh(icc_domain **out, int32_t dim, size_t n_vertices,
-                                  const double *vertices, size_t n_simplices,
-                                  const uint32_t *simplices, size_t n_facets,
+icc_status icc_domain_create_mesh(icc_domain **out, const icc_mesh *mesh, size_t n_facets,
                                   const uint32_t *facets, const icc_env *env, icc_error *err)
 {
     ICCP_ENTER;
-    if (out == NULL)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "out is NULL");
-    *out = NULL;
-    if (dim < 2 || dim > ICC_MAX_DIM)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "dim is %ld; it must lie in 2..%d", (long)dim,
-                         ICC_MAX_DIM);
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL ? "out" : mesh == NULL ? "mesh" : NULL;
     iccp_env full;
-    icc_status status = iccp_env_read(&full, env, err);
+    icc_mesh m;
+    icc_status status = iccp_begin(&full, env, missing, err);
     if (status == ICC_OK)
-        status = check_counts(n_vertices, vertices, n_facets, facets, err);
+        status = iccp_read_mesh(&m, mesh, err);
     if (status == ICC_OK)
-        status = check_simplices(n_simplices, simplices, err);
+        status = check_counts(m.n_vertices, m.vertices, n_facets, facets, err);
     if (status != ICC_OK)
         return status;
-    return iccp_end_domain(iccp_domain_create_mesh(out, dim, n_vertices, vertices, n_simplices,
-                                                   simplices, n_facets, facets, &full, err),
+    return iccp_end_domain(iccp_domain_create_mesh(out, m.dim, m.n_vertices, m.vertices, m.n_cells,
+                                                   m.cells, n_facets, facets, &full, err),
                            out, &full, err);
 }
 
@@ -137,6 +123,9 @@ static icc_status check_feature(size_t f, const icc_feature *feature, icc_error 
                             "feature %zu: the radius is %g; it is at least 0 and finite, and 0 "
                             "but for points",
                             f, feature->radius);
+    if (feature->n_facets > 0 || feature->facets != NULL)
+        return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_FEATURE, (int64_t)f,
+                            "feature %zu has facets: surfaces inside are not supported as yet", f);
     return ICC_OK;
 }
 
@@ -253,23 +242,29 @@ icc_status icc_domain_get_boundary(const icc_domain *domain, double *vertices, u
     return ICC_OK;
 }
 
-icc_status icc_domain_get_mesh(const icc_domain *domain, double *vertices, uint32_t *simplices)
+icc_status icc_domain_get_mesh(const icc_domain *domain, icc_mesh *mesh)
 {
     ICCP_ENTER;
-    if (domain == NULL)
+    if (domain == NULL || mesh == NULL)
         return ICC_ERR_ARGUMENT;
     if (domain->mesh == NULL)
         return ICC_ERR_UNSUPPORTED;
-    const iccp_simplices *const mesh = domain->mesh;
-    const size_t dim = mesh->dim;
-    for (size_t v = 0; v < mesh->n_points && vertices != NULL; ++v)
-        if (v < mesh->n_boundary)
+    const iccp_simplices *const own = domain->mesh;
+    const size_t dim = own->dim;
+    double *vertices;
+    uint32_t *cells;
+    const icc_status status =
+        iccp_size_mesh(&vertices, &cells, mesh, domain->dim, own->n_points, own->n_simplices);
+    if (status != ICC_OK)
+        return status;
+    for (size_t v = 0; v < own->n_points && vertices != NULL; ++v)
+        if (v < own->n_boundary)
             iccp_domain_given(domain, v, vertices + dim * v);
         else
-            iccp_frame_restore(&domain->frame, domain->dim, mesh->points + dim * v,
+            iccp_frame_restore(&domain->frame, domain->dim, own->points + dim * v,
                                vertices + dim * v);
-    if (simplices != NULL)
-        memcpy(simplices, mesh->corners, mesh->n_simplices * (dim + 1) * sizeof *simplices);
+    if (cells != NULL)
+        memcpy(cells, own->corners, own->n_simplices * (dim + 1) * sizeof *cells);
     return ICC_OK;
 }
 

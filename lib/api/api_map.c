@@ -133,10 +133,46 @@ icc_status icc_map_get_info(const icc_map *map, icc_map_info *info)
     ICCP_ENTER;
     if (map == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    icc_map_info full = map->info;
-    if (info->size > offsetof(icc_map_info, n_spoilt))
-        full.n_spoilt = iccp_map_count_spoilt(map);
+    const iccp_map_facts *f = &map->info;
+    const icc_map_info full = {.dim = f->dim,
+                               .kind = f->kind,
+                               .certified = f->certified,
+                               .reason = f->reason,
+                               .reason_side = f->reason_side,
+                               .class_kept = f->class_kept,
+                               .n_vertices = f->n_vertices,
+                               .n_simplices = f->n_simplices,
+                               .energy = f->energy,
+                               .n_holes = f->n_holes,
+                               .n_lines = f->n_lines,
+                               .n_points = f->n_points,
+                               .n_ties = f->n_ties,
+                               .detour = f->detour};
     return iccp_write_struct(info, &full, sizeof full, "icc_map_info", NULL);
+}
+
+icc_status icc_map_get_report(const icc_map *map, icc_map_report *report)
+{
+    ICCP_ENTER;
+    if (map == NULL || report == NULL)
+        return ICC_ERR_ARGUMENT;
+    const iccp_map_facts *f = &map->info;
+    icc_map_report full = {.seconds = f->seconds,
+                           .seconds_repair = f->seconds_repair,
+                           .seconds_improve = f->seconds_improve,
+                           .seconds_certify = f->seconds_certify,
+                           .energy_start = f->energy_start,
+                           .n_inverted = f->n_inverted,
+                           .n_unrepaired = f->n_unrepaired,
+                           .n_iterations = f->n_iterations,
+                           .n_levels = f->n_levels,
+                           .n_trees = f->n_trees,
+                           .n_samples = f->n_samples,
+                           .n_lost = f->n_lost,
+                           .n_flat = f->n_flat};
+    if (report->size > offsetof(icc_map_report, n_spoilt))
+        full.n_spoilt = iccp_map_count_spoilt(map);
+    return iccp_write_struct(report, &full, sizeof full, "icc_map_report", NULL);
 }
 
 icc_status icc_map_get_tie(const icc_map *map, size_t tie, icc_tie_info *info, double *source,
@@ -252,79 +288,93 @@ icc_status icc_map_improve(icc_map **out, const icc_map *map, const icc_improve_
 }
 
 icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
-                            int32_t iterations, const icc_env *env, icc_error *err)
+                            const icc_retarget_options *options, const icc_env *env, icc_error *err)
 {
     ICCP_ENTER;
     if (out != NULL)
         *out = NULL;
     iccp_env full_env;
+    icc_retarget_options full;
     const char *missing = out == NULL      ? "out"
                           : map == NULL    ? "map"
                           : target == NULL ? "target"
                                            : NULL;
-    const icc_status status = iccp_begin(&full_env, env, missing, err);
-    if (status != ICC_OK)
-        return status;
-    if (iterations < -1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_retarget: iterations is %ld",
-                         (long)iterations);
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status == ICC_OK)
+        status = iccp_read_struct(&full, sizeof full, options, "icc_retarget_options", err);
+    if (status == ICC_OK && full.iterations < -1)
+        status = iccp_fail(err, ICC_ERR_ARGUMENT, "icc_retarget_options.iterations is %ld",
+                           (long)full.iterations);
     return status == ICC_OK
-               ? iccp_end_map(iccp_map_retarget(out, map, target, iterations, &full_env, err), out,
-                              &full_env, err)
+               ? iccp_end_map(iccp_map_retarget(out, map, target, full.iterations, &full_env, err),
+                              out, &full_env, err)
                : status;
 }
 
-icc_status icc_map_get_mesh(const icc_map *map, double *vertices, double *images,
-                            uint32_t *triangles)
+icc_status icc_map_get_mesh(const icc_map *map, icc_mesh *mesh, double *images)
 {
     ICCP_ENTER;
-    return map != NULL ? iccp_map_get_mesh(map, vertices, images, triangles) : ICC_ERR_ARGUMENT;
+    if (map == NULL || mesh == NULL)
+        return ICC_ERR_ARGUMENT;
+    double *vertices;
+    uint32_t *cells;
+    icc_status status = iccp_map_get_mesh(map, NULL, NULL, NULL); /* whether there is one */
+    if (status == ICC_OK)
+        status = iccp_size_mesh(&vertices, &cells, mesh, map->info.dim, map->info.n_vertices,
+                                map->info.n_simplices);
+    return status == ICC_OK ? iccp_map_get_mesh(map, vertices, images, cells) : status;
 }
 
-static icc_status check_mesh(const icc_map *map, size_t n_vertices, size_t n_simplices,
-                             const uint32_t *simplices, icc_error *err)
+/* Reads the caller's mesh for a map. */
+static icc_status read_mesh(icc_mesh *mesh, const icc_map *map, const icc_mesh *given,
+                            icc_error *err)
 {
     const size_t dim = (size_t)map->source_domain->dim;
     const char *name = dim == 2 ? "triangle" : "tetrahedron";
     if (dim != 2 && dim != 3)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
                          "dim is %zu; meshes are carried along in dimensions 2 and 3 only", dim);
-    if (n_vertices <= dim || n_simplices < 1 || n_vertices > ICCP_MAX_COUNT ||
-        n_simplices > ICCP_MAX_COUNT)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_certify: %zu vertices and %zu simplices",
-                         n_vertices, n_simplices);
-    for (size_t k = 0; k < (dim + 1) * n_simplices; ++k)
-        if (simplices[k] >= n_vertices)
+    const icc_status status = iccp_read_mesh(mesh, given, err);
+    if (status != ICC_OK)
+        return status;
+    if (mesh->dim != map->source_domain->dim)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_mesh.dim is %ld, that of the map is %zu",
+                         (long)mesh->dim, dim);
+    if (mesh->n_vertices <= dim || mesh->n_vertices > ICCP_MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu vertices and %zu simplices", mesh->n_vertices,
+                         mesh->n_cells);
+    for (size_t k = 0; k < (dim + 1) * mesh->n_cells; ++k)
+        if (mesh->cells[k] >= mesh->n_vertices)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_SIMPLEX, (int64_t)(k / (dim + 1)),
                                 "%s %zu has vertex %lu of %zu", name, k / (dim + 1),
-                                (unsigned long)simplices[k], n_vertices);
+                                (unsigned long)mesh->cells[k], mesh->n_vertices);
     return ICC_OK;
 }
 
 /* Carries a caller's mesh along, with or without repair. */
-static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double *vertices,
-                             size_t n_simplices, const uint32_t *simplices, bool repaired,
+static icc_status carry_mesh(const icc_map *map, const icc_mesh *mesh, bool repaired,
                              double *images, icc_certificate *certificate, const icc_env *env,
                              icc_error *err)
 {
     iccp_env full_env;
+    icc_mesh m;
     icc_certificate full = {0};
     const char *missing = map == NULL                  ? "map"
-                          : vertices == NULL           ? "vertices"
-                          : simplices == NULL          ? "simplices"
+                          : mesh == NULL               ? "mesh"
                           : repaired && images == NULL ? "images"
                           : certificate == NULL        ? "certificate"
                                                        : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = check_mesh(map, n_vertices, n_simplices, simplices, err);
+        status = read_mesh(&m, map, mesh, err);
+
     if (status != ICC_OK)
         return status;
-    const size_t size = (size_t)map->source_domain->dim * sizeof *images;
-    double *own = images != NULL ? NULL : iccp_alloc(&full_env.memory, n_vertices, size);
+    const size_t size = (size_t)m.dim * sizeof *images;
+    double *own = images != NULL ? NULL : iccp_alloc(&full_env.memory, m.n_vertices, size);
     if (images == NULL && own == NULL)
         return iccp_fail_memory(err);
-    status = iccp_map_certify(map, n_vertices, vertices, n_simplices, simplices, repaired,
+    status = iccp_map_certify(map, m.n_vertices, m.vertices, m.n_cells, m.cells, repaired,
                               images != NULL ? images : own, &full, &full_env, err);
     iccp_free(&full_env.memory, own);
     if (status == ICC_OK)
@@ -334,22 +384,18 @@ static icc_status carry_mesh(const icc_map *map, size_t n_vertices, const double
                : status;
 }
 
-icc_status icc_map_certify(const icc_map *map, size_t n_vertices, const double *vertices,
-                           size_t n_simplices, const uint32_t *simplices, double *images,
+icc_status icc_map_certify(const icc_map *map, const icc_mesh *mesh, double *images,
                            icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
     ICCP_ENTER;
-    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, false, images, certificate,
-                      env, err);
+    return carry_mesh(map, mesh, false, images, certificate, env, err);
 }
 
-icc_status icc_map_repair(const icc_map *map, size_t n_vertices, const double *vertices,
-                          size_t n_simplices, const uint32_t *simplices, double *images,
+icc_status icc_map_repair(const icc_map *map, const icc_mesh *mesh, double *images,
                           icc_certificate *certificate, const icc_env *env, icc_error *err)
 {
     ICCP_ENTER;
-    return carry_mesh(map, n_vertices, vertices, n_simplices, simplices, true, images, certificate,
-                      env, err);
+    return carry_mesh(map, mesh, true, images, certificate, env, err);
 }
 
 icc_status icc_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_bytes)

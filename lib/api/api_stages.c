@@ -375,8 +375,37 @@ icc_status icc_function_get_info(const icc_function *function, icc_function_info
     ICCP_ENTER;
     if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
-    return iccp_write_struct(info, &function->info, sizeof function->info, "icc_function_info",
-                             NULL);
+    const iccp_solution *s = &function->info;
+    const icc_function_info full = {.function = s->function,
+                                    .constrained = s->constrained,
+                                    .solver = s->solver,
+                                    .beside = s->beside,
+                                    .n_unknowns = s->n_unknowns,
+                                    .n_violated = s->n_violated,
+                                    .n_active = s->n_active,
+                                    .residual = s->residual,
+                                    .least_log = s->least_log,
+                                    .excess = s->excess,
+                                    .highest = s->highest};
+    return iccp_write_struct(info, &full, sizeof full, "icc_function_info", NULL);
+}
+
+icc_status icc_function_get_solver_report(const icc_function *function, icc_solver_report *report)
+{
+    ICCP_ENTER;
+    if (function == NULL || report == NULL)
+        return ICC_ERR_ARGUMENT;
+    const iccp_solution *s = &function->info;
+    const icc_solver_report full = {.n_iterations = s->n_iterations,
+                                    .n_inner = s->n_inner,
+                                    .work = s->work,
+                                    .residual_before = s->residual_before,
+                                    .seconds_setup = s->seconds_setup,
+                                    .seconds_order = s->seconds_order,
+                                    .seconds_factor = s->seconds_factor,
+                                    .seconds_solve = s->seconds_solve,
+                                    .seconds_verify = s->seconds_verify};
+    return iccp_write_struct(report, &full, sizeof full, "icc_solver_report", NULL);
 }
 
 const icc_tree *icc_function_tree(const icc_function *function)

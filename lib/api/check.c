@@ -6,12 +6,71 @@
 #include "gradient/coordinates/chart_parameters.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err)
 {
     if (missing != NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
     return iccp_env_read(full, env, err);
+}
+
+/* VTK's numbers of the simplex of this dimension; 0 beyond space, where it has none. */
+static unsigned vtk_simplex(int32_t dim)
+{
+    enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
+    return dim == 2 ? VTK_TRIANGLE : dim == 3 ? VTK_TETRA : 0;
+}
+
+/* Whether a cell is a simplex, and begins where it would if all before it were, too. */
+static bool is_simplex(const icc_mesh *mesh, size_t cell)
+{
+    const size_t n_corners = (size_t)mesh->dim + 1;
+    if (mesh->types != NULL && mesh->types[cell] != vtk_simplex(mesh->dim))
+        return false;
+    return mesh->offsets == NULL || (mesh->offsets[cell] == n_corners * cell &&
+                                     mesh->offsets[cell + 1] == n_corners * (cell + 1));
+}
+
+icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
+{
+    icc_status status = iccp_read_struct(full, sizeof *full, mesh, "icc_mesh", err);
+    if (status != ICC_OK)
+        return status;
+    if (full->dim < 2 || full->dim > ICC_MAX_DIM)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_mesh.dim is %ld; it must lie in 2..%d",
+                         (long)full->dim, ICC_MAX_DIM);
+    if ((full->vertices == NULL && full->n_vertices > 0) || full->cells == NULL)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_mesh.%s is NULL",
+                         full->cells == NULL ? "cells" : "vertices");
+    if (full->n_cells == 0 || full->n_cells > ICCP_MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu simplices; there must be 1 to %zu",
+                         full->n_cells, ICCP_MAX_COUNT);
+    if (full->regions != NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_mesh.regions are not supported as yet");
+    for (size_t cell = 0; cell < full->n_cells; ++cell)
+        if (!is_simplex(full, cell))
+            return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_SIMPLEX, (int64_t)cell,
+                                "cell %zu is not a simplex: others are not supported as yet", cell);
+    return ICC_OK;
+}
+
+icc_status iccp_size_mesh(double **vertices, uint32_t **cells, icc_mesh *mesh, int32_t dim,
+                          size_t n_vertices, size_t n_cells)
+{
+    icc_mesh full;
+    const icc_status status = iccp_read_struct(&full, sizeof full, mesh, "icc_mesh", NULL);
+    if (status != ICC_OK)
+        return status;
+    *vertices = full.vertices;
+    *cells = full.cells;
+    if ((full.vertices != NULL && full.n_vertices < n_vertices) ||
+        (full.cells != NULL && full.n_cells < n_cells))
+        return ICC_ERR_ARGUMENT;
+    full.dim = dim;
+    full.n_vertices = n_vertices;
+    full.n_cells = n_cells;
+    return iccp_write_struct(mesh, &full, sizeof full, "icc_mesh", NULL);
 }
 
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err)

@@ -33,6 +33,15 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
 /* Checks a maximum that the caller wants. NULL is accepted. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 
+/* Reads the caller's mesh, in which only simplices are supported. Checks the struct itself, but no
+ * vertex and no index. */
+icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
+
+/* Finds the arrays of a mesh that the caller has room for; NULL where nothing is to be filled. Sets
+ * the numbers of the caller's struct. ICC_ERR_ARGUMENT if there is too little room. */
+icc_status iccp_size_mesh(double **vertices, uint32_t **cells, icc_mesh *mesh, int32_t dim,
+                          size_t n_vertices, size_t n_cells);
+
 /* Begins a call: reads the caller's environment. `missing` is the name of the first argument
  * that is NULL, or NULL if none is. */
 icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, icc_error *err);

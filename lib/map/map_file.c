@@ -74,7 +74,7 @@ static icc_status visit_charts(iccp_blob *b, icc_map *map, int32_t kind, const i
 }
 
 /* Reads or writes how the map was made, which is only information. */
-static icc_status visit_story(iccp_blob *b, icc_map_info *info)
+static icc_status visit_story(iccp_blob *b, iccp_map_facts *info)
 {
     iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &info->n_levels);
     iccp_blob_size(b, &info->n_inverted);

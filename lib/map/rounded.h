@@ -5,7 +5,7 @@
 #include "map/map.h"
 
 /* Counts simplices that are not positive on both sides when icc_map_get_mesh() hands them out: see
- * icc_map_info::n_spoilt. */
+ * icc_map_report::n_spoilt. */
 size_t iccp_map_count_spoilt(const icc_map *map);
 
 #endif

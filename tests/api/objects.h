@@ -3,6 +3,7 @@
 #ifndef TESTS_API_OBJECTS_H
 #define TESTS_API_OBJECTS_H
 
+#include "../flat_mesh.h"
 #include <check.h>
 #include <icc/kernel.h>
 #include <icc/stages.h>
@@ -381,7 +382,9 @@ static inline icc_status call_map_follow(const objects *o, outcome *out, const i
     moved[2] += 0.25;
     ck_assert_int_eq(icc_domain_create(&target, 2, N_CORNERS, moved, 0, NULL, NULL, NULL), ICC_OK);
     icc_map *map = (icc_map *)&map;
-    icc_status status = icc_map_retarget(&map, o->mesh_map, target, 2, env, err);
+    icc_status status = icc_map_retarget(
+        &map, o->mesh_map, target,
+        &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = 2}, env, err);
     HANDED_OVER(status, map);
     icc_domain_free(target);
     if (status == ICC_OK)
@@ -398,7 +401,7 @@ static inline icc_status call_map_certify(const objects *o, outcome *out, const 
 {
     icc_certificate c = {.size = sizeof c};
     const icc_status status =
-        icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, out->numbers, &c, env, err);
+        flat_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, out->numbers, &c, env, err);
     memcpy(out->indices, &c, sizeof c);
     return status;
 }
@@ -414,7 +417,7 @@ static inline icc_status call_map_repair(const objects *o, outcome *out, const i
     vertices[2 * N_CORNERS] = 0.9999;
     vertices[2 * N_CORNERS + 1] = 0.999;
     const icc_status status =
-        icc_map_repair(o->mesh_map, N_CORNERS + 1, vertices, 5, FAN, out->numbers, &c, env, err);
+        flat_repair(o->mesh_map, N_CORNERS + 1, vertices, 5, FAN, out->numbers, &c, env, err);
     memcpy(out->indices, &c, sizeof c);
     return status;
 }
@@ -507,7 +510,7 @@ static inline icc_status make_function(const icc_tree *tree, int32_t function, i
             memcpy(out->numbers + grid.n_vertices, icc_function_logs(field),
                    grid.n_vertices * sizeof *out->numbers);
     }
-    memcpy(out->indices, &info, offsetof(icc_function_info, seconds_setup));
+    memcpy(out->indices, &info, sizeof info);
     icc_function_free(field);
     return status;
 }
@@ -587,9 +590,10 @@ static inline icc_status call_domain_create_mask(const objects *o, outcome *out,
 
 /* In the L: a hole, a line and a point. */
 static const icc_feature FEATURES[3] = {
-    {sizeof(icc_feature), ICC_FEATURE_HOLE, 3, (const double[]){0.2, 0.2, 0.2, 0.8, 0.8, 0.2}, 0},
-    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, (const double[]){1.5, 0.5, 2.5, 0.5}, 0},
-    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){0.5, 2}, 0}};
+    {sizeof(icc_feature), ICC_FEATURE_HOLE, 3, (const double[]){0.2, 0.2, 0.2, 0.8, 0.8, 0.2}, 0, 0,
+     NULL},
+    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, (const double[]){1.5, 0.5, 2.5, 0.5}, 0, 0, NULL},
+    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){0.5, 2}, 0, 0, NULL}};
 
 static inline icc_status call_domain_create_features(const objects *o, outcome *out,
                                                      const icc_env *env, icc_error *err)
@@ -614,7 +618,7 @@ static inline icc_status call_domain_create_mesh(const objects *o, outcome *out,
     (void)o;
     icc_domain *domain = (icc_domain *)&domain;
     const icc_status status =
-        icc_domain_create_mesh(&domain, 3, 6, POINTS, 5, SIMPLICES, 0, NULL, env, err);
+        flat_create_mesh(&domain, 3, 6, POINTS, 5, SIMPLICES, 0, NULL, env, err);
     HANDED_OVER(status, domain);
     icc_domain_info info = {.size = sizeof info};
     if (status == ICC_OK && icc_domain_get_info(domain, &info) == ICC_OK)

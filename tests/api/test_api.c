@@ -1,4 +1,5 @@
 /* Bad arguments, and the rules of structs that begin with their size. */
+#include "../flat_mesh.h"
 #include "objects.h"
 
 #include "../suite.h"
@@ -220,6 +221,9 @@ START_TEST(maps_refuse_bad_arguments)
     icc_map_info info = {.size = sizeof info};
     REFUSED(icc_map_get_info(NULL, &info));
     REFUSED(icc_map_get_info(o.map, NULL));
+    icc_map_report made = {.size = sizeof made};
+    REFUSED(icc_map_get_report(NULL, &made));
+    REFUSED(icc_map_get_report(o.map, NULL));
     icc_tie_info tie = {.size = sizeof tie};
     REFUSED(icc_map_get_tie(NULL, 0, &tie, NULL, NULL));
     REFUSED(icc_map_get_tie(o.map, 0, NULL, NULL, NULL));
@@ -275,11 +279,14 @@ START_TEST(mesh_maps_refuse_bad_arguments)
     }
     icc_improve_report report = {.size = 0};
     NOT_MADE(m, icc_map_improve(&m, o.mesh_map, NULL, &report, NULL, &err));
-    EXPLAINED(icc_map_retarget(NULL, o.mesh_map, o.target, 0, NULL, &err));
-    NOT_MADE(m, icc_map_retarget(&m, NULL, o.target, 0, NULL, &err));
-    NOT_MADE(m, icc_map_retarget(&m, o.mesh_map, NULL, 0, NULL, &err));
-    NOT_MADE(m, icc_map_retarget(&m, o.mesh_map, o.target, -2, NULL, &err));
-    REFUSED(icc_map_get_mesh(NULL, NULL, NULL, NULL));
+    EXPLAINED(icc_map_retarget(NULL, o.mesh_map, o.target, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(&m, NULL, o.target, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(&m, o.mesh_map, NULL, NULL, NULL, &err));
+    NOT_MADE(m, icc_map_retarget(
+                    &m, o.mesh_map, o.target,
+                    &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = -2},
+                    NULL, &err));
+    REFUSED(flat_get_mesh(NULL, NULL, NULL, NULL));
     objects_clear(&o);
 }
 END_TEST
@@ -295,9 +302,9 @@ START_TEST(only_mesh_maps_can_be_improved)
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED && err.message[0] != '\0');
     m = (icc_map *)&m;
     err.status = 0;
-    ck_assert_int_eq(icc_map_retarget(&m, o.map, o.target, 0, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(icc_map_retarget(&m, o.map, o.target, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
     ck_assert(m == NULL && err.status == ICC_ERR_UNSUPPORTED);
-    ck_assert_int_eq(icc_map_get_mesh(o.map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(flat_get_mesh(o.map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
     ck_assert_int_eq(icc_map_create_from_charts(&m, o.chart, o.target_chart, &mesh, NULL, &err),
                      ICC_ERR_UNSUPPORTED);
@@ -309,13 +316,63 @@ END_TEST
 typedef icc_status (*mesh_call)(const icc_map *, size_t, const double *, size_t, const uint32_t *,
                                 double *, icc_certificate *, const icc_env *, icc_error *);
 
+/* Cells as VTK lists them are taken if they are simplices; what is not supported is refused. */
+START_TEST(meshes_are_of_simplices)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_error err = {.size = sizeof err};
+    icc_certificate c = {.size = sizeof c};
+    size_t offsets[5] = {0, 3, 6, 9, 12};
+    uint8_t types[4] = {5, 5, 5, 5};
+    const int32_t regions[4] = {0, 0, 1, 1};
+    icc_mesh mesh = flat_mesh(2, N_CORNERS, SOURCE, 4, TRIANGLES);
+    mesh.offsets = offsets;
+    mesh.types = types;
+    ck_assert_int_eq(icc_map_certify(o.map, &mesh, NULL, &c, NULL, &err), ICC_OK);
+    types[2] = 9; /* a quadrilateral */
+    ck_assert_int_eq(icc_map_certify(o.map, &mesh, NULL, &c, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(err.index == 2 && err.item == ICC_ITEM_SIMPLEX);
+    types[2] = 5;
+    offsets[3] = 10;
+    ck_assert_int_eq(icc_map_repair(o.map, &mesh, o.points, &c, NULL, &err), ICC_ERR_UNSUPPORTED);
+    mesh = flat_mesh(2, N_CORNERS, SOURCE, 4, TRIANGLES);
+    mesh.regions = regions;
+    ck_assert_int_eq(icc_map_certify(o.map, &mesh, NULL, &c, NULL, &err), ICC_ERR_UNSUPPORTED);
+    mesh = flat_mesh(3, N_CORNERS / 2, SOURCE, 3, TRIANGLES);
+    EXPLAINED(icc_map_certify(o.map, &mesh, NULL, &c, NULL, &err));
+    objects_clear(&o);
+}
+END_TEST
+
+/* A mesh is filled as far as there is room for it, and never beyond. */
+START_TEST(meshes_need_room)
+{
+    objects o;
+    objects_init(&o, 0);
+    icc_mesh mesh = ICC_INIT(icc_mesh);
+    ck_assert_int_eq(icc_map_get_mesh(o.mesh_map, &mesh, NULL), ICC_OK);
+    ck_assert(mesh.dim == 2 && mesh.n_vertices >= N_CORNERS && mesh.n_cells >= 4);
+    double *const vertices = malloc(2 * mesh.n_vertices * sizeof *vertices);
+    const size_t n = mesh.n_vertices--;
+    mesh.vertices = vertices;
+    REFUSED(icc_map_get_mesh(o.mesh_map, &mesh, NULL));
+    mesh.n_vertices = n;
+    ck_assert_int_eq(icc_map_get_mesh(o.mesh_map, &mesh, NULL), ICC_OK);
+    mesh.size = 0;
+    REFUSED(icc_map_get_mesh(o.mesh_map, &mesh, NULL));
+    free(vertices);
+    objects_clear(&o);
+}
+END_TEST
+
 START_TEST(certificates_refuse_bad_arguments)
 {
     objects o;
     objects_init(&o, 0);
     icc_error err;
     double images[2 * N_CORNERS];
-    static const mesh_call CALLED[2] = {icc_map_certify, icc_map_repair};
+    static const mesh_call CALLED[2] = {flat_certify, flat_repair};
     uint32_t t[12];
     memcpy(t, TRIANGLES, sizeof t);
     for (int k = 0; k < 2; ++k) {
@@ -336,8 +393,8 @@ START_TEST(certificates_refuse_bad_arguments)
         EXPLAINED(f(o.map, N_CORNERS, SOURCE, 4, t, images, &c, NULL, &err));
     }
     icc_certificate c = {.size = sizeof c};
-    EXPLAINED(icc_map_repair(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, &err));
-    ck_assert_int_eq(icc_map_certify(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, NULL), ICC_OK);
+    EXPLAINED(flat_repair(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, &err));
+    ck_assert_int_eq(flat_certify(o.map, N_CORNERS, SOURCE, 4, t, NULL, &c, NULL, NULL), ICC_OK);
     objects_clear(&o);
 }
 END_TEST
@@ -423,6 +480,9 @@ START_TEST(stages_refuse_bad_arguments)
     icc_function_info field_info = {.size = sizeof field_info};
     REFUSED(icc_function_get_info(NULL, &field_info));
     REFUSED(icc_function_get_info(o.field, NULL));
+    icc_solver_report solved = {.size = sizeof solved};
+    REFUSED(icc_function_get_solver_report(NULL, &solved));
+    REFUSED(icc_function_get_solver_report(o.field, NULL));
     icc_function_report report = {.size = sizeof report};
     EXPLAINED(icc_function_get_report(NULL, &report, NULL, &err));
     EXPLAINED(icc_function_get_report(o.field, NULL, NULL, &err));
@@ -623,12 +683,15 @@ START_TEST(what_is_missing_is_named)
     MISSING("target", icc_map_create(&m, o.source, NULL, NULL, NULL, &err));
     MISSING("source", icc_map_create_from_charts(&m, NULL, o.chart, NULL, NULL, &err));
     MISSING("map", icc_map_improve(&m, NULL, NULL, NULL, NULL, &err));
-    MISSING("target", icc_map_retarget(&m, o.mesh_map, NULL, 1, NULL, &err));
-    MISSING("simplices",
-            icc_map_certify(o.map, 3, o.points, 1, NULL, NULL, &certificate, NULL, &err));
-    MISSING("images",
-            icc_map_repair(o.map, 3, o.points, 1, FACETS, NULL, &certificate, NULL, &err));
-    MISSING("certificate", icc_map_repair(o.map, 3, o.points, 1, FACETS, image, NULL, NULL, &err));
+    MISSING("target", icc_map_retarget(&m, o.mesh_map, NULL,
+                                       &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                               .iterations = 1},
+                                       NULL, &err));
+    MISSING("icc_mesh.cells",
+            flat_certify(o.map, 3, o.points, 1, NULL, NULL, &certificate, NULL, &err));
+    MISSING("mesh", icc_map_certify(o.map, NULL, NULL, &certificate, NULL, &err));
+    MISSING("images", flat_repair(o.map, 3, o.points, 1, FACETS, NULL, &certificate, NULL, &err));
+    MISSING("certificate", flat_repair(o.map, 3, o.points, 1, FACETS, image, NULL, NULL, &err));
     MISSING("data", icc_map_load(&m, 1, NULL, NULL, &err));
     MISSING("data", icc_match_load(&match, 1, NULL, NULL, &err));
     MISSING("target", icc_map_warp(o.map, &picture, NULL, &n, NULL, &err));
@@ -755,6 +818,14 @@ static icc_status read_improve_options(const objects *o, const void *options, ic
     return status;
 }
 
+static icc_status read_retarget_options(const objects *o, const void *options, icc_error *err)
+{
+    icc_map *map;
+    const icc_status status = icc_map_retarget(&map, o->mesh_map, o->target, options, NULL, err);
+    icc_map_free(map);
+    return status;
+}
+
 static icc_status read_tree_options(const objects *o, const void *options, icc_error *err)
 {
     icc_tree *tree;
@@ -798,6 +869,7 @@ START_TEST(options_may_be_older_or_newer)
                    {read_map_options, sizeof(icc_map_options)},
                    {read_map_options_too, sizeof(icc_map_options)},
                    {read_improve_options, sizeof(icc_improve_options)},
+                   {read_retarget_options, sizeof(icc_retarget_options)},
                    {read_tree_options, sizeof(icc_tree_options)},
                    {read_field_options, sizeof(icc_function_options)},
                    {read_sampling_options, sizeof(icc_sampling_options)},
@@ -906,6 +978,11 @@ static icc_status write_measures(const objects *o, void *info)
     return icc_chart_get_report(o->chart, 10, info, NULL, NULL);
 }
 
+static icc_status write_map_report(const objects *o, void *report)
+{
+    return icc_map_get_report(o->map, report);
+}
+
 static icc_status write_map_info(const objects *o, void *info)
 {
     return icc_map_get_info(o->map, info);
@@ -922,7 +999,7 @@ static icc_status write_improve_report(const objects *o, void *info)
 
 static icc_status write_certificate(const objects *o, void *info)
 {
-    return icc_map_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, NULL, info, NULL, NULL);
+    return flat_certify(o->mesh_map, N_CORNERS, SOURCE, 4, TRIANGLES, NULL, info, NULL, NULL);
 }
 
 static icc_status write_grid_info(const objects *o, void *info)
@@ -933,6 +1010,11 @@ static icc_status write_grid_info(const objects *o, void *info)
 static icc_status write_tree_report(const objects *o, void *info)
 {
     return icc_tree_get_report(o->tree, info, NULL, NULL);
+}
+
+static icc_status write_solver_report(const objects *o, void *report)
+{
+    return icc_function_get_solver_report(o->field, report);
 }
 
 static icc_status write_field_info(const objects *o, void *info)
@@ -1003,11 +1085,13 @@ START_TEST(infos_may_be_older_or_newer)
                    {write_chart_info, sizeof(icc_chart_info)},
                    {write_measures, sizeof(icc_chart_report)},
                    {write_map_info, sizeof(icc_map_info)},
+                   {write_map_report, sizeof(icc_map_report)},
                    {write_improve_report, sizeof(icc_improve_report)},
                    {write_certificate, sizeof(icc_certificate)},
                    {write_grid_info, sizeof(icc_grid_info)},
                    {write_tree_report, sizeof(icc_tree_report)},
                    {write_field_info, sizeof(icc_function_info)},
+                   {write_solver_report, sizeof(icc_solver_report)},
                    {write_field_report, sizeof(icc_function_report)},
                    {write_sampling_info, sizeof(icc_sampling_info)},
                    {write_kernel_info, sizeof(icc_weights_info)},
@@ -1042,11 +1126,10 @@ static icc_chart *square_chart(int k)
     const icc_chart_options options = {.size = sizeof options, .method = OWN[k].method};
     icc_domain *domain;
     icc_chart *chart;
-    ck_assert_int_eq(
-        OWN[k].write == write_shelling_info
-            ? icc_domain_create_mesh(&domain, 2, 5, CORNERS, 4, FOUR, 0, NULL, NULL, NULL)
-            : icc_domain_create(&domain, 2, 4, CORNERS, 0, NULL, NULL, NULL),
-        ICC_OK);
+    ck_assert_int_eq(OWN[k].write == write_shelling_info
+                         ? flat_create_mesh(&domain, 2, 5, CORNERS, 4, FOUR, 0, NULL, NULL, NULL)
+                         : icc_domain_create(&domain, 2, 4, CORNERS, 0, NULL, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(icc_chart_create(&chart, domain, &options, NULL, NULL), ICC_OK);
     icc_domain_free(domain);
     return chart;
@@ -1206,6 +1289,8 @@ int main(void)
     tcase_add_test(tests, maps_refuse_bad_arguments);
     tcase_add_test(tests, mesh_maps_refuse_bad_arguments);
     tcase_add_test(tests, only_mesh_maps_can_be_improved);
+    tcase_add_test(tests, meshes_are_of_simplices);
+    tcase_add_test(tests, meshes_need_room);
     tcase_add_test(tests, certificates_refuse_bad_arguments);
     tcase_add_test(tests, stages_refuse_bad_arguments);
     tcase_add_test(tests, the_triangulation_refuses_bad_arguments);

@@ -1,5 +1,6 @@
 /* Every operation on every kind of map and chart, however it came about: it works, or it says by
  * name and with a message why not. */
+#include "../flat_mesh.h"
 #include "../suite.h"
 
 #include <check.h>
@@ -77,7 +78,7 @@ static icc_domain *make_domain(int shape, double factor)
         break;
     case TRIANGLES:
         bend(v, 2, 5, SQUARE, factor);
-        status = icc_domain_create_mesh(&d, 2, 5, v, 3, FAN, 0, NULL, NULL, NULL);
+        status = flat_create_mesh(&d, 2, 5, v, 3, FAN, 0, NULL, NULL, NULL);
         break;
     case SURFACE:
         bend(v, 3, 8, CUBE, factor);
@@ -85,7 +86,7 @@ static icc_domain *make_domain(int shape, double factor)
         break;
     case TETRAHEDRA:
         bend(v, 3, 8, CUBE, factor);
-        status = icc_domain_create_mesh(&d, 3, 8, v, 6, CELLS, 0, NULL, NULL, NULL);
+        status = flat_create_mesh(&d, 3, 8, v, 6, CELLS, 0, NULL, NULL, NULL);
         break;
     case PENTATOPE:
         bend(v, 4, 5, CORNERS, factor);
@@ -241,12 +242,12 @@ static void map_info(const subject *s)
     double *vertices = malloc((info.n_vertices + 1) * MOST * sizeof *vertices);
     double *images = malloc((info.n_vertices + 1) * MOST * sizeof *images);
     uint32_t *corners = malloc((info.n_simplices + 1) * (MOST + 1) * sizeof *corners);
-    const icc_status status = icc_map_get_mesh(s->map, vertices, images, corners);
+    const icc_status status = flat_get_mesh(s->map, vertices, images, corners);
     ck_assert_msg(status == (info.kind == ICC_MAP_MESH ? ICC_OK : ICC_ERR_UNSUPPORTED), "%s / mesh",
                   s->name);
     for (size_t k = 0; status == ICC_OK && k < info.n_simplices * (size_t)(s->dim + 1); ++k)
         ck_assert_uint_lt(corners[k], info.n_vertices);
-    ck_assert_int_eq(icc_map_get_mesh(s->map, NULL, NULL, NULL), status);
+    ck_assert_int_eq(flat_get_mesh(s->map, NULL, NULL, NULL), status);
     free(vertices);
     free(images);
     free(corners);
@@ -261,11 +262,11 @@ static void map_certify(const subject *s, const icc_domain *source)
     icc_certificate c = {.size = sizeof c};
     const size_t n = (size_t)s->dim + 1;
     spread(source, n, vertices);
-    icc_status status = icc_map_certify(s->map, n, vertices, 1, SIMPLEX, images, &c, NULL, &err);
+    icc_status status = flat_certify(s->map, n, vertices, 1, SIMPLEX, images, &c, NULL, &err);
     ck_assert_msg(sound(s, "certify", status, &err) == (s->dim == 2 || s->dim == 3), "%s / certify",
                   s->name);
     err = fresh();
-    status = icc_map_repair(s->map, n, vertices, 1, SIMPLEX, images, &c, NULL, &err);
+    status = flat_repair(s->map, n, vertices, 1, SIMPLEX, images, &c, NULL, &err);
     ck_assert_msg(sound(s, "repair", status, &err) == (s->dim == 2 || s->dim == 3), "%s / repair",
                   s->name);
 }
@@ -338,7 +339,12 @@ static icc_map *derived(const subject *s, char how, const icc_domain *target)
     if (how == 's')
         return reloaded(s, s->map);
     if (how == 'f') {
-        (void)sound(s, "retarget", icc_map_retarget(&map, s->map, target, 2, NULL, &err), &err);
+        (void)sound(s, "retarget",
+                    icc_map_retarget(&map, s->map, target,
+                                     &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                             .iterations = 2},
+                                     NULL, &err),
+                    &err);
         return map;
     }
     const icc_improve_options options = {.size = sizeof options, .iterations = 2, .levels = 1};
@@ -629,8 +635,12 @@ START_TEST(retargeted_to_every_size)
         icc_domain *target = make_domain(_i, SIZES[k]);
         icc_map_info info = {.size = sizeof info};
         icc_error err = fresh();
-        const icc_status status = k == 0 ? icc_map_create(&s.map, source, target, NULL, NULL, &err)
-                                         : icc_map_retarget(&s.map, before, target, 2, NULL, &err);
+        const icc_status status =
+            k == 0 ? icc_map_create(&s.map, source, target, NULL, NULL, &err)
+                   : icc_map_retarget(&s.map, before, target,
+                                      &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                              .iterations = 2},
+                                      NULL, &err);
         (void)snprintf(s.name, sizeof s.name, "%s retargeted to size %g", SHAPES[_i], SIZES[k]);
         ck_assert_msg(status == ICC_OK, "%s: %s", s.name, err.message);
         ck_assert_int_eq(icc_map_get_info(s.map, &info), ICC_OK);

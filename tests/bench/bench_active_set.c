@@ -17,7 +17,7 @@ typedef struct one {
 } one;
 
 static void print_result(const one *c, const iccp_unknowns *unknowns, const iccp_scaled *f,
-                         const icc_function_info *info, const double seconds[2])
+                         const iccp_solution *info, const double seconds[2])
 {
     printf("%-10s %4zu^%d %8zu %7.3f %8.3f %4zu %5zu %6.1f %% %9.1e %9.1e %5zu   %s\n", c->name,
            c->cells, (int)c->dim, unknowns->n, seconds[0], seconds[1], info->n_iterations,
@@ -44,12 +44,12 @@ static void measure(const one *c, const iccp_unknowns *unknowns, const iccp_env 
     order[0] = ICCP_NONE;
     const iccp_ties ties = {top, share, order};
     const iccp_tied_solver solve = c->iterative ? iccp_tied_iterative : iccp_tied_direct;
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     const icc_error error = {.message = "no result"};
     double seconds[2], start = bench_processor_seconds();
     bench_check(solve(unknowns, &ties, &f, &info, env), &error);
     seconds[0] = bench_processor_seconds() - start;
-    info = (icc_function_info){.size = sizeof info};
+    info = (iccp_solution){0};
     start = bench_processor_seconds();
     const icc_status status = iccp_active_set_laplace(unknowns, 1e-6, solve, order, &f, &info, env);
     seconds[1] = bench_processor_seconds() - start;

@@ -56,7 +56,7 @@ static void measure(const bench_case *c, int32_t function, bool constrained)
 {
     iccp_env env;
     iccp_unknowns unknowns;
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     icc_error error = {.size = sizeof error};
     icc_tree *tree = grow(c);
     bench_check(iccp_env_read(&env, NULL, &error), &error);

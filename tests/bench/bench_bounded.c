@@ -8,6 +8,7 @@
 #include "map/plane/plane_kind.h"
 
 #include "../random.h"
+#include "../reports.h"
 #include "cages.h"
 
 enum { RUNS = 3 };
@@ -139,7 +140,7 @@ static void measure(const char *name, size_t n, const double *before, const doub
     (void)icc_map_get_info(map, &info);
     const bool is_mesh = info.kind == ICC_MAP_MESH;
     printf("%-16.16s %5zu %8.3f %8.3f %6.2f %8zu %5zu %10.3g %10.6g  %s%s\n", name, n, limit,
-           seconds, seconds / limit, info.n_simplices, info.n_iterations,
+           seconds, seconds / limit, info.n_simplices, report_of(map).n_iterations,
            is_mesh ? iccp_plane_of(map)->work : 0, info.energy, is_mesh ? "mesh" : "curves",
            info.certified ? ", certified" : "");
     if (is_mesh)

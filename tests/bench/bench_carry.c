@@ -3,6 +3,7 @@
  * methods field and foliation, how many of those cannot be mended because all their corners are on
  * the boundary, how many are left after the repair, and what it costs. Run by hand on a quiet
  * machine. */
+#include "../flat_mesh.h"
 #include <icc/icc.h>
 
 #include "../meshes.h"
@@ -37,12 +38,12 @@ static void carry(const icc_map *map, const test_mesh *m, size_t n_rim, const ch
     icc_certificate before = {.size = sizeof before}, after = {.size = sizeof after};
     double *images = bench_alloc(3 * m->n_vertices, sizeof *images);
     const double start = bench_processor_seconds();
-    bench_check(icc_map_certify(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
-                                images, &before, NULL, &err),
+    bench_check(flat_certify(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices, images,
+                             &before, NULL, &err),
                 &err);
     const double middle = bench_processor_seconds();
-    bench_check(icc_map_repair(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
-                               images, &after, NULL, &err),
+    bench_check(flat_repair(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices, images,
+                            &after, NULL, &err),
                 &err);
     const double end = bench_processor_seconds();
     printf(

@@ -37,7 +37,7 @@ static void follow(const drag *d, tally *t)
         icc_map *next;
         const double begin = bench_processor_seconds();
         bench_check(drag_domain(&target, d, angle, &err), &err);
-        const icc_status status = icc_map_retarget(&next, map, target, 0, NULL, &err);
+        const icc_status status = icc_map_retarget(&next, map, target, NULL, NULL, &err);
         t->ms[frame] = 1e3 * (bench_processor_seconds() - begin);
         icc_domain_free(target);
         if (status != ICC_OK) {

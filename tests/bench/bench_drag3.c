@@ -154,7 +154,7 @@ static void follow(const char *name, const char *how, motion *moves, double step
             continue;
         }
         const double begin = bench_processor_seconds();
-        const icc_status status = icc_map_retarget(&next, map, target, 0, &env, &err);
+        const icc_status status = icc_map_retarget(&next, map, target, NULL, &env, &err);
         ms[n++] = 1e3 * (bench_processor_seconds() - begin);
         if (status != ICC_OK) {
             ++n_refused;

@@ -4,6 +4,7 @@
  * usage: bench_features [NUMBER [FIRST_SEED [ITERATIONS [DIGITS]]]], iterations as icc_map_options
  * has them; with digits, features crowd, as near to each other as so many decimals say */
 
+#include "../flat_mesh.h"
 #include "bench.h"
 #include "feature_mixes.h"
 #include "math/predicates.h"
@@ -21,7 +22,7 @@ static size_t count_flat(const icc_map *map, const icc_map_info *info)
     double *images = bench_alloc(info->n_vertices, 2 * sizeof *images);
     uint32_t *corners = bench_alloc(info->n_simplices, 3 * sizeof *corners);
     size_t n = 0;
-    if (icc_map_get_mesh(map, points, images, corners) != ICC_OK)
+    if (flat_get_mesh(map, points, images, corners) != ICC_OK)
         n = SIZE_MAX;
     for (size_t t = 0; n < SIZE_MAX && t < info->n_simplices; ++t) {
         const size_t a = 2 * (size_t)corners[3 * t], b = 2 * (size_t)corners[3 * t + 1],

@@ -1,6 +1,7 @@
 /* Filling surfaces: usage: bench_fill FILE.obj ... Processor time of icc_domain_fill() beside that
  * of the command tetgen -pYq1.4 for the same surface, where it is installed, the best of three each,
  * taken in turns; tetrahedra of both; quantiles of the dihedral angles. */
+#include "../flat_mesh.h"
 #include <icc/icc.h>
 
 #include "../meshes.h"
@@ -83,7 +84,7 @@ static bool fill(filling *f, const obj *o)
     bench_check(icc_domain_get_info(filled, &info), NULL);
     double *x = bench_alloc(3 * info.n_mesh_vertices, sizeof *x);
     uint32_t *t = bench_alloc(4 * info.n_mesh_simplices, sizeof *t);
-    bench_check(icc_domain_get_mesh(filled, x, t), NULL);
+    bench_check(flat_domain_mesh(filled, x, t), NULL);
     double *angle = angles_of(x, info.n_mesh_simplices, t);
     f->n_tets = info.n_mesh_simplices;
     f->least = angle[0];

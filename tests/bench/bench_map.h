@@ -3,6 +3,7 @@
 #ifndef TESTS_BENCH_MAP_H
 #define TESTS_BENCH_MAP_H
 
+#include "../reports.h"
 #include "bench.h"
 
 #include <stdbool.h>
@@ -32,8 +33,8 @@ static inline bool bench_map(const icc_domain *source, const icc_domain *target)
     bench_check(icc_map_get_info(map, &info), NULL);
     printf("%s, %s, %zu left, energy %.4g, %zu tetrahedra, %.1f s\n",
            info.kind == ICC_MAP_MESH ? "mesh" : "curves",
-           info.certified == 1 ? "certified" : "not certified", info.n_unrepaired, info.energy,
-           info.n_simplices, spent);
+           info.certified == 1 ? "certified" : "not certified", report_of(map).n_unrepaired,
+           info.energy, info.n_simplices, spent);
     (void)fflush(stdout);
     icc_map_free(map);
     return info.kind == ICC_MAP_MESH && info.certified == 1;

@@ -2,6 +2,7 @@
  * `random`, then how many pairs of random polygons to map, the first seed, the iterations (0: as
  * many as pay, -1: none), and -v to print the polygons of each pair that got no mesh map. One
  * thread. */
+#include "../reports.h"
 #include "random_polygons.h"
 
 #include "cages.h"
@@ -97,12 +98,12 @@ static void print_points(const icc_map *map, const icc_domain *source)
     free(back);
 }
 
-static void print_map(const icc_map_info *info, const char *name)
+static void print_map(const icc_map_info *info, const icc_map_report *made, const char *name)
 {
     const double reference = reference_of(name);
     printf(" %6zu %5zu %5zu  %9.4g %8.4g %6.4g %+6.1f  %3zu %2d", info->n_simplices,
-           info->n_inverted, info->n_unrepaired, info->energy_start, info->energy, reference,
-           100 * (info->energy / reference - 1), info->n_iterations, (int)info->n_levels);
+           made->n_inverted, made->n_unrepaired, made->energy_start, info->energy, reference,
+           100 * (info->energy / reference - 1), made->n_iterations, (int)made->n_levels);
 }
 
 /* Fills in the seconds with and without improvement. */
@@ -117,9 +118,10 @@ static void measure(const char *name, const icc_domain *source, const icc_domain
     if (map == NULL)
         return;
     (void)icc_map_get_info(map, &info);
-    print_map(&info, name);
+    const icc_map_report made = report_of(map);
+    print_map(&info, &made, name);
     printf("  %7.1f %6.1f (%5.1f %6.1f %5.1f)", 1e3 * seconds[0], 1e3 * seconds[1],
-           1e3 * info.seconds_repair, 1e3 * info.seconds_improve, 1e3 * info.seconds_certify);
+           1e3 * made.seconds_repair, 1e3 * made.seconds_improve, 1e3 * made.seconds_certify);
     print_points(map, source);
     icc_map_free(map);
 }
@@ -163,7 +165,7 @@ static void note(tally *t, const icc_map *map, double seconds, icc_map_info *inf
     (void)icc_map_get_info(map, info);
     t->n_curves += info->kind != ICC_MAP_MESH;
     t->n_uncertified += !info->certified;
-    t->n_inverted += info->n_inverted > 0;
+    t->n_inverted += report_of(map).n_inverted > 0;
     t->energy += log(info->energy > 0 ? info->energy : 1);
 }
 
@@ -202,8 +204,8 @@ static void try_pair(tally t[POLYGON_KINDS], uint64_t seed, int32_t iterations, 
                 printf("%s\n", error.message);
             else
                 printf("kind %d, %zu of %zu triangles inverted, %zu left, %.0f ms\n",
-                       (int)info.kind, info.n_inverted, info.n_simplices, info.n_unrepaired,
-                       1e3 * info.seconds);
+                       (int)info.kind, report_of(map).n_inverted, info.n_simplices,
+                       report_of(map).n_unrepaired, 1e3 * report_of(map).seconds);
             fflush(stdout);
             if (verbose)
                 print_polygons(p);

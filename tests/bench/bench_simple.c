@@ -159,8 +159,8 @@ static double time_ours_holes(size_t n, const double *xy, int *valid)
     const size_t n_holes = (n - OUTER) / HOLE;
     icc_feature *holes = bench_alloc(n_holes, sizeof *holes);
     for (size_t h = 0; h < n_holes; ++h)
-        holes[h] =
-            (icc_feature){sizeof *holes, ICC_FEATURE_HOLE, HOLE, xy + 2 * (OUTER + HOLE * h), 0};
+        holes[h] = (icc_feature){
+            sizeof *holes, ICC_FEATURE_HOLE, HOLE, xy + 2 * (OUTER + HOLE * h), 0, 0, NULL};
     *valid = icc_domain_create_features(&domain, OUTER, xy, n_holes, holes, NULL, NULL) == ICC_OK;
     icc_domain_free(domain);
     free(holes);

@@ -6,6 +6,7 @@
  * to that at which SLIM's steps gain less than 1e-4. Bar: .15.
  *
  * libigl is no package: give CMake the folder of a copy as LIBIGL_INCLUDE_DIR. */
+#include "../flat_mesh.h"
 #include <icc/icc.h>
 
 #include <igl/boundary_loop.h>
@@ -72,7 +73,7 @@ static mesh take_mesh(const icc_map *map)
     check(icc_map_get_info(map, &info));
     std::vector<double> points(2 * info.n_vertices), images(points.size());
     std::vector<uint32_t> corners(3 * info.n_simplices);
-    check(icc_map_get_mesh(map, points.data(), images.data(), corners.data()));
+    check(flat_get_mesh(map, points.data(), images.data(), corners.data()));
     const Eigen::Index n = static_cast<Eigen::Index>(info.n_vertices);
     mesh m;
     m.points = Eigen::MatrixXd::Zero(n, 3);

@@ -2,6 +2,7 @@
  * reach and those of general solvers. Arguments: parts of the names of rows to run, "all" also for
  * those that take minutes; none: all others. One thread, the least processor time of up to five
  * runs. */
+#include "../reports.h"
 #include "bench.h"
 
 #include "gradient/function/function.h"
@@ -252,6 +253,7 @@ static int32_t meter_progress(void *user, const char *stage, double share)
 
 typedef struct figures {
     icc_function_info info;
+    icc_solver_report solver;
     icc_function_report report;
     double cpu, wall, imbalance, longest;
     char worst[32];
@@ -340,6 +342,7 @@ static icc_function *run(const row *r, const ground *g, figures *out)
         out->longest = m.longest;
         memcpy(out->worst, m.worst, sizeof m.worst);
         (void)icc_function_get_info(field, &out->info);
+        out->solver = solver_report_of(field);
     }
     out->most = m.most;
     return field;
@@ -347,10 +350,10 @@ static icc_function *run(const row *r, const ground *g, figures *out)
 
 static bool is_reached(const row *r, const figures *f)
 {
-    const double residual = r->constraints == TREE ? f->info.residual_before : f->imbalance;
+    const double residual = r->constraints == TREE ? f->solver.residual_before : f->imbalance;
     return (r->seconds <= 0 || f->cpu <= r->seconds) &&
            (r->residual <= 0 || residual <= r->residual) &&
-           (r->n_iterations == 0 || f->info.n_inner <= r->n_iterations) &&
+           (r->n_iterations == 0 || f->solver.n_inner <= r->n_iterations) &&
            (r->bytes == 0 || f->most <= r->bytes * f->n) &&
            (r->constraints == FREE || f->n_violated == 0);
 }
@@ -361,12 +364,13 @@ static void print(const row *r, const figures *f)
     printf("%-26s %7zu %8.4f %6.3g %8.4f %7.3f %7.3f %7.3f %7.3f %7.3f %4zu %5zu %5.1f %5.1f %8.1e "
            "%8.1e "
            "%4zu %2zu/%zu/%zu %8.1e %6.0f %6.0f %-10.10s %s\n",
-           r->name, f->n, f->cpu, r->seconds, f->wall, i->seconds_setup, i->seconds_order,
-           i->seconds_factor, i->seconds_solve, i->seconds_verify, i->n_iterations, i->n_inner,
+           r->name, f->n, f->cpu, r->seconds, f->wall, f->solver.seconds_setup,
+           f->solver.seconds_order, f->solver.seconds_factor, f->solver.seconds_solve,
+           f->solver.seconds_verify, f->solver.n_iterations, f->solver.n_inner,
            100 * (double)i->n_violated / (double)f->n, 100 * (double)i->n_active / (double)f->n,
-           i->residual_before, i->residual, f->n_violated, f->report.n_maxima, f->report.n_minima,
-           f->report.n_saddles, f->imbalance, (double)f->most / (double)f->n, 1e3 * f->longest,
-           f->worst, is_reached(r, f) ? "" : "MISSED");
+           f->solver.residual_before, i->residual, f->n_violated, f->report.n_maxima,
+           f->report.n_minima, f->report.n_saddles, f->imbalance, (double)f->most / (double)f->n,
+           1e3 * f->longest, f->worst, is_reached(r, f) ? "" : "MISSED");
     if (r->stretch > 0)
         printf("%26s stretch %.3g s\n", "", r->stretch);
     if (r->others != NULL)

@@ -41,7 +41,7 @@ static void read_input(input *in, const uint8_t *data, size_t size)
         if (in->n_outer == 0)
             in->n_outer = n;
         else
-            in->features[in->n++] = (icc_feature){sizeof(icc_feature), kind, n, own, 0};
+            in->features[in->n++] = (icc_feature){sizeof(icc_feature), kind, n, own, 0, 0, NULL};
     }
 }
 

@@ -27,8 +27,8 @@ static const cages *make_cages(bool holes)
         return c;
     for (size_t side = 0; side < 2; side++) {
         const icc_feature features[2] = {
-            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][0], 0},
-            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][1], 0}};
+            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][0], 0, 0, NULL},
+            {sizeof *features, ICC_FEATURE_HOLE, 4, rings[side][1], 0, 0, NULL}};
         require(icc_domain_create_features(&c->domains[side], 6, corners[side], holes ? 2 : 0,
                                            features, NULL, NULL) == ICC_OK);
     }

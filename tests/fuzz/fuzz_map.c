@@ -1,5 +1,7 @@
 /* Any bytes as two polygons and points: either they do not correspond, or every point of the
  * source, and of the target, gets a finite image or a status. */
+#include "../flat_mesh.h"
+#include "../reports.h"
 #include "outlines.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
@@ -28,18 +30,18 @@ static void check_mesh(const icc_map *map, const icc_domain *target)
 {
     icc_map_info info = {.size = sizeof info}, after = info;
     require(icc_map_get_info(map, &info) == ICC_OK);
-    require(info.certified == 1 && info.n_unrepaired == 0 && info.energy >= 4 - 1e-9);
-    require(info.energy <= info.energy_start * (1 + 1e-12));
+    require(info.certified == 1 && report_of(map).n_unrepaired == 0 && info.energy >= 4 - 1e-9);
+    require(info.energy <= report_of(map).energy_start * (1 + 1e-12));
     double *vertices = malloc(4 * info.n_vertices * sizeof *vertices);
     uint32_t *triangles = malloc(3 * info.n_simplices * sizeof *triangles);
     require(vertices != NULL && triangles != NULL);
-    require(icc_map_get_mesh(map, vertices, vertices + 2 * info.n_vertices, triangles) == ICC_OK);
+    require(flat_get_mesh(map, vertices, vertices + 2 * info.n_vertices, triangles) == ICC_OK);
     for (size_t c = 0; c < 3 * info.n_simplices; ++c)
         require(triangles[c] < info.n_vertices);
     icc_certificate checked = {.size = sizeof checked};
     const icc_status status =
-        icc_map_repair(map, info.n_vertices, vertices, info.n_simplices, triangles,
-                       vertices + 2 * info.n_vertices, &checked, NULL, NULL);
+        flat_repair(map, info.n_vertices, vertices, info.n_simplices, triangles,
+                    vertices + 2 * info.n_vertices, &checked, NULL, NULL);
     require(status == ICC_OK || status == ICC_ERR_ARGUMENT);
     require(status != ICC_OK ||
             checked.certified == (checked.boundary_simple && checked.first < 0));
@@ -49,7 +51,10 @@ static void check_mesh(const icc_map *map, const icc_domain *target)
     require(icc_map_improve(&better, map, &few, &report, NULL, NULL) == ICC_OK);
     require(icc_map_get_info(better, &after) == ICC_OK);
     require(after.energy <= info.energy * (1 + 1e-12) && after.n_simplices == report.n_simplices);
-    const icc_status followed = icc_map_retarget(&same, better, target, -1, NULL, NULL);
+    const icc_status followed = icc_map_retarget(
+        &same, better, target,
+        &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = -1}, NULL,
+        NULL);
     require(followed == ICC_OK || followed == ICC_ERR_CERTIFICATE);
     icc_map_free(same);
     icc_map_free(better);

@@ -7,6 +7,7 @@
  *                                nothing is hashed then
  *
  * Files with one vertex `x y` a line, or surfaces as OBJ. */
+#include "../flat_mesh.h"
 #include "digest.h"
 #include "fixtures.h"
 
@@ -123,7 +124,7 @@ static void digest_mesh(digest *d, const icc_map *map)
     if (vertices == NULL || mapped == NULL || simplices == NULL)
         exit(EXIT_FAILURE);
     icc_error err = {.size = sizeof err};
-    must(icc_map_get_mesh(map, vertices, mapped, simplices), "icc_map_get_mesh", &err);
+    must(flat_get_mesh(map, vertices, mapped, simplices), "icc_map_get_mesh", &err);
     if (d != NULL) {
         digest_i32(d, 1, &info.certified);
         digest_f64(d, n, vertices);
@@ -202,8 +203,10 @@ static int digest_frames(digest *d, const icc_map *start)
             icc_domain_create(&domain, target.dim, target.n_vertices, moved, target.n_facets,
                               target.dim == 2 ? NULL : target.facets, NULL, NULL);
         if (status == ICC_OK)
-            status =
-                icc_map_retarget(&next, now != NULL ? now : start, domain, FRAME_STEPS, NULL, NULL);
+            status = icc_map_retarget(&next, now != NULL ? now : start, domain,
+                                      &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                              .iterations = FRAME_STEPS},
+                                      NULL, NULL);
         icc_domain_free(domain);
         if (d != NULL)
             digest_i32(d, 1, &status);

@@ -6,6 +6,8 @@
  *                           of the bytes that they are saved as, which are written to that folder
  * golden load FOLDER        the same of the objects in it, wherever they were written
  * golden results            everything else */
+#include "../flat_mesh.h"
+#include "../reports.h"
 #include "outcomes.h"
 
 #include <icc/stages.h>
@@ -120,7 +122,7 @@ static object make_retargeted(size_t which)
     icc_error err = {.size = sizeof err};
     icc_map *map;
     object o = {0};
-    must(icc_map_retarget(&map, first.map, target, 0, NULL, &err), "icc_map_retarget", &err);
+    must(icc_map_retarget(&map, first.map, target, NULL, NULL, &err), "icc_map_retarget", &err);
     const icc_improve_options options = {.size = sizeof options, .levels = 1};
     must(icc_map_improve(&o.map, map, &options, NULL, NULL, &err), "icc_map_improve", &err);
     icc_map_free(map);
@@ -150,7 +152,7 @@ static object make_retargeted_solid(size_t which)
     icc_domain *target = domain_ball_mesh(0);
     icc_error err = {.size = sizeof err};
     object o = {0};
-    must(icc_map_retarget(&o.map, first.map, target, 0, NULL, &err), "icc_map_retarget", &err);
+    must(icc_map_retarget(&o.map, first.map, target, NULL, NULL, &err), "icc_map_retarget", &err);
     icc_map_free(first.map);
     icc_domain_free(target);
     return o;
@@ -439,9 +441,10 @@ static void digest_function_info(digest *d, const icc_function *function)
     icc_function_report report = {.size = sizeof report};
     (void)icc_function_get_info(function, &info);
     must(icc_function_get_report(function, &report, NULL, NULL), "a report", NULL);
-    const size_t counts[] = {info.n_unknowns, info.n_violated, info.n_active,   info.n_iterations,
-                             info.n_inner,    report.n_maxima, report.n_minima, report.n_saddles};
-    const double numbers[] = {info.residual_before, info.residual, info.least_log, info.excess};
+    const icc_solver_report made = solver_report_of(function);
+    const size_t counts[] = {info.n_unknowns, info.n_violated, info.n_active,   made.n_iterations,
+                             made.n_inner,    report.n_maxima, report.n_minima, report.n_saddles};
+    const double numbers[] = {made.residual_before, info.residual, info.least_log, info.excess};
     for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k)
         digest_size(d, counts[k]);
     digest_f64(d, sizeof numbers / sizeof *numbers, numbers);
@@ -668,8 +671,8 @@ static void try_mesh(digest *d, size_t which)
     icc_error err = {.size = sizeof err};
     icc_map *map;
     must(icc_map_create(&map, source, target, &options, NULL, &err), "icc_map_create", &err);
-    must(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, images, &c, NULL,
-                        &err),
+    must(flat_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, images, &c, NULL,
+                     &err),
          "icc_map_repair", &err);
     digest_f64(d, m.n_vertices * (size_t)dim, images);
     digest_i32(d, 1, &c.certified);

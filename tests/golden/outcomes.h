@@ -3,6 +3,8 @@
 #ifndef TESTS_GOLDEN_OUTCOMES_H
 #define TESTS_GOLDEN_OUTCOMES_H
 
+#include "../flat_mesh.h"
+#include "../reports.h"
 #include "digest.h"
 #include "fixtures.h"
 
@@ -166,14 +168,14 @@ static inline icc_map_info info_of_map(const icc_map *map)
     return info;
 }
 
-static inline void digest_map_info(digest *d, const icc_map_info *info)
+static inline void digest_map_info(digest *d, const icc_map_info *info, const icc_map_report *made)
 {
     const int32_t numbers[] = {info->dim,      info->kind,   info->certified,
-                               info->n_levels, info->reason, info->reason_side};
-    const size_t counts[] = {info->n_vertices,   info->n_simplices,  info->n_inverted,
-                             info->n_unrepaired, info->n_iterations, info->n_samples,
-                             info->n_lost,       info->n_flat};
-    const double energies[] = {info->energy_start, info->energy};
+                               made->n_levels, info->reason, info->reason_side};
+    const size_t counts[] = {info->n_vertices,   info->n_simplices,  made->n_inverted,
+                             made->n_unrepaired, made->n_iterations, made->n_samples,
+                             made->n_lost,       made->n_flat};
+    const double energies[] = {made->energy_start, info->energy};
     digest_i32(d, sizeof numbers / sizeof *numbers, numbers);
     for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k)
         digest_size(d, counts[k]);
@@ -187,7 +189,7 @@ static inline void digest_map_mesh(digest *d, const icc_map *map, const icc_map_
     const size_t dim = (size_t)info->dim, n = info->n_vertices * dim;
     double *numbers = mesh_alloc(2 * n, sizeof *numbers);
     uint32_t *corners = mesh_alloc(info->n_simplices * (dim + 1), sizeof *corners);
-    must(icc_map_get_mesh(map, numbers, numbers + n, corners), "mesh", NULL);
+    must(flat_get_mesh(map, numbers, numbers + n, corners), "mesh", NULL);
     digest_f64(d, 2 * n, numbers);
     digest_u32(d, info->n_simplices * (dim + 1), corners);
     for (size_t i = 0; i < n; ++i) {
@@ -220,7 +222,8 @@ static inline void digest_map(digest *d, const icc_map *map)
 {
     const icc_map_info info = info_of_map(map);
     double points[N_COORDINATES], lower[ICC_MAX_DIM], upper[ICC_MAX_DIM];
-    digest_map_info(d, &info);
+    const icc_map_report made = report_of(map);
+    digest_map_info(d, &info, &made);
     if (info.kind == ICC_MAP_MESH) {
         digest_map_mesh(d, map, &info, lower, upper);
         points_of_box(info.dim, lower, upper, points);

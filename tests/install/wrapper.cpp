@@ -248,7 +248,9 @@ void makes_maps_of_maps()
     check(next.certified() && next.get_source_chart() == nullptr, "a map that follows");
     check(first.get_source_chart() != nullptr && first.get_target_chart() != nullptr, "charts of a map");
     check(is_times(next.apply({0, 0, 4, 0}), 1, {0, 0, 9, 0}), "and where it goes");
-    check(first.retarget(moved, -1).info().n_iterations == 0, "without steps");
+    auto none_at_all = icc::sized<icc_retarget_options>();
+    none_at_all.iterations = -1;
+    check(first.retarget(moved, none_at_all).report().n_iterations == 0, "without steps");
     const std::vector<std::uint32_t> faces{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
     const icc::domain solid(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, faces);
     const icc::domain dragged(3, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.5, 0, 1}, faces);

@@ -125,7 +125,7 @@ static void try_domain(const icc_domain *source, const double *affine, const dou
     expect_affine(map, source, affine);
     ck_assert_int_eq(icc_map_improve(&better, map, NULL, NULL, NULL, NULL), ICC_OK);
     expect_affine(better, source, affine);
-    ck_assert_int_eq(icc_map_retarget(&moved, map, other, 0, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_retarget(&moved, map, other, NULL, NULL, NULL), ICC_OK);
     expect_affine(moved, source, next);
     icc_map_free(map);
     icc_map_free(better);
@@ -207,7 +207,7 @@ START_TEST(features)
         icc_map *map = map_of(from, to), *moved;
         expect_affine(map, from, PLANE[a]);
         expect_partners(map, source.n_vertices, 2, source.xy, target.xy);
-        if (icc_map_retarget(&moved, map, next, 0, NULL, NULL) == ICC_OK) {
+        if (icc_map_retarget(&moved, map, next, NULL, NULL, NULL) == ICC_OK) {
             expect_affine(moved, from, PLANE[(a + 1) % N_AFFINE]);
             icc_map_free(moved);
         }

@@ -1,5 +1,6 @@
 /* A caller's tetrahedral mesh carried along by a map: the certificate counts what is there, and the
  * repair leaves nothing inverted that could be mended. */
+#include "../flat_mesh.h"
 #include <check.h>
 #include <icc/icc.h>
 #include <math.h>
@@ -121,11 +122,11 @@ static result carry(const icc_map *map, const test_mesh *m)
     result r = {.before = {.size = sizeof r.before}, .after = {.size = sizeof r.after}};
     r.mapped = mesh_alloc(3 * m->n_vertices, sizeof *r.mapped);
     r.images = mesh_alloc(3 * m->n_vertices, sizeof *r.images);
-    ck_assert_msg(icc_map_certify(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
-                                  r.mapped, &r.before, NULL, &err) == ICC_OK,
+    ck_assert_msg(flat_certify(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
+                               r.mapped, &r.before, NULL, &err) == ICC_OK,
                   "%s", err.message);
-    ck_assert_msg(icc_map_repair(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
-                                 r.images, &r.after, NULL, &err) == ICC_OK,
+    ck_assert_msg(flat_repair(map, m->n_vertices, m->vertices, m->n_simplices, m->simplices,
+                              r.images, &r.after, NULL, &err) == ICC_OK,
                   "%s", err.message);
     return r;
 }
@@ -288,7 +289,7 @@ START_TEST(bad_arguments_are_refused)
     for (int repair = 0; repair < 2; ++repair) {
         icc_status (*const call)(const icc_map *, size_t, const double *, size_t, const uint32_t *,
                                  double *, icc_certificate *, const icc_env *, icc_error *) =
-            repair ? icc_map_repair : icc_map_certify;
+            repair ? flat_repair : flat_certify;
         icc_certificate c = {.size = sizeof c};
         icc_error err = {.size = sizeof err};
         ck_assert_int_eq(call(map4, m4.n_vertices, m4.vertices, m4.n_simplices, m4.simplices,
@@ -330,9 +331,8 @@ static icc_status run_job(const icc_env *env, icc_error *err, void *argument)
 {
     const job *j = argument;
     icc_certificate c = {.size = sizeof c};
-    const icc_status status =
-        icc_map_repair(j->map, j->m.n_vertices, j->m.vertices, j->m.n_simplices, j->m.simplices,
-                       j->images, &c, env, err);
+    const icc_status status = flat_repair(j->map, j->m.n_vertices, j->m.vertices, j->m.n_simplices,
+                                          j->m.simplices, j->images, &c, env, err);
     ck_assert(status != ICC_OK || c.certified);
     return status;
 }

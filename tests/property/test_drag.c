@@ -27,7 +27,7 @@ static void jump(const shape *from, const shape *to)
     ck_assert_int_eq(icc_domain_create(&target, 2, to->n, to->xy, 0, NULL, NULL, &err), ICC_OK);
     icc_status status = icc_map_create(&map, source, source, NULL, NULL, &err);
     map = made(status, map, &err);
-    status = icc_map_retarget(&next, map, target, 0, NULL, &err);
+    status = icc_map_retarget(&next, map, target, NULL, NULL, &err);
     next = made(status, next, &err);
     ck_assert_ptr_null(icc_map_source_chart(next));
     icc_map_free(map);
@@ -70,7 +70,7 @@ START_TEST(points_go_round_one_another)
         icc_domain *target;
         icc_map *next = NULL;
         ck_assert_int_eq(drag_domain(&target, &d, angle, &err), ICC_OK);
-        const icc_status step = icc_map_retarget(&next, map, target, 0, NULL, &err);
+        const icc_status step = icc_map_retarget(&next, map, target, NULL, NULL, &err);
         next = made(step, next, &err);
         icc_map_free(map);
         icc_domain_free(target);
@@ -104,14 +104,15 @@ START_TEST(points_that_meet_are_refused)
     icc_map *map = NULL, *next = NULL;
     for (int k = 0; k < 2; ++k) {
         const icc_feature features[2] = {
-            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * k, 0},
-            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * (1 - k), 0}};
+            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * k, 0, 0, NULL},
+            {sizeof *features, ICC_FEATURE_POINT, 1, PLACES + 2 * (1 - k), 0, 0, NULL}};
         ck_assert_int_eq(icc_domain_create_features(&domain[k], 4, SQUARE, 2, features, NULL, &err),
                          ICC_OK);
     }
     const icc_status status = icc_map_create(&map, domain[0], domain[0], NULL, NULL, &err);
     map = made(status, map, &err);
-    ck_assert_int_eq(icc_map_retarget(&next, map, domain[1], 0, NULL, &err), ICC_ERR_CERTIFICATE);
+    ck_assert_int_eq(icc_map_retarget(&next, map, domain[1], NULL, NULL, &err),
+                     ICC_ERR_CERTIFICATE);
     ck_assert_ptr_null(next);
     icc_map_free(map);
     icc_domain_free(domain[0]);
@@ -131,7 +132,7 @@ static icc_status run_job(const icc_env *env, icc_error *err, void *argument)
 {
     const job *j = argument;
     icc_map *next = NULL;
-    const icc_status status = icc_map_retarget(&next, j->map, j->target, 0, env, err);
+    const icc_status status = icc_map_retarget(&next, j->map, j->target, NULL, env, err);
     icc_map_free(next);
     return status;
 }

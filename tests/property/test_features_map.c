@@ -1,4 +1,5 @@
 /* What holds for maps of random domains with features, there and back. */
+#include "../flat_mesh.h"
 #include "math/predicates.h"
 
 #include "../feature_mixes.h"
@@ -29,7 +30,7 @@ static void check_triangles(const icc_map *map, const icc_map_info *info)
     double *images = malloc(2 * info->n_vertices * sizeof *images);
     uint32_t *corners = malloc(3 * info->n_simplices * sizeof *corners);
     ck_assert(points != NULL && images != NULL && corners != NULL);
-    ck_assert_int_eq(icc_map_get_mesh(map, points, images, corners), ICC_OK);
+    ck_assert_int_eq(flat_get_mesh(map, points, images, corners), ICC_OK);
     for (size_t t = 0; t < info->n_simplices; ++t) {
         const size_t a = 2 * (size_t)corners[3 * t], b = 2 * (size_t)corners[3 * t + 1],
                      c = 2 * (size_t)corners[3 * t + 2];
@@ -90,7 +91,7 @@ START_TEST(the_same_bits_on_many_threads)
         icc_map *map = map_of(&m, false, 2, &env);
         (void)icc_map_get_info(map, &info);
         ck_assert_uint_le(info.n_vertices, MANY);
-        ck_assert_int_eq(icc_map_get_mesh(map, NULL, points[k], NULL), ICC_OK);
+        ck_assert_int_eq(flat_get_mesh(map, NULL, points[k], NULL), ICC_OK);
         icc_map_free(map);
     }
     ck_assert_mem_eq(points[0], points[1], sizeof points[0]);

@@ -1,4 +1,6 @@
 /* What holds for the mesh map between every two shapes. */
+#include "../flat_mesh.h"
+#include "../reports.h"
 #include "map/map.h"
 #include "map/plane/plane_kind.h"
 #include "math/predicates.h"
@@ -205,14 +207,15 @@ START_TEST(every_triangle_is_positive_and_they_cover_both_shapes)
             if (info.kind != ICC_MAP_MESH)
                 ck_abort_msg("pair %d has no mesh map", k);
             ck_assert_int_eq(info.certified, 1);
-            ck_assert_uint_eq(info.n_unrepaired, 0);
+            ck_assert_uint_eq(report_of(map).n_unrepaired, 0);
             const double before = check_triangles(map, iccp_plane_of(map)->pl.points);
             const double after = check_triangles(map, iccp_plane_of(map)->pl.images);
             ck_assert_double_eq_tol(before / map->source_domain->measure, 1, 1e-12);
             ck_assert_double_eq_tol(after / map->target_domain->measure, 1, 1e-12);
-            ck_assert_double_le(info.energy, info.energy_start * (1 + 1e-14));
+            ck_assert_double_le(info.energy, report_of(map).energy_start * (1 + 1e-14));
             ck_assert_double_ge(info.energy, 4 - 1e-9);
-            ck_assert(iterations >= 0 || (info.n_iterations == 0 && info.n_levels == 0));
+            ck_assert(iterations >= 0 ||
+                      (report_of(map).n_iterations == 0 && report_of(map).n_levels == 0));
             icc_map_free(map);
         }
 }
@@ -229,8 +232,8 @@ START_TEST(the_mesh_is_the_map)
         uint32_t *triangles = malloc(3 * info.n_simplices * sizeof *triangles);
         ck_assert(vertices != NULL && triangles != NULL);
         double *images = vertices + 2 * n, *mapped = vertices + 4 * n;
-        ck_assert_int_eq(icc_map_get_mesh(map, vertices, images, triangles), ICC_OK);
-        ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(flat_get_mesh(map, vertices, images, triangles), ICC_OK);
+        ck_assert_int_eq(flat_get_mesh(map, NULL, NULL, NULL), ICC_OK);
         size_t n_failed;
         for (int inverse = 0; inverse < 2; ++inverse) {
             const double *from = inverse ? images : vertices, *to = inverse ? vertices : images;
@@ -496,10 +499,10 @@ START_TEST(maps_can_be_improved_later)
         const size_t n = info_of(plain).n_vertices;
         double *images = malloc(4 * n * sizeof *images);
         ck_assert_ptr_nonnull(images);
-        (void)icc_map_get_mesh(plain, NULL, images, NULL);
+        (void)flat_get_mesh(plain, NULL, images, NULL);
         icc_improve_report report;
         icc_map *better = improve(plain, NULL, &report, NULL);
-        (void)icc_map_get_mesh(plain, NULL, images + 2 * n, NULL);
+        (void)flat_get_mesh(plain, NULL, images + 2 * n, NULL);
         ck_assert_mem_eq(images, images + 2 * n, 2 * n * sizeof *images);
         ck_assert_double_eq(report.energy_start, info_of(plain).energy);
         ck_assert_double_eq_tol(report.energy / info_of(fair).energy, 1, 1e-9);
@@ -563,7 +566,7 @@ START_TEST(work_is_bounded)
         icc_map *map =
             k < N_PAIRS ? map_number(k, 0, NULL) : map_between(&source, &target, false, 0, NULL);
         const double most = allowed(map->source_domain->n_facets);
-        ck_assert(iccp_plane_of(map)->work > 0 || info_of(map).n_iterations == 0);
+        ck_assert(iccp_plane_of(map)->work > 0 || report_of(map).n_iterations == 0);
         const double n = (double)map->source_domain->n_facets;
         ck_assert_double_le(iccp_plane_of(map)->work,
                             fmin(1.5 * most + 4 * n * n, 1.6e6 + 225 * n));

@@ -1,5 +1,6 @@
 /* Points of a boundary, as doubles hold them, have their images there and back, wherever the shape
  * lies. */
+#include "../flat_mesh.h"
 #include "../meshes.h"
 #include "../random.h"
 #include "../shapes.h"
@@ -77,9 +78,8 @@ static icc_domain *domain_of(const pair *p, int side)
     icc_error err = {.size = sizeof err};
     const icc_status status =
         p->simplices != NULL
-            ? icc_domain_create_mesh(&domain, p->dim, p->n_vertices, p->vertices[side],
-                                     p->n_simplices, p->simplices, p->n_facets, p->facets, NULL,
-                                     &err)
+            ? flat_create_mesh(&domain, p->dim, p->n_vertices, p->vertices[side], p->n_simplices,
+                               p->simplices, p->n_facets, p->facets, NULL, &err)
             : icc_domain_create(&domain, p->dim, p->n_vertices, p->vertices[side], p->n_facets,
                                 p->facets, NULL, &err);
     ck_assert_msg(status == ICC_OK, "%s: %s", p->name, err.message);

@@ -24,6 +24,8 @@ static const double FIRST = 0.3;
 /* Facts about a frame for the report. */
 typedef struct frame_facts {
     icc_map_info map;
+    icc_map_report made;
+
     size_t n_failed; /* pixels without an image */
 } frame_facts;
 
@@ -96,6 +98,8 @@ static int write_frame(animation *x, const icc_map *map)
     picture_free(&to);
     facts->map = (icc_map_info){.size = sizeof facts->map};
     icc_map_get_info(map, &facts->map);
+    facts->made = (icc_map_report){.size = sizeof facts->made};
+    icc_map_get_report(map, &facts->made);
     x->frame++;
     return result;
 }
@@ -125,7 +129,7 @@ static int follow(animation *x, size_t key, double share)
     }
     expect_frame(x);
     if (status == ICC_OK)
-        status = icc_map_retarget(&map, old, own != NULL ? own : x->keys[key].domains[1], 0,
+        status = icc_map_retarget(&map, old, own != NULL ? own : x->keys[key].domains[1], NULL,
                                   &first->env, &err);
     icc_domain_free(own);
     if (status != ICC_OK)
@@ -156,7 +160,7 @@ static void report_frames(animation *x, json *j)
         json_text(j, "file", name);
         json_flag(j, "certified", facts->map.certified != 0);
         if (!facts->map.certified)
-            json_text(j, "not_certified_because", reason_of_map(reason, &facts->map));
+            json_text(j, "not_certified_because", reason_of_map(reason, &facts->map, &facts->made));
         json_count(j, "without_image", facts->n_failed);
         json_close(j, '}');
         free(name);

@@ -41,7 +41,9 @@ static void ask(check *c)
     if (!pair)
         return;
     c->map.size = sizeof c->map;
+    c->made.size = sizeof c->made;
     icc_map_get_info(c->job.map, &c->map);
+    icc_map_get_report(c->job.map, &c->made);
     c->certified = c->certified && c->map.certified;
 }
 

@@ -26,7 +26,12 @@ static tetrahedra take_mesh(const icc_domain *filled)
     m.points = need(m.n_points, 3 * sizeof *m.points);
     m.corners = need(m.n, 4 * sizeof *m.corners);
     m.faces = need(m.n_faces, 3 * sizeof *m.faces);
-    icc_domain_get_mesh(filled, m.points, m.corners);
+    icc_mesh mesh = {.size = sizeof mesh,
+                     .n_vertices = m.n_points,
+                     .vertices = m.points,
+                     .n_cells = m.n,
+                     .cells = m.corners};
+    icc_domain_get_mesh(filled, &mesh);
     icc_domain_get_boundary(filled, NULL, m.faces);
     return m;
 }

@@ -36,6 +36,7 @@ static int examine_function(info *x, const stages *s)
     icc_function_report found = {.size = sizeof found};
     icc_error err = {.size = sizeof err, .index = -1};
     x->field = s->field_info;
+    x->solved = s->solved;
     if (s->field == NULL)
         return DONE;
     if (icc_function_get_report(s->field, &found, &x->job.env, &err) != ICC_OK)
@@ -81,7 +82,8 @@ int run_info(const args *a)
 {
     info x = {.domain = {.size = sizeof x.domain},
               .measures = {.size = sizeof x.measures},
-              .map = {.size = sizeof x.map}};
+              .map = {.size = sizeof x.map},
+              .made = {.size = sizeof x.made}};
     job_start(&x.job, a);
     int result = ties_check(&x.job);
     if (result == DONE)

@@ -23,9 +23,15 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
     if (j->args->inverse || n == 0 || !(whole || j->args->repair_mesh))
         return DONE;
     certificate->size = sizeof *certificate;
+    const icc_mesh mesh = {.size = sizeof mesh,
+                           .dim = (int32_t)m->dim,
+                           .n_vertices = m->n_vertices,
+                           .vertices = m->points,
+                           .n_cells = n,
+                           .cells = m->dim == 2 ? m->triangles : m->tetrahedra};
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
-        j->map, m->n_vertices, m->points, n, m->dim == 2 ? m->triangles : m->tetrahedra, images,
-        certificate, &j->env, &err);
+        j->map, &mesh, images, certificate, &j->env, &err);
+
     progress_end(&j->bar);
     certificate->size = whole ? certificate->size : 0;
     return ran == ICC_OK ? DONE : job_failed(j, &err);

@@ -100,9 +100,14 @@ static int make_from(icc_domain **out, job *j, size_t side)
     int result =
         name != NULL ? read_filling(&f, j, &used, side) : fill_by_tetgen(&f, j, &used, side);
     cage_free(&used);
+    const icc_mesh mesh = {.size = sizeof mesh,
+                           .dim = (int32_t)f.dim,
+                           .n_vertices = f.n_points,
+                           .vertices = f.points,
+                           .n_cells = f.n,
+                           .cells = f.corners};
     if (result == DONE &&
-        icc_domain_create_mesh(out, (int32_t)f.dim, f.n_points, f.points, f.n, f.corners,
-                               f.n_facets, f.facets, &j->env, &err) != ICC_OK) {
+        icc_domain_create_mesh(out, &mesh, f.n_facets, f.facets, &j->env, &err) != ICC_OK) {
         progress_end(&j->bar);
         result = failed(name != NULL ? name : job_file(j, (int)side + 1), 0, "%s%s",
                         name != NULL ? "" : "the mesh that tetgen has made: ", err.message);

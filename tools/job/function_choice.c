@@ -68,7 +68,7 @@ const char *function_label(char text[48], const icc_function_info *info)
     return text;
 }
 
-void function_report(json *j, const icc_function_info *info)
+void function_report(json *j, const icc_function_info *info, const icc_solver_report *made)
 {
     json_text(j, "function", choice_name(functions, info->function));
     if (!function_solves(info->function))
@@ -79,18 +79,18 @@ void function_report(json *j, const icc_function_info *info)
     json_count(j, "unknowns", info->n_unknowns);
     json_count(j, "violated", info->n_violated);
     json_count(j, "active", info->n_active);
-    json_count(j, "iterations", info->n_iterations);
-    json_count(j, "inner_iterations", info->n_inner);
-    json_number(j, "factorisation_work", info->work);
-    json_number(j, "residual_before_sweep", info->residual_before);
+    json_count(j, "iterations", made->n_iterations);
+    json_count(j, "inner_iterations", made->n_inner);
+    json_number(j, "factorisation_work", made->work);
+    json_number(j, "residual_before_sweep", made->residual_before);
     json_number(j, "residual", info->residual);
     json_number(j, "least_log", info->least_log);
     json_open(j, "seconds", '{');
-    json_number(j, "setup", info->seconds_setup);
-    json_number(j, "order", info->seconds_order);
-    json_number(j, "factor", info->seconds_factor);
-    json_number(j, "solve", info->seconds_solve);
-    json_number(j, "verify", info->seconds_verify);
+    json_number(j, "setup", made->seconds_setup);
+    json_number(j, "order", made->seconds_order);
+    json_number(j, "factor", made->seconds_factor);
+    json_number(j, "solve", made->seconds_solve);
+    json_number(j, "verify", made->seconds_verify);
     json_close(j, '}');
     json_close(j, '}');
 }

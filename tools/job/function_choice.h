@@ -26,6 +26,6 @@ bool function_solves(int32_t function);
 const char *function_label(char text[48], const icc_function_info *info);
 
 /* Writes the members of the report that tell how it was made. */
-void function_report(json *j, const icc_function_info *info);
+void function_report(json *j, const icc_function_info *info, const icc_solver_report *made);
 
 #endif

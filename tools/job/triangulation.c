@@ -27,7 +27,13 @@ static part_mesh take_mesh(const icc_map *map, const cage *cages)
     m.from = need(m.info.n_vertices, 2 * sizeof *m.from);
     m.to = need(m.info.n_vertices, 2 * sizeof *m.to);
     m.triangles = need(m.info.n_simplices, 3 * sizeof *m.triangles);
-    icc_map_get_mesh(map, m.from, m.to, m.triangles);
+    icc_mesh mesh = {.size = sizeof mesh,
+                     .n_vertices = m.info.n_vertices,
+                     .vertices = m.from,
+                     .n_cells = m.info.n_simplices,
+                     .cells = m.triangles};
+    icc_map_get_mesh(map, &mesh, m.to);
+
     if (cages[0].flipped)
         points_flip_y(m.info.n_vertices, m.from);
     if (cages[1].flipped)
@@ -49,9 +55,13 @@ static size_t count_spoilt(const job *j, size_t *n_all)
     size_t n = 0;
     *n_all = 0;
     for (size_t i = 0; i <= j->n_parts; i++) {
+        const icc_map *map = i == 0 ? j->map : j->parts[i - 1].map;
         icc_map_info info = {.size = sizeof info};
-        icc_map_get_info(i == 0 ? j->map : j->parts[i - 1].map, &info);
-        n += info.n_spoilt;
+        icc_map_report made = {.size = sizeof made};
+        icc_map_get_info(map, &info);
+        icc_map_get_report(map, &made);
+        n += made.n_spoilt;
+
         *n_all += info.n_simplices;
     }
     return n;

@@ -326,7 +326,12 @@ static int draw_triangles(const panel *p)
                       "--triangles");
     double *points = need(info.n_vertices, 2 * sizeof *points);
     uint32_t *triangles = need(info.n_simplices, 3 * sizeof *triangles);
-    icc_map_get_mesh(map, p->side == 1 ? points : NULL, p->side == 2 ? points : NULL, triangles);
+    icc_mesh mesh = {.size = sizeof mesh,
+                     .n_vertices = info.n_vertices,
+                     .vertices = p->side == 1 ? points : NULL,
+                     .n_cells = info.n_simplices,
+                     .cells = triangles};
+    icc_map_get_mesh(map, &mesh, p->side == 2 ? points : NULL);
     for (size_t i = 0; i < info.n_vertices; i++)
         panel_place(p, points + 2 * i, points + 2 * i);
     fputs("<path fill=\"none\" stroke=\"#334155\" stroke-width=\"0.4\" d=\"", p->svg);

@@ -34,7 +34,12 @@ static int take_domain(solid *x)
         x->body.n_tets = info.n_mesh_simplices;
         x->body.points[0] = need(info.n_mesh_vertices, 3 * sizeof(double));
         x->body.tets = need(info.n_mesh_simplices, 4 * sizeof(uint32_t));
-        ran = icc_domain_get_mesh(from, x->body.points[0], x->body.tets);
+        icc_mesh mesh = {.size = sizeof mesh,
+                         .n_vertices = x->body.n_points,
+                         .vertices = x->body.points[0],
+                         .n_cells = x->body.n_tets,
+                         .cells = x->body.tets};
+        ran = icc_domain_get_mesh(from, &mesh);
         x->body.points[1] = need(info.n_mesh_vertices, 3 * sizeof(double)); /* see map_sheet() */
     }
     icc_domain_free(made[0]);
@@ -50,7 +55,12 @@ static int take_map(solid *x, const icc_map_info *info)
     for (size_t side = 0; side < 2; side++)
         b->points[side] = need(b->n_points, 3 * sizeof(double));
     b->tets = need(b->n_tets, 4 * sizeof *b->tets);
-    icc_status ran = icc_map_get_mesh(x->job->map, b->points[0], b->points[1], b->tets);
+    icc_mesh mesh = {.size = sizeof mesh,
+                     .n_vertices = b->n_points,
+                     .vertices = b->points[0],
+                     .n_cells = b->n_tets,
+                     .cells = b->tets};
+    icc_status ran = icc_map_get_mesh(x->job->map, &mesh, b->points[1]);
     return ran == ICC_OK ? DONE : job_failed_status(x->job, ran);
 }
 

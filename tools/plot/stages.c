@@ -67,6 +67,7 @@ int stages_make(stages *out, job *j, int side)
                     .chart_info = {.size = sizeof out->chart_info},
                     .lattice = {.size = sizeof out->lattice},
                     .field_info = {.size = sizeof out->field_info},
+                    .solved = {.size = sizeof out->solved},
                     .high = 1};
     out->domain = j->domains[side == 2];
     out->map = j->map;
@@ -83,6 +84,7 @@ int stages_make(stages *out, job *j, int side)
     out->tree = icc_function_tree(out->field);
     out->grid = icc_tree_grid(out->tree);
     icc_function_get_info(out->field, &out->field_info);
+    icc_function_get_solver_report(out->field, &out->solved);
     icc_grid_get_info(out->grid, &out->lattice);
     find_scale(out);
     return out->box.dim == 2 ? find_edges(out, j) : DONE;

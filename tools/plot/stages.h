@@ -18,6 +18,7 @@ typedef struct stages {
     const icc_grid *grid;
     icc_grid_info lattice;
     icc_function_info field_info;
+    icc_solver_report solved;
     const double *values; /* the drawn values of the function, or their logarithms */
     bool logarithmic;
     double low, high; /* the least and largest of them inside */

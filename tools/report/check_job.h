@@ -15,7 +15,8 @@ typedef struct check {
     size_t n_filled;  /* by --repair: cells of a mask */
     size_t n_joined;  /* by --repair: vertices of a surface */
     chart_facts charts[2];
-    icc_map_info map;    /* of kind 0 if there is no target */
+    icc_map_info map; /* of kind 0 if there is no target */
+    icc_map_report made;
     bool certified;      /* everything is certified */
     struct check *parts; /* the other polygons of the job; their jobs are copies */
 } check;

@@ -114,7 +114,7 @@ static void print_why(const check *c)
     char text[REASON_LENGTH];
     size_t side = c->charts[0].common.certified ? 1 : 0;
     if (c->map.kind != 0 && !c->map.certified && c->map.reason_side == 0)
-        fputs(reason_of_map(text, &c->map), stdout);
+        fputs(reason_of_map(text, &c->map, &c->made), stdout);
     else if (c->map.kind != 0)
         printf("the %s's chart: %s", cage_role_name(side == 0 ? CAGE_SOURCE : CAGE_TARGET),
                reason_of_chart(text, &c->charts[side]));
@@ -150,12 +150,12 @@ void check_print_certificates(const check *c)
             printf("%s: field chart not certified: %s\n", file,
                    reason_of_chart(text, &c->charts[side]));
     }
-    if (c->map.n_unrepaired > 0)
+    if (c->made.n_unrepaired > 0)
         printf("map: %zu %s of the mesh stay inverted, so it is of kind curves\n",
-               c->map.n_unrepaired, elements_name(c->map.dim));
+               c->made.n_unrepaired, elements_name(c->map.dim));
     if (c->map.kind != 0 && !c->map.certified)
         printf("map: %s, not certified: %s\n", choice_name(maps, c->map.kind),
-               reason_of_map(text, &c->map));
+               reason_of_map(text, &c->map, &c->made));
     if (!c->map.certified)
         return;
     printf("%smap: %s, certified one-to-one", c->job.name, choice_name(maps, c->map.kind));
@@ -209,13 +209,13 @@ static void report_certificates(const check *c, json *j)
                 json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[side]));
             json_close(j, '}');
         }
-    if (c->map.n_samples > 0) {
-        json_count(j, "samples", c->map.n_samples);
-        json_count(j, "samples_lost", c->map.n_lost);
-        json_count(j, "samples_flat", c->map.n_flat);
+    if (c->made.n_samples > 0) {
+        json_count(j, "samples", c->made.n_samples);
+        json_count(j, "samples_lost", c->made.n_lost);
+        json_count(j, "samples_flat", c->made.n_flat);
     }
     if (c->map.kind != 0 && !c->map.certified)
-        json_text(j, "not_certified_because", reason_of_map(text, &c->map));
+        json_text(j, "not_certified_because", reason_of_map(text, &c->map, &c->made));
     else if (c->charts[0].common.method != 0 && !c->charts[0].common.certified)
         json_text(j, "not_certified_because", reason_of_chart(text, &c->charts[0]));
     if (!check_domain_only(c))

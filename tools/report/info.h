@@ -33,6 +33,7 @@ typedef struct info {
     /* Methods gradient and field. */
     icc_grid_info grid;
     icc_function_info field;
+    icc_solver_report solved;
     bool has_critical; /* there are critical points besides the maximum; the first one is here */
     double critical[ICC_MAX_DIM];
     size_t n_order_critical;  /* critical vertices of the tree's own order, besides the maximum */
@@ -42,6 +43,7 @@ typedef struct info {
     size_t n_holes;           /* of the grid's inside, in the plane */
     size_t n_inner_expansion; /* expansion edges between two triangles inside */
     icc_map_info map;
+    icc_map_report made;
     map_shares shares;
 } info;
 

@@ -34,11 +34,11 @@ static void print_domain(const info *x)
     print_point(x, "", d->upper, "\n");
 }
 
-static void print_solution(const icc_function_info *f)
+static void print_solution(const icc_function_info *f, const icc_solver_report *made)
 {
     printf("solution    %zu unknowns, solver %s", f->n_unknowns, choice_name(solvers, f->solver));
     if (f->solver == ICC_SOLVER_ITERATIVE)
-        printf(" in %zu steps", f->n_inner);
+        printf(" in %zu steps", made->n_inner);
     if (f->least_log < 0)
         printf(", least value 10^%.1f of the greatest\n", f->least_log / log(10));
     else
@@ -47,11 +47,11 @@ static void print_solution(const icc_function_info *f)
         printf("tree edges  %zu broke the inequality without constraints; %zu hold with equality, "
                "found "
                "in %zu iterations\n",
-               f->n_violated, f->n_active, f->n_iterations);
+               f->n_violated, f->n_active, made->n_iterations);
     else
         printf("tree edges  %zu break the inequality, which was not imposed\n", f->n_violated);
     printf("residual    %.2g, and %.2g before the last sweep along the tree\n", f->residual,
-           f->residual_before);
+           made->residual_before);
 }
 
 static void print_critical(const info *x)
@@ -88,7 +88,7 @@ static void print_grid(const info *x)
                info_growth(text, x));
     putchar('\n');
     if (function_solves(x->field.function))
-        print_solution(&x->field);
+        print_solution(&x->field, &x->solved);
     print_critical(x);
 }
 
@@ -173,12 +173,12 @@ static void print_certified(const info *x)
                x->chart.foliation.n_ties, 100 * m->harmonic_share);
 }
 
-static void print_mesh_map(const icc_map_info *m)
+static void print_mesh_map(const icc_map_info *m, const icc_map_report *made)
 {
     printf("%-11s %zu, %zu vertices; %zu were not positive and have been repaired\n",
-           elements_name(m->dim), m->n_simplices, m->n_vertices, m->n_inverted);
-    printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", m->energy_start,
-           m->energy, m->n_iterations, (int)m->n_levels);
+           elements_name(m->dim), m->n_simplices, m->n_vertices, made->n_inverted);
+    printf("energy      %.4g, improved to %.4g (steps: %zu, refinements: %d)\n", made->energy_start,
+           m->energy, made->n_iterations, (int)made->n_levels);
     if (m->n_ties > 0)
         printf("ties        %zu, %.4g times as long as straight lines%s\n", m->n_ties, m->detour,
                m->class_kept ? "" : "; not known to go round features as those that it began with");
@@ -193,12 +193,12 @@ static void print_map(const info *x)
     printf("map         %s, %s\n", choice_name(maps, m->kind),
            m->certified ? "certified" : "not certified");
     if (!m->certified)
-        printf("            because %s\n", reason_of_map(reason, m));
-    if (m->n_unrepaired > 0)
-        printf("            of kind curves because %zu %s stay inverted\n", m->n_unrepaired,
+        printf("            because %s\n", reason_of_map(reason, m, &x->made));
+    if (x->made.n_unrepaired > 0)
+        printf("            of kind curves because %zu %s stay inverted\n", x->made.n_unrepaired,
                elements_name(m->dim));
     if (m->kind == ICC_MAP_MESH)
-        print_mesh_map(m);
+        print_mesh_map(m, &x->made);
     printf("%-11s %6.2f %% collapses, %.2f %% inverts, %.2f %% has no image\n",
            x->domain.dim == 2 ? "area" : "volume", 100 * s->collapsed, 100 * s->inverted,
            100 * s->without_image);
@@ -212,7 +212,7 @@ static void print_map(const info *x)
 static void print_grid_seconds(const info *x)
 {
     const grid_facts *g = &x->chart.grid;
-    const icc_function_info *f = &x->field;
+    const icc_solver_report *f = &x->solved;
     printf("grid %.4f, tree %.4f, function %.4f", g->seconds_grid, g->seconds_tree,
            g->seconds_function);
     if (function_solves(x->field.function))
@@ -250,6 +250,6 @@ void info_print(const info *x)
         print_mesh_seconds(c);
     if (x->map.kind == ICC_MAP_MESH)
         printf("%srepair %.4f, improve %.4f, certify %.4f", c->common.method != 0 ? ", " : "",
-               x->map.seconds_repair, x->map.seconds_improve, x->map.seconds_certify);
+               x->made.seconds_repair, x->made.seconds_improve, x->made.seconds_certify);
     printf(", all %.4f\n", seconds_now() - x->job.started);
 }

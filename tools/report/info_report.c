@@ -34,7 +34,7 @@ static void report_grid(json *j, const info *x)
 {
     const chart_facts *c = &x->chart;
     const grid_facts *g = &c->grid;
-    function_report(j, &x->field);
+    function_report(j, &x->field, &x->solved);
     json_text(j, "tree_form", choice_name(trees, g->tree));
     json_count(j, "grid_vertices", g->n_vertices);
     json_count(j, "inside_vertices", g->n_inside);
@@ -120,14 +120,14 @@ static void report_shares(json *j, const icc_chart_report *m)
     json_close(j, '}');
 }
 
-static void report_mesh_map(json *j, const icc_map_info *m)
+static void report_mesh_map(json *j, const icc_map_info *m, const icc_map_report *made)
 {
     json_count(j, "triangles", m->n_simplices);
     json_count(j, "vertices", m->n_vertices);
-    json_count(j, "repaired", m->n_inverted);
-    json_count(j, "steps", m->n_iterations);
-    json_count(j, "refinements", (size_t)m->n_levels);
-    json_number(j, "energy_before", m->energy_start);
+    json_count(j, "repaired", made->n_inverted);
+    json_count(j, "steps", made->n_iterations);
+    json_count(j, "refinements", (size_t)made->n_levels);
+    json_number(j, "energy_before", made->energy_start);
     json_number(j, "energy", m->energy);
     if (m->n_ties > 0) {
         json_count(j, "ties", m->n_ties);
@@ -135,30 +135,32 @@ static void report_mesh_map(json *j, const icc_map_info *m)
         json_flag(j, "class_kept", m->class_kept != 0);
     }
     json_open(j, "seconds", '{');
-    json_number(j, "repair", m->seconds_repair);
-    json_number(j, "improve", m->seconds_improve);
-    json_number(j, "certify", m->seconds_certify);
-    json_number(j, "all", m->seconds);
+    json_number(j, "repair", made->seconds_repair);
+    json_number(j, "improve", made->seconds_improve);
+    json_number(j, "certify", made->seconds_certify);
+    json_number(j, "all", made->seconds);
     json_close(j, '}');
 }
 
 /* Writes the contents of print_map() as JSON. */
-static void report_map(json *j, const icc_map_info *m, const map_shares *s)
+static void report_map(json *j, const info *x)
 {
+    const icc_map_info *m = &x->map;
+    const map_shares *s = &x->shares;
     char reason[REASON_LENGTH];
     json_open(j, "map", '{');
     json_text(j, "kind", choice_name(maps, m->kind));
     json_flag(j, "certified", m->certified != 0);
     if (!m->certified)
-        json_text(j, "not_certified_because", reason_of_map(reason, m));
-    if (m->n_samples > 0) {
-        json_count(j, "samples_there_and_back", m->n_samples);
-        json_count(j, "lost", m->n_lost);
-        json_count(j, "flat", m->n_flat);
+        json_text(j, "not_certified_because", reason_of_map(reason, m, &x->made));
+    if (x->made.n_samples > 0) {
+        json_count(j, "samples_there_and_back", x->made.n_samples);
+        json_count(j, "lost", x->made.n_lost);
+        json_count(j, "flat", x->made.n_flat);
     }
-    json_count(j, "unrepaired", m->n_unrepaired);
+    json_count(j, "unrepaired", x->made.n_unrepaired);
     if (m->kind == ICC_MAP_MESH)
-        report_mesh_map(j, m);
+        report_mesh_map(j, m, &x->made);
     json_count(j, "samples", s->n);
     json_number(j, "collapsed", s->collapsed);
     json_number(j, "inverted", s->inverted);
@@ -207,7 +209,7 @@ int info_report(const info *x)
     if (x->chart.common.method != ICC_METHOD_FIELD || x->measures.n_points > 0)
         report_shares(&r.json, &x->measures);
     if (x->shares.n > 0)
-        report_map(&r.json, &x->map, &x->shares);
+        report_map(&r.json, x);
     report_seconds(&r.json, x);
     return report_close(&r) ? DONE : FAILED;
 }

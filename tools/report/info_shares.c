@@ -99,6 +99,7 @@ int info_measure_map(info *x)
     size_t dim = job_dim(j);
     icc_domain_info target = {.size = sizeof target};
     icc_map_get_info(j->map, &x->map);
+    icc_map_get_report(j->map, &x->made);
     icc_domain_get_info(j->domains[1], &target);
     double *points = need(N_SAMPLES, dim * sizeof *points),
            *jacobians = need(N_SAMPLES, dim * dim * sizeof *jacobians);

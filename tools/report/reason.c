@@ -35,15 +35,16 @@ const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart)
     return text;
 }
 
-const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map)
+const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map,
+                          const icc_map_report *made)
 {
     text[0] = '\0';
     if (map->reason_side != 0)
         add(text, 1, "the %s's chart is not", map->reason_side == 1 ? "source" : "target");
-    add(text, map->n_lost, "%zu of %zu sample points do not come back, for want of digits",
-        map->n_lost, map->n_samples);
-    if (map->reason == ICC_REASON_FLAT || map->n_lost > 0)
-        add(text, map->n_flat, "it flattens what lies around %zu of %zu sample points", map->n_flat,
-            map->n_samples);
+    add(text, made->n_lost, "%zu of %zu sample points do not come back, for want of digits",
+        made->n_lost, made->n_samples);
+    if (map->reason == ICC_REASON_FLAT || made->n_lost > 0)
+        add(text, made->n_flat, "it flattens what lies around %zu of %zu sample points",
+            made->n_flat, made->n_samples);
     return text;
 }

@@ -10,6 +10,7 @@ enum { REASON_LENGTH = 320 };
 const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart);
 
 /* All reasons why a map is not certified. */
-const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map);
+const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map,
+                          const icc_map_report *made);
 
 #endif

@@ -2,7 +2,7 @@
 import { Handle } from './core.js';
 import { IccError } from './error.js';
 import { constantNames } from './names.js';
-import { flat, indices, ring } from './points.js';
+import { flat, indices, meshOf, ring } from './points.js';
 
 const DEFECTS = constantNames('ICC_DEFECT_');
 
@@ -70,8 +70,7 @@ export function domainOf(core) {
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
       const v = flat(vertices, dim), s = indices(simplices);
       const f = facets === null ? null : indices(facets);
-      return new Domain(core.made('icc_domain_create_mesh', dim, v.length / dim, v, s.length / (dim + 1), s,
-        f === null ? 0 : f.length / dim, f));
+      return new Domain(core.made('icc_domain_create_mesh', meshOf(dim, v, s), f === null ? 0 : f.length / dim, f));
     }
 
     /** A mask of cells: `shape` cells along the axes, the first axis fastest. */
@@ -101,7 +100,7 @@ export function domainOf(core) {
         vertices: new Float64Array(nMeshVertices * dim),
         simplices: new Uint32Array(nMeshSimplices * (dim + 1)),
       };
-      core.call('icc_domain_get_mesh', this, out.vertices, out.simplices);
+      core.call('icc_domain_get_mesh', this, meshOf(dim, out.vertices, out.simplices));
       return out;
     }
 

@@ -2,7 +2,7 @@
 import { Handle, room } from './core.js';
 import { withDomains } from './domain.js';
 import { Address } from './memory.js';
-import { flat, indices } from './points.js';
+import { flat, indices, meshOf } from './points.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
@@ -29,6 +29,8 @@ export function mapOf(core, Domain, Chart) {
     save() { return core.save('icc_map_save', this); }
 
     get info() { return core.info('icc_map_get_info', this); }
+    /** How the map was made: icc_map_report. */
+    get report() { return core.info('icc_map_get_report', this); }
     get certified() { return this.info.certified === 1; }
     get sourceChart() { return this.#chart('icc_map_source_chart'); }
     get targetChart() { return this.#chart('icc_map_target_chart'); }
@@ -43,7 +45,7 @@ export function mapOf(core, Domain, Chart) {
 
     /** The map to a target that has moved, in at most so many steps of improvement. */
     retarget(target, iterations = 0) {
-      return withDomains(Domain, { target }, (t) => new Map(core.made('icc_map_retarget', this, t, iterations)));
+      return withDomains(Domain, { target }, (t) => new Map(core.made('icc_map_retarget', this, t, { iterations })));
     }
 
     /** The mesh of a map of kind mesh: { vertices, images, simplices }. */
@@ -53,7 +55,7 @@ export function mapOf(core, Domain, Chart) {
         vertices: new Float64Array(nVertices * dim), images: new Float64Array(nVertices * dim),
         simplices: new Uint32Array(nSimplices * (dim + 1)),
       };
-      core.call('icc_map_get_mesh', this, out.vertices, out.images, out.simplices);
+      core.call('icc_map_get_mesh', this, meshOf(dim, out.vertices, out.simplices), out.images);
       return out;
     }
 
@@ -104,7 +106,7 @@ export function mapOf(core, Domain, Chart) {
     #carry(name, vertices, simplices) {
       const { dim } = this, v = flat(vertices, dim), s = indices(simplices);
       const images = new Float64Array(v.length), certificate = {};
-      core.call(name, this, v.length / dim, v, s.length / (dim + 1), s, images, certificate);
+      core.call(name, this, meshOf(dim, v, s), images, certificate);
       return { images, certificate };
     }
 

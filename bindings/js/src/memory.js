@@ -146,8 +146,18 @@ export class Memory {
   /** Copies back what C has written into an argument that it got a pointer to. */
   get(type, at, value) {
     const element = pointee(type);
-    if (structs[element]) Object.assign(value, this.read(element, at));
+    if (structs[element]) this.#getStruct(element, at, value);
     else value.set(this.array(value.constructor, at, value.length));
+  }
+
+  /** The members of a struct, and what C has written to arrays that it points to. */
+  #getStruct(name, at, value) {
+    Object.assign(value, this.read(name, at));
+    for (const [key, [offset, type]] of Object.entries(structs[name].members)) {
+      const out = value[key];
+      if (type.endsWith('*') && !type.startsWith('const ') && ArrayBuffer.isView(out))
+        out.set(this.array(out.constructor, this.view.getUint32(at + offset, true), out.length));
+    }
   }
 
   /** True if a pointer of this type is one to values of the caller, to be copied. */

@@ -38,5 +38,10 @@ export function ring(points) {
   return n > 6 && p[0] === p[n - 2] && p[1] === p[n - 1] ? p.subarray(0, n - 2) : p;
 }
 
+/** An icc_mesh of simplices: to be read, or with room to be filled. */
+export const meshOf = (dim, vertices, cells) => ({
+  dim, nVertices: vertices.length / dim, vertices, nCells: cells.length / (dim + 1), cells,
+});
+
 /** Whole numbers that count vertices. */
 export const indices = (list) => Uint32Array.from(numbersOf(list, 'indices'));

@@ -77,6 +77,8 @@ export function stagesOf(core) {
     }
 
     get info() { return core.info('icc_function_get_info', this); }
+    /** How the function was computed: icc_solver_report. */
+    get solverReport() { return core.info('icc_function_get_solver_report', this); }
     get tree() { return new Tree(core.made('icc_function_tree', this), 0, null, this); }
     get #n() { return this.tree.grid.info.nVertices; }
 

@@ -6,8 +6,7 @@ import { pathToFileURL } from 'node:url';
 
 const at = (file) => import(pathToFileURL(`${process.env.ICC_PACKAGE}/src/${file}`));
 const { load, IccError } = await at('index.js');
-const { structs, functions } = await at('layouts.js');
-const { ENUMERATIONS } = await at('names.js');
+const { structs, functions, enumerations } = await at('layouts.js');
 const icc = await load();
 
 const SQUARE = [[0, 0], [4, 0], [4, 4], [0, 4]];
@@ -35,7 +34,7 @@ test('every public function is exported, and nearly all are called by the classe
 });
 
 test('members that hold words are members of the structs', () => {
-  for (const [struct, member] of ENUMERATIONS) assert.ok(structs[struct].members[member], `${struct}.${member}`);
+  for (const [struct, member] of enumerations) assert.ok(structs[struct].members[member], `${struct}.${member}`);
 });
 
 test('points may be objects, and nothing else is taken for numbers', () => {

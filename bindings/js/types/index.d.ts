@@ -73,6 +73,7 @@ export interface Tie { vertex: number[]; source: Float64Array; target: Float64Ar
 export interface Map extends Handle {
   readonly info: Info;
   readonly dim: number;
+  readonly report: Info;
   readonly certified: boolean;
   readonly sourceChart: Chart | null;
   readonly targetChart: Chart | null;
@@ -144,6 +145,7 @@ export interface Tree extends Handle {
 }
 export interface GridFunction extends Handle {
   readonly info: Info;
+  readonly solverReport: Info;
   readonly tree: Tree;
   values(): Float64Array;
   logs(): Float64Array | null;

@@ -18,7 +18,8 @@ STRUCTS = """
 error status:i32 side:i32 index:i64 item:i32 message:char[252]
 env user:ptr alloc:ptr dealloc:ptr log:ptr progress:ptr parallel_for:ptr threads:i32 load_limit:u64
 domain_info dim:i32 orientation:i32 n_vertices:size n_facets:size lower:f64[6] upper:f64[6] measure:f64 n_features:size n_mesh_vertices:size n_mesh_simplices:size
-feature kind:i32 n_vertices:size vertices:ptr radius:f64
+feature kind:i32 n_vertices:size vertices:ptr radius:f64 n_facets:size facets:ptr
+mesh dim:i32 n_vertices:size vertices:ptr n_cells:size cells:ptr offsets:ptr types:ptr regions:ptr
 fill_options ratio:f64 max_points:u64
 feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
@@ -33,9 +34,11 @@ match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64 keep
 match_info dim:i32 mirrored:i32 n_vertices:size n_landmarks:size n_joined:size cost:f64 second:f64 sure:f64 turn:f64 least_slope:f64 most_slope:f64 energy:f64 off:f64 least_angle:f64 n_overlay:size
 tie vertex:u32[2] n_source:size source:ptr n_target:size target:ptr
 map_options kind:i32 iterations:i32 chart:ptr target_maximum:ptr n_ties:size ties:ptr
-map_info dim:i32 kind:i32 certified:i32 n_levels:i32 n_vertices:size n_simplices:size n_inverted:size n_unrepaired:size n_iterations:size energy_start:f64 energy:f64 seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 n_samples:size n_lost:size n_flat:size reason:i32 reason_side:i32 n_holes:size n_lines:size n_points:size n_ties:size detour:f64 class_kept:i32 n_trees:i32 n_spoilt:size
+map_info dim:i32 kind:i32 certified:i32 reason:i32 reason_side:i32 class_kept:i32 n_vertices:size n_simplices:size energy:f64 n_holes:size n_lines:size n_points:size n_ties:size detour:f64
+map_report seconds:f64 seconds_repair:f64 seconds_improve:f64 seconds_certify:f64 energy_start:f64 n_inverted:size n_unrepaired:size n_iterations:size n_levels:i32 n_trees:i32 n_samples:size n_lost:size n_flat:size n_spoilt:size
 tie_info vertex:u32[2] n_source:size n_target:size length:f64[2]
 improve_options iterations:i32 levels:i32 tolerance:f64
+retarget_options iterations:i32
 improve_report energy_start:f64 energy:f64 n_iterations:size n_simplices:size n_levels:i32 cancelled:i32
 certificate certified:i32 boundary_simple:i32 n_inverted:size n_flat:size n_no_image:size first:i64 message:char[256]
 picture width:i32 height:i32 channels:i32 bytes:i32 alpha:i32 stride:size pixels:ptr interpolation:i32 has_nodata:i32 nodata:f64
@@ -43,7 +46,8 @@ grid_info dim:i32 shape:size[6] origin:f64[6] spacing:f64 n_vertices:size n_insi
 tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
 function_options function:i32 constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
-function_info function:i32 constrained:i32 solver:i32 n_unknowns:size n_violated:size n_active:size n_iterations:size n_inner:size work:f64 residual_before:f64 residual:f64 least_log:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64 excess:f64 highest:u32 beside:i32
+function_info function:i32 constrained:i32 solver:i32 beside:i32 n_unknowns:size n_violated:size n_active:size residual:f64 least_log:f64 excess:f64 highest:u32
+solver_report n_iterations:size n_inner:size work:f64 residual_before:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
 function_report n_maxima:size n_minima:size n_saddles:size critical:u32
 grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
@@ -61,14 +65,14 @@ char*:status_name i32
 domain_create domain** i32 size f64* size u32* env* error*
 domain_create_features domain** size f64* size feature* env* error*
 domain_create_mask domain** i32 size* u8* env* error*
-domain_create_mesh domain** i32 size f64* size u32* size u32* env* error*
+domain_create_mesh domain** mesh* size u32* env* error*
 mask_repair i32 size* u8* size* env* error*
 void:domain_free domain*
 domain_get_info domain* domain_info*
 domain_fill domain** domain* fill_options* env* error*
 domain_get_feature domain* size feature_info*
 domain_get_boundary domain* f64* u32*
-domain_get_mesh domain* f64* u32*
+domain_get_mesh domain* mesh*
 domain_locate domain* size f64* i32* u32* f64* env*
 boundary_defects size f64* size i32* u32* size* env* error*
 chart_create chart** domain* chart_options* env* error*
@@ -100,12 +104,13 @@ map_create map** domain* domain* map_options* env* error*
 map_create_polygons map** size f64* f64* env* error*
 map_create_from_charts map** chart* chart* map_options* env* error*
 map_improve map** map* improve_options* improve_report* env* error*
-map_retarget map** map* domain* i32 env* error*
-map_get_mesh map* f64* f64* u32*
-map_certify map* size f64* size u32* f64* certificate* env* error*
-map_repair map* size f64* size u32* f64* certificate* env* error*
+map_retarget map** map* domain* retarget_options* env* error*
+map_get_mesh map* mesh* f64*
+map_certify map* mesh* f64* certificate* env* error*
+map_repair map* mesh* f64* certificate* env* error*
 void:map_free map*
 map_get_info map* map_info*
+map_get_report map* map_report*
 map_get_tie map* size tie_info* f64* f64*
 chart*:map_source_chart map*
 chart*:map_target_chart map*
@@ -136,6 +141,7 @@ grid*:tree_grid tree*
 u32:tree_root tree*
 void:function_free function*
 function_get_info function* function_info*
+function_get_solver_report function* solver_report*
 f64*:function_values function*
 f64*:function_logs function*
 function_get_report function* function_report* env* error*

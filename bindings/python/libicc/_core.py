@@ -174,6 +174,13 @@ def address(array: Optional[Array]) -> Optional[int]:
     return None if array is None else array.ctypes.data
 
 
+def mesh_of(vertices: Floats, simplices: Indices) -> Any:
+    """The ``icc_mesh`` with these arrays, for reading or for writing; the caller must keep it and them alive in
+    variables."""
+    return new("mesh", dim=vertices.shape[1], n_vertices=len(vertices), vertices=address(vertices),
+               n_cells=len(simplices), cells=address(simplices))
+
+
 def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
     """The members of a struct but for `size` and padding; arrays by dimension as NumPy arrays."""
     members = {}

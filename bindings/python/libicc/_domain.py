@@ -22,6 +22,7 @@ from ._core import (
     fields,
     indices,
     is_geometry,
+    mesh_of,
     name_of,
     parts_of,
     points_of,
@@ -149,11 +150,11 @@ class Domain(Handle):
         vertices = np.ascontiguousarray(vertices, dtype=np.float64)
         if vertices.ndim != 2:
             raise ValueError(f"vertices must have the shape (n, dim), not {vertices.shape}")
-        n, dim = vertices.shape
+        dim = vertices.shape[1]
         simplices = indices(simplices, dim + 1, "simplices")
         facets = None if facets is None else indices(facets, dim, "facets")
-        return cls._wrap(create(lib.domain_create_mesh, dim, n, address(vertices), len(simplices),
-                                address(simplices), 0 if facets is None else len(facets),
+        mesh = mesh_of(vertices, simplices)
+        return cls._wrap(create(lib.domain_create_mesh, ctypes.addressof(mesh), 0 if facets is None else len(facets),
                                 address(facets), progress=progress, threads=threads))
 
     def filled(self, *, ratio: float = 0.0, max_points: int = 0, progress: Optional[Progress] = None,
@@ -176,7 +177,8 @@ class Domain(Handle):
         info = self._info("domain_get_info", "domain_info")
         vertices = np.empty((info.n_mesh_vertices, info.dim))
         simplices = np.empty((info.n_mesh_simplices, info.dim + 1), dtype=np.uint32)
-        check(lib.domain_get_mesh(self, address(vertices), address(simplices)))
+        mesh = mesh_of(vertices, simplices)
+        check(lib.domain_get_mesh(self, ctypes.addressof(mesh)))
         return vertices, simplices
 
     @property

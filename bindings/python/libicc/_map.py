@@ -25,6 +25,7 @@ from ._core import (
     floats,
     grid_of,
     indices,
+    mesh_of,
     name_of,
     points_of,
 )
@@ -116,6 +117,11 @@ class Map(Saved):
         result = fields(self._info("map_get_info", "map_info"))
         result.kind = name_of(result.kind, KINDS)
         return result
+
+    @property
+    def report(self) -> SimpleNamespace:
+        """How the map was made: the members of ``icc_map_report``."""
+        return fields(self._info("map_get_report", "map_report"))
 
     @property
     def ties(self) -> List[Tuple[Tuple[int, int], Floats, Floats]]:
@@ -221,25 +227,28 @@ class Map(Saved):
     def retarget(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> "Map":
         """The map to a target that has moved, starting from this one (kind mesh, in 2-D or 3-D), improved by
-        at most `iterations` steps (0: 8; -1: none)."""
+        at most `iterations` steps (0: what a frame has time for; -1: none)."""
         with blaming(2):
             domain = as_domain(target)
-        return type(self)._wrap(create(lib.map_retarget, self, domain, iterations, progress=progress,
+        options = new("retarget_options", iterations=iterations)
+        return type(self)._wrap(create(lib.map_retarget, self, domain, ctypes.addressof(options), progress=progress,
                                        threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
         """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1). The numbers are
-        rounded; a ``RuntimeWarning`` says if that makes simplices flat or reversed (``info.n_spoilt``), as it can
+        rounded; a ``RuntimeWarning`` says if that makes simplices flat or reversed (``report.n_spoilt``), as it can
         where shapes are about 1e9 times as far from the origin as they are large."""
         info = self._info("map_get_info", "map_info")
-        if info.n_spoilt > 0:
-            warnings.warn(f"{info.n_spoilt} of {info.n_simplices} simplices are flat or reversed when rounded, because "
+        n_spoilt = self.report.n_spoilt
+        if n_spoilt > 0:
+            warnings.warn(f"{n_spoilt} of {info.n_simplices} simplices are flat or reversed when rounded, because "
                           "the shape is so far from the origin; shift source and target to the origin",
                           RuntimeWarning, stacklevel=2)
         vertices = np.empty((info.n_vertices, info.dim))
         images = np.empty((info.n_vertices, info.dim))
         triangles = np.empty((info.n_simplices, info.dim + 1), dtype=np.uint32)
-        check(lib.map_get_mesh(self, address(vertices), address(images), address(triangles)))
+        mesh = mesh_of(vertices, triangles)
+        check(lib.map_get_mesh(self, ctypes.addressof(mesh), address(images)))
         return vertices, images, triangles
 
     def to_proj(self, *, source_crs: Optional[Any] = None, target_crs: Optional[Any] = None) -> str:
@@ -267,10 +276,9 @@ class Map(Saved):
                threads: Optional[int]) -> Tuple[Floats, SimpleNamespace]:
         dim = self.dim
         vertices, simplices = points_of(vertices, dim), indices(simplices, dim + 1, "simplices")
-        images, certificate = np.empty_like(vertices), new("certificate")
+        images, certificate, mesh = np.empty_like(vertices), new("certificate"), mesh_of(vertices, simplices)
         call = Call(progress, threads)
-        call.check(function(self, len(vertices), address(vertices), len(simplices),
-                            address(simplices), address(images), ctypes.addressof(certificate),
+        call.check(function(self, ctypes.addressof(mesh), address(images), ctypes.addressof(certificate),
                             call.env, call.err))
         return images, fields(certificate)
 

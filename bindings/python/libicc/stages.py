@@ -228,6 +228,11 @@ class Function(Handle):
         return result
 
     @property
+    def solver_report(self) -> SimpleNamespace:
+        """How the function was computed: the members of ``icc_solver_report``."""
+        return fields(self._info("function_get_solver_report", "solver_report"))
+
+    @property
     def values(self) -> Floats:
         """The values as an array of the grid's shape, read-only."""
         return self.tree.grid._array(lib.function_values(self), np.float64, self)

@@ -1,53 +1,36 @@
-"""The tables of the binding against the headers, which cffi reads."""
+"""The tables of the binding against include/icc/api.json."""
 
 import ctypes
+import json
 import pathlib
-import re
-import shutil
-import subprocess
 
 import pytest
 from libicc import _abi
 
-cffi = pytest.importorskip("cffi")
-
-HEADERS = pathlib.Path(__file__).parents[3] / "include"
+API = pathlib.Path(__file__).parents[3] / "include/icc/api.json"
 WORDS = {"int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64", "size_t": "size",
          "double": "f64", "uint8_t": "u8", "char": "char", "void": "void", "icc_status": "i32"}
+MODEL = {8: "lp64", 4: "ilp32"}[ctypes.sizeof(ctypes.c_void_p)]
 
 
 @pytest.fixture(scope="module")
-def header():
-    compiler = shutil.which("cc")
-    if compiler is None or not HEADERS.is_dir():
-        pytest.skip("no C compiler, or no headers")
-    text = "".join(f"#include <icc/{path.name}>\n" for path in sorted((HEADERS / "icc").glob("*.h")))
-    plain = subprocess.run([compiler, "-E", "-P", "-DICC_STATIC", f"-I{HEADERS}", "-"], input=text,
-                           capture_output=True, text=True, check=True).stdout
-    plain = plain[plain.index("typedef int32_t icc_status"):]
-    ffi = cffi.FFI()
-    ffi.cdef(plain)
-    return ffi, plain
+def api():
+    if not API.is_file():
+        pytest.skip("no headers")
+    return json.loads(API.read_text(encoding="utf-8"))
 
 
 def short(kind: str) -> str:
-    """'const icc_map * *' -> 'map**'."""
+    """'const icc_map **' -> 'map**'."""
     words = kind.replace("const", " ").replace("*", " * ").split()
     stars = words.count("*")
     (name,) = (word for word in words if word != "*")
     return WORDS.get(name, name[4:] if name.startswith("icc_") else name) + "*" * stars
 
 
-def test_functions(header):
-    ffi, plain = header
-    declared = {}
-    for result, name, arguments in re.findall(r"^([\w ]+[\w*] ?\**)icc_(\w+)\(([^)]*)\);", plain, re.M):
-        kinds = []
-        for argument in arguments.split(","):
-            argument = re.sub(r"(\w+)\[\d+\]$", r"*\1", argument.strip())
-            if argument != "void":
-                kinds.append(short(re.sub(r"\w+$", "", argument)))
-        declared[name] = (short(result), kinds)
+def test_functions(api):
+    declared = {name[4:]: (short(function["returns"]), [short(p["type"]) for p in function["parameters"]])
+                for name, function in api["functions"].items()}
     table = {}
     for line in _abi.FUNCTIONS.split("\n"):
         if line:
@@ -64,34 +47,31 @@ def test_functions_are_there():
         getattr(_abi.lib, name)
 
 
-def test_structs(header):
-    ffi, plain = header
-    declared = set(re.findall(r"^} icc_(\w+);", plain, re.M))
-    table = set(_abi.structs._lines) | {"line"}  # icc_line has no size
-    assert table == declared
+def assert_same(ours, struct, name):
+    assert ctypes.sizeof(ours) == struct["size"][MODEL], name
+    offsets = {n: getattr(ours, n).offset for n, *_ in ours._fields_}
+    assert offsets == {m["name"]: m["offset"][MODEL] for m in struct["members"]}, name
+
+
+def test_structs(api):
+    assert {f"icc_{name}" for name in _abi.structs._lines} | {"icc_line"} == set(api["structs"])  # it has no size
     for name in _abi.structs._lines:
-        kind, ours = ffi.typeof(f"icc_{name}"), getattr(_abi.structs, name)
-        assert ctypes.sizeof(ours) == ffi.sizeof(kind), name
-        for member, field in kind.fields:
-            assert getattr(ours, member).offset == field.offset, (name, member)
-            assert getattr(ours, member).size == ffi.sizeof(field.type), (name, member)
-        assert len(kind.fields) == len(ours._fields_), name
+        assert_same(getattr(_abi.structs, name), api["structs"][f"icc_{name}"], name)
 
 
-def test_line_struct(header):
+def test_line_struct(api):
     from libicc.kernel import _Line
 
-    kind = header[0].typeof("icc_line")
-    assert ctypes.sizeof(_Line) == header[0].sizeof(kind)
-    assert [f.offset for _, f in kind.fields] == [getattr(_Line, n).offset for n, _ in _Line._fields_]
+    struct = api["structs"]["icc_line"]
+    assert ctypes.sizeof(_Line) == struct["size"][MODEL]
+    assert [getattr(_Line, n).offset for n, _ in _Line._fields_] == [m["offset"][MODEL] for m in struct["members"]]
 
 
-def test_choices(header):
+def test_choices(api):
     """Numbers of enumerators."""
     from libicc import _chart, _domain, _map, kernel
 
-    text = header[1]
-    numbers = {name: int(value) for name, value in re.findall(r"ICC_(\w+) = (\d+)", text)}
+    numbers = {name[4:]: value for enum in api["enums"].values() for name, value in enum["values"].items()}
     for prefix, choices in [("METHOD_", _chart.METHODS), ("FUNCTION_", _chart.FUNCTIONS),
                             ("CONSTRAINTS_", _chart.CONSTRAINTS), ("SOLVER_", _chart.SOLVERS),
                             ("TREE_", _chart.TREES), ("MAP_", _map.KINDS),

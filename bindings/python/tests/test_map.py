@@ -330,12 +330,12 @@ def test_what_rounding_spoils_is_said() -> None:
                                   [1, .5 + width], [1, 1], [0, 1]])
 
     far = libicc.Map(bell(.25, 0), bell(2.0 ** -21, 2.0 ** 30))
-    assert far.info.n_spoilt > 0
+    assert far.report.n_spoilt > 0
     for call in (far.mesh, far.to_proj):
         with pytest.warns(RuntimeWarning, match="flat or reversed"):
             call()
     near = libicc.Map(bell(.25, 0), bell(2.0 ** -21, 0))
-    assert near.info.n_spoilt == 0
+    assert near.report.n_spoilt == 0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         near.mesh()

@@ -16,13 +16,14 @@
 #define ICCP_FUNCTION_H
 
 #include "base/once.h"
+#include "gradient/solver/solution.h"
 #include "gradient/solver/unknowns.h"
 #include "math/scaled.h"
 
 struct icc_function {
     iccp_memory memory;
     icc_tree *tree;
-    icc_function_info info;
+    iccp_solution info;
     double *values; /* one per grid vertex; NaN where the tree does not reach */
     /* The function is values * 2^exponent; NULL: all exponents are 0, the usual case */
     int32_t *exponent;

@@ -98,7 +98,7 @@ static void free_job(job *j, const iccp_env *env)
 
 /* Solves by factorisation if possible, else by iteration. `info` tells which. */
 static icc_status solve_directly(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                                 const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                                 const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     const icc_status status = iccp_tied_direct(unknowns, ties, f, info, env);
     if (status != ICC_ERR_SOLVER || unknowns->reach != NULL)
@@ -123,7 +123,7 @@ static bool is_laplace(int32_t function)
 
 static icc_status solve_laplace(job *j, const iccp_env *env)
 {
-    icc_function_info *info = &j->function->info;
+    iccp_solution *info = &j->function->info;
     const iccp_ties none = {j->top, j->share, j->order};
     const icc_status status = tied_solver(j)(&j->unknowns, &none, &j->f, info, env);
     if (status != ICC_OK)
@@ -137,7 +137,7 @@ static icc_status solve_laplace(job *j, const iccp_env *env)
 
 static icc_status solve(job *j, const iccp_env *env)
 {
-    icc_function_info *info = &j->function->info;
+    iccp_solution *info = &j->function->info;
     const int32_t function = j->options->function;
     const icc_status status = is_laplace(function) ? solve_laplace(j, env)
                                                    : iccp_bilaplace(&j->unknowns, function,
@@ -152,7 +152,7 @@ static icc_status solve(job *j, const iccp_env *env)
 
 static icc_status constrain(job *j, const iccp_env *env)
 {
-    icc_function_info *info = &j->function->info;
+    iccp_solution *info = &j->function->info;
     const int32_t function = j->options->function;
     const double eta = j->options->min_fall;
     info->constrained = 1;

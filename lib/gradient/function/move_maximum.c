@@ -25,7 +25,7 @@ typedef struct plate {
     iccp_ldlt factor;
     double *f, *residual, *work, *wide; /* a number per unknown; the last one: per row of A */
     int32_t *exponent;                  /* per unknown */
-    icc_function_info info;             /* the solvers' report; not used here */
+    iccp_solution info;                 /* the solvers' report; not used here */
 } plate;
 
 static icc_status prepare_clamped(plate *p, const iccp_env *env)

@@ -133,7 +133,7 @@ static void flip_some(state *s, int level)
 /* Begins with the empty set, for which f is the solution. All wrong inequalities change as long as
  * their number falls. After every PATIENCE steps without a new minimum, the share that changes is
  * halved. Errors that remain are accepted if they are within those of an iterative solver. */
-static icc_status iterate(state *s, iccp_tied_solver solve, icc_function_info *info,
+static icc_status iterate(state *s, iccp_tied_solver solve, iccp_solution *info,
                           const iccp_env *env)
 {
     const iccp_ties ties = {s->top, s->share, s->order};
@@ -170,7 +170,7 @@ static double residual(const state *s)
     return iccp_inequalities_residual(s->unknowns, s->sigma - 1, 0, s->f, &row, s->work);
 }
 
-static void sweep_and_report(state *s, icc_function_info *info)
+static void sweep_and_report(state *s, iccp_solution *info)
 {
     const double start = iccp_seconds();
     info->n_active = 0;
@@ -184,7 +184,7 @@ static void sweep_and_report(state *s, icc_function_info *info)
 
 icc_status iccp_active_set_laplace(const iccp_unknowns *unknowns, double eta,
                                    iccp_tied_solver solve, uint32_t *order, const iccp_scaled *f,
-                                   icc_function_info *info, const iccp_env *env)
+                                   iccp_solution *info, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
     const size_t n = unknowns->n;

@@ -2,10 +2,11 @@
 #ifndef ICCP_ACTIVE_SET_H
 #define ICCP_ACTIVE_SET_H
 
+#include "gradient/solver/solution.h"
 #include "gradient/solver/tied.h"
 
 typedef icc_status (*iccp_tied_solver)(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                                       const iccp_scaled *f, icc_function_info *info,
+                                       const iccp_scaled *f, iccp_solution *info,
                                        const iccp_env *env);
 
 /* On entry f is the solution without inequalities. On return it is the solution with them, swept so
@@ -17,6 +18,6 @@ typedef icc_status (*iccp_tied_solver)(const iccp_unknowns *unknowns, const iccp
  * after 1000 iterations. Needs 30 bytes per unknown besides the solver's memory. */
 icc_status iccp_active_set_laplace(const iccp_unknowns *unknowns, double eta,
                                    iccp_tied_solver solve, uint32_t *order, const iccp_scaled *f,
-                                   icc_function_info *info, const iccp_env *env);
+                                   iccp_solution *info, const iccp_env *env);
 
 #endif

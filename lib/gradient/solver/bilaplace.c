@@ -86,7 +86,7 @@ static icc_status solve_twice(const iccp_unknowns *unknowns, const iccp_ldlt *fa
 }
 
 static icc_status navier_direct(const iccp_unknowns *unknowns, const iccp_scaled *f,
-                                icc_function_info *info, const iccp_env *env)
+                                iccp_solution *info, const iccp_env *env)
 {
     iccp_laplacian_factor l;
     const icc_status created = iccp_laplacian_factorise(&l, unknowns, info, env);
@@ -103,7 +103,7 @@ static icc_status navier_direct(const iccp_unknowns *unknowns, const iccp_scaled
 
 /* All unknowns except the root are free variables. */
 static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, double *f,
-                          icc_function_info *info, const iccp_env *env)
+                          iccp_solution *info, const iccp_env *env)
 {
     const size_t n = unknowns->n;
     uint32_t *variable = iccp_alloc(&env->memory, n, sizeof *variable);
@@ -124,7 +124,7 @@ static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, d
 }
 
 /* Finds the largest |A'A f|, except the root's. */
-static icc_status find_residual(const iccp_sparse *a, const double *f, icc_function_info *info,
+static icc_status find_residual(const iccp_sparse *a, const double *f, iccp_solution *info,
                                 const iccp_env *env)
 {
     double *work = iccp_alloc(&env->memory, a->n_rows, sizeof *work);
@@ -143,7 +143,7 @@ static icc_status find_residual(const iccp_sparse *a, const double *f, icc_funct
 }
 
 icc_status iccp_bilaplace(const iccp_unknowns *unknowns, int32_t function, int32_t solver,
-                          const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                          const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = unknowns->n;
     double start = iccp_seconds();

@@ -2,6 +2,7 @@
 #ifndef ICCP_BILAPLACE_H
 #define ICCP_BILAPLACE_H
 
+#include "gradient/solver/solution.h"
 #include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/scaled.h"
@@ -19,13 +20,12 @@
  * The error, relative to the maximum, is about 1e-16 times the condition number of the Laplacian.
  * Smaller values, in long limbs, mean nothing. */
 icc_status iccp_bilaplace(const iccp_unknowns *unknowns, int32_t function, int32_t solver,
-                          const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
+                          const iccp_scaled *f, iccp_solution *info, const iccp_env *env);
 
 /* Solves ICC_FUNCTION_BILAPLACE by the iterative solver, without the residuals: c L^-2 e_loaded,
  * which is 1 at the unknown `loaded`. */
 icc_status iccp_bilaplace_iterative(const iccp_unknowns *unknowns, size_t loaded,
-                                    const iccp_scaled *f, icc_function_info *info,
-                                    const iccp_env *env);
+                                    const iccp_scaled *f, iccp_solution *info, const iccp_env *env);
 
 /* Like iccp_bilaplace(), under f_parent >= (1 + eta) f_child along the edges of the tree and f >=
  * leaf at the unknowns without children. Fills in n_iterations (interior point method and active
@@ -37,7 +37,7 @@ icc_status iccp_bilaplace_iterative(const iccp_unknowns *unknowns, size_t loaded
  * lowers values that are too high for their parents. Both change f by rounding errors and by about
  * residual_before. Bounds hold to about 1e-16 of themselves per generation. */
 icc_status iccp_bilaplace_constrained(const iccp_unknowns *unknowns, int32_t function, double eta,
-                                      double leaf, const iccp_scaled *f, icc_function_info *info,
+                                      double leaf, const iccp_scaled *f, iccp_solution *info,
                                       const iccp_env *env);
 
 #endif

@@ -39,7 +39,7 @@ enum { LARGE = 50000, COARSEST = 3000, STEPS = 60 };
  * iterate suggests: the multiplier exceeds the slack. Ends when a residual is good enough, or when
  * rounding stops the interior point method. The last target forces that. */
 static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_candidate *candidate,
-                                    icc_function_info *info, const iccp_env *env)
+                                    iccp_solution *info, const iccp_env *env)
 {
     iccp_interior_point ip;
     bool stuck = false;
@@ -65,8 +65,7 @@ static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_can
 /* Runs a few steps of the active set, which give the same function with the active inequalities as
  * equations. If they lead elsewhere, the candidate stays. */
 static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted, bool *is_exact,
-                             iccp_candidate *candidate, icc_function_info *info,
-                             const iccp_env *env)
+                             iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n;
     iccp_candidate exact = {iccp_alloc(&env->memory, n, sizeof *exact.f), HUGE_VAL};
@@ -85,8 +84,7 @@ static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted
 /* Smoothing finds the active inequalities early, except the last few. If the active set does not
  * find these, smoothing continues. */
 static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *active,
-                             iccp_candidate *candidate, icc_function_info *info,
-                             const iccp_env *env)
+                             iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     const double residual[] = {EARLY, ENOUGH}, needed[] = {EARLY, GOOD},
                  accepted[] = {ENOUGH, GOOD};
@@ -106,8 +104,7 @@ static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *ac
 
 /* Starts on coarse grids and goes to finer ones. */
 static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *active,
-                               iccp_candidate *candidate, icc_function_info *info,
-                               const iccp_env *env)
+                               iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     iccp_nested nested;
     iccp_env part[2];
@@ -125,7 +122,7 @@ static icc_status start_coarse(const iccp_qp *qp, int32_t function, uint8_t *act
 /* Large problems start on coarse grids. For small ones, and if that is not enough, the active set
  * runs. */
 static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *candidate,
-                           icc_function_info *info, const iccp_env *env)
+                           iccp_solution *info, const iccp_env *env)
 {
     const size_t m = iccp_qp_inequalities(qp);
     uint8_t *active = iccp_alloc_zero(&env->memory, m, sizeof *active);
@@ -178,8 +175,7 @@ static size_t count_active(const iccp_qp *qp, const double *f)
  * residuals before and after are reported. An inequality is then active if it holds with
  * equality. */
 static icc_status sweep_and_report(const iccp_qp *qp, const iccp_candidate *candidate,
-                                   const iccp_scaled *f, icc_function_info *info,
-                                   const iccp_env *env)
+                                   const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n;
     const double start = iccp_seconds();
@@ -211,7 +207,7 @@ static icc_status check_room(const iccp_qp *qp, double *work, const iccp_env *en
 }
 
 icc_status iccp_bilaplace_constrained(const iccp_unknowns *unknowns, int32_t function, double eta,
-                                      double leaf, const iccp_scaled *f, icc_function_info *info,
+                                      double leaf, const iccp_scaled *f, iccp_solution *info,
                                       const iccp_env *env)
 {
     const double start = iccp_seconds();

@@ -46,7 +46,7 @@ static void poisson_free(poisson *p, const iccp_env *env)
 }
 
 /* Computes x = L^-1 r, divided by its value at the loaded unknown. */
-static icc_status solve(poisson *p, size_t loaded, icc_function_info *info, const iccp_env *env)
+static icc_status solve(poisson *p, size_t loaded, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = p->mg.level[0].n_entries;
     double size = 0;
@@ -73,8 +73,7 @@ static bool is_positive(const poisson *p)
 }
 
 icc_status iccp_bilaplace_iterative(const iccp_unknowns *unknowns, size_t loaded,
-                                    const iccp_scaled *f, icc_function_info *info,
-                                    const iccp_env *env)
+                                    const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     poisson p;

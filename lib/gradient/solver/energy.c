@@ -214,7 +214,7 @@ static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
 
 /* Makes B = A P and factorises B'B. correct() restores the digits that are lost by squaring, so the
  * normal equations suffice. */
-static icc_status factorise(least_squares *s, icc_function_info *info, const iccp_env *env)
+static icc_status factorise(least_squares *s, iccp_solution *info, const iccp_env *env)
 {
     double start = iccp_seconds();
     icc_status status = reduce(&s->b, s->a, s->reduction, env);
@@ -237,7 +237,7 @@ static icc_status factorise(least_squares *s, icc_function_info *info, const icc
 }
 
 icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                icc_function_info *info, const iccp_env *env)
+                                iccp_solution *info, const iccp_env *env)
 {
     least_squares s = {.a = a, .reduction = reduction};
     const size_t n = reduction->n_variables;

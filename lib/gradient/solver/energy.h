@@ -3,6 +3,7 @@
 #ifndef ICCP_ENERGY_H
 #define ICCP_ENERGY_H
 
+#include "gradient/solver/solution.h"
 #include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/gram.h"
@@ -29,6 +30,6 @@ typedef struct iccp_reduction {
  * number of A, not of A'A. Returns ICC_ERR_SOLVER if the error stays above 1e-6. Adds to `info`
  * (work, seconds_*). */
 icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                icc_function_info *info, const iccp_env *env);
+                                iccp_solution *info, const iccp_env *env);
 
 #endif

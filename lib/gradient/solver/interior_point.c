@@ -123,7 +123,7 @@ static void take_step(iccp_interior_point *p, double length)
 }
 
 /* Returns ICC_ERR_SOLVER if the step leads nowhere. */
-static icc_status iterate(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
+static icc_status iterate(iccp_interior_point *p, iccp_solution *info, const iccp_env *env)
 {
     iccp_newton_qp_residuals(&p->newton);
     const icc_status status = iccp_newton_qp_factorise(&p->newton, info, env);
@@ -142,7 +142,7 @@ static icc_status iterate(iccp_interior_point *p, icc_function_info *info, const
 }
 
 icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
-                                   icc_function_info *info, const iccp_env *env)
+                                   iccp_solution *info, const iccp_env *env)
 {
     int patience = PATIENCE;
     double mean = mean_product(ip);
@@ -167,7 +167,7 @@ icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool 
 
 /* Starts from the function with the least energy plus sum of squared slacks. Takes its slacks and
  * multipliers where they are positive and large enough. */
-static icc_status start(iccp_interior_point *p, icc_function_info *info, const iccp_env *env)
+static icc_status start(iccp_interior_point *p, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = n_rows(p), m = n_pairs(p);
     for (size_t i = 0; i < m; ++i) {
@@ -196,7 +196,7 @@ static icc_status start(iccp_interior_point *p, icc_function_info *info, const i
 }
 
 icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
-                                      icc_function_info *info, const iccp_env *env)
+                                      iccp_solution *info, const iccp_env *env)
 {
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){2, 1}, env);

@@ -3,6 +3,7 @@
 #define ICCP_INTERIOR_POINT_H
 
 #include "gradient/solver/newton_qp.h"
+#include "gradient/solver/solution.h"
 
 typedef struct iccp_interior_point {
     iccp_newton_qp newton;
@@ -13,7 +14,7 @@ typedef struct iccp_interior_point {
 
 /* Analyses the systems and finds a starting point. For memory see newton_qp.h. */
 icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp,
-                                      icc_function_info *info, const iccp_env *env);
+                                      iccp_solution *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);
 
 /* Progress reports count this many iterations as half of the work. */
@@ -22,6 +23,6 @@ void iccp_interior_point_free(iccp_interior_point *ip);
 /* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors prevent
  * that, and the iterate is the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
-                                   icc_function_info *info, const iccp_env *env);
+                                   iccp_solution *info, const iccp_env *env);
 
 #endif

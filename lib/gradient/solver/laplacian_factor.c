@@ -49,7 +49,7 @@ static icc_status analyse(iccp_laplacian_factor *l, const iccp_unknowns *unknown
 
 /* Measures the time of its three parts: the matrix, the order, and the factorisation. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
-                                    icc_function_info *info, const iccp_env *env)
+                                    iccp_solution *info, const iccp_env *env)
 {
     *l = (iccp_laplacian_factor){.memory = env->memory, .factor = {.memory = env->memory}};
     double start = iccp_seconds();

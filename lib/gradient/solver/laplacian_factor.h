@@ -2,6 +2,7 @@
 #ifndef ICCP_LAPLACIAN_FACTOR_H
 #define ICCP_LAPLACIAN_FACTOR_H
 
+#include "gradient/solver/solution.h"
 #include "gradient/solver/unknowns.h"
 #include "icc/stages.h"
 #include "math/ldlt.h"
@@ -18,7 +19,7 @@ typedef struct iccp_laplacian_factor {
 /* Eliminates in the order of nested dissection. Adds to `info` (work, seconds_*). On failure
  * nothing stays allocated. */
 icc_status iccp_laplacian_factorise(iccp_laplacian_factor *l, const iccp_unknowns *unknowns,
-                                    icc_function_info *info, const iccp_env *env);
+                                    iccp_solution *info, const iccp_env *env);
 
 /* Accepts a factor that was freed, or that has only its memories. */
 void iccp_laplacian_factor_free(iccp_laplacian_factor *l);

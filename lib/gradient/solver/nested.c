@@ -15,7 +15,7 @@ static const double COARSEST_TARGET = 1e-16;
 static const double COARSE_ENOUGH = 1e-8;
 
 static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplier,
-                                 icc_function_info *info, const iccp_env *env)
+                                 iccp_solution *info, const iccp_env *env)
 {
     iccp_interior_point ip;
     bool stuck;
@@ -31,11 +31,11 @@ static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplie
 }
 
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
-                        double *multiplier, icc_function_info *info, const iccp_env *env);
+                        double *multiplier, iccp_solution *info, const iccp_env *env);
 
 /* Computes the guess for qp from the next coarser grid, if there is one. */
 static icc_status guess(const iccp_qp *qp, bool *useful, int32_t function, size_t coarsest,
-                        double *f, double *multiplier, icc_function_info *info, const iccp_env *env)
+                        double *f, double *multiplier, iccp_solution *info, const iccp_env *env)
 {
     iccp_coarse_qp coarse;
     icc_status status = iccp_coarse_qp_create(&coarse, useful, qp, function, env);
@@ -56,8 +56,8 @@ static icc_status guess(const iccp_qp *qp, bool *useful, int32_t function, size_
 }
 
 /* `start` has f, then the multipliers. */
-static icc_status begin(iccp_nested *p, const iccp_qp *qp, const double *start,
-                        icc_function_info *info, const iccp_env *env)
+static icc_status begin(iccp_nested *p, const iccp_qp *qp, const double *start, iccp_solution *info,
+                        const iccp_env *env)
 {
     const size_t n = qp->unknowns->n;
     const icc_status status = iccp_newton_qp_create(&p->newton, qp, info, env);
@@ -73,7 +73,7 @@ static icc_status begin(iccp_nested *p, const iccp_qp *qp, const double *start,
 }
 
 icc_status iccp_nested_create(iccp_nested *nested, bool *useful, const iccp_qp *qp,
-                              int32_t function, size_t coarsest, icc_function_info *info,
+                              int32_t function, size_t coarsest, iccp_solution *info,
                               const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, m = iccp_qp_inequalities(qp);
@@ -97,8 +97,8 @@ void iccp_nested_free(iccp_nested *nested)
 }
 
 /* Goes from the guess of coarser grids to a last iterate. */
-static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier,
-                                 icc_function_info *info, const iccp_env *env)
+static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier, iccp_solution *info,
+                                 const iccp_env *env)
 {
     const size_t n = p->smoothing.n, m = p->smoothing.m;
     iccp_candidate candidate = {iccp_alloc(&env->memory, n, sizeof *candidate.f), HUGE_VAL};
@@ -116,7 +116,7 @@ static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier,
 /* Solves for f and multipliers on a coarser grid. Uses still coarser grids as long as these
  * represent the shape. */
 static icc_status solve(const iccp_qp *qp, int32_t function, size_t coarsest, double *f,
-                        double *multiplier, icc_function_info *info, const iccp_env *env)
+                        double *multiplier, iccp_solution *info, const iccp_env *env)
 {
     if (qp->unknowns->n <= coarsest)
         return solve_coarsest(qp, f, multiplier, info, env);

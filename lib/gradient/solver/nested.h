@@ -3,6 +3,7 @@
 #define ICCP_NESTED_H
 
 #include "gradient/solver/smoothing.h"
+#include "gradient/solver/solution.h"
 
 /* An iterate on the grid of `qp`. */
 typedef struct iccp_nested {
@@ -16,7 +17,7 @@ typedef struct iccp_nested {
  * the memory of iccp_newton_qp_create(), plus a third of that. On failure nothing stays
  * allocated. */
 icc_status iccp_nested_create(iccp_nested *nested, bool *useful, const iccp_qp *qp,
-                              int32_t function, size_t coarsest, icc_function_info *info,
+                              int32_t function, size_t coarsest, iccp_solution *info,
                               const iccp_env *env);
 void iccp_nested_free(iccp_nested *nested);
 

@@ -48,7 +48,7 @@ void iccp_newton_qp_residuals(iccp_newton_qp *p)
         p->primal[i] -= p->slack[i];
 }
 
-icc_status iccp_newton_qp_factorise(iccp_newton_qp *p, icc_function_info *info, const iccp_env *env)
+icc_status iccp_newton_qp_factorise(iccp_newton_qp *p, iccp_solution *info, const iccp_env *env)
 {
     const double start = iccp_seconds();
     double *w = p->weight + p->qp->a.n_rows;
@@ -161,7 +161,7 @@ static icc_status allocate(iccp_newton_qp *p, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_newton_qp_create(iccp_newton_qp *newton, const iccp_qp *qp, icc_function_info *info,
+icc_status iccp_newton_qp_create(iccp_newton_qp *newton, const iccp_qp *qp, iccp_solution *info,
                                  const iccp_env *env)
 {
     iccp_newton_qp *p = newton;

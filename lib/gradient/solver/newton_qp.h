@@ -4,6 +4,7 @@
 #define ICCP_NEWTON_QP_H
 
 #include "gradient/solver/qp.h"
+#include "gradient/solver/solution.h"
 #include "math/ldlt.h"
 
 typedef struct iccp_newton_qp {
@@ -26,7 +27,7 @@ typedef struct iccp_newton_qp {
 
 /* Analyses the systems. The caller then sets the iterate. Needs the memory of the factor, about 20
  * doubles per unknown and 12 per inequality. On failure nothing stays allocated. */
-icc_status iccp_newton_qp_create(iccp_newton_qp *newton, const iccp_qp *qp, icc_function_info *info,
+icc_status iccp_newton_qp_create(iccp_newton_qp *newton, const iccp_qp *qp, iccp_solution *info,
                                  const iccp_env *env);
 void iccp_newton_qp_free(iccp_newton_qp *newton);
 
@@ -39,7 +40,7 @@ void iccp_newton_qp_residuals(iccp_newton_qp *newton);
 
 /* Factorises for the present slacks and multipliers. Returns ICC_ERR_SOLVER if the matrix is not
  * positive definite, however soft it becomes. */
-icc_status iccp_newton_qp_factorise(iccp_newton_qp *newton, icc_function_info *info,
+icc_status iccp_newton_qp_factorise(iccp_newton_qp *newton, iccp_solution *info,
                                     const iccp_env *env);
 
 /* Computes the step of the slacks, and the residuals of the two equations in `force` and `gap`.

@@ -111,7 +111,7 @@ static iccp_reduction reduce(state *s)
     return (iccp_reduction){n_variables, s->variable, s->share};
 }
 
-static icc_status solve(state *s, double *residual, icc_function_info *info, const iccp_env *env)
+static icc_status solve(state *s, double *residual, iccp_solution *info, const iccp_env *env)
 {
     const iccp_qp *p = s->qp;
     const iccp_reduction reduction = reduce(s);
@@ -238,7 +238,7 @@ static void let_rise(state *s)
 /* Keeps the best candidate, whatever becomes of the set. A step costs patience if it finds neither
  * a smaller residual nor fewer wrong inequalities than ever before. When some patience is used up,
  * only every other change is made, which breaks cycles. */
-static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_function_info *info,
+static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, iccp_solution *info,
                           const iccp_env *env)
 {
     int patience = PATIENCE;
@@ -273,7 +273,7 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, icc_
 }
 
 icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
-                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env)
+                       iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
     state s = {.qp = qp, .n = n, .active = active, .by_rows = by_rows};

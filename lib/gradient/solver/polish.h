@@ -3,6 +3,7 @@
 #define ICCP_POLISH_H
 
 #include "gradient/solver/qp.h"
+#include "gradient/solver/solution.h"
 
 /* Most systems to solve if no other method is left. */
 #define ICCP_POLISH_MOST 1000
@@ -19,6 +20,6 @@ typedef struct iccp_candidate {
  * of rows of active inequalities are wrong, so they may be corrected a row at a time. Replaces the
  * candidate by any better one. Adds to `info` (n_iterations, work, seconds_*). */
 icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
-                       iccp_candidate *candidate, icc_function_info *info, const iccp_env *env);
+                       iccp_candidate *candidate, iccp_solution *info, const iccp_env *env);
 
 #endif

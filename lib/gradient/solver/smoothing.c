@@ -79,7 +79,7 @@ static double next_width(const iccp_smoothing *s)
 }
 
 /* Makes one full step of Newton's method towards the next width. */
-static icc_status step(iccp_smoothing *s, icc_function_info *info, const iccp_env *env)
+static icc_status step(iccp_smoothing *s, iccp_solution *info, const iccp_env *env)
 {
     iccp_newton_qp *p = s->newton;
     const double width = next_width(s);
@@ -107,7 +107,7 @@ static icc_status step(iccp_smoothing *s, icc_function_info *info, const iccp_en
 
 /* Keeps the iterate if it is the best so far. */
 static void consider(const iccp_smoothing *s, iccp_candidate *candidate, int *patience,
-                     icc_function_info *info)
+                     iccp_solution *info)
 {
     const double start = iccp_seconds(), residual = find_residual(s);
     --*patience;
@@ -120,7 +120,7 @@ static void consider(const iccp_smoothing *s, iccp_candidate *candidate, int *pa
 }
 
 static icc_status iterate(iccp_smoothing *s, double enough, iccp_candidate *candidate,
-                          icc_function_info *info, const iccp_env *env)
+                          iccp_solution *info, const iccp_env *env)
 {
     int patience = PATIENCE;
     for (size_t k = 0; k < MAX_ITERATIONS; ++k) {
@@ -176,7 +176,7 @@ void iccp_smoothing_free(iccp_smoothing *smoothing)
 }
 
 icc_status iccp_smoothing_run(iccp_smoothing *smoothing, double enough, iccp_candidate *candidate,
-                              uint8_t *active, icc_function_info *info, const iccp_env *env)
+                              uint8_t *active, iccp_solution *info, const iccp_env *env)
 {
     const icc_status status = iterate(smoothing, enough, candidate, info, env);
     for (size_t i = 0; i < smoothing->m; ++i)

@@ -4,6 +4,7 @@
 
 #include "gradient/solver/newton_qp.h"
 #include "gradient/solver/polish.h"
+#include "gradient/solver/solution.h"
 
 /* An iterate. It starts from f and multiplier of `newton`; the latter may be 0. `newton` belongs to
  * the caller and must live longer. */
@@ -24,6 +25,6 @@ void iccp_smoothing_free(iccp_smoothing *smoothing);
  * candidate is replaced by any better one. active[i] tells whether the slack or the multiplier of
  * inequality i is smaller, in its own unit. Adds to `info` (n_iterations, seconds_*). */
 icc_status iccp_smoothing_run(iccp_smoothing *smoothing, double enough, iccp_candidate *candidate,
-                              uint8_t *active, icc_function_info *info, const iccp_env *env);
+                              uint8_t *active, iccp_solution *info, const iccp_env *env);
 
 #endif

@@ -13,6 +13,7 @@
 #ifndef ICCP_TIED_H
 #define ICCP_TIED_H
 
+#include "gradient/solver/solution.h"
 #include "gradient/solver/unknowns.h"
 #include "math/scaled.h"
 
@@ -34,11 +35,11 @@ typedef struct iccp_ties {
 /* Solves by factorisation (math/ldlt). Every entry is accurate to about 1e-12 of itself, however
  * small. If residuals show that some are not, returns ICC_ERR_SOLVER, and f is meaningless. */
 icc_status iccp_tied_direct(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                            const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
+                            const iccp_scaled *f, iccp_solution *info, const iccp_env *env);
 
 /* Solves by conjugate gradients with a multigrid preconditioner, in shells. Where f is small
  * compared with the known values, it is rescaled and solved for again. */
 icc_status iccp_tied_iterative(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                               const iccp_scaled *f, icc_function_info *info, const iccp_env *env);
+                               const iccp_scaled *f, iccp_solution *info, const iccp_env *env);
 
 #endif

@@ -278,7 +278,7 @@ static double lap(double *clock)
 }
 
 icc_status iccp_tied_direct(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                            const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                            const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     assembly a = {.unknowns = unknowns, .ties = ties};
     iccp_ldlt factor = {.memory = env->memory};

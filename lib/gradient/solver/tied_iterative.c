@@ -35,7 +35,7 @@ typedef struct shells {
     const iccp_unknowns *unknowns;
     const iccp_ties *ties;
     const iccp_scaled *f;
-    icc_function_info *info;
+    iccp_solution *info;
     const iccp_env *env;
     uint32_t *order;   /* n unknowns, sorted by top: members follow their top */
     uint32_t *cluster; /* n + 1: where the cluster of each top begins in `order` */
@@ -386,7 +386,7 @@ static icc_status next_shell(shells *s)
 }
 
 icc_status iccp_tied_iterative(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                               const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                               const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     const iccp_memory *m = &env->memory;
     shells s = {

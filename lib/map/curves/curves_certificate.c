@@ -8,7 +8,7 @@
 icc_status iccp_curves_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const icc_chart_info *source = &map->source->info, *target = &map->target->info;
-    icc_map_info *info = &map->info;
+    iccp_map_facts *info = &map->info;
     (void)err;
     info->certified = source->certified && target->certified;
     info->reason_side = !source->certified ? 1 : !target->certified ? 2 : 0;

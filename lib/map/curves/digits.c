@@ -282,7 +282,7 @@ static void list_inside(const icc_grid *grid, uint32_t *inside)
 }
 
 /* Checks the map in one direction, with samples of the first domain. */
-static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_info *info,
+static icc_status judge_way(const icc_chart *from, const icc_chart *to, iccp_map_facts *info,
                             const iccp_env *env)
 {
     const icc_grid *grid = from->ops->function(from)->tree->grid;
@@ -306,7 +306,7 @@ static icc_status judge_way(const icc_chart *from, const icc_chart *to, icc_map_
     return status;
 }
 
-icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, icc_map_info *info,
+icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, iccp_map_facts *info,
                              const iccp_env *env)
 {
     icc_status status = judge_way(source, target, info, env);

@@ -7,11 +7,12 @@
 #define ICCP_DIGITS_H
 
 #include "chart/chart.h"
+#include "map/kind/map_facts.h"
 
 /* Fills in the members of `info` on this check. Clears `certified` if points do not come back.
  * It tests evenly spread points of both domains in both directions. The charts must be of method
  * field and certified. */
-icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, icc_map_info *info,
+icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, iccp_map_facts *info,
                              const iccp_env *env);
 
 /* Like iccp_curves_points(), but with ICC_ERR_TRACE for suspect points whose images do not come

@@ -17,6 +17,7 @@
 
 #include "chart/chart.h"
 #include "map/energy/simplicial_map.h"
+#include "map/kind/map_facts.h"
 
 /* The operations of a kind. Those that a kind does not have are NULL. Points are in the caller's
  * coordinates. */
@@ -83,7 +84,7 @@ struct icc_map {
     icc_domain *source_domain, *target_domain;
     icc_chart *source, *target; /* both NULL for a retargeted map and with features */
     void *state;                /* the kind's own data */
-    icc_map_info info;
+    iccp_map_facts info;
 };
 
 #endif

@@ -17,7 +17,7 @@ iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *tar
     return map;
 }
 
-icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env)
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, iccp_map_facts *info, const iccp_env *env)
 {
     icc_status status = iccp_progress(env, "check", 0);
     const iccp_planar mesh = {.n_vertices = map->pl.n_vertices,

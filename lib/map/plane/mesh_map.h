@@ -42,7 +42,7 @@ iccp_mesh_map *iccp_mesh_map_new(const icc_domain *source, const icc_domain *tar
 
 /* Completes a map that has its `pl`: prepares the finders of points, and fills in the members of
  * `info` about the size of the mesh. */
-icc_status iccp_mesh_map_finish(iccp_mesh_map *map, icc_map_info *info, const iccp_env *env);
+icc_status iccp_mesh_map_finish(iccp_mesh_map *map, iccp_map_facts *info, const iccp_env *env);
 
 void iccp_mesh_map_free(iccp_mesh_map *map, const iccp_memory *memory);
 

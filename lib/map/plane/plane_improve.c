@@ -17,7 +17,7 @@ icc_status iccp_plane_improve(iccp_plmap *pl, const icc_improve_options *options
 }
 
 icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *options,
-                               const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                               const iccp_schedule *how, iccp_work *work, iccp_map_facts *info,
                                const iccp_env *env)
 {
     const double begin = iccp_seconds();
@@ -61,7 +61,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     iccp_work work = iccp_schedule_work(options, n_facets);
     iccp_improvement improvement = {0};
     bool cancelled = false;
-    icc_map_info info = {0};
+    iccp_map_facts info = {0};
     report->energy_start = iccp_plmap_energy(&map->pl);
     icc_status status = iccp_plmap_copy(&better->pl, &map->pl, &env->memory);
     if (status == ICC_OK)

@@ -13,7 +13,7 @@ icc_status iccp_plane_improve(iccp_plmap *pl, const icc_improve_options *options
 
 /* Improves map->pl, which is one-to-one, and then calls iccp_mesh_map_finish(). */
 icc_status iccp_plane_complete(iccp_mesh_map *map, const icc_improve_options *options,
-                               const iccp_schedule *how, iccp_work *work, icc_map_info *info,
+                               const iccp_schedule *how, iccp_work *work, iccp_map_facts *info,
                                const iccp_env *env);
 
 /* Keeps Newton's plan for maps that follow, if the mesh is still the plan's. */

@@ -25,7 +25,7 @@ static icc_status describe(icc_map *map, const iccp_env *env)
 {
     const iccp_features *features = map->source_domain->features;
     iccp_mesh_map *plane = map->state;
-    icc_map_info *info = &map->info;
+    iccp_map_facts *info = &map->info;
     if (features == NULL)
         return ICC_OK;
     const icc_status status = iccp_isotopy_create(&plane->isotopy, &plane->pl, map->source_domain,
@@ -69,7 +69,7 @@ static icc_status renew(icc_map *map, bool *kept, const iccp_env *env)
 {
     iccp_mesh_map *plane = map->state;
     iccp_isotopy *const own = plane->isotopy;
-    const icc_map_info info = map->info;
+    const iccp_map_facts info = map->info;
     plane->isotopy = NULL;
     const icc_status status = describe(map, env);
     *kept = status != ICC_OK || map->source_domain->features == NULL ||

@@ -82,7 +82,7 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
 /* Every state on the way is one-to-one, so features stay on their sides of one another. */
 static icc_status move_features(iccp_mesh_map *map, const journey *j,
                                 const icc_improve_options *options, iccp_allowance *work,
-                                icc_map_info *info, const iccp_env *env, icc_error *err)
+                                iccp_map_facts *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds(), stretch = map->pl.stretch;
     const iccp_grain grain = {iccp_planar_step(j->target, CELLS),
@@ -145,7 +145,7 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
 /* Moves the boundary's images to the new target at once if that inverts no triangle, otherwise in
  * parts. *reached: whether they are there. */
 static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work *work,
-                            bool *reached, icc_map_info *info, const iccp_env *env)
+                            bool *reached, iccp_map_facts *info, const iccp_env *env)
 {
     const iccp_grain grain = {iccp_planar_step(target, CELLS), SIZE_MAX};
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(pl);
@@ -168,7 +168,7 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
 /* info->n_unrepaired is not 0, with ICC_OK, when the way is blocked. */
 static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
                                 const icc_improve_options *options, iccp_allowance *work,
-                                icc_map_info *info, const iccp_env *env)
+                                iccp_map_facts *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     bool reached = false;
@@ -187,8 +187,8 @@ static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
 
 icc_status iccp_mesh_map_retarget(iccp_mesh_map **out, const iccp_mesh_map *map,
                                   const icc_domain *source, const icc_domain *old_target,
-                                  const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                  const iccp_env *env, icc_error *err)
+                                  const icc_domain *target, int32_t iterations,
+                                  iccp_map_facts *info, const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *next = iccp_mesh_map_new(source, target, &env->memory);
     *out = NULL;

@@ -9,7 +9,7 @@
  * 0. See icc_map_retarget(). */
 icc_status iccp_mesh_map_retarget(iccp_mesh_map **out, const iccp_mesh_map *map,
                                   const icc_domain *source, const icc_domain *old_target,
-                                  const icc_domain *target, int32_t iterations, icc_map_info *info,
-                                  const iccp_env *env, icc_error *err);
+                                  const icc_domain *target, int32_t iterations,
+                                  iccp_map_facts *info, const iccp_env *env, icc_error *err);
 
 #endif

@@ -157,8 +157,8 @@ static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_do
 
 /* Makes the start one-to-one. It stays as the charts give it if nothing is inverted. */
 static icc_status make_positive(iccp_mesh_map *map, const icc_domain *source,
-                                const icc_domain *target, iccp_allowance *work, icc_map_info *info,
-                                const iccp_env *env)
+                                const icc_domain *target, iccp_allowance *work,
+                                iccp_map_facts *info, const iccp_env *env)
 {
     const double begin = iccp_seconds();
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(&map->pl);
@@ -172,7 +172,7 @@ static icc_status make_positive(iccp_mesh_map *map, const icc_domain *source,
 }
 
 icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
-                                const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                const icc_chart *target, int32_t iterations, iccp_map_facts *info,
                                 const iccp_env *env, icc_error *err)
 {
     iccp_mesh_map *map = iccp_mesh_map_new(source->domain, target->domain, &env->memory);
@@ -221,7 +221,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
 
 icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *source,
                                          const icc_domain *target, const icc_map_options *options,
-                                         icc_map_info *info, const iccp_env *env, icc_error *err)
+                                         iccp_map_facts *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds();
     iccp_mesh_map *map = iccp_mesh_map_new(source, target, &env->memory);

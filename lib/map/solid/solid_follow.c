@@ -186,7 +186,7 @@ static size_t farthest(const iccp_solid_map *map, const icc_domain *target)
 
 icc_status iccp_solid_map_follow(iccp_solid_map **out, const iccp_solid_map *map,
                                  const icc_domain *source, const icc_domain *old_target,
-                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                 const icc_domain *target, int32_t iterations, iccp_map_facts *info,
                                  size_t *vertex, const iccp_env *env)
 {
     const double began = iccp_seconds();

@@ -9,7 +9,7 @@
  * NULL, with ICC_OK. *vertex is then a surface vertex where the motion is blocked. */
 icc_status iccp_solid_map_follow(iccp_solid_map **out, const iccp_solid_map *map,
                                  const icc_domain *source, const icc_domain *old_target,
-                                 const icc_domain *target, int32_t iterations, icc_map_info *info,
+                                 const icc_domain *target, int32_t iterations, iccp_map_facts *info,
                                  size_t *vertex, const iccp_env *env);
 
 #endif

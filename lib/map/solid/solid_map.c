@@ -41,7 +41,7 @@ static iccp_solid_map *new_map(const icc_domain *source, const icc_domain *targe
 }
 
 icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
-                                const icc_improve_options *options, icc_map_info *info,
+                                const icc_improve_options *options, iccp_map_facts *info,
                                 const iccp_env *env)
 {
     const double began = iccp_seconds();
@@ -64,7 +64,7 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
 /* Takes the steps of every new map. A map that was unfolded gets steps on a finer mesh as well,
  * because unfolding leaves few points where the most folds are. */
 static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, bool unfolded,
-                              int32_t iterations, icc_map_info *info, const iccp_env *env)
+                              int32_t iterations, iccp_map_facts *info, const iccp_env *env)
 {
     const icc_improve_options options = {.iterations =
                                              iterations == 0 ? ITERATIONS_OF_NEW : iterations,
@@ -72,7 +72,7 @@ static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, boo
     return iccp_solid_map_relax(map, source, &options, info, env);
 }
 
-icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+icc_status iccp_solid_map_finish(iccp_solid_map *map, iccp_map_facts *info, const iccp_env *env)
 {
     info->n_vertices = map->mesh->n_points;
     info->n_simplices = map->mesh->n_simplices;
@@ -87,7 +87,7 @@ icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env)
 }
 
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
-                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                 const icc_chart *target, int32_t iterations, iccp_map_facts *info,
                                  const iccp_env *env)
 {
     iccp_solid_map *map = new_map(source->domain, target->domain, &env->memory);
@@ -204,7 +204,7 @@ static bool are_images_local(const iccp_solid_map *map)
 }
 
 icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
-                                const icc_domain *target, icc_map_info *info, const iccp_env *env)
+                                const icc_domain *target, iccp_map_facts *info, const iccp_env *env)
 {
     if (!b->reads)
         return visit(b, *map, source, target);

@@ -49,7 +49,7 @@ static inline iccp_simplicial_map iccp_solid_simplicial(const iccp_solid_map *ma
  * -1 none. Fills in the mesh's members of `info`. If all repairs fail, info->n_unrepaired is not 0
  * and *out is NULL, with ICC_OK. */
 icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
-                                 const icc_chart *target, int32_t iterations, icc_map_info *info,
+                                 const icc_chart *target, int32_t iterations, iccp_map_facts *info,
                                  const iccp_env *env);
 
 /* ---- making a map piece by piece ---- */
@@ -62,11 +62,11 @@ icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
 
 /* Takes steps that lower the energy on one mesh, as many as icc_map_options says. */
 icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
-                                const icc_improve_options *options, icc_map_info *info,
+                                const icc_improve_options *options, iccp_map_facts *info,
                                 const iccp_env *env);
 
 /* Finishes a map: makes its points findable and fills in the sizes in `info`. */
-icc_status iccp_solid_map_finish(iccp_solid_map *map, icc_map_info *info, const iccp_env *env);
+icc_status iccp_solid_map_finish(iccp_solid_map *map, iccp_map_facts *info, const iccp_env *env);
 
 /* Makes points findable again after images have changed. */
 icc_status iccp_solid_map_replant(iccp_solid_map *map, const iccp_env *env);
@@ -82,7 +82,8 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
 /* Reads or writes a map as part of its bytes (docs/formats.md). A map that is read still needs its
  * certificate. Writing takes no info and no env. */
 icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
-                                const icc_domain *target, icc_map_info *info, const iccp_env *env);
+                                const icc_domain *target, iccp_map_facts *info,
+                                const iccp_env *env);
 void iccp_solid_map_free(iccp_solid_map *map);
 
 /* Maps one local point, forward or back. `jacobian`: 9 numbers row by row, or NULL. ICC_ERR_TRACE

@@ -52,13 +52,13 @@ static both both_of(iccp_solid_map *map, iccp_solid_map *other, iccp_direction w
 }
 
 /* Records the result of a stage on one side. A map in the other direction is inverted. */
-static icc_status conclude(both *b, size_t side, icc_map_info *info)
+static icc_status conclude(both *b, size_t side, iccp_map_facts *info)
 {
     b->fewest = info->n_unrepaired < b->fewest ? info->n_unrepaired : b->fewest;
     return info->n_unrepaired == 0 && side == 1 ? invert(b->map[0], b->map[1]) : ICC_OK;
 }
 
-static icc_status mend_pockets(iccp_solid_map *map, const icc_domain *source, icc_map_info *info,
+static icc_status mend_pockets(iccp_solid_map *map, const icc_domain *source, iccp_map_facts *info,
                                const iccp_env *env)
 {
     const double began = iccp_seconds();
@@ -71,7 +71,7 @@ static icc_status mend_pockets(iccp_solid_map *map, const icc_domain *source, ic
 }
 
 /* Runs a stage on both sides, unless there is a map already. */
-static icc_status take_turns(both *b, stage now, icc_map_info *info, const iccp_env *env)
+static icc_status take_turns(both *b, stage now, iccp_map_facts *info, const iccp_env *env)
 {
     iccp_env part[2];
     icc_status status = ICC_OK;
@@ -100,7 +100,7 @@ static icc_status solve(iccp_simplices **mesh, double **images, const icc_domain
     static const stage STAGES[] = {FIT, MEND, MEND_ANEW, UNFOLD};
     enum { N_STAGES = sizeof STAGES / sizeof *STAGES };
     icc_chart *chart[2] = {NULL, NULL};
-    icc_map_info info = {.size = sizeof info};
+    iccp_map_facts info = {0};
     *mesh = NULL;
     *images = NULL;
     iccp_env part[2 + N_STAGES];
@@ -136,7 +136,7 @@ static icc_status solve(iccp_simplices **mesh, double **images, const icc_domain
 
 /* Makes a map from one onto the ball, which is used up. */
 static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direction way,
-                         const double apex[3], icc_map_info *info, const iccp_env *env)
+                         const double apex[3], iccp_map_facts *info, const iccp_env *env)
 {
     const icc_domain *from = way.source->domain, *to = way.target->domain;
     bool done = false;
@@ -157,13 +157,13 @@ static icc_status put_on(iccp_solid_map *map, iccp_solid_map *round, iccp_direct
 
 /* Makes a map by way of a ball with the target's directions, if there is one. Otherwise the map is
  * empty and `info` does not change. */
-static icc_status go_round(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+static icc_status go_round(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                            const iccp_env *env)
 {
     static const stage STAGES[] = {FIT, POCKETS, MEND, MEND_ANEW};
     enum { N_STAGES = sizeof STAGES / sizeof *STAGES };
     icc_chart *ball;
-    icc_map_info told = *info;
+    iccp_map_facts told = *info;
     double apex[3];
     iccp_env part[1 + N_STAGES];
     iccp_split(part, 1 + N_STAGES, (const double[]){2, 6, 1, 1, 1}, env);
@@ -188,7 +188,7 @@ static icc_status go_round(iccp_solid_map *map, iccp_direction way, icc_map_info
     return status;
 }
 
-static icc_status take_turns_round(both *b, icc_map_info *info, const iccp_env *env)
+static icc_status take_turns_round(both *b, iccp_map_facts *info, const iccp_env *env)
 {
     iccp_env part[2];
     icc_status status = ICC_OK;
@@ -205,7 +205,7 @@ static icc_status take_turns_round(both *b, icc_map_info *info, const iccp_env *
 
 /* Runs the stages until one finds a map. Other members of `info` describe the last stage. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                            bool *unfolded, icc_map_info *info, const iccp_env *env)
+                            bool *unfolded, iccp_map_facts *info, const iccp_env *env)
 {
     static const stage STAGES[] = {FIT, BALL, POCKETS, UNFOLD, MEND, MEND_ANEW};
     enum { N_STAGES = sizeof STAGES / sizeof *STAGES };

@@ -15,6 +15,6 @@
  * Fills in the members of `info` about the repair. n_unrepaired is 0 if a map was found. Otherwise
  * it is the least number left, and there is no map. */
 icc_status iccp_solid_start(iccp_solid_map *map, const icc_chart *source, const icc_chart *target,
-                            bool *unfolded, icc_map_info *info, const iccp_env *env);
+                            bool *unfolded, iccp_map_facts *info, const iccp_env *env);
 
 #endif

@@ -82,7 +82,7 @@ void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images)
     map->images = images;
 }
 
-static icc_status repair(iccp_solid_map *map, icc_map_info *info, const iccp_env *env)
+static icc_status repair(iccp_solid_map *map, iccp_map_facts *info, const iccp_env *env)
 {
     const iccp_simplices *mesh = map->mesh;
     const double began = iccp_seconds();
@@ -114,7 +114,7 @@ static icc_status begin_without_chords(iccp_solid_map *map, iccp_direction way, 
     return find_start(map, way, env);
 }
 
-icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                           const iccp_env *env)
 {
     bool cut = false;
@@ -132,8 +132,8 @@ icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, icc_map_info 
     return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
 }
 
-icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew, icc_map_info *info,
-                            const iccp_env *env)
+icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew,
+                            iccp_map_facts *info, const iccp_env *env)
 {
     const double began = iccp_seconds();
     iccp_env part[2];
@@ -149,7 +149,7 @@ icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew, 
     return status;
 }
 
-icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                              const iccp_env *env)
 {
     const double began = iccp_seconds();

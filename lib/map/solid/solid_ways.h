@@ -20,16 +20,16 @@ void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images);
 
 /* Maps by the charts on the source's mesh. If that cannot be repaired, it uses a mesh without
  * chords. */
-icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                           const iccp_env *env);
 
 /* Continues on the mesh that iccp_solid_fit() left: from its images, or anew from the charts. */
-icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew, icc_map_info *info,
-                            const iccp_env *env);
+icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew,
+                            iccp_map_facts *info, const iccp_env *env);
 
 /* Maps without the charts on a mesh without chords, if a point inside sees all of the target's
  * surface. Otherwise the map is empty and `info` does not change. */
-icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, icc_map_info *info,
+icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
                              const iccp_env *env);
 
 #endif

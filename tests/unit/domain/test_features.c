@@ -371,7 +371,7 @@ START_TEST(many_features)
         memcpy(lines[i], line, sizeof line);
         lines[i][0] += 0.5;
         lines[i][3] += 0.5;
-        features[i] = (icc_feature){sizeof(icc_feature), ICC_FEATURE_LINE, 2, lines[i], 0};
+        features[i] = (icc_feature){sizeof(icc_feature), ICC_FEATURE_LINE, 2, lines[i], 0, 0, NULL};
     }
     icc_domain *domain;
     icc_error err = {.size = sizeof err};

@@ -416,8 +416,8 @@ static icc_status create_one(int32_t kind, size_t n, const double *vertices, icc
 {
     static const double outer[] = {0, 0, 9, 0, 9, 9, 0, 9};
     const icc_feature features[2] = {
-        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){8, 8}, 0},
-        {sizeof(icc_feature), kind, n, vertices, 0}};
+        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, (const double[]){8, 8}, 0, 0, NULL},
+        {sizeof(icc_feature), kind, n, vertices, 0, 0, NULL}};
     icc_domain *domain = (icc_domain *)&err;
     const icc_status status = icc_domain_create_features(&domain, 4, outer, 2, features, NULL, err);
     ck_assert((domain != NULL) == (status == ICC_OK));
@@ -454,7 +454,7 @@ START_TEST(arguments)
     ck_assert_int_eq(create_one(1, 3, NULL, &err), ICC_ERR_ARGUMENT);
     for (int32_t kind = 1; kind <= 3; ++kind)
         ck_assert_int_eq(create_one(kind, (size_t)(4 - kind), some, &err), ICC_OK);
-    const icc_feature feature = {sizeof feature, ICC_FEATURE_POINT, 1, some, 0};
+    const icc_feature feature = {sizeof feature, ICC_FEATURE_POINT, 1, some, 0, 0, NULL};
     ck_assert_int_eq(icc_domain_create_features(NULL, 3, some, 0, NULL, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_domain_create_features(&domain, 3, NULL, 1, &feature, NULL, &err),
@@ -480,8 +480,8 @@ START_TEST(sizes)
     static const double outer[] = {0, 0, 9, 0, 9, 9, 0, 9}, points[] = {1, 1, 2, 2};
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
-    later two[2] = {{{sizeof(later), ICC_FEATURE_POINT, 1, points, 0}, 0},
-                    {{sizeof(later), ICC_FEATURE_POINT, 1, points + 2, 0}, 0}};
+    later two[2] = {{{sizeof(later), ICC_FEATURE_POINT, 1, points, 0, 0, NULL}, 0},
+                    {{sizeof(later), ICC_FEATURE_POINT, 1, points + 2, 0, 0, NULL}, 0}};
     const icc_feature *features = &two[0].known;
     ck_assert_int_eq(icc_domain_create_features(&domain, 4, outer, 2, features, NULL, &err),
                      ICC_OK);
@@ -507,9 +507,10 @@ static const double SQUARE[] = {0, 0, 10, 0, 10, 10, 0, 10};
 static icc_status create_sized(icc_domain **out, double radius, const icc_env *env, icc_error *err)
 {
     static const double at[] = {2, 2, 5, 7, 8, 2, 9, 2};
-    const icc_feature features[] = {{sizeof(icc_feature), ICC_FEATURE_POINT, 1, at, 0},
-                                    {sizeof(icc_feature), ICC_FEATURE_POINT, 1, at + 2, radius},
-                                    {sizeof(icc_feature), ICC_FEATURE_LINE, 2, at + 4, 0}};
+    const icc_feature features[] = {
+        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, at, 0, 0, NULL},
+        {sizeof(icc_feature), ICC_FEATURE_POINT, 1, at + 2, radius, 0, NULL},
+        {sizeof(icc_feature), ICC_FEATURE_LINE, 2, at + 4, 0, 0, NULL}};
     return icc_domain_create_features(out, 4, SQUARE, 3, features, env, err);
 }
 
@@ -573,7 +574,7 @@ START_TEST(wrong_circles)
         ck_assert_int_eq(err.index, 1);
         ck_assert_ptr_null(domain);
     }
-    const icc_feature line = {sizeof line, ICC_FEATURE_LINE, 2, SQUARE, 1};
+    const icc_feature line = {sizeof line, ICC_FEATURE_LINE, 2, SQUARE, 1, 0, NULL};
     ck_assert_int_eq(icc_domain_create_features(&domain, 4, SQUARE, 1, &line, NULL, &err),
                      ICC_ERR_ARGUMENT);
     ck_assert_int_eq(create_sized(&domain, 3.5, NULL, &err), ICC_ERR_OUTSIDE);

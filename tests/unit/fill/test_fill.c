@@ -2,6 +2,7 @@
  * named; and the exact signs that all this rests on. */
 #include "../../domains.h"
 #include "../../faulty.h"
+#include "../../flat_mesh.h"
 #include "../../hard_bodies.h"
 #include "../../obj.h"
 #include "../../suite.h"
@@ -28,7 +29,7 @@ static double volume_of(const icc_domain *domain)
     const icc_domain_info info = info_of_domain(domain);
     double *x = malloc(3 * info.n_mesh_vertices * sizeof *x);
     uint32_t *t = malloc(4 * info.n_mesh_simplices * sizeof *t);
-    ck_assert_int_eq(icc_domain_get_mesh(domain, x, t), ICC_OK);
+    ck_assert_int_eq(flat_domain_mesh(domain, x, t), ICC_OK);
     double volume = 0;
     for (size_t i = 0; i < info.n_mesh_simplices; ++i) {
         const double *p[4];
@@ -209,8 +210,8 @@ START_TEST(the_same_bits_again)
     ck_assert_uint_eq(info.n_mesh_simplices, info_of_domain(b).n_mesh_simplices);
     const size_t n = 3 * info.n_mesh_vertices;
     double *x = malloc(2 * n * sizeof *x);
-    ck_assert_int_eq(icc_domain_get_mesh(a, x, NULL), ICC_OK);
-    ck_assert_int_eq(icc_domain_get_mesh(b, x + n, NULL), ICC_OK);
+    ck_assert_int_eq(flat_domain_mesh(a, x, NULL), ICC_OK);
+    ck_assert_int_eq(flat_domain_mesh(b, x + n, NULL), ICC_OK);
     ck_assert_mem_eq(x, x + n, n * sizeof *x);
     free(x);
     icc_domain_free(a);
@@ -235,8 +236,8 @@ START_TEST(arguments_are_checked)
     ck_assert_int_eq(icc_domain_create(&flat, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_fill(&out, flat, NULL, NULL, &err), ICC_ERR_UNSUPPORTED);
     ck_assert_ptr_null(out);
-    ck_assert_int_eq(icc_domain_get_mesh(domain, NULL, NULL), ICC_ERR_UNSUPPORTED);
-    ck_assert_int_eq(icc_domain_get_mesh(NULL, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(flat_domain_mesh(domain, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(flat_domain_mesh(NULL, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_uint_eq(info_of_domain(domain).n_mesh_vertices, 0);
     icc_domain_free(domain);
     icc_domain_free(filled);

@@ -1,5 +1,6 @@
 /* Domains made of meshes: what is accepted, what is refused and how it is named, and what the
  * library keeps of the mesh. */
+#include "../../flat_mesh.h"
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -426,11 +427,11 @@ START_TEST(signs_are_exact)
         /* On the line x = y = z to rounding: exactly so only where the first point is too. */
         x[0] = x[1] = x[2] = 0.5;
         x[3] = x[4] = x[5] = 12;
-        ck_assert_int_eq(icc_domain_create_mesh(&d, 3, 4, x, 1, tetrahedron, 0, NULL, NULL, &err),
+        ck_assert_int_eq(flat_create_mesh(&d, 3, 4, x, 1, tetrahedron, 0, NULL, NULL, &err),
                          k == 0 ? ICC_ERR_BOUNDARY : ICC_OK);
         ck_assert(k != 0 || err.index == 0);
         icc_domain_free(d);
-        ck_assert_int_eq(icc_domain_create_mesh(&d, 2, 3, y, 1, triangle, 0, NULL, NULL, &err),
+        ck_assert_int_eq(flat_create_mesh(&d, 2, 3, y, 1, triangle, 0, NULL, NULL, &err),
                          k == 0 ? ICC_ERR_BOUNDARY : ICC_OK);
         icc_domain_free(d);
     }
@@ -633,9 +634,8 @@ START_TEST(coverings_are_refused)
     }
     icc_error err = {.size = sizeof err};
     icc_domain *domain;
-    ck_assert_int_eq(
-        icc_domain_create_mesh(&domain, 2, N + 1, xy, N, triangles, 0, NULL, NULL, &err),
-        ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(flat_create_mesh(&domain, 2, N + 1, xy, N, triangles, 0, NULL, NULL, &err),
+                     ICC_ERR_BOUNDARY);
     ck_assert_ptr_nonnull(strstr(err.message, "cross"));
 }
 END_TEST
@@ -677,20 +677,19 @@ START_TEST(arguments_are_checked)
                {3, 8, 0, 0, 0, 0, 0, 0},        {3, 8, 6, SIZE_MAX, 0, 0, 0, 1}};
     for (size_t k = 0; k < sizeof BAD / sizeof *BAD; ++k) {
         d = (icc_domain *)&d;
-        ck_assert_int_eq(
-            icc_domain_create_mesh(BAD[k].no_out ? NULL : &d, BAD[k].dim, BAD[k].n_vertices,
-                                   BAD[k].no_vertices ? NULL : m.vertices, BAD[k].n_simplices,
-                                   BAD[k].no_simplices ? NULL : m.simplices, BAD[k].n_facets,
-                                   BAD[k].facets ? m.simplices : NULL, NULL, &err),
-            ICC_ERR_ARGUMENT);
+        ck_assert_int_eq(flat_create_mesh(BAD[k].no_out ? NULL : &d, BAD[k].dim, BAD[k].n_vertices,
+                                          BAD[k].no_vertices ? NULL : m.vertices,
+                                          BAD[k].n_simplices,
+                                          BAD[k].no_simplices ? NULL : m.simplices, BAD[k].n_facets,
+                                          BAD[k].facets ? m.simplices : NULL, NULL, &err),
+                         ICC_ERR_ARGUMENT);
         ck_assert(BAD[k].no_out || d == NULL);
     }
     /* Their number does not matter without facets. */
     ck_assert_int_eq(
-        icc_domain_create_mesh(&d, 3, 8, m.vertices, 6, m.simplices, SIZE_MAX, NULL, NULL, &err),
-        ICC_OK);
+        flat_create_mesh(&d, 3, 8, m.vertices, 6, m.simplices, SIZE_MAX, NULL, NULL, &err), ICC_OK);
     icc_domain_free(d);
-    ck_assert_int_eq(icc_domain_create_mesh(&d, 3, 0, NULL, 6, m.simplices, 0, NULL, NULL, &err),
+    ck_assert_int_eq(flat_create_mesh(&d, 3, 0, NULL, 6, m.simplices, 0, NULL, NULL, &err),
                      ICC_ERR_BOUNDARY);
     mesh_free(&m);
 }

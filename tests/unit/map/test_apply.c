@@ -327,7 +327,7 @@ static bytes follow(const icc_map *map, double x, const icc_env *env, icc_map **
     t.xy[7] -= 0.3;
     icc_domain *target = domain_of_shape(&t);
     icc_map *own = NULL;
-    ck_assert_int_eq(icc_map_retarget(&own, map, target, 0, env, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_retarget(&own, map, target, NULL, env, NULL), ICC_OK);
     icc_domain_free(target);
     const bytes b = map_bytes(own);
     if (next != NULL)
@@ -377,7 +377,10 @@ static icc_status follow_once(const icc_env *env, icc_error *err, void *argument
     icc_map *map, *frame[2] = {NULL, NULL};
     icc_status status = icc_map_load(&map, x->saved.n, x->saved.data, env, err);
     for (int k = 0; k < 2 && status == ICC_OK; ++k)
-        status = icc_map_retarget(&frame[k], k == 0 ? map : frame[0], x->target, 2, env, err);
+        status = icc_map_retarget(
+            &frame[k], k == 0 ? map : frame[0], x->target,
+            &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = 2}, env,
+            err);
     icc_map_free(frame[0]);
     icc_map_free(frame[1]);
     icc_map_free(map);

@@ -1,6 +1,6 @@
 /* Features that move: what is reached, what is in the way, and what must stay as it was. */
-#include "map/compatible/move_targets.h"
 #include "map/compatible/density.h"
+#include "map/compatible/move_targets.h"
 #include "map/isotopy/isotopy.h"
 #include "map/map.h"
 #include "map/plane/plane_certificate.h"
@@ -65,7 +65,8 @@ static bool carry_to(const icc_map *map, const plan *to, double work)
     ck_assert_int_eq(iccp_plmap_copy(&copy, &iccp_plane_of(map)->pl, &env.memory), ICC_OK);
     if (work > 0)
         ck_assert_int_eq(iccp_limit_edges(&copy, grain.longest, &env), ICC_OK);
-    ck_assert_int_eq(iccp_move_targets(&copy, target, &grain, 1, &steps, &reached, &room, &env), ICC_OK);
+    ck_assert_int_eq(iccp_move_targets(&copy, target, &grain, 1, &steps, &reached, &room, &env),
+                     ICC_OK);
     check_there(&copy, target, reached);
     ck_assert(steps.left >= 0 || steps.spent > 0);
     ck_assert(room >= 0);
@@ -87,7 +88,7 @@ static bool follow_to(const icc_map *map, const plan *to)
     icc_domain *target = plan_domain(to);
     icc_map *followed;
     icc_map_info info = {.size = sizeof info};
-    const icc_status status = icc_map_retarget(&followed, map, target, 0, NULL, NULL);
+    const icc_status status = icc_map_retarget(&followed, map, target, NULL, NULL, NULL);
     icc_domain_free(target);
     if (status != ICC_OK)
         return false;
@@ -147,7 +148,7 @@ START_TEST(followed)
             next.xy[k] = fmin(fmax(next.xy[k], 0.5), k % 2 == 1 ? 4.5 : 7.5);
         }
         icc_domain *target = plan_domain(&next);
-        ck_assert_msg(icc_map_retarget(&new_map, map, target, 0, NULL, &err) == ICC_OK, "%s",
+        ck_assert_msg(icc_map_retarget(&new_map, map, target, NULL, NULL, &err) == ICC_OK, "%s",
                       err.message);
         ck_assert_int_eq(icc_map_get_info(new_map, &info), ICC_OK);
         ck_assert(info.certified == 1 && info.class_kept == 1 && info.n_ties == 3);

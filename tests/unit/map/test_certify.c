@@ -1,5 +1,6 @@
 /* Checking and repairing the image of a caller's mesh. */
 #include "../../faulty.h"
+#include "../../flat_mesh.h"
 #include "../../meshes.h"
 #include "../../shapes.h"
 #include "../../suite.h"
@@ -34,8 +35,8 @@ static icc_certificate certify(const icc_map *map, size_t n, const double *verti
                                size_t n_triangles, const uint32_t *triangles)
 {
     icc_certificate c = {.size = sizeof c};
-    ck_assert_int_eq(
-        icc_map_certify(map, n, vertices, n_triangles, triangles, NULL, &c, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(flat_certify(map, n, vertices, n_triangles, triangles, NULL, &c, NULL, NULL),
+                     ICC_OK);
     ck_assert_int_eq(c.certified, c.boundary_simple && c.first < 0);
     return c;
 }
@@ -113,8 +114,8 @@ START_TEST(fine_meshes_are_certified)
             double *mapped = malloc(2 * g.n_vertices * sizeof *images);
             icc_certificate c = {.size = sizeof c};
             ck_assert(images != NULL && mapped != NULL);
-            ck_assert_int_eq(icc_map_certify(map, g.n_vertices, g.vertices, g.n_triangles,
-                                             g.triangles, images, &c, NULL, NULL),
+            ck_assert_int_eq(flat_certify(map, g.n_vertices, g.vertices, g.n_triangles, g.triangles,
+                                          images, &c, NULL, NULL),
                              ICC_OK);
             (void)icc_map_apply(map, g.n_vertices, g.vertices, mapped, NULL, NULL, NULL);
             ck_assert_mem_eq(images, mapped, 2 * g.n_vertices * sizeof *images);
@@ -256,10 +257,10 @@ START_TEST(meshes_are_repaired)
             double *mapped = malloc(2 * g.n_vertices * sizeof *images);
             ck_assert(images != NULL && mapped != NULL);
             icc_certificate before = {.size = sizeof before}, after = before;
-            (void)icc_map_certify(map, g.n_vertices, g.vertices, g.n_triangles, g.triangles, mapped,
-                                  &before, NULL, NULL);
-            ck_assert_int_eq(icc_map_repair(map, g.n_vertices, g.vertices, g.n_triangles,
-                                            g.triangles, images, &after, NULL, NULL),
+            (void)flat_certify(map, g.n_vertices, g.vertices, g.n_triangles, g.triangles, mapped,
+                               &before, NULL, NULL);
+            ck_assert_int_eq(flat_repair(map, g.n_vertices, g.vertices, g.n_triangles, g.triangles,
+                                         images, &after, NULL, NULL),
                              ICC_OK);
             check_counts(&g, images, &after);
             ck_assert_int_eq(after.certified, !across);
@@ -295,7 +296,7 @@ START_TEST(other_meshes_are_left_alone)
     for (size_t k = 0; k < 4; ++k) {
         double images[14], mapped[14];
         icc_certificate c = {.size = sizeof c};
-        ck_assert_int_eq(icc_map_repair(map, 7, xy, 3, cases[k], images, &c, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(flat_repair(map, 7, xy, 3, cases[k], images, &c, NULL, NULL), ICC_OK);
         ck_assert(c.certified == 0);
         (void)icc_map_apply(map, 7, xy, mapped, NULL, NULL, NULL);
         ck_assert_mem_eq(images, mapped, 10 * sizeof *images);
@@ -320,11 +321,11 @@ START_TEST(inner_vertices_without_an_image_get_one)
     ck_assert_int_eq(icc_domain_create(&a, 2, from.n, from.xy, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_domain_create(&b, 2, to.n, to.xy, 0, NULL, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_create(&map, a, b, &options, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
-                                     NULL, &before, NULL, NULL),
+    ck_assert_int_eq(flat_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, NULL,
+                                  &before, NULL, NULL),
                      ICC_OK);
-    ck_assert_int_eq(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
-                                    images, &after, NULL, NULL),
+    ck_assert_int_eq(flat_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices, images,
+                                 &after, NULL, NULL),
                      ICC_OK);
     ck_assert(before.n_no_image > 0 && before.certified == 0);
     ck_assert(after.n_no_image == 0 && after.certified == 1);
@@ -347,7 +348,7 @@ START_TEST(bad_meshes_are_refused)
     for (int repair = 0; repair < 2; ++repair) {
         icc_status (*const call)(const icc_map *, size_t, const double *, size_t, const uint32_t *,
                                  double *, icc_certificate *, const icc_env *, icc_error *) =
-            repair ? icc_map_repair : icc_map_certify;
+            repair ? flat_repair : flat_certify;
         icc_certificate c = {.size = sizeof c};
         icc_error err = {.size = sizeof err};
         ck_assert_int_eq(call(map, 4, s.xy, 2, triangles, images, &c, NULL, &err),
@@ -382,10 +383,10 @@ static icc_status run_job(const icc_env *env, icc_error *err, void *argument)
     const job *j = argument;
     icc_certificate c = {.size = sizeof c};
     const icc_status status =
-        j->repair ? icc_map_repair(j->map, j->g.n_vertices, j->g.vertices, j->g.n_triangles,
-                                   j->g.triangles, j->images, &c, env, err)
-                  : icc_map_certify(j->map, j->g.n_vertices, j->g.vertices, j->g.n_triangles,
-                                    j->g.triangles, NULL, &c, env, err);
+        j->repair ? flat_repair(j->map, j->g.n_vertices, j->g.vertices, j->g.n_triangles,
+                                j->g.triangles, j->images, &c, env, err)
+                  : flat_certify(j->map, j->g.n_vertices, j->g.vertices, j->g.n_triangles,
+                                 j->g.triangles, NULL, &c, env, err);
     ck_assert(status != ICC_OK || c.certified == j->repair);
     return status;
 }

@@ -1,6 +1,7 @@
 /* Checking and repairing the images of meshes that are no ball: with holes, voids and handles, and
  * in several pieces. */
 #include "../../faulty.h"
+#include "../../flat_mesh.h"
 #include "../../meshes.h"
 #include "../../suite.h"
 
@@ -156,16 +157,16 @@ START_TEST(plates_with_holes_are_certified_and_repaired)
         icc_map *map = map_of(source, plate_domain(&p, moved, &r));
         double *images = mesh_alloc(2 * m.n_vertices, sizeof *images);
         icc_certificate before = {.size = sizeof before}, after = before;
-        ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
-                                         images, &before, NULL, NULL),
+        ck_assert_int_eq(flat_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                      images, &before, NULL, NULL),
                          ICC_OK);
         ck_assert_uint_eq(before.n_inverted + before.n_flat, count_faults(&m, images));
         ck_assert_int_eq(before.boundary_simple, 1);
         ck_assert_int_eq(before.certified, before.n_inverted + before.n_flat == 0);
         ck_assert_int_eq(before.certified, before.message[0] == 0);
         ck_assert(moved || before.certified);
-        ck_assert_int_eq(icc_map_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
-                                        images, &after, NULL, NULL),
+        ck_assert_int_eq(flat_repair(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                     images, &after, NULL, NULL),
                          ICC_OK);
         ck_assert_int_eq(after.certified, count_faults(&m, images) == 0);
         n_before += (size_t)before.certified;
@@ -228,8 +229,8 @@ START_TEST(holes_voids_handles_and_pieces)
         for (size_t k = 0; k < sizeof GOOD / sizeof *GOOD; ++k) {
             shape = GOOD[k];
             test_mesh m = mesh_cells(dim, 5, keep_shape);
-            ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices,
-                                             m.simplices, NULL, &c, NULL, NULL),
+            ck_assert_int_eq(flat_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                          NULL, &c, NULL, NULL),
                              ICC_OK);
             if (!c.certified || c.message[0] != 0)
                 ck_abort_msg("%s in %d-D: %s", shape, (int)dim, c.message);
@@ -243,9 +244,8 @@ START_TEST(holes_voids_handles_and_pieces)
             memcpy(twice.simplices, m.simplices, n_corners * sizeof(uint32_t));
             for (size_t i = 0; i < n_corners; ++i)
                 twice.simplices[n_corners + i] = m.simplices[i] + (uint32_t)m.n_vertices;
-            ck_assert_int_eq(icc_map_certify(map, twice.n_vertices, twice.vertices,
-                                             twice.n_simplices, twice.simplices, NULL, &c, NULL,
-                                             NULL),
+            ck_assert_int_eq(flat_certify(map, twice.n_vertices, twice.vertices, twice.n_simplices,
+                                          twice.simplices, NULL, &c, NULL, NULL),
                              ICC_OK);
             /* A small copy fits into a hole, a void, a handle and the gap between two pieces. */
             const bool fits = k < 3;
@@ -256,8 +256,8 @@ START_TEST(holes_voids_handles_and_pieces)
         }
         shape = "pieces that share a vertex";
         test_mesh m = mesh_cells(dim, 5, keep_shape);
-        ck_assert_int_eq(icc_map_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
-                                         NULL, &c, NULL, NULL),
+        ck_assert_int_eq(flat_certify(map, m.n_vertices, m.vertices, m.n_simplices, m.simplices,
+                                      NULL, &c, NULL, NULL),
                          ICC_OK);
         ck_assert(c.certified == 0 && c.boundary_simple == 0 && c.first == -1);
         ck_assert_ptr_nonnull(strstr(c.message, "vertex"));
@@ -344,8 +344,8 @@ static icc_status run_job(const icc_env *env, icc_error *err, void *argument)
 {
     const job *j = argument;
     icc_certificate c = {.size = sizeof c};
-    const icc_status status = icc_map_certify(j->map, j->m.n_vertices, j->m.vertices,
-                                              j->m.n_simplices, j->m.simplices, NULL, &c, env, err);
+    const icc_status status = flat_certify(j->map, j->m.n_vertices, j->m.vertices, j->m.n_simplices,
+                                           j->m.simplices, NULL, &c, env, err);
     ck_assert(status != ICC_OK || c.certified == 1);
     return status;
 }

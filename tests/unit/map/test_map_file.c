@@ -3,6 +3,7 @@
 #include "../../domains.h"
 #include "../../faulty.h"
 #include "../../feature_pairs.h"
+#include "../../flat_mesh.h"
 #include "../../hard_shapes.h"
 #include "../../meshes.h"
 #include "../../saved.h"
@@ -192,8 +193,8 @@ START_TEST(features_go_on)
         check_map(better[0], p.source);
         target.xy[2 * target.n_outer] += 0.01 * (target.xy[2] - target.xy[0]);
         icc_domain *further = plan_domain(&target);
-        ck_assert_int_eq(icc_map_retarget(&next[0], map, further, 0, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(icc_map_retarget(&next[1], loaded, further, 0, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_retarget(&next[0], map, further, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_map_retarget(&next[1], loaded, further, NULL, NULL, NULL), ICC_OK);
         same_map(next[0], next[1], p.source);
         check_map(next[0], p.source);
         for (int i = 0; i < 2; ++i) {
@@ -228,7 +229,12 @@ START_TEST(it_goes_on)
         same_map(better[0], better[1], p.source);
         check_map(better[0], p.source);
         for (int k = 0; k < 2; ++k)
-            ck_assert_int_eq(icc_map_retarget(&next[k], better[k], target, 2, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(
+                icc_map_retarget(
+                    &next[k], better[k], target,
+                    &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = 2},
+                    NULL, NULL),
+                ICC_OK);
         same_map(next[0], next[1], p.source);
         ck_assert_ptr_null(icc_map_source_chart(next[0]));
         check_map(next[0], p.source);
@@ -297,8 +303,7 @@ static icc_domain *dented_cube(const icc_domain *cube)
         simplices[4 * f + 3] = 8;
     }
     ck_assert_int_eq(
-        icc_domain_create_mesh(&domain, 3, 9, VERTICES, 12, simplices, 12, facets, NULL, NULL),
-        ICC_OK);
+        flat_create_mesh(&domain, 3, 9, VERTICES, 12, simplices, 12, facets, NULL, NULL), ICC_OK);
     return domain;
 }
 
@@ -375,7 +380,11 @@ static icc_map *small_map(int k, domain_pair *p)
     if (k == 1)
         return map_of(p, ICC_MAP_CURVES, ICC_METHOD_FIELD, 6, 0);
     icc_map *map = map_of(p, ICC_MAP_MESH, 0, 4, -1), *next;
-    ck_assert_int_eq(icc_map_retarget(&next, map, p->target, -1, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_retarget(&next, map, p->target,
+                                      &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                              .iterations = -1},
+                                      NULL, NULL),
+                     ICC_OK);
     icc_map_free(map);
     return next;
 }

@@ -259,8 +259,9 @@ START_TEST(what_lies_inside)
     icc_domain *domain[2] = {NULL, NULL};
     for (int e = 0; e < 2; ++e) {
         const icc_feature features[] = {
-            {sizeof *features, ICC_FEATURE_POINT, 1, e == 0 ? dot : moved, 0},
-            {sizeof *features, ICC_FEATURE_LINE, e == 0 ? 3 : 4, e == 0 ? line : other, 0}};
+            {sizeof *features, ICC_FEATURE_POINT, 1, e == 0 ? dot : moved, 0, 0, NULL},
+            {sizeof *features, ICC_FEATURE_LINE, e == 0 ? 3 : 4, e == 0 ? line : other, 0, 0,
+             NULL}};
         ck_assert_int_eq(icc_domain_create_features(&domain[e], 4, outer, 2, features, NULL, NULL),
                          ICC_OK);
     }

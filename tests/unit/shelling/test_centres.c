@@ -1,4 +1,5 @@
 /* Centres of meshes, against looking at all vertices. */
+#include "../../flat_mesh.h"
 #include "base/error.h"
 #include "geometry/simplex.h"
 #include "shelling/centres.h"
@@ -135,10 +136,9 @@ START_TEST(no_image_is_inside)
     const iccp_env env = default_env();
     icc_domain *domain[2];
     uint32_t centre[2];
-    ck_assert_int_eq(icc_domain_create_mesh(&domain[0], 2, 5, SQUARE, 4, FAN, 0, NULL, NULL, NULL),
+    ck_assert_int_eq(flat_create_mesh(&domain[0], 2, 5, SQUARE, 4, FAN, 0, NULL, NULL, NULL),
                      ICC_OK);
-    ck_assert_int_eq(icc_domain_create_mesh(&domain[1], 2, 5, DART, 4, FAN, 0, NULL, NULL, NULL),
-                     ICC_OK);
+    ck_assert_int_eq(flat_create_mesh(&domain[1], 2, 5, DART, 4, FAN, 0, NULL, NULL, NULL), ICC_OK);
     const icc_domain *const domains[2] = {domain[0], domain[1]};
     const iccp_simplices *const meshes[2] = {domain[0]->mesh, domain[1]->mesh};
     ck_assert_int_eq(iccp_paired_centres(domains, meshes, NULL, centre, &env), ICC_OK);

@@ -313,8 +313,43 @@ pub struct icc_feature {
     pub vertices: *const f64,
     /// of a point with a size: above 0; else 0
     pub radius: f64,
+    /// of a surface inside a domain in space; 0 as yet
+    pub n_facets: usize,
+    /// 3 n_facets vertex indices; NULL as yet
+    pub facets: *const u32,
 }
 sized!(icc_feature);
+
+/// A mesh of triangles in 2-D, of tetrahedra in 3-D, of simplices beyond: a caller's, which is only
+/// read, or room for one of the library's. *  To be given a mesh, call `icc_domain_get_mesh()` or
+/// `icc_map_get_mesh()` twice: with `vertices` and `cells` NULL for dim and the numbers, then with
+/// arrays of that size. Either may stay NULL.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_mesh {
+    /// set by the caller: `sizeof(icc_mesh)`
+    pub size: usize,
+    /// dimension
+    pub dim: i32,
+    /// vertices, fewer than 2^26; where a mesh is written, how many `vertices` has room for
+    pub n_vertices: usize,
+    /// n_vertices * dim coordinates
+    pub vertices: *mut f64,
+    /// cells, fewer than 2^26; where a mesh is written, how many `cells` has room for
+    pub n_cells: usize,
+    /// vertex indices of all cells, one cell after the other: n_cells * (dim + 1). A cell may list
+    /// its vertices in any order
+    pub cells: *mut u32,
+    /// NULL: every cell has dim + 1 vertices. Else n_cells + 1 numbers: where in `cells` each cell
+    /// begins, and where the last one ends, as VTK has it
+    pub offsets: *const usize,
+    /// VTK's types of the n_cells cells, or NULL. Only simplices are supported as yet: 5 in 2-D, 10
+    /// in 3-D; others are `ICC_ERR_UNSUPPORTED`
+    pub types: *const u8,
+    /// numbers of n_cells regions; NULL. Nothing reads them as yet: else `ICC_ERR_UNSUPPORTED`
+    pub regions: *const i32,
+}
+sized!(icc_mesh);
 
 /// What `icc_domain_get_feature()` reports.
 #[repr(C)]
@@ -388,7 +423,7 @@ pub const ICC_METHOD_FOLIATION: i32 = 2;
 /// and n_stray report how much is amiss.
 ///
 /// A map of two certified charts is certified when doubles are enough for it, too, which
-/// `icc_map_info.n_lost` and n_flat report: curves come together on their way, and what one chart tells
+/// `icc_map_report.n_lost` and n_flat report: curves come together on their way, and what one chart tells
 /// apart may be one and the same to the other, as when a ball goes to a pancake.
 pub const ICC_METHOD_FIELD: i32 = 3;
 /// Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
@@ -406,9 +441,9 @@ pub const ICC_REASON_INFEASIBLE: i32 = 2;
 pub const ICC_REASON_NOT_INWARD: i32 = 3;
 /// field: `icc_field_info.n_stray`
 pub const ICC_REASON_STRAY: i32 = 4;
-/// maps of method field: `icc_map_info.n_lost`
+/// maps of method field: `icc_map_report.n_lost`
 pub const ICC_REASON_LOST: i32 = 5;
-/// maps of method field: `icc_map_info.n_flat`
+/// maps of method field: `icc_map_report.n_flat`
 pub const ICC_REASON_FLAT: i32 = 6;
 
 // The function whose gradient lines are followed.
@@ -827,18 +862,17 @@ sized!(icc_tie);
 pub struct icc_map_options {
     /// set by the caller: `sizeof(icc_map_options)`
     pub size: usize,
-    /// `ICC_MAP_*`; 0: mesh for foliation and disc, else curves, also where
-    /// both domains have meshes of the caller's
+    /// `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless both domains have caller-supplied
+    /// meshes, and for foliation in 3-D; else curves
     pub kind: i32,
-    /// mesh: steps of improvement on each level of refinement; 0: as
-    /// many as pay, at most 60, in 3-D 8; -1: no improvement
+    /// mesh: at most so many improvement steps on each level of refinement; 0: as long as they pay
+    /// off; -1: no improvement
     pub iterations: i32,
-    /// for both charts, or NULL; its `maximum` is the source's. For
-    /// kind mesh method 0 means disc (foliation when a maximum is
-    /// given), and cells 0 means 20.
+    /// for both charts, or NULL; its `maximum` is the source's. For kind mesh in 2-D method 0 means
+    /// disc (foliation when a maximum is given), and cells 0 means 20. In 3-D method 0 means
+    /// foliation, but field for masks.
     pub chart: *const icc_chart_options,
-    /// where the target's maximum shall be, or NULL: as the method
-    /// chooses
+    /// the target's maximum, or NULL: as the method chooses
     pub target_maximum: *const f64,
     /// with features: as many as there are features; or 0
     pub n_ties: usize,
@@ -848,7 +882,8 @@ pub struct icc_map_options {
 }
 sized!(icc_map_options);
 
-/// What `icc_map_get_info()` tells. Members that the kind does not have are 0.
+/// What `icc_map_get_info()` reports: what the map is. It is saved with the map. Members that do not
+/// apply to the kind are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_map_info {
@@ -856,50 +891,27 @@ pub struct icc_map_info {
     pub size: usize,
     /// dimension
     pub dim: i32,
-    /// `ICC_MAP_*`: curves although mesh was asked for when the repair failed
+    /// `ICC_MAP_*`: never 0
     pub kind: i32,
-    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
+    /// 1: proved to be one-to-one, exactly (field: in doubles, see `icc_map_report.n_lost`); 0:
+    /// not, see `reason`
     pub certified: i32,
-    /// mesh: refinements
-    pub n_levels: i32,
-    /// mesh: vertices
-    pub n_vertices: usize,
-    /// mesh: triangles; in 3-D tetrahedra, also in what follows
-    pub n_simplices: usize,
-    /// mesh: triangles that were not positive before the repair
-    pub n_inverted: usize,
-    /// triangles that the repair could not make positive, in 3-D the fewest
-    /// that a way of it has left; the map is then of kind curves
-    pub n_unrepaired: usize,
-    /// mesh: steps of improvement
-    pub n_iterations: usize,
-    /// mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target
-    /// scaled to the source's area, after the repair; 4 for an isometry
-    pub energy_start: f64,
-    /// the same in the end
-    pub energy: f64,
-    /// time to make the map, charts included
-    pub seconds: f64,
-    /// mesh: of these for the repair
-    pub seconds_repair: f64,
-    /// and for the improvement
-    pub seconds_improve: f64,
-    /// and for the certificate; kind curves of method field likewise
-    pub seconds_certify: f64,
-    /// field: evenly spread points, half of them in the target, that were mapped there
-    /// and back; 0 unless both charts are certified
-    pub n_samples: usize,
-    /// field: of these, points that come back more than 1e-9 of the bounding box's
-    /// diagonal away, or whose derivative does not fit that of the way back. None if
-    /// certified
-    pub n_lost: usize,
-    /// field: of these, points around which volume shrinks to less than 1e-6 of its mean.
-    /// At most 0.2 % if certified
-    pub n_flat: usize,
     /// `ICC_REASON_*`: why it is not certified; 0 if it is
     pub reason: i32,
     /// 1: because the source's chart is not, 2: the target's; else 0
     pub reason_side: i32,
+    /// with features, 1: the map can be moved, while it stays one-to-one, to what its ties, or the
+    /// cuts chosen for it, said; and after `icc_map_retarget()` to what became of the map before
+    /// while every vertex of the target went straight to its new place. 0: not so, or rounding or
+    /// the way of the vertices leaves it open
+    pub class_kept: i32,
+    /// mesh: vertices
+    pub n_vertices: usize,
+    /// mesh: triangles, or in 3-D tetrahedra
+    pub n_simplices: usize,
+    /// mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target scaled to the source's
+    /// area or volume; 4 for an isometry, in 3-D 6
+    pub energy: f64,
     /// features inside: holes,
     pub n_holes: usize,
     /// lines
@@ -911,18 +923,52 @@ pub struct icc_map_info {
     /// lengths of these in the target over those of the straight lines between their ends: what is
     /// much more than 1 is twisted
     pub detour: f64,
-    /// with features, 1: the map can be moved, while it stays one-to-one, to what its ties, or the
-    /// cuts chosen for it, said; and after `icc_map_retarget()` to what became of the map before
-    /// while every vertex of the target went straight to its new place; 0: not so, or it is open
-    pub class_kept: i32,
-    /// with features: ways to cut them apart that were tried and led to a map; 1 with ties
-    pub n_trees: i32,
-    /// mesh: simplices that rounding makes flat or reversed when `icc_map_get_mesh()` hands
-    /// them out, on either side; 0 but for shapes about 1e9 times as far from the origin as
-    /// they are large
-    pub n_spoilt: usize,
 }
 sized!(icc_map_info);
+
+/// What `icc_map_get_report()` reports: how the map was made. Members that do not apply to the kind are
+/// 0, and seconds are 0 where the map was loaded.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_map_report {
+    /// set by the caller: `sizeof(icc_map_report)`
+    pub size: usize,
+    /// time to make the map, including the charts; or to load it
+    pub seconds: f64,
+    /// mesh: of that, time to make all simplices positive
+    pub seconds_repair: f64,
+    /// of that, time to improve it
+    pub seconds_improve: f64,
+    /// of that, time to certify it; kind curves of method field likewise
+    pub seconds_certify: f64,
+    /// mesh: `icc_map_info.energy` before the improvement
+    pub energy_start: f64,
+    /// mesh: simplices that were not positive at first
+    pub n_inverted: usize,
+    /// in 3-D, kind curves although kind mesh was tried: the fewest tetrahedra that a way of it has
+    /// left inverted
+    pub n_unrepaired: usize,
+    /// mesh: steps of improvement
+    pub n_iterations: usize,
+    /// mesh: refinements
+    pub n_levels: i32,
+    /// with features: ways to cut them apart that were tried and led to a map; 1 with ties
+    pub n_trees: i32,
+    /// field: evenly spread points, half of them in the target, that were mapped there and back; 0
+    /// unless both charts are certified
+    pub n_samples: usize,
+    /// field: of these, points that come back more than 1e-9 of the bounding box's diagonal away,
+    /// or whose derivative does not match that of the way back. None if certified
+    pub n_lost: usize,
+    /// field: of these, points around which volume shrinks to less than 1e-6 of its mean. At most
+    /// 0.2 % if certified
+    pub n_flat: usize,
+    /// mesh: simplices that rounding makes flat or reversed, on either side, when
+    /// `icc_map_get_mesh()` hands them out; 0 unless a shape is about 1e9 times as far from the
+    /// origin as it is large
+    pub n_spoilt: usize,
+}
+sized!(icc_map_report);
 
 /// What `icc_map_get_tie()` reports.
 #[repr(C)]
@@ -977,6 +1023,17 @@ pub struct icc_improve_report {
     pub cancelled: i32,
 }
 sized!(icc_improve_report);
+
+/// Options of `icc_map_retarget()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_retarget_options {
+    /// set by the caller: `sizeof(icc_retarget_options)`
+    pub size: usize,
+    /// at most so many improvement steps; 0: what a frame has time for; -1: none
+    pub iterations: i32,
+}
+sized!(icc_retarget_options);
 
 /// What `icc_map_certify()` found out about the image of a caller's mesh.
 #[repr(C)]
@@ -1187,11 +1244,7 @@ extern "C" {
     /// ignored.
     ///
     /// - `out` (out): the domain; owned by the caller
-    /// - `dim`: 2..`ICC_MAX_DIM`
-    /// - `n_vertices`: vertices of the mesh, fewer than 2^26
-    /// - `vertices`: n_vertices * dim coordinates
-    /// - `n_simplices`: simplices, from 1 to fewer than 2^26
-    /// - `simplices`: n_simplices * (dim + 1) vertex indices
+    /// - `mesh`: the mesh, of dimension 2..`ICC_MAX_DIM`
     /// - `n_facets`: facets of the boundary; ignored when `facets` is NULL
     /// - `facets`: n_facets * dim vertex indices: the boundary of the mesh, in the caller's order and all
     ///   seen from the same side; or NULL
@@ -1206,11 +1259,7 @@ extern "C" {
     /// Cost: O(n) time and memory besides those of `icc_domain_create()`: 0.5 us a tetrahedron.
     pub fn icc_domain_create_mesh(
         out: *mut *mut icc_domain,
-        dim: i32,
-        n_vertices: usize,
-        vertices: *const f64,
-        n_simplices: usize,
-        simplices: *const u32,
+        mesh: *const icc_mesh,
         n_facets: usize,
         facets: *const u32,
         env: *const icc_env,
@@ -1294,16 +1343,11 @@ extern "C" {
     /// Copies the mesh of the inside: `icc_domain_create_mesh()`, `icc_domain_fill()`.
     ///
     /// - `domain`: a domain with a mesh: `icc_domain_info.n_mesh_vertices` is not 0
-    /// - `vertices` (out): room for n_mesh_vertices * dim doubles, or NULL: those of the boundary
-    ///   first, in its order
-    /// - `simplices` (out): room for n_mesh_simplices * (dim + 1) indices, or NULL
+    /// - `mesh` (in, out): what it has room for is filled: the vertices of the boundary first, in its order.
+    ///   Then its dimension and its numbers are set
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_UNSUPPORTED` without a mesh
-    pub fn icc_domain_get_mesh(
-        domain: *const icc_domain,
-        vertices: *mut f64,
-        simplices: *mut u32,
-    ) -> icc_status;
+    /// Returns `ICC_OK`; `ICC_ERR_ARGUMENT` if there is too little room; `ICC_ERR_UNSUPPORTED` without a mesh
+    pub fn icc_domain_get_mesh(domain: *const icc_domain, mesh: *mut icc_mesh) -> icc_status;
 
     /// Says where points lie, exactly up to the tolerance of `ICC_BOUNDARY`, and finds the nearest
     /// boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's longest
@@ -1700,7 +1744,7 @@ extern "C" {
     /// - `out` (out): the map; owned by the caller. It has no charts: `icc_map_source_chart()` gives NULL.
     /// - `map`: a map of kind mesh in 2-D, else `ICC_ERR_UNSUPPORTED`
     /// - `target`: the new target, which must correspond as `icc_map_create()` asks
-    /// - `iterations`: steps of improvement at most; 0: 8; -1: none
+    /// - `options`: may be NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
@@ -1709,7 +1753,7 @@ extern "C" {
         out: *mut *mut icc_map,
         map: *const icc_map,
         target: *const icc_domain,
-        iterations: i32,
+        options: *const icc_retarget_options,
         env: *const icc_env,
         err: *mut icc_error,
     ) -> icc_status;
@@ -1718,28 +1762,19 @@ extern "C" {
     /// the numbers inside).
     ///
     /// - `map`: the map
-    /// - `vertices` (out): room for `icc_map_info.n_vertices` * dim doubles, or NULL
-    /// - `images` (out): the same, or NULL
-    /// - `triangles` (out): room for `icc_map_info.n_simplices` * (dim + 1) indices, or NULL. Triangles are
-    ///   counter-clockwise, tetrahedra have positive determinants.
+    /// - `mesh` (in, out): what it has room for is filled, in the source: triangles are counter-clockwise,
+    ///   tetrahedra have positive determinants. Then its dimension and its numbers are set
+    /// - `images` (out): room for n_vertices * dim coordinates in the target, or NULL
     ///
     /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not of kind mesh)
-    pub fn icc_map_get_mesh(
-        map: *const icc_map,
-        vertices: *mut f64,
-        images: *mut f64,
-        simplices: *mut u32,
-    ) -> icc_status;
+    pub fn icc_map_get_mesh(map: *const icc_map, mesh: *mut icc_mesh, images: *mut f64) -> icc_status;
 
     /// Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
     /// image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices are straight where
     /// the map is not.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
-    /// - `n_vertices`: vertices of the mesh, fewer than 2^26
-    /// - `vertices`: n_vertices * dim coordinates in the source
-    /// - `n_simplices`: simplices, fewer than 2^26
-    /// - `simplices`: n_simplices * (dim + 1) vertex indices; each may be listed in any order
+    /// - `mesh`: of the dimension of the map; its vertices are in the source
     /// - `images` (out): n_vertices * dim coordinates, or NULL
     /// - `certificate` (out): its `size` is set by the caller
     /// - `env`: may be NULL
@@ -1748,10 +1783,7 @@ extern "C" {
     /// Returns `ICC_OK` when the check ran, whatever it found; `ICC_ERR_ARGUMENT`, ...
     pub fn icc_map_certify(
         map: *const icc_map,
-        n_vertices: usize,
-        vertices: *const f64,
-        n_simplices: usize,
-        simplices: *const u32,
+        mesh: *const icc_mesh,
         images: *mut f64,
         certificate: *mut icc_certificate,
         env: *const icc_env,
@@ -1766,10 +1798,7 @@ extern "C" {
     /// vertex of whose boundary has no image, is not repaired.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
-    /// - `n_vertices`: vertices of the mesh, fewer than 2^26
-    /// - `vertices`: n_vertices * dim coordinates in the source
-    /// - `n_simplices`: simplices, fewer than 2^26
-    /// - `simplices`: n_simplices * (dim + 1) vertex indices; each may be listed in any order
+    /// - `mesh`: of the dimension of the map; its vertices are in the source
     /// - `images` (out): n_vertices * dim coordinates
     /// - `certificate` (out): of the images returned; its `size` is set by the caller
     /// - `env`: may be NULL
@@ -1781,10 +1810,7 @@ extern "C" {
     /// Deterministic: iterations are capped, clocks are not read.
     pub fn icc_map_repair(
         map: *const icc_map,
-        n_vertices: usize,
-        vertices: *const f64,
-        n_simplices: usize,
-        simplices: *const u32,
+        mesh: *const icc_mesh,
         images: *mut f64,
         certificate: *mut icc_certificate,
         env: *const icc_env,
@@ -1796,6 +1822,10 @@ extern "C" {
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_map_get_info(map: *const icc_map, info: *mut icc_map_info) -> icc_status;
+
+    /// The same for `report`. If the mesh's coordinates have to be rounded, counting n_spoilt takes a pass
+    /// over the mesh.
+    pub fn icc_map_get_report(map: *const icc_map, report: *mut icc_map_report) -> icc_status;
 
     /// Reports a tie of a map of domains with features, less than `icc_map_info.n_ties`: all of them, as
     /// `icc_map_options.ties`, make another map that can be moved to this one while it stays one-to-one.
@@ -2026,7 +2056,7 @@ pub struct icc_function_options {
 }
 sized!(icc_function_options);
 
-/// What `icc_function_get_info()` tells. Members that the function does not have are 0.
+/// What `icc_function_get_info()` reports. Members that do not apply to the function are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_function_info {
@@ -2038,28 +2068,45 @@ pub struct icc_function_info {
     pub constrained: i32,
     /// `ICC_SOLVER_*`
     pub solver: i32,
-    /// vertices inside that the tree reaches, but for the root
+    /// 1: `highest` is not the root, where curves should end. Only seen for bilaplace and clamped
+    /// without inequalities; `icc_chart_create()` then moves the root
+    pub beside: i32,
+    /// vertices inside that the tree reaches, except the root
     pub n_unknowns: usize,
-    /// tree edges where the function without constraints breaks the
-    /// inequality; of those here, if it was not constrained
+    /// tree edges where the function without constraints breaks the inequality; where this function
+    /// does, if it was not constrained
     pub n_violated: usize,
     /// inequalities that hold with equality
     pub n_active: usize,
-    /// of the active set or the interior point method; 0 without constraints
-    pub n_iterations: usize,
-    /// of conjugate gradients, all together
-    pub n_inner: usize,
-    /// multiplications of the largest factorisation
-    pub work: f64,
-    /// KKT residual before the final sweep from the root to the leaves: the largest
-    /// |min(slack, multiplier)| of an inequality, or |row of the equation| if
-    /// there are none; f is 1 at the root
-    pub residual_before: f64,
-    /// the same after the sweep: for the function that is handed out
+    /// KKT residual: the largest |min(slack, multiplier)| of an inequality, or |row of the
+    /// equation| if there are none; f is 1 at the root
     pub residual: f64,
     /// the smallest of `icc_function_logs()` inside; 0 if there are none
     pub least_log: f64,
-    /// time to number the rows and to build the matrices
+    /// by what share of its value at the root the function is greater at `highest`; 0 if that is
+    /// the root
+    pub excess: f64,
+    /// the vertex inside with the greatest value
+    pub highest: u32,
+}
+sized!(icc_function_info);
+
+/// What `icc_function_get_solver_report()` reports: how the function was computed. Members that do not
+/// apply are 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_solver_report {
+    /// set by the caller: `sizeof(icc_solver_report)`
+    pub size: usize,
+    /// iterations of the active set or the interior point method; 0 without constraints
+    pub n_iterations: usize,
+    /// iterations of conjugate gradients, in total
+    pub n_inner: usize,
+    /// multiplications of the largest factorisation
+    pub work: f64,
+    /// `icc_function_info.residual` before the final sweep from the root to the leaves
+    pub residual_before: f64,
+    /// time to number the unknowns and build the matrices
     pub seconds_setup: f64,
     /// time for orderings and symbolic factorisations
     pub seconds_order: f64,
@@ -2069,16 +2116,8 @@ pub struct icc_function_info {
     pub seconds_solve: f64,
     /// time to count critical points, sweep and find the residuals
     pub seconds_verify: f64,
-    /// by what share of its value at the root the function is greater at `highest`;
-    /// 0 when that is the root
-    pub excess: f64,
-    /// the vertex inside with the greatest value
-    pub highest: u32,
-    /// 1: that is not the root, where curves are to end. Only seen for bilaplace
-    /// and clamped without inequalities; `icc_chart_create()` then moves the root
-    pub beside: i32,
 }
-sized!(icc_function_info);
+sized!(icc_solver_report);
 
 /// Critical points of a function on the vertices inside, by the links of the Kuhn triangulation.
 #[repr(C)]
@@ -2352,6 +2391,12 @@ extern "C" {
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_function_get_info(field: *const icc_function, info: *mut icc_function_info) -> icc_status;
+
+    /// The same for `report`.
+    pub fn icc_function_get_solver_report(
+        function: *const icc_function,
+        report: *mut icc_solver_report,
+    ) -> icc_status;
 
     /// One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
     /// gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long

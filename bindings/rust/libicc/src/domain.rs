@@ -2,7 +2,7 @@
 use crate::env::Env;
 use crate::error::{check, Result};
 use crate::object::object;
-use crate::slices::{count, exactly, int, pointer, product};
+use crate::slices::{count, exactly, int, mesh_of, pointer, product};
 use crate::sys;
 use std::ptr;
 
@@ -189,25 +189,11 @@ impl Domain {
         facets: Option<&[u32]>,
         env: &mut Env<'_>,
     ) -> Result<Domain> {
-        let n = count(vertices, dim, "vertices")?;
-        let n_simplices = count(simplices, dim.saturating_add(1), "simplices")?;
+        let mesh = mesh_of(dim, vertices, simplices)?;
         let n_facets = facets.map_or(Ok(0), |facets| count(facets, dim, "facets"))?;
         Domain::make(env, |out, env, err| {
             // SAFETY: the counts are those of the slices.
-            unsafe {
-                sys::icc_domain_create_mesh(
-                    out,
-                    int(dim),
-                    n,
-                    vertices.as_ptr(),
-                    n_simplices,
-                    simplices.as_ptr(),
-                    n_facets,
-                    pointer(facets),
-                    env,
-                    err,
-                )
-            }
+            unsafe { sys::icc_domain_create_mesh(out, &mesh, n_facets, pointer(facets), env, err) }
         })
     }
 
@@ -226,14 +212,15 @@ impl Domain {
     /// The mesh of the inside, if there is one: n_mesh_vertices * dim coordinates, those of the boundary
     /// first, and n_mesh_simplices * (dim + 1) vertex indices.
     pub fn mesh(&self) -> Result<(Vec<f64>, Vec<u32>)> {
-        let info = self.info();
-        let dim = info.dim as usize;
-        let mut vertices = vec![0.0; info.n_mesh_vertices * dim];
-        let mut simplices = vec![0; info.n_mesh_simplices * (dim + 1)];
+        let mut own = sys::icc_mesh::default();
+        // SAFETY: `size` is set, and nothing but numbers is filled in.
+        check(unsafe { sys::icc_domain_get_mesh(self.as_ptr(), &mut own) })?;
+        let dim = own.dim as usize;
+        let mut vertices = vec![0.0; own.n_vertices * dim];
+        let mut simplices = vec![0; own.n_cells * (dim + 1)];
+        (own.vertices, own.cells) = (vertices.as_mut_ptr(), simplices.as_mut_ptr());
         // SAFETY: there is room for all.
-        check(unsafe {
-            sys::icc_domain_get_mesh(self.as_ptr(), vertices.as_mut_ptr(), simplices.as_mut_ptr())
-        })?;
+        check(unsafe { sys::icc_domain_get_mesh(self.as_ptr(), &mut own) })?;
         Ok((vertices, simplices))
     }
 

@@ -8,6 +8,7 @@ use crate::tree::{FunctionReport, Tree};
 use std::ptr;
 
 pub use crate::sys::icc_function_info as FunctionInfo;
+pub use crate::sys::icc_solver_report as SolverReport;
 
 object!(
     /// A function on the vertices of a tree.
@@ -66,12 +67,20 @@ impl Function {
         }
     }
 
-    /// How the function was made.
+    /// What the function is.
     pub fn info(&self) -> FunctionInfo {
         let mut info = FunctionInfo::default();
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_function_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// How the function was computed: iterations and seconds.
+    pub fn solver_report(&self) -> SolverReport {
+        let mut report = SolverReport::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_function_get_solver_report(self.as_ptr(), &mut report) };
+        report
     }
 
     fn n_vertices(&self) -> usize {

@@ -5,12 +5,13 @@ use crate::env::Env;
 use crate::error::{check, Result, Status};
 use crate::object::{object, saved, to_bytes, Borrowed};
 use crate::picture::{Picture, PictureMut};
-use crate::slices::{count, exactly, pointer};
+use crate::slices::{count, exactly, mesh_of, pointer};
 use crate::sys;
 
 pub use crate::sys::icc_certificate as Certificate;
 pub use crate::sys::icc_improve_report as ImproveReport;
 pub use crate::sys::icc_map_info as MapInfo;
+pub use crate::sys::icc_map_report as MapReport;
 
 object!(
     /// A map from one domain to another that agrees with the boundaries.
@@ -148,10 +149,7 @@ type Transform = unsafe extern "C" fn(
 
 type CarryMesh = unsafe extern "C" fn(
     *const sys::icc_map,
-    usize,
-    *const f64,
-    usize,
-    *const u32,
+    *const sys::icc_mesh,
     *mut f64,
     *mut sys::icc_certificate,
     *const sys::icc_env,
@@ -211,14 +209,15 @@ impl Map {
     }
 
     /// The map to a target that has moved: the mesh is taken over, repaired, and improved by at most `iterations`
-    /// steps (0: 8; -1: none). For dragging, in the plane and in space.
+    /// steps (0: what a frame has time for; -1: none). For dragging, in the plane and in space.
     ///
     /// # Errors
     /// [`Status::CERTIFICATE`] when the target cannot be reached.
     pub fn retarget(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
+        let raw = sys::icc_retarget_options { iterations, ..Default::default() };
         Map::make(env, |out, env, err| {
-            // SAFETY: valid objects.
-            unsafe { sys::icc_map_retarget(out, self.as_ptr(), target.as_ptr(), iterations, env, err) }
+            // SAFETY: valid objects, and `size` is set.
+            unsafe { sys::icc_map_retarget(out, self.as_ptr(), target.as_ptr(), &raw, env, err) }
         })
     }
 
@@ -249,6 +248,14 @@ impl Map {
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_map_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// How the map was made: counts and seconds.
+    pub fn report(&self) -> MapReport {
+        let mut report = MapReport::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_map_get_report(self.as_ptr(), &mut report) };
+        report
     }
 
     /// Which way round one another features go: ties that make, given to [`MapOptions`], another map that can be
@@ -291,22 +298,18 @@ impl Map {
     /// # Errors
     /// [`Status::UNSUPPORTED`] for others.
     pub fn mesh(&self) -> Result<MapMesh> {
-        let info = self.info();
-        let dim = info.dim as usize;
+        let mut own = sys::icc_mesh::default();
+        // SAFETY: `size` is set, and nothing but numbers is filled in.
+        check(unsafe { sys::icc_map_get_mesh(self.as_ptr(), &mut own, std::ptr::null_mut()) })?;
+        let dim = own.dim as usize;
         let mut mesh = MapMesh {
-            vertices: vec![0.0; info.n_vertices * dim],
-            images: vec![0.0; info.n_vertices * dim],
-            simplices: vec![0; info.n_simplices * (dim + 1)],
+            vertices: vec![0.0; own.n_vertices * dim],
+            images: vec![0.0; own.n_vertices * dim],
+            simplices: vec![0; own.n_cells * (dim + 1)],
         };
+        (own.vertices, own.cells) = (mesh.vertices.as_mut_ptr(), mesh.simplices.as_mut_ptr());
         // SAFETY: there is room for all.
-        check(unsafe {
-            sys::icc_map_get_mesh(
-                self.as_ptr(),
-                mesh.vertices.as_mut_ptr(),
-                mesh.images.as_mut_ptr(),
-                mesh.simplices.as_mut_ptr(),
-            )
-        })?;
+        check(unsafe { sys::icc_map_get_mesh(self.as_ptr(), &mut own, mesh.images.as_mut_ptr()) })?;
         Ok(mesh)
     }
 
@@ -432,26 +435,12 @@ impl Map {
         simplices: &[u32],
         env: &mut Env<'_>,
     ) -> Result<(Vec<f64>, Certificate)> {
-        let dim = self.dim();
-        let n = count(vertices, dim, "vertices")?;
-        let n_simplices = count(simplices, dim + 1, "simplices")?;
+        let mesh = mesh_of(self.dim(), vertices, simplices)?;
         let mut images = vec![0.0; vertices.len()];
         let mut certificate = Certificate::default();
         env.call(|env, err| {
             // SAFETY: the counts are those of the slices.
-            unsafe {
-                function(
-                    self.as_ptr(),
-                    n,
-                    vertices.as_ptr(),
-                    n_simplices,
-                    simplices.as_ptr(),
-                    images.as_mut_ptr(),
-                    &mut certificate,
-                    env,
-                    err,
-                )
-            }
+            unsafe { function(self.as_ptr(), &mesh, images.as_mut_ptr(), &mut certificate, env, err) }
         })?;
         Ok((images, certificate))
     }

@@ -1,5 +1,6 @@
 //! Lengths of slices, and points as arrays.
 use crate::error::{Error, Result};
+use crate::sys;
 
 /// Points as one slice of coordinates, without a copy.
 ///
@@ -44,6 +45,18 @@ pub(crate) fn exactly<T>(values: &[T], wanted: usize, name: &str) -> Result<()> 
         return Err(Error::argument(format!("{}: {} numbers, not {}", name, values.len(), wanted)));
     }
     Ok(())
+}
+
+/// A mesh that the library only reads: it borrows the slices.
+pub(crate) fn mesh_of(dim: usize, vertices: &[f64], simplices: &[u32]) -> Result<sys::icc_mesh> {
+    Ok(sys::icc_mesh {
+        dim: int(dim),
+        n_vertices: count(vertices, dim, "vertices")?,
+        vertices: vertices.as_ptr().cast_mut(),
+        n_cells: count(simplices, dim.saturating_add(1), "simplices")?,
+        cells: simplices.as_ptr().cast_mut(),
+        ..Default::default()
+    })
 }
 
 /// Numbers that the library takes as `int32_t`: what does not fit is out of range there, too.

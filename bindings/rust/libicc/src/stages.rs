@@ -17,7 +17,7 @@
 //! assert_eq!(field.report(env)?.n_maxima, 1);
 //! # Ok::<(), libicc::Error>(())
 //! ```
-pub use crate::function::{Edge, Function, FunctionInfo, FunctionOptions};
+pub use crate::function::{Edge, Function, FunctionInfo, FunctionOptions, SolverReport};
 pub use crate::grid::{Grid, GridInfo};
 pub use crate::tree::{FunctionReport, GrowReport, Order, Stuck, Tree, TreeOptions, TreeReport};
 pub use crate::triangulate::triangulate;

@@ -175,16 +175,16 @@ static long double energy(const problem *p, const long double *f)
     return sum;
 }
 
-static icc_function_info solve(problem *p)
+static iccp_solution solve(problem *p)
 {
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(iccp_tied_direct(&p->unknowns, &p->ties, &p->f, &info, &p->env), ICC_OK);
     return info;
 }
 
-static icc_function_info constrain(problem *p, double eta)
+static iccp_solution constrain(problem *p, double eta)
 {
-    icc_function_info info = solve(p);
+    iccp_solution info = solve(p);
     ck_assert_int_eq(iccp_active_set_laplace(&p->unknowns, eta, iccp_tied_direct, p->order, &p->f,
                                              &info, &p->env),
                      ICC_OK);
@@ -456,7 +456,7 @@ START_TEST(energy_is_the_least)
         problem p = round % 2 == 0 ? coarse_problem(&r) : random_problem(&r, 2 + round % 3);
         const double eta = etas[random_below(&r, 3)];
         long double best[MAX_DENSE];
-        const icc_function_info info = constrain(&p, eta);
+        const iccp_solution info = constrain(&p, eta);
         long double *f = values(&p);
         minimise_slowly(&p, eta, best);
         ck_assert(energy(&p, f) <= energy(&p, best) * (1 + 1e-13L));
@@ -481,7 +481,7 @@ START_TEST(hard_masks)
         const int32_t dim = kind.dim == 0 ? 2 : kind.dim;
         problem p = problem_on(kind.shape, dim, dim == 2 ? 100 : 24);
         for (double eta = 1e-9; eta < 0.02; eta *= 1e7 / (eta < 1e-8 ? 1e4 : 1e3)) {
-            const icc_function_info info = constrain(&p, eta);
+            const iccp_solution info = constrain(&p, eta);
             long double *f = values(&p);
             ck_assert_msg(residual(&p, f, eta, false) < 1e-12L, "%s", kind.name);
             ck_assert(info.residual < 1e-12 && info.residual_before < 1e-12);
@@ -498,7 +498,7 @@ END_TEST
 START_TEST(serpentine_beyond_the_range_of_double)
 {
     problem p = problem_on(mask_serpentine, 2, 500);
-    const icc_function_info info = constrain(&p, 1e-6);
+    const iccp_solution info = constrain(&p, 1e-6);
     long double *f = values(&p);
     int32_t least = 0;
     for (size_t k = 0; k < p.unknowns.n; ++k)
@@ -516,7 +516,7 @@ START_TEST(c_200_does_not_cycle)
 {
     problem p = problem_on(mask_c, 2, 200);
     for (double eta = 1e-10; eta < 0.02; eta *= 100) {
-        const icc_function_info info = constrain(&p, eta);
+        const iccp_solution info = constrain(&p, eta);
         ck_assert_uint_le(info.n_iterations, 12);
         ck_assert(info.residual < 1e-12);
     }
@@ -528,7 +528,7 @@ END_TEST
 
 /* Never settles. */
 static icc_status solve_randomly(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                                 const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                                 const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     random_source r = {++info->n_inner};
     (void)env;
@@ -539,7 +539,7 @@ static icc_status solve_randomly(const iccp_unknowns *unknowns, const iccp_ties 
 
 /* Right to 11 digits. */
 static icc_status solve_roughly(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                                const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                                const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     random_source r = {++info->n_inner};
     const icc_status status = iccp_tied_direct(unknowns, ties, f, info, env);
@@ -555,7 +555,7 @@ static icc_status solve_roughly(const iccp_unknowns *unknowns, const iccp_ties *
 
 /* Everything is as high as the root. */
 static icc_status solve_flatly(const iccp_unknowns *unknowns, const iccp_ties *ties,
-                               const iccp_scaled *f, icc_function_info *info, const iccp_env *env)
+                               const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {
     (void)ties, (void)info, (void)env;
     for (size_t k = 0; k < unknowns->n; ++k)
@@ -566,7 +566,7 @@ static icc_status solve_flatly(const iccp_unknowns *unknowns, const iccp_ties *t
 START_TEST(back_ends_that_do_not_converge)
 {
     problem p = problem_on(mask_c, 2, 20);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(
         iccp_active_set_laplace(&p.unknowns, 1e-6, solve_randomly, NULL, &p.f, &info, &p.env),
         ICC_ERR_SOLVER);
@@ -587,7 +587,7 @@ START_TEST(chains_too_long_for_their_shares)
     uint8_t *inside = malloc(N);
     memset(inside, 1, N);
     problem p = problem_new(1, (size_t[]){N}, inside, 0);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(
         iccp_active_set_laplace(&p.unknowns, 0.01, solve_flatly, NULL, &p.f, &info, &p.env),
         ICC_ERR_SOLVER);
@@ -601,7 +601,7 @@ static icc_status call_constrained(const icc_env *env, icc_error *err, void *arg
 {
     problem *p = argument;
     iccp_env inner;
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(iccp_env_read(&inner, env, err), ICC_OK);
     p->order[0] = ICCP_NONE;
     icc_status status = iccp_tied_direct(&p->unknowns, &p->ties, &p->f, &info, &inner);
@@ -623,7 +623,7 @@ START_TEST(root_alone)
 {
     const uint8_t inside[9] = {0, 0, 0, 0, 1, 0, 0, 0, 0};
     problem p = problem_new(2, (size_t[]){3, 3}, inside, 4);
-    const icc_function_info info = constrain(&p, 1e-6);
+    const iccp_solution info = constrain(&p, 1e-6);
     ck_assert(value(&p.f, 0) >= 1 && value(&p.f, 0) <= 1);
     ck_assert(info.n_iterations == 0 && info.residual <= 0);
     problem_free(&p);

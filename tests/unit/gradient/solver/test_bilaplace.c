@@ -186,7 +186,7 @@ START_TEST(small_minima_are_those_of_a_dense_solver)
     for (int round = 0; round < share_of(200); ++round) {
         problem p = random_problem(&r, 1 + round % 4);
         for (int k = 0; k < 2; ++k) {
-            icc_function_info info = {.size = sizeof info};
+            iccp_solution info = {0};
             ck_assert_int_eq(
                 iccp_bilaplace(&p.unknowns, FUNCTIONS[k], ICC_SOLVER_DIRECT, &p.f, &info, &env),
                 ICC_OK);
@@ -213,7 +213,7 @@ START_TEST(both_solvers_agree)
     for (int s = 0; s < N_MASKS; ++s) {
         const int32_t dim = mask_number(s).dim == 3 ? 3 : 2;
         problem p = problem_of(mask_number(s).shape, dim, dim == 3 ? 20 : 60);
-        icc_function_info info = {.size = sizeof info};
+        iccp_solution info = {0};
         ck_assert_int_eq(iccp_bilaplace(&p.unknowns, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT,
                                         &p.f, &info, &env),
                          ICC_OK);
@@ -238,7 +238,7 @@ START_TEST(nothing_underflows)
 {
     const iccp_env env = default_env();
     problem p = problem_of(mask_serpentine, 2, 500);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(
         iccp_bilaplace(&p.unknowns, ICC_FUNCTION_BILAPLACE, ICC_SOLVER_DIRECT, &p.f, &info, &env),
         ICC_OK);
@@ -421,7 +421,7 @@ START_TEST(small_constrained_minima_have_the_least_energy)
         problem p = random_problem(&r, 1 + round % 4);
         const double eta = ETAS[random_below(&r, 3)], leaf = LEAVES[random_below(&r, 3)];
         for (int k = 0; k < 2 && p.n > 1 && p.n < 40; ++k) {
-            icc_function_info info = {.size = sizeof info};
+            iccp_solution info = {0};
             ck_assert_int_eq(
                 iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], eta, leaf, &p.f, &info, &env),
                 ICC_OK);
@@ -441,7 +441,7 @@ END_TEST
 static icc_status solve_from_inside(const problem *p, int32_t function, double *f, double *residual,
                                     const iccp_env *env)
 {
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     iccp_qp qp;
     iccp_interior_point ip;
     bool stuck = false;
@@ -476,7 +476,7 @@ START_TEST(both_ways_lead_to_the_same_function)
         for (int k = 0; k < 2; ++k) {
             const int32_t dim = mask_number(shapes[s]).dim == 3 ? 3 : 2;
             problem p = problem_of(mask_number(shapes[s]).shape, dim, dim == 3 ? 20 : 50);
-            icc_function_info info = {.size = sizeof info};
+            iccp_solution info = {0};
             double residual, *f = malloc(p.n * sizeof *f);
             ck_assert_int_eq(iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], 1e-6, 1e-9, &p.f,
                                                         &info, &env),
@@ -494,7 +494,7 @@ END_TEST
 
 /* The same from coarse to fine, without what follows for large problems. */
 static icc_status solve_nested(const problem *p, int32_t function, size_t coarsest, double *f,
-                               double *residual, icc_function_info *info, const iccp_env *env)
+                               double *residual, iccp_solution *info, const iccp_env *env)
 {
     iccp_qp qp;
     icc_status status = iccp_qp_create(&qp, &p->unknowns, function, 1e-6, 1e-9, env);
@@ -522,7 +522,7 @@ START_TEST(coarse_to_fine_leads_there_too)
     for (size_t s = 0; s < sizeof shapes / sizeof *shapes; ++s)
         for (int k = 0; k < 2; ++k) {
             problem p = problem_of(mask_number(shapes[s]).shape, 2, 64);
-            icc_function_info info = {.size = sizeof info}, nested = {.size = sizeof nested};
+            iccp_solution info = {0}, nested = {0};
             double residual, *f = malloc(p.n * sizeof *f);
             ck_assert_int_eq(iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[k], 1e-6, 1e-9, &p.f,
                                                         &info, &env),
@@ -548,7 +548,7 @@ START_TEST(grids_that_lose_the_shape_are_not_used)
         inside[v] = v / N == 20 || v % N % 2 == 1;
     const size_t sides[2] = {N, N};
     problem p = problem_on(2, sides, inside, 20 * N);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     double residual, *f = malloc(p.n * sizeof *f);
     ck_assert_int_eq(solve_nested(&p, FUNCTIONS[0], 10, f, &residual, &info, &env), ICC_OK);
     ck_assert(residual == HUGE_VAL);
@@ -562,7 +562,7 @@ START_TEST(large_problems_hold_every_inequality)
 {
     const iccp_env env = default_env();
     problem p = problem_of(mask_c, 2, 330);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_uint_ge(p.n, 50000);
     ck_assert_int_eq(
         iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env),
@@ -581,7 +581,7 @@ START_TEST(a_letter_c_has_one_critical_point)
 {
     const iccp_env env = default_env();
     problem p = problem_of(mask_c, 2, 200);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(
         iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[_i], 1e-6, 1e-9, &p.f, &info, &env),
         ICC_OK);
@@ -619,7 +619,7 @@ START_TEST(bounds_without_room_are_refused)
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, &outer, NULL), ICC_OK);
     problem p = problem_on(1, sides, inside, 0);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     ck_assert_int_eq(
         iccp_bilaplace_constrained(&p.unknowns, FUNCTIONS[0], 0.01, 1e-9, &p.f, &info, &env),
         ICC_ERR_SOLVER);
@@ -640,7 +640,7 @@ static icc_status solve_anew(const icc_env *outer, icc_error *err, void *argumen
     sweep_case *c = argument;
     iccp_env env;
     ck_assert_int_eq(iccp_env_read(&env, outer, err), ICC_OK);
-    icc_function_info info = {.size = sizeof info};
+    iccp_solution info = {0};
     if (c->way == 4)
         return iccp_explain(err, solve_nested(&c->p, c->function, 30, c->p.f.fraction,
                                               &info.residual, &info, &env));

@@ -106,7 +106,7 @@ static void tie(problem *p, random_source *r, int percent, double least_share)
 static icc_status solve(problem *p, size_t *n_inner)
 {
     const iccp_env env = default_env();
-    icc_function_info info = {0};
+    iccp_solution info = {0};
     const iccp_ties ties = {.top = p->top, .share = p->share};
     const icc_status status = iccp_tied_iterative(&p->unknowns, &ties, &p->f, &info, &env);
     if (n_inner != NULL)
@@ -447,7 +447,7 @@ static void check_direct(const problem *p)
     const iccp_scaled g = {malloc(p->unknowns.n * sizeof(double)),
                            malloc(p->unknowns.n * sizeof(int32_t))};
     const iccp_ties ties = {.top = p->top, .share = p->share};
-    icc_function_info info = {0};
+    iccp_solution info = {0};
     if (iccp_tied_direct(&p->unknowns, &ties, &g, &info, &env) == ICC_OK)
         ck_assert_double_le(difference(p, &g), 1e-6);
     free(g.fraction);
@@ -546,7 +546,7 @@ static icc_status solve_in(const icc_env *outer, icc_error *err, void *argument)
 {
     problem *p = argument;
     const iccp_ties ties = {.top = p->top, .share = p->share};
-    icc_function_info info = {0};
+    iccp_solution info = {0};
     iccp_env env;
     const icc_status status = iccp_env_read(&env, outer, err);
     if (status != ICC_OK)

@@ -91,7 +91,10 @@ static icc_status retarget(const icc_env *env, icc_error *err, void *argument)
 {
     const setting *s = argument;
     icc_map *map;
-    const icc_status status = icc_map_retarget(&map, s->map, s->further, s->iterations, env, err);
+    const icc_status status = icc_map_retarget(
+        &map, s->map, s->further,
+        &(icc_retarget_options){.size = sizeof(icc_retarget_options), .iterations = s->iterations},
+        env, err);
     return check(map, status);
 }
 

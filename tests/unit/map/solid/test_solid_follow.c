@@ -1,8 +1,10 @@
 /* Maps of meshes in space that follow a target: every frame is a certified map onto it, about as
  * fair as one made at once; what is asked of a new map may be asked of one that has followed. */
 #include "../../../faulty.h"
+#include "../../../flat_mesh.h"
 #include "../../../infos.h"
 #include "../../../meshes.h"
+#include "../../../reports.h"
 #include "../../../saved.h"
 #include "../../../share.h"
 #include "../../../suite.h"
@@ -111,11 +113,11 @@ static void check_map(const icc_map *map, const scene *s, const icc_domain *targ
     const icc_map_info info = info_of_map(map);
     uint32_t *corners = mesh_alloc(info.n_simplices, 4 * sizeof *corners);
     double *points[2], *vertices = mesh_alloc(s->n_vertices, 3 * sizeof *vertices);
-    ck_assert(info.kind == ICC_MAP_MESH && info.certified == 1 && info.n_unrepaired == 0);
-    ck_assert(info.energy >= 6 - 1e-9 && info.energy <= info.energy_start * (1 + 1e-12));
+    ck_assert(info.kind == ICC_MAP_MESH && info.certified == 1 && report_of(map).n_unrepaired == 0);
+    ck_assert(info.energy >= 6 - 1e-9 && info.energy <= report_of(map).energy_start * (1 + 1e-12));
     for (int side = 0; side < 2; ++side)
         points[side] = mesh_alloc(info.n_vertices, 3 * sizeof *points[side]);
-    ck_assert_int_eq(icc_map_get_mesh(map, points[0], points[1], corners), ICC_OK);
+    ck_assert_int_eq(flat_get_mesh(map, points[0], points[1], corners), ICC_OK);
     for (int side = 0; side < 2; ++side) {
         icc_domain *domain;
         icc_error err = {.size = sizeof err};
@@ -123,9 +125,8 @@ static void check_map(const icc_map *map, const scene *s, const icc_domain *targ
                          ICC_OK);
         for (size_t i = 0; i < 3 * s->n_vertices; ++i)
             ck_assert_double_eq(vertices[i], points[side][i]);
-        ck_assert_msg(icc_domain_create_mesh(&domain, 3, info.n_vertices, points[side],
-                                             info.n_simplices, corners, s->n_facets, s->facets,
-                                             NULL, &err) == ICC_OK,
+        ck_assert_msg(flat_create_mesh(&domain, 3, info.n_vertices, points[side], info.n_simplices,
+                                       corners, s->n_facets, s->facets, NULL, &err) == ICC_OK,
                       "%s", err.message);
         icc_domain_free(domain);
         free(points[side]);
@@ -147,8 +148,11 @@ static icc_map *follow(const icc_map *map, const icc_domain *target, int32_t ite
     const icc_env env = {.size = sizeof env, .threads = 1, .log = count_new, .user = &n};
     icc_map *next;
     icc_error err = {.size = sizeof err};
-    ck_assert_msg(icc_map_retarget(&next, map, target, iterations, &env, &err) == ICC_OK, "%s",
-                  err.message);
+    ck_assert_msg(icc_map_retarget(&next, map, target,
+                                   &(icc_retarget_options){.size = sizeof(icc_retarget_options),
+                                                           .iterations = iterations},
+                                   &env, &err) == ICC_OK,
+                  "%s", err.message);
     if (n_new != NULL)
         *n_new += n;
     return next;
@@ -249,7 +253,7 @@ START_TEST(rough_motions)
         icc_error err = {.size = sizeof err};
         if (target == NULL)
             continue;
-        const icc_status status = icc_map_retarget(&next, map, target, 0, NULL, &err);
+        const icc_status status = icc_map_retarget(&next, map, target, NULL, NULL, &err);
         if (status == ICC_OK) {
             check_map(next, &s, target);
             icc_map_free(map);
@@ -343,11 +347,11 @@ START_TEST(steps_are_as_many_as_asked)
     icc_map *map = first_map(&s);
     icc_map *none = follow(map, target, -1, NULL), *one = follow(map, target, 1, NULL),
             *some = follow(map, target, 0, NULL);
-    ck_assert_uint_eq(info_of_map(none).n_iterations, 0);
-    ck_assert_double_eq(info_of_map(none).energy, info_of_map(none).energy_start);
-    ck_assert_uint_eq(info_of_map(one).n_iterations, 1);
+    ck_assert_uint_eq(report_of(none).n_iterations, 0);
+    ck_assert_double_eq(info_of_map(none).energy, report_of(none).energy_start);
+    ck_assert_uint_eq(report_of(one).n_iterations, 1);
     ck_assert_double_lt(info_of_map(one).energy, info_of_map(none).energy);
-    ck_assert_uint_le(info_of_map(some).n_iterations, 8);
+    ck_assert_uint_le(report_of(some).n_iterations, 8);
     ck_assert_double_le(info_of_map(some).energy, info_of_map(one).energy);
     icc_map_free(none);
     icc_map_free(one);
@@ -370,7 +374,7 @@ START_TEST(other_surfaces_are_refused)
         s.facets[3 * f + 1] = swap;
     }
     icc_domain *inward = surface_of(&s, s.vertices);
-    ck_assert_int_eq(icc_map_retarget(&next, map, inward, 0, NULL, &err), ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(icc_map_retarget(&next, map, inward, NULL, NULL, &err), ICC_ERR_BOUNDARY);
     ck_assert(next == NULL && err.side == 2 && err.message[0] != '\0');
     icc_map_free(map);
     icc_domain_free(inward);
@@ -423,7 +427,7 @@ START_TEST(threads_change_nothing)
         for (int32_t n = 2; n <= 4; ++n) {
             const icc_env env = {.size = sizeof env, .threads = n};
             icc_map *other;
-            ck_assert_int_eq(icc_map_retarget(&other, map, targets[k], 0, &env, NULL), ICC_OK);
+            ck_assert_int_eq(icc_map_retarget(&other, map, targets[k], NULL, &env, NULL), ICC_OK);
             bytes own = map_bytes(other);
             ck_assert_uint_eq(own.n, b.n);
             ck_assert_same(own.data, b.data, b.n, "a map of several threads");
@@ -448,7 +452,7 @@ static icc_status call_follow(const icc_env *env, icc_error *err, void *argument
 {
     const frame *f = argument;
     icc_map *next = (icc_map *)&next;
-    const icc_status status = icc_map_retarget(&next, f->map, f->target, 0, env, err);
+    const icc_status status = icc_map_retarget(&next, f->map, f->target, NULL, env, err);
     ck_assert_int_eq(status == ICC_OK, next != NULL);
     icc_map_free(next);
     return status;

@@ -2,8 +2,10 @@
  * way is that of a one-to-one map, and results neither depend on threads nor get lost. */
 #include "../../../domains.h"
 #include "../../../faulty.h"
+#include "../../../flat_mesh.h"
 #include "../../../infos.h"
 #include "../../../meshes.h"
+#include "../../../reports.h"
 #include "../../../saved.h"
 #include "../../../share.h"
 #include "../../../suite.h"
@@ -71,16 +73,15 @@ static void check_mesh(const icc_map *map, const domain_pair *p)
     double *points[2], *vertices = mesh_alloc(surface.n_vertices, 3 * sizeof *vertices);
     for (int side = 0; side < 2; ++side)
         points[side] = mesh_alloc(info.n_vertices, 3 * sizeof *points[side]);
-    ck_assert_int_eq(icc_map_get_mesh(map, points[0], points[1], corners), ICC_OK);
+    ck_assert_int_eq(flat_get_mesh(map, points[0], points[1], corners), ICC_OK);
     for (int side = 0; side < 2; ++side) {
         icc_domain *domain;
         icc_error err = {.size = sizeof err};
         const icc_domain *given = side == 0 ? p->source : p->target;
         ck_assert_int_eq(icc_domain_get_boundary(given, vertices, facets), ICC_OK);
         ck_assert_mem_eq(vertices, points[side], 3 * surface.n_vertices * sizeof *vertices);
-        ck_assert_msg(icc_domain_create_mesh(&domain, 3, info.n_vertices, points[side],
-                                             info.n_simplices, corners, surface.n_facets, facets,
-                                             NULL, &err) == ICC_OK,
+        ck_assert_msg(flat_create_mesh(&domain, 3, info.n_vertices, points[side], info.n_simplices,
+                                       corners, surface.n_facets, facets, NULL, &err) == ICC_OK,
                       "%s", err.message);
         icc_domain_free(domain);
         free(points[side]);
@@ -135,12 +136,12 @@ START_TEST(new_maps_take_a_few_steps)
     domain_pair p = pair_of(4, mesh_bend);
     icc_map *plain = map_of(&p, -1), *some = map_of(&p, 2), *map = map_of(&p, 0);
     const icc_map_info info = info_of_map(map);
-    ck_assert_uint_eq(info_of_map(plain).n_iterations, 0);
-    ck_assert_double_eq(info_of_map(plain).energy, info_of_map(plain).energy_start);
-    ck_assert_uint_eq(info_of_map(some).n_iterations, 2);
-    ck_assert(info.n_iterations > 2 && info.n_iterations <= 8);
-    ck_assert_double_eq(info.energy_start, info_of_map(plain).energy);
-    ck_assert_double_lt(info_of_map(some).energy, info.energy_start);
+    ck_assert_uint_eq(report_of(plain).n_iterations, 0);
+    ck_assert_double_eq(info_of_map(plain).energy, report_of(plain).energy_start);
+    ck_assert_uint_eq(report_of(some).n_iterations, 2);
+    ck_assert(report_of(map).n_iterations > 2 && report_of(map).n_iterations <= 8);
+    ck_assert_double_eq(report_of(map).energy_start, info_of_map(plain).energy);
+    ck_assert_double_lt(info_of_map(some).energy, report_of(map).energy_start);
     ck_assert_double_lt(info.energy, info_of_map(some).energy);
     check_mesh(map, &p);
     icc_map_free(plain);
@@ -185,7 +186,7 @@ START_TEST(again_and_again)
     bytes after = map_bytes(map);
     ck_assert_uint_eq(after.n, before.n);
     ck_assert_same(after.data, before.data, before.n, "a map that was improved");
-    ck_assert_int_eq(info_of_map(twice).n_levels, 2);
+    ck_assert_int_eq(report_of(twice).n_levels, 2);
     check_mesh(twice, &p);
     free(before.data);
     free(after.data);

@@ -2,6 +2,7 @@
  * when the repair fails. */
 #include "../../../domains.h"
 #include "../../../faulty.h"
+#include "../../../flat_mesh.h"
 #include "../../../infos.h"
 #include "../../../meshes.h"
 #include "../../../share.h"
@@ -75,7 +76,7 @@ START_TEST(mesh_is_the_map)
     double *before = calloc(info.n_vertices, 3 * sizeof *before);
     double *after = calloc(info.n_vertices, 3 * sizeof *after);
     uint32_t *corners = calloc(info.n_simplices, 4 * sizeof *corners);
-    ck_assert_int_eq(icc_map_get_mesh(map, before, after, corners), ICC_OK);
+    ck_assert_int_eq(flat_get_mesh(map, before, after, corners), ICC_OK);
     for (size_t t = 0; t < info.n_simplices; ++t) {
         double x[3] = {0, 0, 0}, y[3] = {0, 0, 0}, image[3], jacobian[9], edges[9];
         icc_status status;
@@ -148,7 +149,7 @@ START_TEST(kinds)
     make_pair(&p, 3);
     ck_assert_int_eq(icc_map_create(&map, p.source, p.target, &options, NULL, NULL), ICC_OK);
     ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_CURVES);
-    ck_assert_int_eq(icc_map_get_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
+    ck_assert_int_eq(flat_get_mesh(map, NULL, NULL, NULL), ICC_ERR_UNSUPPORTED);
     icc_map_free(map);
     domain_pair_free(&p);
 }

@@ -1,0 +1,18 @@
+/* What is known of a function that a solver has found: the members of icc_function_info and of
+ * icc_solver_report. */
+#ifndef ICCP_SOLUTION_H
+#define ICCP_SOLUTION_H
+
+#include "icc/stages.h"
+
+typedef struct iccp_solution {
+    int32_t function, constrained, solver, beside;
+    size_t n_unknowns, n_violated, n_active;
+    size_t n_iterations, n_inner;
+    double work, residual_before, residual, least_log;
+    double seconds_setup, seconds_order, seconds_factor, seconds_solve, seconds_verify;
+    double excess;
+    uint32_t highest;
+} iccp_solution;
+
+#endif
