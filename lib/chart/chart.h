@@ -40,8 +40,8 @@ typedef struct iccp_encode_jet {
     double t[ICC_MAX_DIM];
 } iccp_encode_jet;
 
-/* Derivatives of the local point by coordinates: bary[i * dim + j] is that of point coordinate i
- * by bary j. bary 0 compensates for the others, so column 0 is zero. */
+/* Derivatives of the local point by coordinates. bary[i * dim + j] is that of point coordinate i
+ * by bary j. When bary j grows, bary 0 falls by as much, so column 0 is zero. */
 typedef struct iccp_decode_jet {
     double bary[ICC_MAX_DIM * ICC_MAX_DIM];
     double t[ICC_MAX_DIM];

@@ -86,8 +86,8 @@ static void facet_slopes(const icc_domain *domain, uint32_t facet, const double 
     }
 }
 
-/* Fills in the derivatives: d t = (d down * up - down * d up) / length^2, and the slopes of the
- * boundary point's barycentric coordinates. */
+/* Fills in the derivatives of t and the slopes of the boundary point's barycentric coordinates.
+ * d t = (d down * up - down * d up) / length^2. */
 static void fill_encode_jet(const icc_chart *chart, uint32_t facet, const iccp_flow_jet *down,
                             double s_down, const iccp_flow_jet *up, double s_up,
                             iccp_encode_jet *jet)

@@ -224,6 +224,8 @@ static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *a
     return low < -CONTACT && high > CONTACT ? TOUCHES : GRAZES;
 }
 
+/* Compares a simplex with the facet, by the plane of the facet and those of the simplex's own
+ * facets. Sets s->faces, s->reached and s->settled. */
 static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;

@@ -1,12 +1,13 @@
-/* Chooses the vectors of the field. Source: docs/theory.md, "fields on grids". If X_v . grad f > 0
- * in every simplex at v, for all v, then X . grad f > 0 everywhere, because X is linear in each
- * simplex and grad f is constant. X is Lipschitz, so its curves do not merge. They cannot close,
- * because f rises along them.
+/* Chooses the vectors of the field. Source: docs/theory.md, "fields on grids".
  *
- * The vector of a vertex is the mean of the gradients' directions if that is uphill. Otherwise it
- * is the point of their hull nearest to the origin, which is uphill if and only if any vector is.
- * The boundary's inward normals should agree too, because then curves cross the boundary one way.
- * If no vector suits all of these, the normals have priority.
+ * Let X_v . grad f > 0 in every simplex at v, for all vertices v. Then X . grad f > 0 everywhere,
+ * because X is linear in each simplex and grad f is constant. X is Lipschitz, so its curves do not
+ * merge. They cannot close, because f rises along them.
+ *
+ * The vector of a vertex is the mean of the gradients' directions if its products with all of them
+ * are well above 0. Otherwise it is the point of their hull nearest to the origin, which is uphill
+ * if and only if any vector is. The boundary's inward normals should agree too, because then curves
+ * cross the boundary one way. If no vector suits all of these, the normals have priority.
  *
  * If no vector suits the gradients, the function is changed a little. It moves to the nearest
  * values for which the gradients have a positive product with the vector, simplex by simplex.
@@ -257,7 +258,8 @@ static void tilt_uphill(int32_t dim, size_t n, const double *normals, const doub
  * - unless `gradients_first`, a vector that suits the normals, tilted uphill;
  * - a vector that suits the gradients.
  *
- * `*agrees` tells whether the vector suits both gradients and normals. */
+ * `*agrees` is false if no vector suits both gradients and normals. Next to the root this is not
+ * tested. */
 static bool choose_vector(star *s, bool gradients_first, double *x, bool *agrees)
 {
     const int32_t dim = s->orders->dim;

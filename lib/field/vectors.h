@@ -13,10 +13,10 @@
 typedef struct iccp_vectors {
     iccp_memory memory;
     const icc_grid *grid; /* borrowed */
-    float *vector;        /* dim numbers per vertex: of length 1, but from a vertex joined to the
-                             root all the way to it, so that the field is radial there; 0 if not
-                             needed. The checks use exactly these floats, which take half the memory
-                             that curves wait for */
+    float *vector;        /* dim numbers per vertex, in general of length 1. The vector of a vertex
+                             joined to the root reaches the root, so the field is radial there. 0 if
+                             not needed. The checks use exactly these floats, which take half the
+                             memory that curves wait for */
     iccp_sectors sectors; /* the vectors of vertices that have several */
     size_t n_vertices;    /* number of vertices that need a vector */
     size_t n_infeasible;  /* number of vertices without an uphill vector */

@@ -76,6 +76,7 @@ static icc_status list_rows(const network *w, const iccp_gram *wires, iccp_gram 
     return iccp_stiffness_restrict(inner, wires, row, env);
 }
 
+/* Solves the equations of the free vertices exactly. */
 static icc_status solve_rows(network *w, const iccp_gram *wires, const iccp_env *env)
 {
     const size_t n = w->mesh->n_points;

@@ -11,13 +11,12 @@
  * entered. Exactly one must have them all left, or none if the face lies on the boundary. */
 typedef struct iccp_shelling_certificate {
     size_t n_inverted;   /* simplices that are not positively oriented */
-    size_t n_topology;   /* sides without a proper partner, and facets of the domain that do not
-                            have exactly one side with their vertices; 1 more if the centre is not a
-                            vertex inside */
-    size_t n_order;      /* simplices outside the star without a neighbour of smaller rank, without
-                            a side to greater rank or the boundary, or with a neighbour outside the
-                            star of the same rank; simplices of the star whose rank is not 0, and
-                            others whose rank is 0 */
+    size_t n_topology;   /* sides without a proper partner; facets of the domain without exactly one
+                            side that has their vertices; 1 more if the centre is not a vertex
+                            inside */
+    size_t n_order;      /* simplices of the star whose rank is not 0, and others whose rank is 0;
+                            others without a neighbour of smaller rank, without a side to greater
+                            rank or the boundary, or with a tie: a neighbour of the same rank */
     size_t n_irregular;  /* faces of dimension 0 to dim - 2 with a wrong count; see above */
     size_t n_directions; /* simplices outside the star whose direction does not enter and leave as
                             the order demands */
