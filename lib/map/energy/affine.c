@@ -1,4 +1,6 @@
-/* Least squares by normal equations. One round of iterative refinement regains the digits that they
+/* Fits affine maps by least squares, and makes maps affine inside.
+ *
+ * The fit solves normal equations. One round of iterative refinement regains the digits that they
  * lose: N. J. Higham, Accuracy and Stability of Numerical Algorithms, chapter 20. */
 #include "map/energy/affine.h"
 

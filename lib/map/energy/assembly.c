@@ -1,5 +1,5 @@
-/* O. C. Zienkiewicz, R. L. Taylor, The Finite Element Method, chapter 1: where each element adds to
- * the matrix is found once. */
+/* Sums derivatives of elements to a gradient and a sparse Hessian: O. C. Zienkiewicz, R. L. Taylor,
+ * The Finite Element Method, chapter 1. The places where each element adds are found once. */
 #include "map/energy/assembly.h"
 
 #include "base/threads.h"

@@ -1,10 +1,12 @@
 /* Moves a map along with its fixed points by a predictor and a corrector: E. L. Allgower, K. Georg,
- * Introduction to numerical continuation methods, 1990. The predictor moves the free points as the
- * energy's quadratic model answers the motion of the fixed ones. All points go together, as far as
- * no simplex flips. If nothing blocks the step to the energy's minimum, it is made as well. Without
- * the predictor, fixed points would run into their own triangles.
+ * Introduction to numerical continuation methods, 1990.
  *
- * If the way is blocked, the mesh blocks it, not the map. A mesh that fits the map so far lets it
+ * The predictor moves the free points as the energy's quadratic model answers the motion of the
+ * fixed ones. All points go together, as far as no simplex flips. The step to the energy's minimum
+ * is added if nothing blocks it. Without the predictor, fixed points would run into their own
+ * triangles.
+ *
+ * If the way is blocked, the mesh blocks it, not the map. A mesh that suits the present map lets it
  * go on. */
 #include "map/energy/continuation.h"
 
@@ -27,7 +29,9 @@ typedef struct motion {
     const iccp_continuation *as;
     void *map;
     const icc_domain *target;
-    double *way, *rest, *images; /* dim for each point; `rest` in the plane only */
+    /* dim for each point: the motion, the step to the energy's minimum (in the plane only), and the
+     * images before the motion */
+    double *way, *rest, *images;
     size_t room;
 } motion;
 
@@ -49,7 +53,7 @@ static icc_status make_room(motion *m, const iccp_env *env)
                : ICC_ERR_MEMORY;
 }
 
-/* Finds how far fixed points still have to go; 0 for others. Returns whether any has to. */
+/* Finds how far each fixed point still has to go; 0 for free points. Returns true if any has to. */
 static bool find_motion(motion *m)
 {
     const iccp_simplicial_map map = m->as->see(m->map);

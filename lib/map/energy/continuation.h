@@ -1,4 +1,4 @@
-/* Moving the fixed points of a one-to-one piecewise linear map, in the plane or in space. */
+/* Moves the fixed points of a one-to-one piecewise linear map, in the plane or in space. */
 #ifndef ICCP_CONTINUATION_H
 #define ICCP_CONTINUATION_H
 
@@ -7,8 +7,8 @@
 
 /* What plane and space do differently. */
 typedef struct iccp_continuation {
-    iccp_simplicial_map (*see)(const void *map);
-    /* Where a target wants the image of a fixed point. */
+    iccp_simplicial_map (*see)(const void *map); /* returns a view of the map */
+    /* Writes where a target wants the image of a fixed point. */
     void (*place)(const void *map, const icc_domain *target, size_t point, double *place);
     double blocked; /* a part of the way that is shorter than this share counts as blocked */
     /* Changes the mesh where it blocks the way. */
@@ -21,8 +21,8 @@ typedef struct iccp_continuation {
  * changes it, up to `patience` times in turn.
  *
  * *reached is false if images would meet on the way, if the way stays blocked, or if there is no
- * work left. The map is valid in any case. *room tells how many times the last part would have fit
- * in before a simplex flipped. */
+ * work left. The map is valid in any case. If the target is reached, *room is the way to the first
+ * flip as a multiple of the last part. */
 icc_status iccp_continue(const iccp_continuation *carriage, void *map, const icc_domain *target,
                          size_t patience, iccp_work *work, bool *reached, double *room,
                          const iccp_env *env);

@@ -1,4 +1,5 @@
-/* Steps of Newton's method on one mesh (docs/theory.md, the mesh map; the steps: newton.c). */
+/* Lowers the energy by Newton steps on one mesh (docs/theory.md, the mesh map). newton.c makes one
+ * step. */
 #include "map/energy/descent.h"
 
 #include "base/threads.h"
@@ -7,7 +8,7 @@
 
 #include <math.h>
 
-/* Half of a descent, as far as progress goes. */
+/* Reports of progress take this many steps for half of them. */
 static const double TYPICAL_STEPS = 8;
 
 static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
@@ -27,7 +28,7 @@ static icc_status go_down(iccp_newton *newton, const iccp_simplicial_map *map,
     if (status != ICC_OK)
         return status;
     double energy = iccp_newton_energy(newton, ICCP_DIRICHLET, 0);
-    /* Doubles may take what is positive for flat, and no step is known then. */
+    /* A simplex that is exactly positive may have no volume in doubles. Then there is no step. */
     const size_t n_free = map->dim == 2 || energy < HUGE_VAL ? newton->assembly.n_free : 0;
     size_t n_slow = 0;
     for (size_t k = 0; status == ICC_OK && k < descent->iterations && n_free > 0 &&
@@ -62,7 +63,7 @@ typedef struct ending {
     double energy;
 } ending;
 
-/* To give the memory back takes about as long as to sum the energy. */
+/* Sums the energy (k = 0) while another thread frees the memory (k = 1), which takes as long. */
 static icc_status end(void *argument, size_t k, const iccp_env *env, icc_error *err)
 {
     ending *e = argument;

@@ -1,4 +1,4 @@
-/* Steps that lower the energy of a map on one mesh. */
+/* Lowers the energy of a map by steps on one mesh. */
 #ifndef ICCP_DESCENT_H
 #define ICCP_DESCENT_H
 
@@ -12,13 +12,13 @@ typedef struct iccp_improvement {
     bool is_converged; /* the last step gained no more than the tolerance */
 } iccp_improvement;
 
-/* When steps on one mesh end. */
+/* When steps on one mesh end. The first `majorised` steps do not count for the last three. */
 typedef struct iccp_descent {
-    size_t majorised;  /* the first steps are by SLIM's model */
-    size_t iterations; /* at most so many, */
-    double tolerance;  /* until one gains no more than this share of the energy, */
-    double slow;       /* or two in turn no more than this share each, */
-    bool is_hasty;     /* or one */
+    size_t majorised;  /* so many steps use SLIM's model first */
+    size_t iterations; /* the most steps */
+    double tolerance;  /* steps end when one gains no more than this share of the energy */
+    double slow;       /* a step is slow if it gains no more than this share */
+    bool is_hasty;     /* one slow step ends them; otherwise two in turn */
 } iccp_descent;
 
 /* Lowers the symmetric Dirichlet energy of a map in the plane or in space whose simplices are all

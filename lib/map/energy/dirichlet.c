@@ -1,6 +1,6 @@
-/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019;
- * M. Rabinovich, R. Poranne, D. Panozzo, O. Sorkine-Hornung, Scalable locally injective mappings
- * (SLIM), 2017. */
+/* Computes the symmetric Dirichlet energy of one simplex and its derivatives: B. Smith, F. de Goes,
+ * T. Kim, Analytic eigensystems for isotropic distortion energies, 2019; M. Rabinovich, R. Poranne,
+ * D. Panozzo, O. Sorkine-Hornung, Scalable locally injective mappings (SLIM), 2017. */
 #include "map/energy/dirichlet.h"
 
 #include "base/minmax.h"

@@ -1,4 +1,4 @@
-/* The linear map of one simplex: adding modes to a Hessian. */
+/* Computes elements, and adds modes to the Hessian of one simplex. */
 #include "map/energy/jacobian.h"
 
 void iccp_element_create(size_t dim, const double *const *corner, double *element)

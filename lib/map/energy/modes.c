@@ -1,5 +1,6 @@
-/* B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion energies, 2019: the
- * Hessian is block diagonal in the basis of the singular vectors. */
+/* Turns a tetrahedron's Hessian from the basis of the singular vectors, where it is block diagonal,
+ * to the corners: B. Smith, F. de Goes, T. Kim, Analytic eigensystems for isotropic distortion
+ * energies, 2019. */
 #include "map/energy/modes.h"
 
 typedef double matrix[3][3];

@@ -1,4 +1,6 @@
-/* The mesh of a cage with many vertices is fine along its boundary and coarse inside. Most of its
+/* Chooses the points that are worth moving.
+ *
+ * The mesh of a cage with many vertices is fine along its boundary and coarse inside. Most of its
  * triangles lie in a strip whose area is negligible, so moving them hardly changes the energy. The
  * boundary is fixed, so leaving them alone moves nothing inside by more than the strip's width. */
 #include "map/energy/movable.h"

@@ -1,5 +1,6 @@
-/* Projected Newton method: J. Smith, S. Schaefer, Bijective parameterization with free boundaries,
- * 2015. A sparse factorisation computes the step in the plane, conjugate gradients in space. */
+/* Computes steps by the projected Newton method: J. Smith, S. Schaefer, Bijective parameterization
+ * with free boundaries, 2015. A sparse factorisation computes the step in the plane, conjugate
+ * gradients in space. */
 #include "map/energy/newton.h"
 
 #include "base/minmax.h"

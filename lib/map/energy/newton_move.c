@@ -1,6 +1,6 @@
-/* A line search that stops before a triangle flips: J. Smith, S. Schaefer, Bijective
- * parameterization with free boundaries, 2015; J. Nocedal, S. Wright, Numerical Optimization,
- * section 3.1. */
+/* Moves along a step by a line search that stops before a simplex flips: J. Smith, S. Schaefer,
+ * Bijective parameterization with free boundaries, 2015; J. Nocedal, S. Wright, Numerical
+ * Optimization, section 3.1. */
 #include "base/minmax.h"
 #include "map/energy/newton_parts.h"
 

@@ -1,5 +1,6 @@
-/* Patches are the connected components of the movable points, where two corners of one triangle are
- * connected. They are found with disjoint sets (base/sets.h). */
+/* Finds the patches of a map, and cuts them out one by one. Patches are the connected components of
+ * the movable points, where two corners of one triangle are connected. They are found with disjoint
+ * sets (base/sets.h). */
 #include "map/energy/patches.h"
 
 #include "base/sets.h"

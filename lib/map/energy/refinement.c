@@ -19,7 +19,7 @@ static const double GROWTH = 1.4, STEPS = 6;
 static const double SLOW = 5e-3;
 enum { MOST_STEPS = 20 };
 
-/* For a relaxed map with less energy than this, the gain of a refinement is foreseen. */
+/* For a relaxed map with less energy than this, is_settled() predicts the next gain. */
 static const double NEAR = 5;
 
 static bool may_refine(double n_simplices, const iccp_schedule *schedule, const iccp_work *work,
@@ -30,14 +30,14 @@ static bool may_refine(double n_simplices, const iccp_schedule *schedule, const 
            STEPS * n <= work->left;
 }
 
-/* Whether the next refinement of a map NEAR an isometry is in vain, as its gain falls short of the
- * last one's by the same share as that of the one before. */
+/* Whether the next refinement of a map NEAR an isometry will gain too little. Gains are taken to
+ * fall by the same factor each time, so the next one is gain^2 / gain_before. */
 static bool is_settled(double energy, double least_gain, double gain, double gain_before)
 {
     return energy < NEAR && gain < gain_before && gain * gain < least_gain * gain_before;
 }
 
-/* Refines and takes steps by turns, as long as that pays. */
+/* Refines the mesh and takes steps, again and again, as long as that pays. */
 static icc_status refine_often(const iccp_profile *profile, void *map,
                                const iccp_schedule *schedule, double slow, iccp_work *work,
                                iccp_improvement *improvement, const iccp_env *env)

@@ -1,4 +1,4 @@
-/* Improving a map step by step and mesh by mesh, in the plane and in space. */
+/* Improves a map step by step and mesh by mesh, in the plane and in space. */
 #ifndef ICCP_REFINEMENT_H
 #define ICCP_REFINEMENT_H
 
@@ -11,9 +11,9 @@ enum { ICCP_HIGH_ENERGY = 20 };
 
 /* What plane and space do differently. */
 typedef struct iccp_profile {
-    size_t majorised;  /* the first steps are by SLIM's model */
-    double least_gain; /* a refinement is in vain when it gains less than this share */
-    size_t (*count)(const void *map); /* of simplices */
+    size_t majorised;                 /* so many first steps use SLIM's model */
+    double least_gain;                /* a refinement that gains less than this share was in vain */
+    size_t (*count)(const void *map); /* returns the number of simplices */
     double (*energy)(const void *map, const iccp_env *env);
     icc_status (*descend)(void *map, const iccp_descent *descent, bool both_sides, iccp_work *work,
                           iccp_improvement *improvement, const iccp_env *env);

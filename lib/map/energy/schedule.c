@@ -1,3 +1,4 @@
+/* Sets how far maps are improved: from the caller's options, or by limits of work. */
 #include "map/energy/schedule.h"
 
 #include "base/minmax.h"
@@ -6,15 +7,16 @@
 static const double TOLERANCE = 1e-4;
 enum { ITERATIONS = 60, LEVELS = 16 };
 
-/* Refinements left to us stop at so many times the triangles of the start, or of a SMALL one. */
+/* If the caller sets no limits, refinements stop at MOST_GROWTH times the triangles of the start,
+ * which counts as having at least SMALL. */
 static const double MOST_GROWTH = 4, SMALL = 8000;
 
-/* What improvement left to us may cost, in steps times triangles: so much, and so much for each
- * facet. And as a share of that, relaxing an overlay. */
+/* If the caller sets no limits: the work of improvement, in steps times triangles, and the part of
+ * it that is added for each facet. Relaxing an overlay may take the share RELAXING_SHARE of it. */
 static const double WORK = 3e5, WORK_PER_FACET = 300, RELAXING_SHARE = 0.5;
 
-/* And what all of them together may cost, with what an overlay costs before the first step: as
- * little as it takes to stay within the time that icc_map_create() names. */
+/* The work that all parts may take together, including making an overlay, and its part for each
+ * facet. It is low enough for the time that icc_map_create() names. */
 static const double ALL_WORK = 1.6e6, ALL_PER_FACET = 225;
 
 iccp_allowance iccp_allow(size_t n_facets)

@@ -1,5 +1,6 @@
-/* Finds the eigenvectors v of J^T J; then u follows from J v. The last pair is chosen to make both
- * u and v rotations. So the last value carries the sign of the determinant. */
+/* Decomposes a Jacobian. Finds the eigenvectors v of J^T J; then u follows from J v. The last pair
+ * is chosen to make both u and v rotations. So the last value carries the sign of the
+ * determinant. */
 #include "map/energy/singular.h"
 
 #include "math/jacobi.h"

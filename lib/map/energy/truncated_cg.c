@@ -1,5 +1,6 @@
-/* J. Nocedal, S. Wright, Numerical Optimization, section 7.1, preconditioned by the points'
- * diagonal blocks. In space the factors of a whole mesh would fill up too much. */
+/* Solves Newton's equations roughly by conjugate gradients, preconditioned by the points' diagonal
+ * blocks: J. Nocedal, S. Wright, Numerical Optimization, section 7.1. In space the factors of a
+ * whole mesh would fill up too much. */
 #include "map/energy/truncated_cg.h"
 
 #include "base/minmax.h"

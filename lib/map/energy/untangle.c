@@ -1,5 +1,6 @@
-/* V. Garanzha et al., Foldover-free maps in 50 lines of code, 2021, on patches round what is
- * inverted, larger ones in turn: docs/theory.md, the mesh map. */
+/* Makes inverted simplices positive by Newton steps on the untangling energy: V. Garanzha et al.,
+ * Foldover-free maps in 50 lines of code, 2021. Patches around the inverted simplices move first.
+ * They grow from round to round (docs/theory.md, the mesh map). */
 #include "map/energy/untangle.h"
 
 #include "base/minmax.h"
@@ -10,10 +11,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Rings of neighbours round the inverted simplices that are free to move, 0 means all; steps at
- * most; and steps without fewer inverted simplices after which it is given up. In space, from a
- * start that has little to do with the map, many steps go by before epsilon is small enough for
- * anything to happen. What is left after that in few places, patches mend more often than not. */
+/* One round: how many rings of neighbours around inverted simplices may move (0: all), the most
+ * steps, and after how many steps without fewer inverted simplices the round ends.
+ *
+ * In space, a start may have little to do with the map. Then many steps go by before epsilon is
+ * small enough to have an effect. If few places stay inverted after that, patches mend them more
+ * often than not. */
 typedef struct patches {
     int rings, steps, patience;
 } patches;
@@ -22,18 +25,19 @@ static const patches PLANE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 60, 
 static const patches SPACE[] = {{2, 60, 15}, {5, 60, 15}, {12, 60, 15}, {0, 150, 40},
                                 {2, 60, 15}, {5, 60, 15}, {12, 60, 15}};
 
-/* In space, where more than one tetrahedron in MANY is inverted, patches would cost more than all
- * at once and leave the inverted ones beside them in worse places. */
+/* Patches are not used in space if more than one tetrahedron in MANY is inverted. They would cost
+ * more than moving all points at once, and leave the inverted tetrahedra beside them in worse
+ * places. */
 enum { MANY = 20 };
 
-/* Epsilon's lower bound falls by at least this share a step. Newton's method needs few steps for
- * each epsilon; Garanzha et al. take 0.1 with a slower one. */
+/* Epsilon's lower bound falls by at least this share in each step. Garanzha et al. use 0.1 with a
+ * slower method. Newton's needs few steps for each epsilon. */
 static const double SLOWEST = 0.3;
 
-/* Half of the steps of a round, as far as progress goes. */
+/* Reports of progress take this many steps for half of a round. */
 static const double TYPICAL_STEPS = 10;
 
-/* Inverted; in space not with all corners fixed, where nothing can be done. */
+/* Whether a simplex is inverted and can be mended. In space, one with only fixed corners cannot. */
 static bool is_task(const iccp_simplicial_map *map, size_t simplex)
 {
     return (map->dim == 2 || iccp_simplicial_is_free(map, simplex)) &&
@@ -48,7 +52,8 @@ static size_t count_tasks(const iccp_simplicial_map *map)
     return n;
 }
 
-/* Ring by ring: what has a corner in the last one is in the next. */
+/* Marks the points that may move, ring by ring: the corners of inverted simplices first, then those
+ * of simplices that touch the last ring. */
 static void mark_patches(const iccp_simplicial_map *map, int rings, uint8_t *marks)
 {
     const size_t n = map->dim + 1;
@@ -69,8 +74,8 @@ static void mark_patches(const iccp_simplicial_map *map, int rings, uint8_t *mar
         }
 }
 
-/* Newton steps, each for a smaller epsilon: Garanzha et al.: the faster the energy fell, the faster
- * epsilon goes to zero. */
+/* Takes Newton steps, each with a smaller epsilon. The faster the energy fell, the faster epsilon
+ * goes to zero (Garanzha et al.). */
 static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *work,
                           const iccp_env *env)
 {
@@ -102,7 +107,7 @@ static icc_status descend(iccp_newton *newton, const patches *round, iccp_work *
     return status == ICC_ERR_SOLVER ? ICC_OK : status;
 }
 
-/* The points with movable[v] != 0, or all. */
+/* Moves the points with movable[v] != 0, or all if `movable` is NULL. */
 static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t *movable,
                                    const patches *round, iccp_work *work, const iccp_env *env)
 {
@@ -115,8 +120,8 @@ static icc_status untangle_at_once(const iccp_simplicial_map *map, const uint8_t
     return status;
 }
 
-/* Each patch by itself: its epsilon begins where its own worst triangle asks for it, and it costs
- * nothing any more once it is done. */
+/* Untangles each patch by itself. Its epsilon suits its own worst triangle, and it costs nothing
+ * more once it is positive. */
 static icc_status untangle_one_by_one(const iccp_simplicial_map *map, const uint8_t *movable,
                                       const patches *round, iccp_work *work, const iccp_env *env)
 {
@@ -133,7 +138,7 @@ static icc_status untangle_one_by_one(const iccp_simplicial_map *map, const uint
     return status;
 }
 
-/* `marks`: room for a byte for each point. */
+/* Makes one round. `marks` has a byte for each point. */
 static icc_status untangle_round(const iccp_simplicial_map *map, const patches *round,
                                  uint8_t *marks, iccp_work *work, const iccp_env *env)
 {

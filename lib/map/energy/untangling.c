@@ -1,7 +1,8 @@
-/* V. Garanzha, I. Kaporin, L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, Foldover-free maps in
- * 50 lines of code, 2021. The energy is (1 - s) |J|^2 / (dim chi^(2 / dim)) + s (1 + det^2) / (2
- * chi), where chi stands for the determinant of J. It is taken as a function A(N, D) of N = |J|^2
- * and D = det J.
+/* Computes the untangling energy of one simplex and its derivatives: V. Garanzha, I. Kaporin,
+ * L. Kudryavtseva, F. Protais, N. Ray, D. Sokolov, Foldover-free maps in 50 lines of code, 2021.
+ *
+ * The energy is (1 - s) |J|^2 / (dim chi^(2 / dim)) + s (1 + det^2) / (2 chi), where chi stands for
+ * the determinant of J. It is taken as a function A(N, D) of N = |J|^2 and D = det J.
  *
  * In the plane J is the sum of a rotation scaled by p / sqrt 2 and a reflection scaled by q / sqrt
  * 2. Then N = p^2 + q^2 and D = (p^2 - q^2) / 2. So the Hessian splits into three blocks: turning
