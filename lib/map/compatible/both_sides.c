@@ -1,5 +1,6 @@
-/* Steps that move the images by the energy of the map, and the points by the energy of its inverse.
- * The two energies differ only in how triangles count: by their area before or after the map.
+/* Takes steps that move the images by the energy of the map, and then steps that move the points by
+ * the energy of its inverse. The two energies differ only in how triangles count: by their area
+ * before or after the map.
  *
  * A triangle that is tiny on one side costs next to nothing there, however flat it becomes on the
  * other side. It may become so flat that doubles see no area, and then the inverse has no energy.
@@ -11,14 +12,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Triangles become no flatter than this. What doubles say of a triangle's area is off by so much
- * where it is some 1e-8 of the domain across. */
+/* Triangles become no flatter than this. Rounding changes the roundness of a triangle by about this
+ * much if the triangle is 1e-8 of the domain across. */
 static const double LEAST_ROUNDNESS = 1e-8;
 
 typedef struct retreat {
     iccp_plmap *map;
-    double *before; /* the images that were, */
-    uint8_t *back;  /* of each vertex: that it has it again */
+    double *before; /* the images before the steps */
+    uint8_t *back;  /* of each vertex: 1 if it has its image of before again */
 } retreat;
 
 static double roundness_of(const double *places, const uint32_t *v)
@@ -27,8 +28,9 @@ static double roundness_of(const double *places, const uint32_t *v)
                           places + 2 * (size_t)v[2]);
 }
 
-/* Whether the image of a triangle is too flat, and flatter than it was; or what doubles make of it
- * on one side or the other has no area or no energy. */
+/* Whether the image of a triangle is not positive, or is too flat and flatter than it was. Also
+ * true if the triangle has no area or no finite energy in doubles, for the map or for its
+ * inverse. */
 static bool is_spoilt(const retreat *r, uint32_t triangle)
 {
     const uint32_t *v = r->map->corners.vertex + 3 * (size_t)triangle;
@@ -38,7 +40,7 @@ static bool is_spoilt(const retreat *r, uint32_t triangle)
     return !iccp_quality_is_sound(r->map, v[0], v[1], v[2]);
 }
 
-/* Gives the corners of a triangle the images that they had; false when they all have them. */
+/* Gives the corners of a triangle their images of before. Returns false if all had them already. */
 static bool send_back(const retreat *r, uint32_t triangle)
 {
     bool any = false;
@@ -51,8 +53,9 @@ static bool send_back(const retreat *r, uint32_t triangle)
     return any;
 }
 
-/* Where corners go back their neighbours may become flat: again, until nothing changes. Each round
- * but the last sends a vertex back for good. */
+/* Sends back the corners of spoilt triangles. That may spoil neighbours, so it goes on until
+ * nothing changes. It ends because a vertex that went back stays there. If the energy is then not
+ * lower than before, all go back. */
 static void send_back_spoilt(const retreat *r, double energy_before)
 {
     const size_t n = r->map->n_vertices;

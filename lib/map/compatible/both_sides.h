@@ -1,4 +1,4 @@
-/* Steps for the images of a plane map and for its points, by turns. */
+/* Takes steps for the images of a plane map, and then for its points. */
 #ifndef ICCP_BOTH_SIDES_H
 #define ICCP_BOTH_SIDES_H
 

@@ -12,14 +12,14 @@
 /* Vertices with more neighbours are not merged. */
 enum { MOST_NEIGHBOURS = 64, LOOKS_PER_REPORT = 1 << 14 };
 
-/* No new triangle is flatter than this, unless all that it replaces are flatter. */
+/* A merge makes no triangle flatter than this, unless it replaces one that is at least as flat. */
 static const double LEAST_ROUNDNESS = 1e-4;
 
 typedef struct coarsening {
     const iccp_memory *memory;
     iccp_plmap *map;
     double rise, mean; /* the energy around a vertex may rise by this share, or to this mean */
-    double longest;    /* of new edges */
+    double longest;    /* no new edge is longer than this */
     uint32_t *corner;  /* of each vertex that is left: a corner at it */
     uint32_t *queue;   /* a ring of n_vertices: n_queued vertices from `first` on */
     size_t first, n_queued;
@@ -140,7 +140,7 @@ static void merge(coarsening *o, uint32_t vertex, const star *s, size_t j)
     }
 }
 
-/* Merges vertex after vertex. In the beginning the queue holds all of them. */
+/* Merges vertices until the queue is empty. At first it holds all of them. */
 static icc_status merge_all(coarsening *o, size_t *n_gone, const iccp_env *env)
 {
     const size_t n_vertices = o->map->n_vertices;

@@ -1,4 +1,4 @@
-/* Fewer triangles for a one-to-one plane map. */
+/* Merges vertices of a one-to-one plane map, so that it has fewer triangles. */
 #ifndef ICCP_COARSEN_H
 #define ICCP_COARSEN_H
 
@@ -11,8 +11,9 @@
  * done. */
 icc_status iccp_coarsen(iccp_plmap *map, double rise, size_t *n_gone, const iccp_env *env);
 
-/* The same without the mean: the energy may rise by the share `rise` only. No new edge is longer
- * than `longest`, after the map or before it and stretched. */
+/* Like iccp_coarsen(), but the energy around a vertex may rise by the share `rise` only, and no new
+ * edge is longer than `longest`. Lengths are measured after the map, and before it and
+ * stretched. */
 icc_status iccp_coarsen_within(iccp_plmap *map, double rise, double longest, size_t *n_gone,
                                const iccp_env *env);
 

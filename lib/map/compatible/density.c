@@ -3,7 +3,8 @@
  * it is the longest of both its triangles. Otherwise the search goes on across the longest edge. */
 #include "map/compatible/density.h"
 
-/* Bounds start at so many times the last one, and each is so many times the one before. */
+/* The bound on edges starts at FIRST_BOUND times the wanted length, and each next bound is FALL
+ * times the one before. */
 static const double FIRST_BOUND = 16, FALL = 0.85;
 
 static double length2(const iccp_plmap *map, uint32_t corner)

@@ -1,4 +1,4 @@
-/* Cutting the long edges of a plane map's mesh. */
+/* Cuts the long edges of a plane map's mesh. */
 #ifndef ICCP_DENSITY_H
 #define ICCP_DENSITY_H
 
@@ -9,8 +9,8 @@
  * 4 (area / longest^2) cuts. */
 icc_status iccp_limit_edges(iccp_plmap *map, double longest, const iccp_env *env);
 
-/* The same with bounds that fall to `longest`, so that the longest edges of all come first. Stops
- * at `enough` triangles. */
+/* Like iccp_limit_edges(), but the bound falls step by step to `longest`, so that the longest edges
+ * of all come first. Stops at `enough` triangles. */
 icc_status iccp_refine_longest(iccp_plmap *map, double longest, size_t enough, const iccp_env *env);
 
 #endif

@@ -13,8 +13,8 @@ enum { GRAIN = 256 };
 /* A flip must lower the energy of its two triangles by this share. */
 static const double LEAST_FALL = 1e-3;
 
-/* A flip makes no triangle flatter than this, unless it replaces a flatter one. Flat triangles make
- * Newton's steps short. */
+/* A flip makes no triangle flatter than this, unless it replaces one that is at least as flat. Flat
+ * triangles make Newton's steps short. */
 static const double LEAST_ROUNDNESS = 0.05;
 
 /* Flipping the edge makes triangles x a y and y b x from x a b and y b a. */
@@ -40,7 +40,7 @@ static bool is_better_flipped(const iccp_plmap *map, uint32_t corner)
 typedef struct search {
     iccp_plmap *map;
     size_t *changed;    /* of each triangle: the test after which it changed last, or 0 */
-    size_t *near;       /* the same for the triangle or a neighbour */
+    size_t *near;       /* of each triangle: the test after which it or a neighbour changed last */
     uint8_t *is_better; /* of each corner, for the mesh at the beginning; NULL: not known */
 } search;
 
@@ -54,7 +54,7 @@ static icc_status look_ahead(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
-/* The same result as is_better_flipped(), at test number `look`. */
+/* Returns is_better_flipped() at test number `look`, from an earlier test if that still holds. */
 static bool is_better_now(const search *s, uint32_t corner, size_t look)
 {
     const iccp_corners *c = &s->map->corners;

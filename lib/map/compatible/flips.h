@@ -1,4 +1,4 @@
-/* Flipping edges of a one-to-one plane map for a lower energy. */
+/* Flips edges of a one-to-one plane map for a lower energy. */
 #ifndef ICCP_FLIPS_H
 #define ICCP_FLIPS_H
 

@@ -1,5 +1,5 @@
-/* Refines a plane map where most of its energy is, as map/energy/refinement.c asks (docs/theory.md,
- * the mesh map). */
+/* Improves a plane map (docs/theory.md, the mesh map). map/energy/refinement.c decides when to take
+ * steps and when to refine. This file cuts the triangles that have most of the energy. */
 #include "map/compatible/improve.h"
 
 #include "base/sort.h"
@@ -11,18 +11,18 @@
 
 #include <math.h>
 
-/* First steps with SLIM's model, which gets far from a bad start; then Newton's, which
- * converges. */
+/* The first steps use SLIM's model, which gets far from a bad start. Later steps use the true
+ * Hessian, which converges. */
 enum { MAJORISED_STEPS = 3 };
 
 /* A refinement cuts the triangles that carry EXCESS_SHARE of the energy above an isometry's, but at
  * most MOST_CUT of all triangles. */
 static const double EXCESS_SHARE = 0.7, MOST_CUT = 0.2;
 
-/* Before the first step it cuts them only if they are at most this share of all. */
+/* unlock() cuts them before the first step, but only if they are at most this share of all. */
 static const double VERY_FEW = 0.002;
 
-/* A refinement in vain gains less than this share. */
+/* A refinement that gains less than this share was in vain. */
 static const double LEAST_GAIN = 0.01;
 
 /* Triangles in a chunk for one thread. */
@@ -62,7 +62,8 @@ static int by_excess(const void *a, const void *b)
     return (p->triangle < q->triangle) - (p->triangle > q->triangle);
 }
 
-/* The corner that faces the longest edge. Squared lengths before and after the map are added. */
+/* Returns the corner that faces the longest edge, by the sum of the squared lengths before and
+ * after the map. */
 static uint32_t longest_edge(const iccp_plmap *map, uint32_t triangle)
 {
     uint32_t best = 3 * triangle;

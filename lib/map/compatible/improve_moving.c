@@ -1,4 +1,6 @@
-/* Triangles with far more energy than others are about to lock: the vertices that they hold cannot
+/* Changes the mesh of a plane map near triangles that are tense.
+ *
+ * Triangles with far more energy than others are about to lock: the vertices that they hold cannot
  * move on, however much room there is around them. So their edges are cut, which gives the map more
  * freedom. Edges flip where that lowers the energy, and nearby points and images move by turns. In
  * a mesh with many triangles, vertices that matter little merge. */
@@ -33,7 +35,7 @@ enum { RINGS = 2 };
  * more. */
 static const double RISE = 0.06;
 
-/* Steps on each side. */
+/* Steps on each side of the map. */
 static const iccp_descent RELAXATION = {0, 1, 1e-2, 0, false};
 
 static double density_of(const iccp_simplicial_map *map, size_t triangle)
@@ -45,7 +47,7 @@ static double density_of(const iccp_simplicial_map *map, size_t triangle)
     return iccp_dirichlet_energy2(element, image) / element[0];
 }
 
-/* The corner that faces the longest edge. */
+/* Returns the corner that faces the longest edge of a triangle. */
 static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle, double *length2)
 {
     const uint32_t *v = map->corners.vertex;
@@ -61,7 +63,7 @@ static uint32_t longest_of(const iccp_plmap *map, uint32_t triangle, double *len
     return best;
 }
 
-/* Whether a triangle that may be cut is extreme. */
+/* Whether any triangle is extreme, among those long enough to be cut. */
 static bool any_is_extreme(const iccp_plmap *map, double tense, double shortest)
 {
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);

@@ -1,4 +1,4 @@
-/* Keeping the mesh of a plane map fit while its fixed vertices move. */
+/* Changes the mesh of a plane map while its fixed vertices move, so that they can go on. */
 #ifndef ICCP_IMPROVE_MOVING_H
 #define ICCP_IMPROVE_MOVING_H
 
@@ -7,8 +7,8 @@
 
 /* How fine a mesh should be. */
 typedef struct iccp_grain {
-    double longest; /* no edge becomes longer than this, or much shorter */
-    size_t many;    /* triangles: with more of them, vertices merge */
+    double longest; /* no merge makes a longer edge, and much shorter edges are not cut */
+    size_t many;    /* vertices merge if there are more triangles than this */
 } iccp_grain;
 
 /* Changes the mesh near triangles that have far more energy than others: cuts and flips edges, and

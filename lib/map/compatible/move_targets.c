@@ -4,7 +4,7 @@
 
 #include "map/energy/continuation.h"
 
-/* A part of the way that is shorter counts as blocked. */
+/* The way counts as blocked if a part goes less than this share of it. */
 static const double BLOCKED = 0.35;
 
 typedef struct tended {

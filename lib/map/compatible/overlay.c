@@ -1,9 +1,10 @@
-/* The overlay of two triangulated polygons: B. Aronov, R. Seidel, D. Souvaine, On compatible
- * triangulations of simple polygons, 1993. All diagonals of both polygons are drawn in one convex
- * polygon. The order of their ends tells which of them cross, and in which order. So integers
- * decide everything. Each crossing becomes a vertex. The cells between the diagonals are convex in
- * both polygons wherever these vertices lie on the diagonals, as long as their order is kept. So
- * they are spread evenly.
+/* Makes the overlay of two triangulated polygons: B. Aronov, R. Seidel, D. Souvaine, On compatible
+ * triangulations of simple polygons, 1993.
+ *
+ * All diagonals of both polygons are drawn in one convex polygon. The order of their ends tells
+ * which of them cross, and in which order. So integers decide everything. Each crossing becomes a
+ * vertex. These vertices may lie anywhere on the diagonals if their order is kept: the cells
+ * between the diagonals are convex in both polygons. So they are spread evenly.
  *
  * The code walks along the source's diagonals through the target's triangles. Then it cuts each
  * triangle along the pieces of diagonals that run through it. */
@@ -13,10 +14,10 @@
 
 #include <string.h>
 
-/* n corners have up to n^2 crossings. */
+/* Polygons with n corners can have n^2 crossings. More than these are refused. */
 enum { MOST_CROSSINGS = 100000, MOST_CROSSINGS_PER_CORNER = 100, CHORDS_PER_REPORT = 1024 };
 
-/* The crossing of a diagonal of each polygon. It is vertex n + its index of the result. */
+/* The crossing of a source diagonal and a target diagonal. It becomes vertex n + its index. */
 typedef struct crossing {
     uint32_t edge; /* of the target: the smaller of the two corners that face it */
     uint32_t vertex;
@@ -33,7 +34,7 @@ typedef struct overlay {
     const iccp_memory *memory;
     uint32_t n;
     iccp_ngon side[2]; /* source, target */
-    uint32_t *corner;  /* n: at each vertex, in the target's triangle on the edge after it */
+    uint32_t *corner;  /* n: from find_starts() */
     crossing *crossings;
     piece *pieces;
     size_t n_crossings, crossing_room, n_pieces, piece_room;
@@ -83,7 +84,7 @@ static icc_status push_crossing(overlay *o, const crossing *c)
     return ICC_OK;
 }
 
-/* The target's corner at i whose opposite edge the diagonal from i to j crosses first.
+/* Returns the target's corner at i whose opposite edge the diagonal from i to j crosses first.
  * ICCP_NO_NEIGHBOUR if i and j are joined by an edge. */
 static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
 {
@@ -319,7 +320,8 @@ static icc_status cut_all(overlay *o, const iccp_env *env)
 
 /* ---- all of it ---- */
 
-/* Finds where walks begin: at each vertex the corner in the triangle on the edge after it. */
+/* Finds where walks begin: for each vertex, its corner in the target triangle at the boundary edge
+ * that follows it. */
 static icc_status find_starts(overlay *o)
 {
     const iccp_ngon *target = &o->side[1];

@@ -1,8 +1,11 @@
-/* A disc of triangles has a one-to-one map if its border is a simple polygon before and after: the
- * overlay of a triangulation of the one and of the other (B. Aronov, R. Seidel, D. Souvaine, On
- * compatible triangulations of simple polygons, 1993). So a map that is inverted in a few places
- * needs an overlay there only. In each round a patch is what lies within a number of rings around
- * inverted triangles. The rings double from round to round, and patches that touch become one. */
+/* Replaces patches around inverted triangles by overlays: B. Aronov, R. Seidel, D. Souvaine, On
+ * compatible triangulations of simple polygons, 1993.
+ *
+ * A disc of triangles whose border is a simple polygon before and after the map has a one-to-one
+ * map: the overlay of the triangulations of the two polygons. So a map that is inverted in a few
+ * places needs overlays there only. In each round, the patches are the triangles within a number of
+ * rings around inverted ones. The rings double from round to round, and patches that touch become
+ * one. */
 #include "map/compatible/overlay_patches.h"
 
 #include "base/sets.h"
@@ -72,7 +75,8 @@ static void mark_corners(patches *p, size_t t)
         p->is_near[p->map->corners.vertex[3 * t + k]] = 1;
 }
 
-/* Adds the triangles that touch one that is near, and says so in patch_of: 0 or NONE. */
+/* Adds the next ring. Then patch_of is 0 for triangles within the rings before this one or touching
+ * them, and NONE for others. */
 static void add_ring(patches *p)
 {
     const uint32_t *const v = p->map->corners.vertex;
@@ -95,7 +99,7 @@ static void enclose(patches *p, size_t rings)
         add_ring(p);
 }
 
-/* Triangles that share an edge are in one patch. */
+/* Numbers the patches. Triangles that share an edge are in one patch. */
 static icc_status tell_apart(patches *p, const iccp_memory *memory)
 {
     const iccp_corners *const corners = &p->map->corners;
@@ -152,7 +156,7 @@ static uint32_t corner_of(const patches *p, const patch *own, size_t i)
     return 3 * p->order[own->first + i / 3] + (uint32_t)(i % 3);
 }
 
-/* The corners of all borders together. */
+/* Counts the corners of each border. Returns how many all borders have together. */
 static size_t count_corners(patches *p)
 {
     size_t n = 0;
@@ -207,7 +211,7 @@ static bool read_border(const patches *p, const patch *own)
 
 /* ---- overlays ---- */
 
-/* The overlay of a patch as a map of its own, whose border is fixed. */
+/* Makes a map of its own from the overlay of a patch. The border is fixed. */
 static icc_status fill(iccp_plmap *filled, size_t n_border, const iccp_overlay *overlay,
                        double stretch, const iccp_memory *memory)
 {
@@ -296,7 +300,7 @@ static bool is_kept(const patches *p, size_t triangle)
     return k == NONE || p->patch[k].filled.n_vertices == 0;
 }
 
-/* Numbers the vertices that stay. Returns how many they are. */
+/* Numbers the vertices that stay, and returns their number. */
 static size_t number(patches *p)
 {
     size_t n = 0;
@@ -306,7 +310,7 @@ static size_t number(patches *p)
     return n;
 }
 
-/* Adds the vertices and triangles of a filled patch behind those that are there. */
+/* Appends the vertices and triangles of a filled patch to the result. */
 static void append(iccp_plmap *result, const patches *p, const patch *own)
 {
     const iccp_plmap *const filled = &own->filled;
@@ -322,7 +326,7 @@ static void append(iccp_plmap *result, const patches *p, const patch *own)
     result->corners.n_triangles += filled->corners.n_triangles;
 }
 
-/* Puts the filled patches in the place of their triangles. */
+/* Replaces the triangles of each filled patch by its overlay. */
 static icc_status splice(patches *p, const iccp_env *env)
 {
     iccp_plmap *const map = p->map, result;
@@ -357,7 +361,7 @@ static icc_status splice(patches *p, const iccp_env *env)
     return status;
 }
 
-/* One round. *fits: whether the borders have at most `most` corners. */
+/* Makes one round. *fits: whether the borders have at most `most` corners. */
 static icc_status overlay_round(iccp_plmap *map, size_t rings, size_t most, bool *fits,
                                 iccp_work *work, const iccp_env *env)
 {

@@ -23,7 +23,7 @@ static const double LEAST_GAIN = 0.05;
 /* Steps on each side in a round. */
 static const iccp_descent DESCENT = {3, 10, 1e-3, 0, false};
 
-/* The overlay of the two cages. */
+/* Makes the overlay of the two cages. */
 static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_domain *target,
                           const iccp_env *env)
 {
@@ -50,7 +50,7 @@ static icc_status overlay(iccp_plmap *map, const icc_domain *source, const icc_d
     return status;
 }
 
-/* Untangles what rounding has spoilt, on both sides. */
+/* Untangles the triangles that rounding has inverted, on both sides. */
 static icc_status mend(iccp_plmap *map, iccp_work *work, const iccp_env *env)
 {
     icc_status status = ICC_OK;

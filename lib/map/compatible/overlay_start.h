@@ -1,11 +1,11 @@
-/* A start for mesh maps between any two polygons. It needs no charts. */
+/* Makes a start for mesh maps between any two polygons. It needs no charts. */
 #ifndef ICCP_OVERLAY_START_H
 #define ICCP_OVERLAY_START_H
 
 #include "map/compatible/plmap.h"
 #include "map/energy/work.h"
 
-/* What a crossing costs in iccp_work until it is merged with others: a microsecond or two. */
+/* The work that a crossing costs until it is merged with others. It takes 1 to 2 microseconds. */
 enum { ICCP_CROSSING_COST = 4 };
 
 /* Merging a vertex of an overlay may raise the energy around it by this share. */

@@ -1,4 +1,4 @@
-/* A piecewise linear map as an object, and cuts of its edges. */
+/* Makes piecewise linear maps of the plane, tests them, and cuts their edges. */
 #include "map/compatible/plmap.h"
 
 #include "math/predicates.h"
@@ -136,8 +136,8 @@ static void middle_of(const double *a, const double *b, double m[2])
     m[1] = 0.5 * a[1] + 0.5 * b[1];
 }
 
-/* The lower one has the segment for its facet; the other has, too, or begins the next segment of
- * the same line. */
+/* The lower of the two vertices has the segment as its facet. The other has it, too, or is where
+ * the next segment of the same line begins. */
 bool iccp_plmap_on_line(const iccp_plmap *map, uint32_t a, uint32_t b, uint32_t *facet,
                         double *from, double *to)
 {

@@ -2,6 +2,9 @@
  *
  * Words of this folder
  * - point, image: the place of a vertex before and after the map.
+ * - plmap: a piecewise linear map as an editable mesh with neighbours. mesh_map adds what a
+ *   finished map needs (map/plane/mesh_map.h). simplicial map: a view of either, in the plane or in
+ *   space (map/energy/simplicial_map.h).
  * - positive triangle: one that is counter-clockwise, by the exact sign of its determinant.
  * - fixed vertex: one of the boundary, of a line or of a point, whose image is prescribed.
  * - chord: an inner edge between two fixed vertices.
@@ -48,7 +51,7 @@ typedef struct iccp_plmap {
     double *points;  /* 2 n_vertices: local in the source */
     double *images;  /* 2 n_vertices: local in the target */
     uint8_t *fixed;  /* of each vertex: as above */
-    uint32_t *facet; /* of fixed vertices: the source's facet (domain/features.h) */
+    uint32_t *facet; /* of fixed vertices: a facet of the source (domain/features.h) */
     double *along;   /* of fixed vertices: their place on that facet, in [0, 1] */
     double stretch;  /* multiplies lengths of the source in energies, so that both areas are
                             the same and energies measure shape alone */
@@ -79,8 +82,8 @@ static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t cor
     return map->points + 2 * (size_t)map->corners.vertex[corner];
 }
 
-/* The square of the distance of two vertices: after the map, or before it and stretched, whichever
- * is longer. */
+/* Returns the square of an edge's length after the map, or before it and stretched, whichever is
+ * longer. */
 static inline double iccp_plmap_length2(const iccp_plmap *map, uint32_t a, uint32_t b)
 {
     const size_t i = 2 * (size_t)a, j = 2 * (size_t)b;
@@ -89,7 +92,7 @@ static inline double iccp_plmap_length2(const iccp_plmap *map, uint32_t a, uint3
                     iccp_vec_distance2(2, map->images + i, map->images + j));
 }
 
-/* A view of the map for what does not need neighbours. It ends when the mesh changes. */
+/* Returns a view of the map without neighbours. It is valid until the mesh changes. */
 static inline iccp_simplicial_map iccp_plmap_simplicial(const iccp_plmap *map)
 {
     return (iccp_simplicial_map){.dim = 2,
@@ -124,7 +127,7 @@ static inline void iccp_plmap_swap(iccp_plmap *map)
     map->stretch = 1 / map->stretch;
 }
 
-/* ICCP_ALONG or ICCP_AGAINST for the facets of a domain without features. */
+/* Returns ICCP_ALONG or ICCP_AGAINST for the boundary facets of a domain without features. */
 static inline uint8_t iccp_plmap_sense(const icc_domain *domain)
 {
     return domain->orientation > 0 ? ICCP_ALONG : ICCP_AGAINST;
