@@ -54,8 +54,8 @@ static bool send_back(const retreat *r, uint32_t triangle)
 }
 
 /* Sends back the corners of spoilt triangles. That may spoil neighbours, so it goes on until
- * nothing changes. It ends because a vertex that went back stays there. If the energy is then not
- * lower than before, all go back. */
+ * nothing changes. It ends because a vertex that went back stays there. If the energy is then
+ * higher than before, all go back. */
 static void send_back_spoilt(const retreat *r, double energy_before)
 {
     const size_t n = r->map->n_vertices;
