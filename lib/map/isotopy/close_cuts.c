@@ -1,5 +1,5 @@
-/* Two edges of the cut polygon that are partners become one edge. Their corners become common
- * vertices, which are found with disjoint sets (base/sets.h). */
+/* Closes the cuts of an overlay. Two edges of the cut polygon that are partners become one edge.
+ * Their corners become common vertices, which are found with disjoint sets (base/sets.h). */
 #include "map/isotopy/close_cuts.h"
 
 #include "base/sets.h"

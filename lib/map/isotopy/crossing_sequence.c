@@ -1,6 +1,7 @@
-/* Paths are compared by the edges that they cross, as in M. Dehn's proof that curves on surfaces
- * can be told apart (1912). The triangulation has no vertices inside the domain. So its universal
- * cover is a tree of triangles, where only one shortest path joins two triangles.
+/* Finds and compares sequences of crossings. Paths are compared by the edges that they cross, as in
+ * M. Dehn's proof that curves on surfaces can be told apart (1912). The triangulation has no
+ * vertices inside the domain. So its universal cover is a tree of triangles, where only one
+ * shortest path joins two triangles.
  *
  * A polyline is followed as if its bends were moved by an infinitesimal vector (1, e), where e is
  * smaller still: H. Edelsbrunner, E. P. Muecke, Simulation of simplicity, 1990. So the polyline

@@ -1,6 +1,6 @@
-/* The inside of a domain is triangulated with walls, cuts and diagonals between vertices. It is
- * then parted along all walls and cuts. The result is one polygon, because the cuts join the
- * components to a tree. */
+/* Cuts a domain open to one polygon. The inside of the domain is triangulated with walls, cuts and
+ * diagonals between vertices. It is then parted along all walls and cuts. The result is one
+ * polygon, because the cuts join the components to a tree. */
 #include "map/isotopy/cut_polygon.h"
 
 #include <string.h>

@@ -1,7 +1,7 @@
-/* R. C. Prim, Shortest connection networks and some generalizations, 1957. The next cut is the
- * shortest one that joins another component to the components joined before. The length of a cut
- * depends on the cuts that it has to go around. So it is computed only when the cut comes first
- * by its known lower bound.
+/* Chooses cuts that join all components: R. C. Prim, Shortest connection networks and some
+ * generalizations, 1957. The next cut is the shortest one that joins another component to the
+ * components joined before. The length of a cut depends on the cuts that it has to go around. So it
+ * is computed only when the cut comes first by its known lower bound.
  *
  * The path in the source decides between which walls and cuts the path in the target leaves and
  * arrives. Then each point there has only one image under a map that takes one path to the

@@ -1,4 +1,4 @@
-/* The bare triangulations of two domains whose features correspond. */
+/* Makes the bare triangulations of two domains whose features correspond. */
 #include "map/isotopy/domain_pair.h"
 
 #include <math.h>

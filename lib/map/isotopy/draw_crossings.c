@@ -1,4 +1,7 @@
-/* Two paths that cross the same edge cross it in a certain order. The place where they part, ahead
+/* Draws paths from the edges that they cross: finds their order on each edge, and a place for each
+ * crossing.
+ *
+ * Two paths that cross the same edge cross it in a certain order. The place where they part, ahead
  * or behind, tells the order. If the paths do not cross each other, each such place tells the same.
  * M. Schaefer, E. Sedgwick, D. Stefankovic, Algorithms for normal curves and surfaces, 2002,
  * represent curves by such sequences. */

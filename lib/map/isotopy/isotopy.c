@@ -1,4 +1,6 @@
-/* Two maps are isotopic exactly if each path of a tree that joins all components has isotopic
+/* Finds the isotopy class of a map, compares classes, and moves them with a target.
+ *
+ * Two maps are isotopic exactly if each path of a tree that joins all components has isotopic
  * images under both. Two paths are isotopic exactly if their reduced sequences of crossed edges are
  * equal (map/isotopy/crossing_sequence.h). */
 #include "map/isotopy/isotopy.h"

@@ -1,7 +1,8 @@
-/* E. W. Dijkstra, A note on two problems in connexion with graphs, 1959, on the middles of the
- * edges of a triangulation. A laid path splits the edges that it crosses and so becomes edges
- * itself. The rest is again made of triangles for later paths. It stays connected as long as the
- * paths close no ring. Only combinatorics count, so no exact positions are needed. */
+/* Finds shortest paths by way of the middles of the edges of a triangulation: E. W. Dijkstra, A
+ * note on two problems in connexion with graphs, 1959. A laid path splits the edges that it crosses
+ * and so becomes edges itself. The rest is again made of triangles for later paths. It stays
+ * connected as long as the paths close no ring. Only combinatorics count, so no exact positions are
+ * needed. */
 #include "map/isotopy/path_search.h"
 
 #include "math/elementary.h"

@@ -1,4 +1,4 @@
-/* Shortest paths inside a domain with features, such that no path crosses another. */
+/* Finds shortest paths inside a domain with features. No path crosses another. */
 #ifndef ICCP_PATH_SEARCH_H
 #define ICCP_PATH_SEARCH_H
 

@@ -1,7 +1,8 @@
-/* A kinetic triangulation, as in L. Guibas, D. Russel, An empirical comparison of techniques for
- * updating Delaunay triangulations, 2004. It stays valid until a triangle would become flat. Well
- * before that, edges flip towards the Delaunay triangulation. A flip changes the crossings of a
- * path only inside its two triangles. Walls never flip. */
+/* Moves paths along with vertices in a kinetic triangulation, as in L. Guibas, D. Russel, An
+ * empirical comparison of techniques for updating Delaunay triangulations, 2004. It stays valid
+ * until a triangle would become flat. Well before that, edges flip towards the Delaunay
+ * triangulation. A flip changes the crossings of a path only inside its two triangles. Walls never
+ * flip. */
 #include "map/isotopy/sequence_motion.h"
 
 #include "base/minmax.h"

@@ -1,7 +1,7 @@
-/* A funnel finds the shortest path through a sequence of gates: D. T. Lee, F. P. Preparata,
- * Euclidean shortest paths in the presence of rectilinear barriers, 1984. Each path has its own
- * gate on each edge that it crosses. The gates on an edge are disjoint and do not reach its ends,
- * so paths meet neither one another nor a vertex. */
+/* Draws each path as the shortest one through its sequence of gates, by a funnel: D. T. Lee, F. P.
+ * Preparata, Euclidean shortest paths in the presence of rectilinear barriers, 1984. Each path has
+ * its own gate on each edge that it crosses. The gates on an edge are disjoint and do not reach its
+ * ends, so paths meet neither one another nor a vertex. */
 #include "map/isotopy/shorten.h"
 
 #include "math/elementary.h"

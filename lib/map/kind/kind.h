@@ -1,7 +1,7 @@
 /* The map object, and the table of operations that each kind of map provides. What all kinds share
  * is written once in lib/map, on top of the table.
  *
- * Legend of lib/map/kind. Begin with iccp_map_kind.
+ * Words of this folder. Begin with iccp_map_kind.
  * - kind: a table of operations. Plane and solid are the mesh maps (ICC_MAP_MESH) in two and three
  *   dimensions. A curve map goes point by point through two charts (ICC_MAP_CURVES).
  * - state: the data of a map that only its kind knows.

@@ -1,6 +1,8 @@
-/* Scan conversion is correct up to rounding, and its intervals are half-open. Domains are closed,
- * and points are located in them exactly. The few pixels where this can matter are decided one by
- * one. */
+/* Decides the pixels close to the boundary one by one.
+ *
+ * Scan conversion is correct up to rounding, and its intervals are half-open. Domains are closed,
+ * and points are located in them exactly. Only few pixels are so close to the boundary that this
+ * can matter. */
 #include "map/picture/boundary_pixels.h"
 
 #include "base/minmax.h"

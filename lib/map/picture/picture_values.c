@@ -1,6 +1,6 @@
-/* Linear interpolation, and cubic interpolation after R. Keys, Cubic Convolution Interpolation for
- * Digital Image Processing, 1981, which is exact for quadratic functions. Pixels at the edge are
- * continued beyond it.
+/* Interpolates values, linearly or cubically. Cubic interpolation is that of R. Keys, Cubic
+ * Convolution Interpolation for Digital Image Processing, 1981. It is exact for quadratic
+ * functions. Pixels at the edge are continued beyond it.
  *
  * A sample is missing if the pixel that contains the place is missing. So the known area neither
  * grows nor shrinks. The value is interpolated from the known pixels around, and their weights are

@@ -1,4 +1,4 @@
-/* The kernels in plain C, for every format.
+/* Samples pictures of every format in plain C: interpolates, gathers and stores.
  *
  * Bilinear interpolation is done in integers, so a position on a pixel's centre gives its colour
  * exactly.

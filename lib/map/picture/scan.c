@@ -1,7 +1,8 @@
-/* Scan conversion with half-open intervals: Foley, van Dam, Feiner and Hughes, Computer Graphics,
- * section 3.6. Two triangles that share an edge compute its crossing with a row from the same
- * numbers, always from its lower end. So there is neither a gap nor an overlap between them. The
- * order of the corners decides which edge is the left one, and rounded crossings do not.
+/* Finds the pixels of a triangle by scan conversion with half-open intervals: Foley, van Dam,
+ * Feiner and Hughes, Computer Graphics, section 3.6. Two triangles that share an edge compute its
+ * crossing with a row from the same numbers, always from its lower end. So there is neither a gap
+ * nor an overlap between them. The order of the corners decides which edge is the left one, and
+ * rounded crossings do not.
  *
  * Positions in the source are interpolated along the edges and then along the row. So they stay
  * between the corners even in the thinnest triangle. */

@@ -1,4 +1,6 @@
-/* A mesh map's inverse is one affine map for each triangle of the target. So pictures are drawn
+/* Warps a picture by a mesh map, triangle by triangle.
+ *
+ * A mesh map's inverse is one affine map for each triangle of the target. So pictures are drawn
  * triangle by triangle and row by row, without a search for the triangle of a pixel.
  *
  * A triangle that shrinks the picture is sampled more finely, and its samples are gathered. A pixel

@@ -1,7 +1,7 @@
-/* Every pixel of the target takes its colour from the origin of its centre. The map shrinks the
- * picture where neighbouring centres have origins more than a pixel apart. There the pixel is the
- * mean of a grid of samples, each mapped back on its own. So nothing from outside the source domain
- * or from the far side of a fold gets in. */
+/* Warps a picture by any map, pixel by pixel. Every pixel of the target takes its colour from the
+ * origin of its centre. The map shrinks the picture where neighbouring centres have origins more
+ * than a pixel apart. There the pixel is the mean of a grid of samples, each mapped back on its
+ * own. So nothing from outside the source domain or from the far side of a fold gets in. */
 #include "map/picture/warp_points.h"
 
 #include "base/minmax.h"
