@@ -1,4 +1,5 @@
-/* Heapsort: J. W. J. Williams, Algorithm 232, 1964; R. W. Floyd, Algorithm 245, 1964. */
+/* Sorts arrays without allocation, by heapsort: J. W. J. Williams, Algorithm 232, 1964; R. W.
+ * Floyd, Algorithm 245, 1964. */
 #include "base/sort.h"
 
 enum { DIGIT_BITS = 9 };

@@ -1,4 +1,5 @@
-/* Source: P. Wolfe, Finding the Nearest Point in a Polytope, Mathematical Programming 11, 1976.
+/* Finds the point of a convex hull that is nearest to the origin. Source: P. Wolfe, Finding the
+ * Nearest Point in a Polytope, Mathematical Programming 11, 1976.
  *
  * A corral is a simplex of the given points. It changes until it holds the nearest point. */
 #include "field/minnorm.h"

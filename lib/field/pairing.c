@@ -1,6 +1,7 @@
-/* Source: S. Schaefer, T. McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM
- * Transactions on Graphics 25, 2006. The point moves by the affine map that fits the boundary
- * best, with more weight on near facets. */
+/* Estimates where a point inside a domain goes when the boundary moves. Source: S. Schaefer, T.
+ * McPhail, J. Warren, Image Deformation Using Moving Least Squares, ACM Transactions on Graphics
+ * 25, 2006. The point moves by the affine map that fits the boundary best, with more weight on near
+ * facets. */
 #include "field/pairing.h"
 
 #include "math/elementary.h"

@@ -1,6 +1,6 @@
-/* Both surfaces are drawn on the sphere (match/sphere_pair.h) and cut by each other
- * (match/common_mesh/sphere_overlay.h), which gives them the same triangles. Then vertices that are
- * not needed are removed (match/common_mesh/simplify_apart.h). */
+/* Matches two closed surfaces in space. Both surfaces are drawn on the sphere (match/sphere_pair.h)
+ * and cut by each other (match/common_mesh/sphere_overlay.h), which gives them the same triangles.
+ * Then vertices that are not needed are removed (match/common_mesh/simplify_apart.h). */
 #include "match/surfaces.h"
 
 #include "base/error.h"

@@ -1,6 +1,6 @@
-/* The boxes of a tree follow triangles that move: C. Ericson, Real-Time Collision Detection,
- * section 6.3.4. Here boxes only grow, because a triangle stays close to the triangles that it
- * replaced. */
+/* Finds out whether a changed surface would meet itself. The boxes of a tree follow triangles that
+ * move: C. Ericson, Real-Time Collision Detection, section 6.3.4. Here boxes only grow, because a
+ * triangle stays close to the triangles that it replaced. */
 #include "match/common_mesh/clearance.h"
 
 #include "domain/simplicial.h"

@@ -1,6 +1,7 @@
-/* Based on: J. Cohen, D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings,
- * 1997. Each point of the given surface keeps a partner on the coarser one. So only the
- * surroundings of a change have to be measured. */
+/* Keeps the points of a surface assigned to a coarser one while that changes. Based on: J. Cohen,
+ * D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings, 1997. Each point of
+ * the given surface keeps a partner on the coarser one. So only the surroundings of a change have
+ * to be measured. */
 #include "match/common_mesh/covering.h"
 
 #include "match/surface/corner_angle.h"

@@ -1,8 +1,9 @@
-/* Based on: H. Hoppe, T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Mesh Optimization, 1993. It
- * makes three kinds of changes: a collapse, a flip, and a move of a vertex. A change is made if the
- * surface stays close enough. Here there are two surfaces at once. When an edge is collapsed, a
- * vertex may take its place on one surface from one end and on the other surface from the other
- * end. So vertices of the two surfaces become one. */
+/* Makes two surfaces with common triangles coarser and their triangles rounder. Based on: H. Hoppe,
+ * T. DeRose, T. Duchamp, J. McDonald, W. Stuetzle, Mesh Optimization, 1993. There are three kinds
+ * of changes: a collapse, a flip, and a move of a vertex. A change is made if the surface stays
+ * close enough. Here there are two surfaces at once. When an edge is collapsed, a vertex may take
+ * its place on one surface from one end and on the other surface from the other end. So vertices of
+ * the two surfaces become one. */
 #include "match/common_mesh/optimise_shape.h"
 
 #include "base/heap.h"

@@ -1,5 +1,6 @@
-/* A graph on a surface is described by the cyclic order of the edges at each node: J. Edmonds, A
- * Combinatorial Representation for Polyhedral Surfaces, 1960. */
+/* Numbers the pieces of the edges of two drawings that cut each other, and puts them in order
+ * around vertices and crossings. A graph on a surface is described by the cyclic order of the edges
+ * at each node: J. Edmonds, A Combinatorial Representation for Polyhedral Surfaces, 1960. */
 #include "match/common_mesh/overlay_darts.h"
 
 /* The first dart of a half-edge. An edge of both drawings has the darts of the first drawing. */

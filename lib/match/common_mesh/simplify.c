@@ -1,7 +1,8 @@
-/* Based on: J. Cohen, D. Manocha, M. Olano, Simplifying Polygonal Models Using Successive Mappings,
- * 1997; for the planes of a vertex, R. Ronfard, J. Rossignac, Full-range Approximation of
- * Triangulated Polyhedra, 1996. A vertex that replaces another must be close to all planes that the
- * other stood for, and stands for them from then on. Here for two surfaces at once. */
+/* Makes two surfaces with common triangles coarse. Based on: J. Cohen, D. Manocha, M. Olano,
+ * Simplifying Polygonal Models Using Successive Mappings, 1997; for the planes of a vertex, R.
+ * Ronfard, J. Rossignac, Full-range Approximation of Triangulated Polyhedra, 1996. A vertex that
+ * replaces another must be close to all planes that the other stood for, and stands for them from
+ * then on. Here both surfaces must agree to each change. */
 #include "match/common_mesh/simplify.h"
 
 #include "base/heap.h"

@@ -1,6 +1,6 @@
-/* Based on: M. Garland, P. Heckbert, Surface Simplification Using Quadric Error Metrics, 1997; with
- * half-edge collapses, L. Kobbelt, S. Campagna, H.-P. Seidel, A General Framework for Mesh
- * Decimation, 1998. */
+/* Makes a surface coarse by collapses of edges. Based on: M. Garland, P. Heckbert, Surface
+ * Simplification Using Quadric Error Metrics, 1997; with half-edge collapses, L. Kobbelt, S.
+ * Campagna, H.-P. Seidel, A General Framework for Mesh Decimation, 1998. */
 #include "match/sphere/decimate.h"
 
 #include "base/heap.h"

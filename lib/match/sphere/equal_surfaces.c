@@ -1,6 +1,7 @@
-/* One half-edge and its image determine all others (L. Weinberg, A Simple and Efficient Algorithm
- * for Determining Isomorphism of Planar Triply Connected Graphs, 1966). A half-edge from a vertex
- * with the most neighbours is taken. Each possible image of it is followed. */
+/* Tells whether two surfaces are the same except for motion, size and numbering. One half-edge and
+ * its image determine all others (L. Weinberg, A Simple and Efficient Algorithm for Determining
+ * Isomorphism of Planar Triply Connected Graphs, 1966). A half-edge from a vertex with the most
+ * neighbours is taken. Each possible image of it is followed. */
 #include "match/sphere/equal_surfaces.h"
 
 #include "match/sphere/sphere.h"

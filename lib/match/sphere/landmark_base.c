@@ -1,6 +1,7 @@
-/* Based on: V. Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models,
- * 2004, for a base that both surfaces have in common. Here both surfaces are made coarse along
- * their paths until only the base is left. The base is drawn on the sphere once. */
+/* Reduces two surfaces to the same few triangles, and draws these on the sphere. Based on: V.
+ * Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models, 2004, for a
+ * base that both surfaces have in common. Here both surfaces are made coarse along their paths
+ * until only the base is left. The base is drawn on the sphere once. */
 #include "match/sphere/landmark_base.h"
 
 #include "base/error.h"

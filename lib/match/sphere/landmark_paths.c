@@ -1,6 +1,7 @@
-/* Based on: E. Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001. A tree of
- * paths comes first, which leaves one face; then come diagonals of faces. At each landmark a path
- * begins in the same sector on both surfaces. */
+/* Joins the landmarks of two surfaces by paths that triangulate both in the same way. Based on: E.
+ * Praun, W. Sweldens, P. Schroeder, Consistent Mesh Parameterizations, 2001. A tree of paths comes
+ * first, which leaves one face; then come diagonals of faces. At each landmark a path begins in the
+ * same sector on both surfaces. */
 #include "match/sphere/landmark_paths.h"
 
 #include "base/minmax.h"

@@ -1,6 +1,7 @@
-/* Based on: V. Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models,
- * 2004, for two surfaces that grow from a base (match/sphere/landmark_base.h). Here both drawings
- * grow together and each is moved on the other, so every face is positive at all times. */
+/* Draws two surfaces on the sphere with their landmarks at the same directions. Based on: V.
+ * Kraevoy, A. Sheffer, Cross-Parameterization and Compatible Remeshing of 3D Models, 2004, for two
+ * surfaces that grow from a base (match/sphere/landmark_base.h). Here both drawings grow together
+ * and each is moved on the other, so every face is positive at all times. */
 #include "match/sphere/landmark_sphere.h"
 
 #include "base/error.h"

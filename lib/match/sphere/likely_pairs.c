@@ -1,6 +1,7 @@
-/* Based on: A. Elad, R. Kimmel, On Bending Invariant Signatures for Surfaces, 2003: distances
- * within a surface hardly change when limbs are bent. They are measured along edges by E. W.
- * Dijkstra, A Note on Two Problems in Connexion with Graphs, 1959. */
+/* Finds pairs of vertices of two surfaces that correspond, judged by distances. Based on: A. Elad,
+ * R. Kimmel, On Bending Invariant Signatures for Surfaces, 2003: distances within a surface hardly
+ * change when limbs are bent. Distances are measured along edges by E. W. Dijkstra, A Note on Two
+ * Problems in Connexion with Graphs, 1959. */
 #include "match/sphere/likely_pairs.h"
 
 #include "base/heap.h"

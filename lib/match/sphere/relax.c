@@ -1,4 +1,5 @@
-/* Newton's method in the plane for one vertex at a time, on both sides in turn. J. Schreiner, A.
+/* Moves two drawings on the sphere so that the map between the surfaces stretches less. It uses
+ * Newton's method in the plane for one vertex at a time, on both sides in turn. J. Schreiner, A.
  * Asirvatham, E. Praun, H. Hoppe, Inter-Surface Mapping, 2004, move vertices by line searches in
  * the same way. Derivatives are computed by differences, because the common pieces of triangles
  * change as a vertex moves. */

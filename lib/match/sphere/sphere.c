@@ -1,8 +1,8 @@
-/* Based on: E. Praun, H. Hoppe, Spherical Parametrization and Remeshing, 2003. The surface is made
- * coarse until a tetrahedron is left. Then its vertices are put back one by one, each where it sees
- * all sides of the ring of its neighbours. There always is such a place close to the vertex that it
- * was collapsed to. A vertex only moves within the cone of these places. So all faces stay
- * positive, and each vertex's neighbours turn once around it. */
+/* Draws closed surfaces on the sphere. Based on: E. Praun, H. Hoppe, Spherical Parametrization and
+ * Remeshing, 2003. The surface is made coarse until a tetrahedron is left. Then its vertices are
+ * put back one by one, each where it sees all sides of the ring of its neighbours. There always is
+ * such a place close to the vertex that it was collapsed to. A vertex only moves within the cone of
+ * these places. So all faces stay positive, and each vertex's neighbours turn once around it. */
 #include "match/sphere/sphere.h"
 
 #include "base/error.h"

@@ -1,5 +1,6 @@
-/* Based on: H. Edelsbrunner, E. P. Mücke, Simulation of Simplicity, ACM Transactions on Graphics 9,
- * 1990. Coordinate c of the vertex of rank r is moved by e to the power 2^(3 r + c). */
+/* Computes signs of three directions that are never 0. Based on: H. Edelsbrunner, E. P. Mücke,
+ * Simulation of Simplicity, ACM Transactions on Graphics 9, 1990. Coordinate c of the vertex of
+ * rank r is moved by e to the power 2^(3 r + c). */
 #include "match/surface/perturbed.h"
 
 #include "match/surface/direction.h"
