@@ -172,8 +172,8 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
     return status;
 }
 
-/* Sets what the vectors determine: the root's place, the bound on the steps of a curve, and the
- * certificate. */
+/* Finishes a chart that has its vectors: sets the root's place and the bound on the steps of a
+ * curve, and certifies the chart. */
 static void finish(iccp_field_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;

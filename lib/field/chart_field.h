@@ -36,8 +36,9 @@ icc_status iccp_chart_field_create(icc_chart **out, const icc_domain *domain,
                                    const icc_chart_options *options, const double *maximum,
                                    const iccp_env *env, icc_error *err);
 
-/* Returns true if another grid may get the certificate. Then only vertices that were given up,
- * or a few contacts that are not inward, stand in the way. Both depend on where the grid lies. */
+/* Returns true if another grid may get the certificate. The certificate then fails only because of
+ * vertices that were given up, or of a few contacts that are not inward. Both depend on where the
+ * grid lies. */
 bool iccp_chart_field_is_unlucky(const icc_chart *chart);
 
 /* Makes the chart again with one cell more, so that the grid lies elsewhere. If the caller left

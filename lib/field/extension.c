@@ -51,8 +51,8 @@ typedef struct outskirts {
     size_t n;
 } outskirts;
 
-/* Gives a vertex its value on the first visit: minus the number of steps times the scale. `from`
- * is a neighbour that already has a value. */
+/* Gives a vertex its value on the first visit: minus its scale times its distance. `from` is a
+ * neighbour that already has a value. */
 static void reach(outskirts *o, uint32_t v, uint32_t from)
 {
     iccp_extension *s = o->extension;
@@ -89,7 +89,7 @@ static void reach_star(outskirts *o, uint32_t v)
 }
 
 /* The largest value of the inside vertices joined to v, or 0 if there are none. The walk starts
- * at the vertices where it is positive. */
+ * at vertices for which this is positive. */
 static double value_behind(const outskirts *o, uint32_t v)
 {
     const icc_grid *grid = o->extension->grid;

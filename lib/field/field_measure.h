@@ -1,5 +1,5 @@
-/* Samples how much the coordinates of a chart of method field miss. Source: docs/theory.md,
- * "fields on grids". */
+/* Samples which share of the points cannot be encoded, and at which share of the boundary curves
+ * leave the domain. For charts of method field. Source: docs/theory.md, "fields on grids". */
 #ifndef ICCP_FIELD_MEASURE_H
 #define ICCP_FIELD_MEASURE_H
 

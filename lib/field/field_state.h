@@ -44,8 +44,8 @@ double iccp_field_volume(const iccp_field_state *state, double volume, double le
 
 /* ---- operations of iccp_chart_ops ---- */
 
-/* Finds the place of a point. A simplex that no facet runs through is inside if its vertices
- * are. */
+/* iccp_field_locate() finds the place of a point. In a simplex that no facet runs through, a point
+ * is inside if the vertices are. Otherwise the domain is asked. */
 int32_t iccp_field_locate(const icc_chart *chart, const double *point, iccp_chart_place *place,
                           iccp_coords *coords);
 icc_status iccp_field_encode(const icc_chart *chart, const double *point,

@@ -1,5 +1,5 @@
-/* Finds with all safeguards where a piece of a curve leaves its simplex. Source: docs/theory.md,
- * "fields on grids", step 3. */
+/* Finds where a piece of a curve leaves its simplex. This is slow but always succeeds. Source:
+ * docs/theory.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_EXIT_H
 #define ICCP_FLOW_EXIT_H
 

@@ -16,8 +16,9 @@ typedef struct iccp_flow_jet {
 /* Carries the jet from the start of the walk's piece to a fixed parameter s. */
 void iccp_flow_jet_within(const iccp_flow_walk *walk, double s, iccp_flow_jet *jet);
 
-/* Like iccp_flow_jet_within(), but the end of the piece then moves along the curve: so that it
- * stays on a plane, or by given lengths. Returns false if the curve runs along the plane. */
+/* Like iccp_flow_jet_within(), but the end of the piece then moves along the curve. It moves so
+ * that it stays on a plane (onto), or by given lengths (advance). iccp_flow_jet_onto() returns
+ * false if the curve runs along the plane. */
 bool iccp_flow_jet_onto(const iccp_flow_walk *walk, double s, const double *normal,
                         iccp_flow_jet *jet);
 void iccp_flow_jet_advance(const iccp_flow_walk *walk, double s, const double *lengths,

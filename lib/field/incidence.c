@@ -14,8 +14,9 @@
 
 enum { FACETS_PER_REPORT = 1 << 12 };
 
-/* Lattice units. A boundary that follows the facets of the grid, such as a mask's, runs through
- * none of the simplices on either side. Coordinates are rounded to about 1e-14. */
+/* A facet and a simplex that overlap by less than this, in lattice units, only graze. So a
+ * boundary that follows the facets of the grid, such as a mask's, runs through no simplex. Rounding
+ * is about 1e-14. */
 static const double CONTACT = 1e-9;
 
 typedef enum { APART, GRAZES, TOUCHES } contact;
@@ -299,8 +300,8 @@ static bool reserve(scan *s)
     return true;
 }
 
-/* Notes the facet at the simplex's corners. A facet that only touches a face of a simplex does
- * not meet the vectors of the other corners. */
+/* Notes the facet at the simplex's corners. If it only touches a face of the simplex, it is noted
+ * at the corners of that face. The vectors of other corners count for nothing there. */
 static bool note(scan *s, const uint32_t *corner)
 {
     if (!reserve(s))

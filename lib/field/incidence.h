@@ -26,9 +26,9 @@ typedef struct iccp_incidence {
     iccp_memory memory;
     const icc_grid *grid;     /* borrowed */
     const icc_domain *domain; /* borrowed */
-    /* By cell (its lowest corner). Bit r % 32 stands for the simplex with order number r. It is
-     * set if a facet runs through the simplex, or if the simplex meets the domain without an
-     * inside vertex. Beyond 4-D several simplices share a bit. */
+    /* One bit per simplex, by the lowest corner of its cell: bit r % 32 for order number r. It is
+     * set if a facet runs through the simplex. It is also set if the simplex meets the domain but
+     * has no inside vertex. Beyond 4-D several simplices share a bit. */
     uint32_t *bits;
     double *normal; /* dim numbers for each facet: its inward normal of length 1 */
     /* These are there until iccp_incidence_trim(): */
@@ -46,8 +46,8 @@ void iccp_incidence_free(iccp_incidence *incidence);
 /* Frees the arrays that only the making of vectors needs. */
 void iccp_incidence_trim(iccp_incidence *incidence);
 
-/* Turns the number of facets at each vertex into the position of its first facet, in `count`
- * too. */
+/* Allocates `facet`, and computes where the facets of each vertex begin in it. `count` has the
+ * number of facets at each vertex, and becomes a copy of `first` for writing. */
 icc_status iccp_incidence_make_room(iccp_incidence *incidence, uint32_t *count);
 
 /* Returns true if a facet runs through a simplex, or may do so. */

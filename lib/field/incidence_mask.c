@@ -13,7 +13,7 @@
 
 enum { FACETS_PER_REPORT = 1 << 12 };
 
-/* Lattice units. */
+/* A number closer than this to a whole number counts as whole (lattice units). */
 static const double ROUNDING = 1e-9;
 
 /* The mask in lattice coordinates. */

@@ -56,8 +56,8 @@ static void load_simplex(member *m, const iccp_incidence *incidence, const iccp_
         m->corner[i + 1] = m->corner[i] + (uint32_t)incidence->grid->stride[m->axis[i]];
 }
 
-/* Finds the simplex across the face opposite to corner i, with i != k. Returns the face's number
- * there. */
+/* Finds the simplex across the face opposite to corner i, with i != k. Returns the number of
+ * the face in that simplex. */
 static int32_t cross(const member *m, const iccp_incidence *incidence, int32_t i, member *other)
 {
     const int32_t dim = incidence->grid->dim;

@@ -1,6 +1,6 @@
-/* Several vectors at one vertex. If the outside between two parts of a domain is thinner than the
- * grid, a vertex in it belongs to both parts. It then has one vector for each. Such a part, as seen
- * from the vertex, is a sector.
+/* Several vectors at one vertex. A vertex in a gap that is thinner than the grid belongs to the
+ * parts of the domain on both sides. It has one vector for each part. A sector is such a part, as
+ * seen from the vertex.
  *
  * Source: docs/theory.md, "fields on grids". */
 #ifndef ICCP_SECTORS_H

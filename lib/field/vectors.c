@@ -27,8 +27,9 @@ enum { MOST_NORMALS = 64, FIRM_ROUNDS = 20, MOST_ROUNDS = 40, TYPICAL_ROUNDS = 4
 
 static const size_t GRAIN = 1 << 10; /* vertices per chunk */
 
-/* Products of unit vectors. The mean is taken if all its products exceed GOOD, which keeps the
- * vectors smooth. A vector is accepted if they exceed LEAST. The projection aims at AIM. */
+/* Bounds on products of unit vectors. GOOD: the mean of the gradients is taken if all its products
+ * exceed this, because means keep the vectors smooth. LEAST: a vector is accepted above this. AIM:
+ * the projection aims at this. */
 static const double GOOD = 0.15, LEAST = 1e-6, AIM = 0.05;
 
 /* A vertex and the simplices at it. A simplex is given as (r, k): the vertex is corner k in the
@@ -411,9 +412,9 @@ static icc_status split_vertices(work *w)
     return status;
 }
 
-/* Bounds for the value of a vertex. In general the value may be halved or doubled. Outside next
- * to the inside, its size may grow to the smallest value of the inside vertices joined to it.
- * Across a gap the function may be smaller by any factor, so a small change on one side may be
+/* Writes the bounds of the value of a vertex. In general the value may be halved or doubled. An
+ * outside vertex joined to inside vertices may have any value whose size is at most their smallest
+ * one. Across a gap the function may be smaller by any factor, so a small change on one side may be
  * too large on the other. */
 static void find_bounds(const work *w, uint32_t v, int32_t exponent, double *low, double *high)
 {

@@ -13,7 +13,7 @@ typedef struct iccp_certificate {
                            more unless vertices - edges + triangles is 1 */
     size_t n_open;      /* triangles whose rises do not sum to 0, and half-edges whose rise is not
                            the opposite of their twin's */
-    size_t n_flat;      /* triangles, boundary edges and edges round the centre without a rise */
+    size_t n_flat;      /* triangles, boundary edges and edges round the centre whose rise is 0 */
     size_t n_irregular; /* vertices that do not have one ascending and one descending run of
                            neighbours; 1 more unless psi winds once along the boundary */
     size_t n_ties;      /* edges whose ends have the same label; they are ordered by vertex index */

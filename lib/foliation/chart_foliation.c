@@ -49,8 +49,8 @@ static void add_piece(leaf_length *l, const double p[2], const double dp[2], con
 
 /* The first piece, from the point to q, where the leaf leaves its triangle. It is part of the
  * straight piece from p to q. Labels are rounded, so a leaf along an edge may leave the triangle
- * slightly on the wrong side of the point. The length is then negative, and the next pieces make
- * up for it. */
+ * slightly on the wrong side of the point. The length is then negative, and the rest of the leaf
+ * is longer by as much. */
 static leaf_length start_leaf(const double point[2], const double p[2], const double q[2],
                               const double dq[2])
 {

@@ -13,7 +13,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Creates the mesh, its Laplacian and the factor of that. Both planar methods start from these. */
+/* Creates the mesh, its Laplacian and the Laplacian's factor. Both planar methods start from
+ * these. */
 icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err)

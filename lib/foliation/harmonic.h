@@ -20,15 +20,15 @@ icc_status iccp_harmonic_create(iccp_harmonic *base, const icc_domain *domain,
                                 const uint32_t *pieces, int32_t cells, const iccp_env *env,
                                 icc_error *err);
 
-/* Accepts a base that is all zero. It does not free a mesh that iccp_harmonic_move_mesh() has
- * moved out. */
+/* Frees the base, which may be all zero, but not a mesh that iccp_harmonic_move_mesh() has taken
+ * out. */
 void iccp_harmonic_free(iccp_harmonic *base);
 
 /* Writes the base's number of cells and its spacing to a chart's info. */
 void iccp_harmonic_describe(const iccp_harmonic *base, const icc_domain *domain,
                             icc_chart_info *info);
 
-/* Moves the mesh out of the base. */
+/* Takes the mesh out of the base. The caller frees it. */
 iccp_planar iccp_harmonic_move_mesh(iccp_harmonic *base);
 
 /* Computes the images of the vertices in the harmonic map to the unit disc. Boundary vertex k
@@ -40,12 +40,12 @@ icc_status iccp_harmonic_disc(const iccp_harmonic *base, const double *turns, do
  * turns[k]. */
 void iccp_add_arc_length(const iccp_planar *mesh, double weight, double *turns);
 
-/* The inner vertex farthest from the boundary, or the first of several. ICCP_NO_NEIGHBOUR if
- * there are no inner vertices. */
+/* Returns the inner vertex farthest from the boundary; the first one of several; ICCP_NO_NEIGHBOUR
+ * if there are no inner vertices. */
 uint32_t iccp_deepest_vertex(const iccp_planar *mesh, const icc_domain *domain);
 
-/* The inner vertex nearest to a local point, or the first of several. ICCP_NO_NEIGHBOUR if there
- * are none. */
+/* Returns the inner vertex nearest to a local point; the first one of several; ICCP_NO_NEIGHBOUR if
+ * there are no inner vertices. */
 uint32_t iccp_nearest_vertex(const iccp_planar *mesh, const double *points, const double p[2]);
 
 #endif

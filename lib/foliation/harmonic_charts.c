@@ -127,8 +127,8 @@ static icc_status finish(void *argument, size_t k, const iccp_env *env, icc_erro
     return status == ICC_OK ? ICC_OK : blame(job, k, status, err);
 }
 
-/* One try at a resolution: the meshes, then the images in the disc or the centres, then the
- * charts. If one chart fails, none is left. */
+/* Tries one resolution: makes the meshes, then images in the disc (method disc) or centres (method
+ * foliation), then the charts. If one chart fails, none is left. */
 static icc_status try_harmonic(harmonic_job *job, const iccp_env *env, icc_error *err)
 {
     iccp_env part[3];

@@ -27,8 +27,8 @@ typedef struct iccp_leaf2 {
                            the star */
 } iccp_leaf2;
 
-/* The derivative by the point of the label, in units, of the leaf through that point. The point
- * has the given barycentric coordinates. */
+/* Computes the gradient of the label, in label units per length, at the point with the given
+ * barycentric coordinates. */
 void iccp_label_gradient(const iccp_planar *mesh, const iccp_psi *psi, uint32_t triangle,
                          const double bary[3], double gradient[2]);
 

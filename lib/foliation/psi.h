@@ -9,10 +9,9 @@
 /* Units in one turn. Differences of labels stay far from the ends of int64_t. */
 #define ICCP_TURN ((int64_t)1 << 60)
 
-/* psi maps the mesh without its centre to R/Z and winds once round the centre. It increases
- * along the boundary and is discretely harmonic inside. Labels are integers. So are the rises
- * along half-edges, each with its own lift from R/Z to R. Decisions made with them are therefore
- * exact. */
+/* psi maps the mesh without its centre to R/Z. It winds once round the centre, increases along the
+ * boundary and is discretely harmonic inside. Labels and rises are integers, so decisions made with
+ * them are exact. Each rise has its own lift from R/Z to R. */
 typedef struct iccp_psi {
     iccp_memory memory;
     uint32_t centre; /* an inner vertex */
@@ -22,8 +21,8 @@ typedef struct iccp_psi {
 } iccp_psi;
 
 /* Creates psi. The share `harmonic` of the boundary flux, in [0, 1), follows the Green's
- * function of the centre, and the rest is uniform in arc length. `solver` factorises the
- * Laplacian of the whole mesh. */
+ * function of the centre, and the rest is uniform in arc length. `solver` is the factor of
+ * the Laplacian of the whole mesh. */
 icc_status iccp_psi_create(iccp_psi *psi, const iccp_planar *mesh, const iccp_laplacian *laplacian,
                            const iccp_ldlt *solver, uint32_t centre, double harmonic,
                            const iccp_env *env);

@@ -4,7 +4,8 @@
 /* The most turns along one edge. So sums over a triangle stay far from the ends of int64_t. */
 enum { MOST_TURNS = 2 };
 
-/* Of two half-edges, one has its rise written. The other has the opposite rise. */
+/* Returns true for the one half-edge of each edge whose rise is written. Its twin has the opposite
+ * rise. */
 static bool is_written(const iccp_planar *mesh, uint32_t corner)
 {
     return mesh->twins[corner] == ICCP_NO_NEIGHBOUR || corner < mesh->twins[corner];

@@ -11,10 +11,11 @@
 icc_status iccp_compatible_overlay(iccp_overlay *overlay, size_t n, const double *points,
                                    const double *images, const iccp_env *env);
 
-/* Maps the polygon of the boundary vertices of `base`, a mesh of `source`, to the polygon of their
- * images. Every triangle is positive before and after the map, except for rounding. The distortion
- * may be large. ICC_ERR_RESOLUTION if it takes more than 100,000 + 100 n vertices inside.
- * O(n log n + k log k) for n boundary vertices and k vertices inside. */
+/* Makes a map from the polygon of the boundary vertices of `base`, a mesh of `source`, to the
+ * polygon of their images. It has new vertices inside. Every triangle is positive before and after
+ * the map, except for rounding. The distortion may be large. ICC_ERR_RESOLUTION if it takes more
+ * than 100,000 + 100 n vertices inside. O(n log n + k log k) for n boundary vertices and k vertices
+ * inside. */
 icc_status iccp_compatible_create(iccp_plmap *map, const iccp_planar *base,
                                   const icc_domain *source, const double *images, double stretch,
                                   const iccp_env *env);

@@ -1,6 +1,7 @@
-/* Cuts triangles at their longest edges, which keeps their shapes: M.-C. Rivara, Algorithms for
- * refining triangular grids suitable for adaptive and multigrid techniques, 1984. An edge is cut if
- * it is the longest of both its triangles. Otherwise the search goes on across the longest edge. */
+/* Cuts long edges. Cutting triangles at their longest edges keeps their shapes: M.-C. Rivara,
+ * Algorithms for refining triangular grids suitable for adaptive and multigrid techniques, 1984. An
+ * edge is cut if it is the longest of both its triangles. Otherwise the search goes on across the
+ * longest edge. */
 #include "map/compatible/density.h"
 
 /* The bound on edges starts at FIRST_BOUND times the wanted length, and each next bound is FALL

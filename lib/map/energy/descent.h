@@ -28,7 +28,7 @@ typedef struct iccp_descent {
 icc_status iccp_take_steps(const iccp_simplicial_map *map, const iccp_descent *descent,
                            iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
 
-/* As iccp_take_steps(), and sets improvement->energy. It must not be NULL. */
+/* Calls iccp_take_steps() and sets improvement->energy. `improvement` must not be NULL. */
 icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descent *descent,
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env);
 

@@ -63,14 +63,14 @@ static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const i
 
 /* ---- triangles ---- */
 
-/* What is good is counted, so that what was not looked at counts as a fault. */
+/* Counts the tests that pass, so that a test that was not made counts as a fault. */
 typedef struct count {
     const iccp_plmap *map;
     atomic_size_t n_good, n_open;
 } count;
 
-/* Triangles that are positive before and after, their edges that have one side or two that agree,
- * and those with one. */
+/* Counts in a range of triangles. Good are positive triangles, and half-edges with a matching twin
+ * or without a twin. Open are half-edges without a twin. */
 static icc_status count_some(void *argument, size_t begin, size_t end)
 {
     count *all = argument;

@@ -23,11 +23,11 @@ enum { CAGE_ITERATIONS = 8, FEATURE_ITERATIONS = -1 };
  * triangles than MANY, and MANY_EACH for each given vertex, it is thinned out. */
 enum { ENOUGH = 1000, CELLS = 15, MANY = 1400, MANY_EACH = 8 };
 
-/* If the way is blocked: how often the mesh is changed before the map is rebuilt in its class, and
- * how often after that or where there are no features to rebuild it for. */
+/* How many times in turn a blocked motion may change the mesh. PATIENCE: before rebuild().
+ * LAST_PATIENCE: after rebuild() failed, and for cages, which are not rebuilt. */
 enum { PATIENCE = 0, LAST_PATIENCE = 1 };
 
-/* Moves the boundary's images to where another target wants them. */
+/* Moves the images of fixed vertices to where another target wants them. */
 static void move_boundary(iccp_plmap *pl, const icc_domain *target)
 {
     for (size_t v = 0; v < pl->n_vertices; ++v)
@@ -35,7 +35,7 @@ static void move_boundary(iccp_plmap *pl, const icc_domain *target)
             iccp_target_place(pl, target, v, pl->images + 2 * v);
 }
 
-/* A copy of the map whose images stay where they were, in the frame of the new target. */
+/* Copies the map. The images stay where they were, but in the frame of the new target. */
 static icc_status begin(iccp_plmap *pl, const iccp_plmap *old, const icc_domain *source,
                         const icc_domain *old_target, const icc_domain *target,
                         const iccp_newton_plan *plan, const iccp_memory *memory)
@@ -55,8 +55,8 @@ typedef struct journey {
     const icc_domain *source, *old_target, *target;
 } journey;
 
-/* Makes the map anew in the class that it would have come to. *made: whether that worked. If not,
- * the map stays as it is. */
+/* Makes a new map in the isotopy class that the moved map would have. *made: whether that worked.
+ * Otherwise the map stays as it is. */
 static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp_work *work,
                           bool *made, const iccp_env *env)
 {
@@ -79,7 +79,8 @@ static icc_status rebuild(iccp_plmap *pl, const journey *j, double longest, iccp
     return status == ICC_ERR_RESOLUTION ? ICC_OK : status;
 }
 
-/* Every state on the way is one-to-one, so features stay on their sides of one another. */
+/* Moves a map with features to another target, part by part. If the way is blocked, the map is
+ * rebuilt in its class. Every state on the way is one-to-one, so the class is kept. */
 static icc_status move_features(iccp_mesh_map *map, const journey *j,
                                 const icc_improve_options *options, iccp_allowance *work,
                                 iccp_map_facts *info, const iccp_env *env, icc_error *err)
@@ -165,7 +166,8 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
                : iccp_move_targets(pl, target, &grain, LAST_PATIENCE, work, reached, &room, env);
 }
 
-/* info->n_unrepaired is not 0, with ICC_OK, when the way is blocked. */
+/* Moves the map of a cage to another target, and improves it. If the way is blocked, the result is
+ * ICC_OK, and info->n_unrepaired is not 0. */
 static icc_status retarget_cage(iccp_mesh_map *map, const icc_domain *target,
                                 const icc_improve_options *options, iccp_allowance *work,
                                 iccp_map_facts *info, const iccp_env *env)

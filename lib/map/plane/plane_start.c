@@ -24,8 +24,9 @@
 /* A start with features counts as entangled if its energy is higher. */
 static const double ENTANGLED = 20;
 
-/* If the borders of all patches have more corners than this part of the cage, the overlay of the
- * whole is as cheap. On spirals of hundreds of turns its energy is less than half of theirs. */
+/* The whole map is overlaid if the borders of all patches have more than 1 / PATCHES of the cage's
+ * corners. Then it is as cheap, and on spirals of hundreds of turns it has less than half of the
+ * energy. */
 enum { PATCHES = 4 };
 
 /* ---- start ---- */

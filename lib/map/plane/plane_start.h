@@ -13,7 +13,7 @@ icc_status iccp_mesh_map_create(iccp_mesh_map **out, const icc_chart *source,
                                 const iccp_env *env, icc_error *err);
 
 /* Makes a map between two domains with features, without charts. ICC_ERR_RESOLUTION if features are
- * too close for doubles. Otherwise as above. */
+ * too close for doubles. Otherwise like iccp_mesh_map_create(). */
 icc_status iccp_mesh_map_create_features(iccp_mesh_map **out, const icc_domain *source,
                                          const icc_domain *target, const icc_map_options *options,
                                          iccp_map_facts *info, const iccp_env *env, icc_error *err);
