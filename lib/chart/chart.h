@@ -5,6 +5,8 @@
  * Words of this folder. Begin with iccp_chart_ops.
  * - coordinates: where the curve of a point meets the boundary (facet, barycentric coordinates),
  *   and the share t of the curve's length below the point.
+ * - maximum: the point where all curves end. In lib/field it is the root, in lib/foliation and
+ *   lib/shelling the centre.
  * - local: in the domain's frame, in which its size is about 1; see geometry/frame.h.
  * - encode, decode: from a point to its coordinates, and back.
  * - place: where a point lies, in the terms of its method.

@@ -10,6 +10,7 @@
  * - order: an order of the axes. It names one Kuhn simplex of a cell.
  * - contact: a pair of a simplex and a boundary facet that runs through it.
  * - sector: a part of the simplices at a vertex that has a vector of its own (sectors.h).
+ * - stray: a vertex that was inside and was given up, so that it counts as outside.
  * - walk, piece: a curve on its way, and its part within one simplex (flow.h).
  * - jet: derivatives of a place and of a length by several parameters (flow_jet.h).
  *

@@ -1,8 +1,8 @@
 /* Replaces patches around inverted triangles by overlays: B. Aronov, R. Seidel, D. Souvaine, On
  * compatible triangulations of simple polygons, 1993.
  *
- * A disc of triangles whose border is a simple polygon before and after the map has a one-to-one
- * map: the overlay of the triangulations of the two polygons. So a map that is inverted in a few
+ * Take a disc of triangles whose border is a simple polygon before and after the map. The overlay
+ * of the two polygons' triangulations is a one-to-one map of it. So a map that is inverted in a few
  * places needs overlays there only. In each round, the patches are the triangles within a number of
  * rings around inverted ones. The rings double from round to round, and patches that touch become
  * one. */

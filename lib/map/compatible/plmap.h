@@ -2,9 +2,9 @@
  *
  * Words of this folder
  * - point, image: the place of a vertex before and after the map.
- * - plmap: a piecewise linear map as an editable mesh with neighbours. mesh_map adds what a
- *   finished map needs (map/plane/mesh_map.h). simplicial map: a view of either, in the plane or in
- *   space (map/energy/simplicial_map.h).
+ * - plmap: a piecewise linear map as a mesh that can be edited. A mesh_map (map/plane/mesh_map.h)
+ *   has one, and finders for its points. A simplicial map (map/energy/simplicial_map.h) is a view
+ *   of a map in the plane or in space.
  * - positive triangle: one that is counter-clockwise, by the exact sign of its determinant.
  * - fixed vertex: one of the boundary, of a line or of a point, whose image is prescribed.
  * - chord: an inner edge between two fixed vertices.

@@ -18,9 +18,8 @@ static bool is_given(const icc_map *map, const iccp_found *found)
  *
  * Far from the mesh's boundary, the triangles decide: a point is inside if a triangle holds it, and
  * outside otherwise. The domain would say the same. It counts points as on its boundary only within
- * the reach of the band, and the mesh's boundary is at most 1.5 times the reach away from it. So
- * the two agree farther than 4 times the reach from the mesh's boundary. Nearer, the domain
- * decides. */
+ * the reach of the band. The mesh's boundary is at most 1.5 times the reach away from it. So the
+ * two agree farther than 4 times the reach from the mesh's boundary. Nearer, the domain decides. */
 static icc_status map_point(const icc_map *map, bool inverse, const double *point,
                             const double *local, const iccp_found *found, double *image,
                             double *jacobian)

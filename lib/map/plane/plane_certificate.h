@@ -4,9 +4,11 @@
 
 #include "map/plane/mesh_map.h"
 
-/* Returns ICC_ERR_CERTIFICATE unless all of this holds: every triangle is exactly positive before
- * and after the map; the mesh is a disc, with a hole for each ring but one; and before and after
- * the map the boundary's rings are simple and bound one region (domain/outlines.h). */
+/* Returns ICC_ERR_CERTIFICATE unless three conditions hold:
+ * - Every triangle is exactly positive before and after the map.
+ * - The mesh is a disc with a hole for each ring but one.
+ * - Before and after the map, the boundary's rings are simple and bound one region
+ *   (domain/outlines.h). */
 icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_error *err);
 
 /* See iccp_map_kind. */
