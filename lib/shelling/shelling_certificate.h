@@ -6,17 +6,21 @@
 
 #include "geometry/simplices.h"
 
-/* Counts of the checks. All must be 0. For n_irregular, faces at the centre are not checked, and
- * the star counts as one simplex. Exactly one simplex at a face must have all its sides there
- * entered. Exactly one must have them all left, or none if the face lies on the boundary. */
+/* Counts of the checks. All must be 0.
+ *
+ * n_order: simplices of the star must have rank 0, and all others a greater rank. Each of the
+ * others needs a neighbour of smaller rank, and a side to greater rank or to the boundary. It may
+ * have no neighbour of the same rank.
+ *
+ * n_irregular: faces at the centre are not checked, and the star counts as one simplex. Exactly one
+ * simplex at a face must have all its sides there entered. Exactly one must have them all left, or
+ * none if the face lies on the boundary. */
 typedef struct iccp_shelling_certificate {
     size_t n_inverted;   /* simplices that are not positively oriented */
     size_t n_topology;   /* sides without a proper partner; facets of the domain without exactly one
                             side that has their vertices; 1 more if the centre is not a vertex
                             inside */
-    size_t n_order;      /* simplices of the star whose rank is not 0, and others whose rank is 0;
-                            others without a neighbour of smaller rank, without a side to greater
-                            rank or the boundary, or with a tie: a neighbour of the same rank */
+    size_t n_order;      /* simplices that break the order: see above */
     size_t n_irregular;  /* faces of dimension 0 to dim - 2 with a wrong count; see above */
     size_t n_directions; /* simplices outside the star whose direction does not enter and leave as
                             the order demands */

@@ -96,9 +96,9 @@ static uint32_t leaving_corner(const overlay *o, uint32_t i, uint32_t j)
 }
 
 /* The crossing of source diagonal i j with the target's edge that a corner faces. Diagonals that
- * cross the same edge do not cross each other. So they are ordered by a sum of steps from the
- * edge's first end: to one end of the diagonal one way around, and to its other end the other
- * way. */
+ * cross the same edge do not cross each other. So they are ordered by a sum of two numbers of
+ * steps from the edge's first end. One leads to one end of the diagonal, the other leads the other
+ * way around to its other end. */
 static crossing crossing_of(const overlay *o, uint32_t corner, uint32_t i, uint32_t j)
 {
     const uint32_t twin = o->side[1].twins[corner], edge = corner < twin ? corner : twin;

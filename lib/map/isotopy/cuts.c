@@ -76,13 +76,11 @@ static icc_status list_candidates(iccp_cutter *k, const iccp_memory *memory)
 
 /* ---- the tree ---- */
 
-/* weight: factors for the lengths in the two domains. first: the domain that is searched first;
- * its path may pass other cuts on either side. jitter: the largest random change of a key, as a
- * share. */
+/* How the cuts of a tree are chosen. */
 typedef struct kind_of_tree {
-    double weight[2];
-    int first;
-    double jitter;
+    double weight[2]; /* factors for the lengths in the two domains */
+    int first;        /* the domain searched first; its path may pass other cuts on either side */
+    double jitter;    /* the largest random change of a key, as a share */
 } kind_of_tree;
 
 static kind_of_tree kind_of(uint64_t tree)
