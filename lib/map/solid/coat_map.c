@@ -7,8 +7,8 @@
 
 #include "base/minmax.h"
 #include "map/solid/coat.h"
+#include "map/solid/coat_mesh.h"
 #include "map/solid/coat_raise.h"
-#include "map/solid/cone.h"
 #include "math/vec.h"
 
 #include <string.h>
@@ -100,21 +100,19 @@ static void place_points(const dress *d, const double *vertices)
 /* Raises the vertices without a point below, then moves all images to where there is room. */
 static icc_status finish(dress *d, bool *done, const iccp_env *env)
 {
-    iccp_cone cone;
+    iccp_coat_mesh mesh;
     size_t n_raised = 0;
     iccp_simplices *const whole = d->mesh;
     icc_status status = iccp_simplices_join(whole, 0, NULL, NULL);
     if (status != ICC_OK)
         return status;
-    status = iccp_cone_create(&cone, whole, d->out, &env->memory);
+    status = iccp_coat_mesh_create(&mesh, whole, d->out, &env->memory);
     *done = true;
-    if (status == ICC_OK)
-        iccp_cone_fill(&cone, d->out);
     for (uint32_t v = 0; status == ICC_OK && *done && v < whole->n_boundary; ++v)
         if (d->coat->below[v] == ICCP_NOTHING_BELOW) {
             status = iccp_progress(env, "repair", 0.5 * v / (double)whole->n_boundary);
             *done = status == ICC_OK &&
-                    iccp_coat_raise(&cone, d->coat->below, v, d->apex, d->boundary + 3 * (size_t)v);
+                    iccp_coat_raise(&mesh, d->coat->below, v, d->apex, d->boundary + 3 * (size_t)v);
             n_raised += *done;
         }
     if (status == ICC_OK)
@@ -123,18 +121,18 @@ static icc_status finish(dress *d, bool *done, const iccp_env *env)
     for (int k = 0; k < LAST_SWEEPS && status == ICC_OK && *done; ++k) {
         status = iccp_progress(env, "repair", 0.5 + 0.5 * k / LAST_SWEEPS);
         if (status == ICC_OK)
-            iccp_cone_smooth_all(&cone);
+            iccp_coat_smooth(&mesh);
     }
-    if (cone.mesh.no_memory)
+    if (mesh.tets.no_memory)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK && *done) {
         iccp_simplices_free(whole);
         iccp_free(&env->memory, d->out);
         d->mesh = NULL;
         d->out = NULL;
-        status = iccp_cone_give(&cone, &d->mesh, &d->out);
+        status = iccp_coat_mesh_give(&mesh, &d->mesh, &d->out);
     }
-    iccp_cone_free(&cone);
+    iccp_coat_mesh_free(&mesh);
     return status;
 }
 

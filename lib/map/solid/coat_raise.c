@@ -27,10 +27,10 @@ static const double MOST_TURNS = 0.49999;
 
 /* Lists the points of a vertex's star once: those inside, and the vertices without a point
  * below. */
-static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex, iccp_list *inside,
-                      iccp_list *beside)
+static bool list_star(iccp_coat_mesh *mesh, const uint32_t *nothing, uint32_t vertex,
+                      iccp_list *inside, iccp_list *beside)
 {
-    iccp_tets *m = &cone->mesh;
+    iccp_tets *m = &mesh->tets;
     if (!iccp_tets_star(m, vertex))
         return false;
     const uint32_t stamp = iccp_tets_stamp(m);
@@ -38,7 +38,7 @@ static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex,
     for (size_t s = 0; s < m->star.n; ++s)
         for (int k = 0; k < 4; ++k) {
             const uint32_t v = m->tet[m->star.item[s]].v[k];
-            const bool is_inside = v >= cone->n_fixed;
+            const bool is_inside = v >= mesh->n_fixed;
             if (m->seen[v] == stamp || !(is_inside || nothing[v] == ICCP_NOTHING_BELOW))
                 continue;
             m->seen[v] = stamp;
@@ -48,28 +48,11 @@ static bool list_star(iccp_cone *cone, const uint32_t *nothing, uint32_t vertex,
     return true;
 }
 
-/* Cuts an edge in the middle, before and after the map. */
-static bool cut(iccp_cone *cone, uint32_t a, uint32_t b, uint32_t *point)
-{
-    iccp_tets *m = &cone->mesh;
-    const uint32_t ends[2] = {a, b}, first = iccp_tets_towards(m, a, b);
-    double y[3];
-    if (first == ICCP_NO_TET || !iccp_tets_ring(m, a, b, first, SIZE_MAX) ||
-        !iccp_cone_cut(cone, 2, ends, m->ring.n, m->ring.item, point))
-        return false;
-    for (size_t k = 0; k < m->fresh.n; ++k)
-        cone->is_placed[m->fresh.item[k]] = 1;
-    for (int k = 0; k < 3; ++k)
-        y[k] = 0.5 * iccp_cone_image(cone, a)[k] + 0.5 * iccp_cone_image(cone, b)[k];
-    iccp_cone_put(cone, *point, y);
-    return true;
-}
-
 /* How far the image of a point lies below that of the vertex. */
-static double depth_of(const iccp_cone *cone, uint32_t point, const double *from,
+static double depth_of(const iccp_coat_mesh *mesh, uint32_t point, const double *from,
                        const double *direction)
 {
-    const double *x = iccp_cone_image(cone, point);
+    const double *x = iccp_coat_image(mesh, point);
     double sum = 0;
     for (int k = 0; k < 3; ++k)
         sum += (from[k] - x[k]) * direction[k];
@@ -77,35 +60,35 @@ static double depth_of(const iccp_cone *cone, uint32_t point, const double *from
 }
 
 /* Cuts the edges to the points, which are replaced by the new points. */
-static bool cut_all(iccp_cone *cone, uint32_t vertex, iccp_list *inside)
+static bool cut_all(iccp_coat_mesh *mesh, uint32_t vertex, iccp_list *inside)
 {
     for (size_t k = 0; k < inside->n; ++k)
-        if (!cut(cone, vertex, inside->item[k], &inside->item[k]))
+        if (!iccp_coat_cut(mesh, vertex, inside->item[k], &inside->item[k]))
             return false;
     return true;
 }
 
 /* Moves the new points to a plane at a share of the depth of the nearest one. */
-static void lower_plane(iccp_cone *cone, const double *from, const double *direction,
+static void lower_plane(iccp_coat_mesh *mesh, const double *from, const double *direction,
                         const iccp_list *inside, double share, double *least)
 {
     *least *= share;
     for (size_t k = 0; k < inside->n; ++k) {
         double x[3];
         const uint32_t point = inside->item[k];
-        const double part = *least / depth_of(cone, point, from, direction);
+        const double part = *least / depth_of(mesh, point, from, direction);
         for (int i = 0; i < 3; ++i)
-            x[i] = from[i] + part * (iccp_cone_image(cone, point)[i] - from[i]);
-        iccp_cone_put(cone, point, x);
+            x[i] = from[i] + part * (iccp_coat_image(mesh, point)[i] - from[i]);
+        iccp_coat_put(mesh, point, x);
     }
 }
 
 /* Tests all cells that are changed by raising. */
-static bool is_good(iccp_cone *cone, uint32_t vertex, const iccp_list *inside)
+static bool is_good(iccp_coat_mesh *mesh, uint32_t vertex, const iccp_list *inside)
 {
-    bool good = iccp_cone_is_star_good(cone, vertex);
+    bool good = iccp_coat_is_star_good(mesh, vertex);
     for (size_t k = 0; k < inside->n && good; ++k)
-        good = iccp_cone_is_star_good(cone, inside->item[k]);
+        good = iccp_coat_is_star_good(mesh, inside->item[k]);
     return good;
 }
 
@@ -130,7 +113,7 @@ static void reject(double *d, size_t n, double axis[2][3])
 /* Finds a normal of a plane that contains the directions in `beside`, two at most, and has the
  * inner points below it. If there are many, it takes the middle one. Returns false if there is
  * none; then the normal is the one closest to `up`. */
-static bool tilt(const iccp_cone *cone, const double *from, const double *up,
+static bool tilt(const iccp_coat_mesh *mesh, const double *from, const double *up,
                  const iccp_list *inside, const iccp_list *beside, double *normal)
 {
     double axis[2][3], across[3], least = 0, most = 0;
@@ -138,7 +121,7 @@ static bool tilt(const iccp_cone *cone, const double *from, const double *up,
         return false;
     for (size_t k = 0; k < beside->n; ++k) {
         for (int i = 0; i < 3; ++i)
-            axis[k][i] = iccp_cone_image(cone, beside->item[k])[i] - from[i];
+            axis[k][i] = iccp_coat_image(mesh, beside->item[k])[i] - from[i];
         reject(axis[k], k, axis);
         if (!normalize(axis[k]))
             return false;
@@ -153,7 +136,7 @@ static bool tilt(const iccp_cone *cone, const double *from, const double *up,
     for (size_t k = 0; k < inside->n; ++k) {
         double d[3];
         for (int i = 0; i < 3; ++i)
-            d[i] = from[i] - iccp_cone_image(cone, inside->item[k])[i];
+            d[i] = from[i] - iccp_coat_image(mesh, inside->item[k])[i];
         const double turns =
             iccp_atan2_turns(iccp_vec_dot(3, d, across), iccp_vec_dot(3, d, normal));
         least = iccp_min(least, turns);
@@ -170,74 +153,75 @@ static bool tilt(const iccp_cone *cone, const double *from, const double *up,
 
 /* Tries planes across a direction, one after the other. If it returns false, the vertex has not
  * moved. */
-static bool raise_from(iccp_cone *cone, uint32_t vertex, const double *direction,
+static bool raise_from(iccp_coat_mesh *mesh, uint32_t vertex, const double *direction,
                        const double place[3], const iccp_list *inside)
 {
     double from[3], least = HUGE_VAL;
-    memcpy(from, iccp_cone_image(cone, vertex), sizeof from);
+    memcpy(from, iccp_coat_image(mesh, vertex), sizeof from);
     for (size_t k = 0; k < inside->n; ++k)
-        least = iccp_min(least, depth_of(cone, inside->item[k], from, direction));
+        least = iccp_min(least, depth_of(mesh, inside->item[k], from, direction));
     for (int tried = 0; tried < MOST_TRIES && least > 0; ++tried) {
-        lower_plane(cone, from, direction, inside, tried == 0 ? 1 : 0.5, &least);
-        iccp_cone_put(cone, vertex, place);
-        if (is_good(cone, vertex, inside))
+        lower_plane(mesh, from, direction, inside, tried == 0 ? 1 : 0.5, &least);
+        iccp_coat_put(mesh, vertex, place);
+        if (is_good(mesh, vertex, inside))
             return true;
-        iccp_cone_put(cone, vertex, from);
+        iccp_coat_put(mesh, vertex, from);
     }
     if (least > 0)
-        lower_plane(cone, from, direction, inside, ldexp(1, MOST_TRIES - 1), &least);
+        lower_plane(mesh, from, direction, inside, ldexp(1, MOST_TRIES - 1), &least);
     return false;
 }
 
 /* Sinks the images of inner points that would not lie below a plane across `normal`, as far as
  * their stars allow. */
-static void sink(iccp_cone *cone, const double *from, const double *normal, const iccp_list *inside)
+static void sink(iccp_coat_mesh *mesh, const double *from, const double *normal,
+                 const iccp_list *inside)
 {
     for (size_t k = 0; k < inside->n; ++k) {
         const uint32_t point = inside->item[k];
         double old[3], x[3], share = 1;
-        memcpy(old, iccp_cone_image(cone, point), sizeof old);
+        memcpy(old, iccp_coat_image(mesh, point), sizeof old);
         const double length = iccp_vec_distance(3, old, from);
-        bool good = depth_of(cone, point, from, normal) > FLAT * length;
+        bool good = depth_of(mesh, point, from, normal) > FLAT * length;
         for (int tried = 0; tried < MOST_TRIES && !good; ++tried) {
             share *= 0.5;
             for (int i = 0; i < 3; ++i)
                 x[i] = old[i] - share * length * normal[i];
-            iccp_cone_put(cone, point, x);
-            good = iccp_cone_is_star_good(cone, point);
+            iccp_coat_put(mesh, point, x);
+            good = iccp_coat_is_star_good(mesh, point);
         }
         if (!good)
-            iccp_cone_put(cone, point, old);
+            iccp_coat_put(mesh, point, old);
     }
 }
 
 /* Raises the vertex with a plane straight across if possible, else with a tilted one. */
-static bool raise(iccp_cone *cone, uint32_t vertex, const double *apex, const double *place,
+static bool raise(iccp_coat_mesh *mesh, uint32_t vertex, const double *apex, const double *place,
                   iccp_list *inside, const iccp_list *beside)
 {
     double from[3], up[3], normal[3];
-    memcpy(from, iccp_cone_image(cone, vertex), sizeof from);
+    memcpy(from, iccp_coat_image(mesh, vertex), sizeof from);
     for (int k = 0; k < 3; ++k)
         up[k] = place[k] - apex[k];
     if (!normalize(up))
         return false;
     for (int round = 0;
-         round < MOST_ROUNDS && beside->n == 1 && !tilt(cone, from, up, inside, beside, normal);
+         round < MOST_ROUNDS && beside->n == 1 && !tilt(mesh, from, up, inside, beside, normal);
          ++round)
-        sink(cone, from, normal, inside);
-    return cut_all(cone, vertex, inside) &&
-           (raise_from(cone, vertex, up, place, inside) ||
-            (beside->n != 0 && tilt(cone, from, up, inside, beside, normal) &&
-             raise_from(cone, vertex, normal, place, inside)));
+        sink(mesh, from, normal, inside);
+    return cut_all(mesh, vertex, inside) &&
+           (raise_from(mesh, vertex, up, place, inside) ||
+            (beside->n != 0 && tilt(mesh, from, up, inside, beside, normal) &&
+             raise_from(mesh, vertex, normal, place, inside)));
 }
 
-bool iccp_coat_raise(iccp_cone *cone, const uint32_t *below, uint32_t vertex, const double apex[3],
-                     const double place[3])
+bool iccp_coat_raise(iccp_coat_mesh *mesh, const uint32_t *below, uint32_t vertex,
+                     const double apex[3], const double place[3])
 {
-    const iccp_memory *memory = &cone->mesh.memory;
+    const iccp_memory *memory = &mesh->tets.memory;
     iccp_list inside = {0}, beside = {0};
-    const bool raised = list_star(cone, below, vertex, &inside, &beside) &&
-                        raise(cone, vertex, apex, place, &inside, &beside);
+    const bool raised = list_star(mesh, below, vertex, &inside, &beside) &&
+                        raise(mesh, vertex, apex, place, &inside, &beside);
     iccp_free(memory, inside.item);
     iccp_free(memory, beside.item);
     return raised;

@@ -3,8 +3,7 @@
 
 #include "base/minmax.h"
 #include "fill/fill_domain.h"
-#include "geometry/simplices.h"
-#include "map/solid/cone_map.h"
+#include "map/solid/apex.h"
 #include "math/vec.h"
 #include "method/chart_create.h"
 
@@ -51,7 +50,7 @@ icc_status iccp_solid_ball(icc_chart **ball, double apex[3], const icc_domain *s
     const size_t n = source->n_vertices;
     bool sees;
     *ball = NULL;
-    icc_status status = iccp_cone_apex(&sees, apex, source->mesh, target->vertices, env);
+    icc_status status = iccp_find_apex(&sees, apex, source->mesh, target->vertices, &env->memory);
     if (status != ICC_OK || !sees)
         return status;
     double *directions = iccp_alloc(&env->memory, n, 3 * sizeof *directions);

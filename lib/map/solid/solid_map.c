@@ -61,14 +61,14 @@ icc_status iccp_solid_map_relax(iccp_solid_map *map, const icc_domain *source,
     return status;
 }
 
-/* Takes the steps of every new map. A map that was unfolded gets steps on a finer mesh as well,
- * because unfolding leaves few points where the most folds are. */
-static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, bool unfolded,
-                              int32_t iterations, iccp_map_facts *info, const iccp_env *env)
+/* Takes the steps of every new map. A map by way of a ball gets steps on a finer mesh as well,
+ * because it has few points where the target differs most from a ball. */
+static icc_status improve_new(iccp_solid_map *map, const icc_domain *source, int32_t iterations,
+                              iccp_map_facts *info, const iccp_env *env)
 {
     const icc_improve_options options = {.iterations =
                                              iterations == 0 ? ITERATIONS_OF_NEW : iterations,
-                                         .levels = unfolded ? 1 : -1};
+                                         .levels = map->way == ICCP_SOLID_BY_BALL ? 1 : -1};
     return iccp_solid_map_relax(map, source, &options, info, env);
 }
 
@@ -96,10 +96,9 @@ icc_status iccp_solid_map_create(iccp_solid_map **out, const icc_chart *source,
     *out = NULL;
     if (map == NULL)
         return ICC_ERR_MEMORY;
-    bool unfolded;
-    icc_status status = iccp_solid_start(map, source, target, &unfolded, info, &part[0]);
+    icc_status status = iccp_solid_start(map, source, target, info, &part[0]);
     if (status == ICC_OK && info->n_unrepaired == 0)
-        status = improve_new(map, source->domain, unfolded, iterations, info, &part[1]);
+        status = improve_new(map, source->domain, iterations, info, &part[1]);
     if (status == ICC_OK && info->n_unrepaired == 0)
         status = iccp_solid_map_finish(map, info, env);
     if (status != ICC_OK || info->n_unrepaired > 0) {
@@ -136,6 +135,7 @@ icc_status iccp_solid_map_copy(iccp_solid_map **out, const iccp_solid_map *map,
         iccp_solid_map_free(copy);
         return status;
     }
+    copy->way = map->way;
     *out = copy;
     return ICC_OK;
 }

@@ -7,17 +7,17 @@
  * - chord: an inner edge that joins two boundary points.
  * - pocket: a stuck tetrahedron with some rings of neighbours (a cavity).
  * - star-shaped: a region that a point inside, the apex, sees all of.
- * - cone: a star mesh, whose tetrahedra are put into place one after the other (cone.h).
  * - coat: a collar, the layer of tetrahedra below the surface (coat.h).
  *
  * Invariants
  * - Every tetrahedron of a finished map is positive before and after the map, by exact predicates.
  * - The surface of the mesh never changes; only the inside may get points.
  *
- * Ways to a first map (solid_start.h, in this order)
- * - solid_ways.h: the charts' images, repaired. solid_pockets.h: pockets are mapped anew.
- * - solid_ball.h and coat_map.h: by way of a ball. cone_map.h: without charts, onto a star shape.
- * - solid_mend.h: more points where tetrahedra stay inverted.
+ * Ways to a first map (the table in solid_start.c, in this order)
+ * - solid_ways.h: the charts' images, repaired.
+ * - solid_ball.h and coat_map.h: by way of a ball, if a point sees all of one surface.
+ * - solid_pockets.h: pockets are mapped anew. In pockets only, solid_mend.h adds points where
+ *   tetrahedra stay inverted.
  * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
  *
  * Begin with solid_map.c and solid_start.c. */
@@ -26,6 +26,15 @@
 
 #include "map/kind/kind.h"
 
+/* The strategy that found a first map (solid_start.c). */
+typedef enum iccp_solid_way {
+    ICCP_SOLID_BY_CHARTS = 1,
+    ICCP_SOLID_BY_BALL,
+    ICCP_SOLID_BY_POCKETS,
+    ICCP_SOLID_BY_POINTS,
+    ICCP_SOLID_BY_POINTS_ANEW
+} iccp_solid_way;
+
 /* Immutable once made. */
 typedef struct iccp_solid_map {
     iccp_memory memory;
@@ -33,6 +42,7 @@ typedef struct iccp_solid_map {
     iccp_simplices *own;        /* a mesh with more points, or NULL */
     double *images;             /* of the mesh's points, local in the target */
     double stretch;             /* as in iccp_simplicial_map */
+    iccp_solid_way way;         /* 0 for a map that was read from a file */
     iccp_facet_tree before, after;
 } iccp_solid_map;
 

@@ -1,11 +1,10 @@
-/* Images by charts, their repair, and the map onto a star-shaped solid. */
+/* Images by charts, and their repair. */
 #include "map/solid/solid_ways.h"
 
 #include "base/clock.h"
 #include "base/threads.h"
 #include "map/curves/curves.h"
 #include "map/energy/mesh_repair.h"
-#include "map/solid/cone_map.h"
 #include "map/solid/solid_chords.h"
 #include "map/solid/solid_edit.h"
 #include "map/solid/solid_mend.h"
@@ -132,8 +131,8 @@ icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, iccp_map_fact
     return status == ICC_OK && cut ? repair(map, info, &part[3]) : status;
 }
 
-icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew,
-                            iccp_map_facts *info, const iccp_env *env)
+static icc_status refit(iccp_solid_map *map, iccp_direction way, bool anew, iccp_map_facts *info,
+                        const iccp_env *env)
 {
     const double began = iccp_seconds();
     iccp_env part[2];
@@ -149,22 +148,14 @@ icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew,
     return status;
 }
 
-icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
-                             const iccp_env *env)
+icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
+                            const iccp_env *env)
 {
-    const double began = iccp_seconds();
-    const icc_domain *from = way.source->domain, *to = way.target->domain;
-    iccp_simplices *cut, *mesh = NULL;
-    double *images;
-    icc_status status = iccp_solid_cut_chords(&cut, from->mesh, from->facets, env);
-    if (status == ICC_OK)
-        status = iccp_cone_map(&mesh, &images, cut != NULL ? cut : from->mesh, to->vertices, env);
-    iccp_simplices_free(cut);
-    if (status == ICC_OK && mesh != NULL) {
-        iccp_solid_take(map, mesh, images);
-        status = iccp_solid_check(map, from, env);
-        info->n_unrepaired = iccp_solid_count_inverted(map);
-    }
-    info->seconds_repair += iccp_seconds() - began;
-    return status;
+    return refit(map, way, false, info, env);
+}
+
+icc_status iccp_solid_refit_anew(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
+                                 const iccp_env *env)
+{
+    return refit(map, way, true, info, env);
 }

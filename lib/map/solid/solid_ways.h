@@ -18,18 +18,16 @@ icc_status iccp_solid_own(iccp_solid_map *map);
 /* Replaces the map's own mesh and images by others, which the map then owns. */
 void iccp_solid_take(iccp_solid_map *map, iccp_simplices *mesh, double *images);
 
+/* Maps a mesh on one side. Sets info->n_unrepaired, unless it does not apply to this pair. */
+typedef icc_status iccp_solid_strategy(iccp_solid_map *map, iccp_direction way,
+                                       iccp_map_facts *info, const iccp_env *env);
+
 /* Maps by the charts on the source's mesh. If that cannot be repaired, it uses a mesh without
  * chords. */
-icc_status iccp_solid_fit(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
-                          const iccp_env *env);
+iccp_solid_strategy iccp_solid_fit;
 
-/* Continues on the mesh that iccp_solid_fit() left: from its images, or anew from the charts. */
-icc_status iccp_solid_refit(iccp_solid_map *map, iccp_direction way, bool anew,
-                            iccp_map_facts *info, const iccp_env *env);
-
-/* Maps without the charts on a mesh without chords, if a point inside sees all of the target's
- * surface. Otherwise the map is empty and `info` does not change. */
-icc_status iccp_solid_unfold(iccp_solid_map *map, iccp_direction way, iccp_map_facts *info,
-                             const iccp_env *env);
+/* Continue on the mesh that iccp_solid_fit() left, from its images or anew from the charts. Points
+ * are added where tetrahedra stay inverted (map/solid/solid_mend.h). */
+iccp_solid_strategy iccp_solid_refit, iccp_solid_refit_anew;
 
 #endif

@@ -1,15 +1,15 @@
-/* A mesh in space onto a star-shaped target: every tetrahedron exactly positive on both sides, the
- * boundary as it was given, and what is told when there is no such map; a coat on a map onto a ball;
- * pockets of a map in which something is inverted. */
+/* Which targets have an apex; a coat on a map onto a ball; pockets of a map in which something is
+ * inverted. */
 #include "../../../faulty.h"
 #include "../../../meshes.h"
 #include "../../../suite.h"
 #include "base/error.h"
 #include "domain/domain.h"
 #include "geometry/simplices.h"
+#include "map/energy/mesh_repair.h"
+#include "map/solid/apex.h"
 #include "map/solid/coat.h"
 #include "map/solid/coat_map.h"
-#include "map/solid/cone_map.h"
 #include "map/solid/solid_chords.h"
 #include "map/solid/solid_pockets.h"
 #include "match/sphere/sphere.h"
@@ -106,14 +106,6 @@ static void free_problem(problem *p)
     free(p->boundary);
 }
 
-static icc_status unfold(const problem *p, iccp_simplices **mesh, double **images,
-                         const icc_env *given, icc_error *err)
-{
-    iccp_env env;
-    ck_assert_int_eq(iccp_env_read(&env, given, err), ICC_OK);
-    return iccp_cone_map(mesh, images, p->mesh, p->boundary, &env);
-}
-
 static size_t count_positive(const iccp_simplices *mesh, const double *x)
 {
     size_t n = 0;
@@ -122,6 +114,30 @@ static size_t count_positive(const iccp_simplices *mesh, const double *x)
         n += iccp_orient3d(x + 3 * v[0], x + 3 * v[1], x + 3 * v[2], x + 3 * v[3]) > 0;
     }
     return n;
+}
+
+/* Maps a mesh by moving images inside. Both results are NULL if that is in vain. */
+static icc_status repair(iccp_simplices **mesh, double **images, const iccp_simplices *from,
+                         const double *boundary, const iccp_env *env)
+{
+    const size_t n = 3 * from->n_points, n_given = 3 * from->n_boundary;
+    icc_status status = iccp_simplices_copy(mesh, from, &env->memory);
+    double *x = *images = iccp_alloc(&env->memory, n, sizeof *x);
+    if (status == ICC_OK && x == NULL)
+        status = ICC_ERR_MEMORY;
+    for (size_t i = 0; status == ICC_OK && i < n; ++i)
+        x[i] = i < n_given ? boundary[i] : NAN;
+    if (status == ICC_OK)
+        status = iccp_mesh_repair(*mesh, x, HUGE_VAL, env);
+    if (status == ICC_OK)
+        iccp_mesh_round(*mesh, x);
+    if (status == ICC_OK && count_positive(*mesh, x) == from->n_simplices)
+        return ICC_OK;
+    iccp_free(&env->memory, x);
+    iccp_simplices_free(*mesh);
+    *mesh = NULL;
+    *images = NULL;
+    return status;
 }
 
 /* Of a problem; what is the result is freed. */
@@ -141,34 +157,26 @@ static void check_result(const problem *p, const double *boundary, iccp_simplice
     iccp_simplices_free(mesh);
 }
 
-/* `grows`: whether it takes new points. */
-static void check_map(body source, body target, bool grows)
+/* ---- the apex ---- */
+
+static bool has_apex(body target)
 {
-    problem p = problem_of(source, target);
-    iccp_simplices *mesh;
-    double *images;
-    ck_assert_int_eq(unfold(&p, &mesh, &images, NULL, NULL), ICC_OK);
-    ck_assert_ptr_nonnull(mesh);
-    ck_assert(grows == (mesh->n_simplices > p.mesh->n_simplices));
-    check_result(&p, p.boundary, mesh, images);
+    problem p = problem_of(arch, target);
+    iccp_env env;
+    bool sees;
+    double apex[3];
+    ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_find_apex(&sees, apex, p.mesh, p.boundary, &env.memory), ICC_OK);
     free_problem(&p);
+    return sees;
 }
 
-START_TEST(arch_onto_ball)
+START_TEST(apices)
 {
-    check_map(arch, ball, false);
-}
-END_TEST
-
-START_TEST(arch_onto_cube)
-{
-    check_map(arch, cube, false);
-}
-END_TEST
-
-START_TEST(arch_onto_star)
-{
-    check_map(arch, star, true);
+    ck_assert(has_apex(ball));
+    ck_assert(has_apex(cube));
+    ck_assert(has_apex(star));
+    ck_assert(!has_apex(arch));
 }
 END_TEST
 
@@ -211,9 +219,8 @@ static dress dress_of(void)
         for (int k = 0; k < 3; ++k)
             d.cube[3 * v + (size_t)k] = x[k] / most;
     }
-    ck_assert_int_eq(unfold(&d.p, &d.mesh, &d.images, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(repair(&d.mesh, &d.images, d.p.mesh, d.p.boundary, &env), ICC_OK);
     ck_assert_ptr_nonnull(d.mesh);
-    ck_assert_int_eq(iccp_simplices_join(d.mesh, 0, NULL, NULL), ICC_OK);
     return d;
 }
 
@@ -287,12 +294,12 @@ END_TEST
 
 /* ---- pockets ---- */
 
-static iccp_solid_solve by_cones, in_vain, no_better;
+static iccp_solid_solve by_repair, in_vain, no_better;
 
-static icc_status by_cones(iccp_simplices **mesh, double **images, const icc_domain *from,
-                           const icc_domain *to, const iccp_env *env)
+static icc_status by_repair(iccp_simplices **mesh, double **images, const icc_domain *from,
+                            const icc_domain *to, const iccp_env *env)
 {
-    return iccp_cone_map(mesh, images, from->mesh, to->vertices, env);
+    return repair(mesh, images, from->mesh, to->vertices, env);
 }
 
 static icc_status in_vain(iccp_simplices **mesh, double **images, const icc_domain *from,
@@ -355,7 +362,7 @@ static icc_status mend_once(const icc_env *given, icc_error *err, void *argument
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         memcpy(map.images, spoilt.images, 3 * p->mesh->n_points * sizeof *map.images);
-        status = iccp_solid_mend_pockets(&map, p->source, by_cones, &env);
+        status = iccp_solid_mend_pockets(&map, p->source, by_repair, &env);
     }
     free_map(&spoilt);
     if (given == NULL) { /* memory lasts */
@@ -398,52 +405,16 @@ START_TEST(pockets_in_vain)
 }
 END_TEST
 
-START_TEST(none_onto_arch)
-{
-    problem p = problem_of(ball, arch);
-    iccp_simplices *mesh;
-    double *images;
-    ck_assert_int_eq(unfold(&p, &mesh, &images, NULL, NULL), ICC_OK);
-    ck_assert_ptr_null(mesh);
-    ck_assert_ptr_null(images);
-    free_problem(&p);
-}
-END_TEST
-
-static icc_status unfold_once(const icc_env *given, icc_error *err, void *argument)
-{
-    iccp_simplices *mesh;
-    double *images;
-    const icc_status status = unfold(argument, &mesh, &images, given, err);
-    ck_assert((status == ICC_OK) == (mesh != NULL) && (status == ICC_OK) == (images != NULL));
-    if (mesh != NULL)
-        iccp_free(&mesh->memory, images);
-    iccp_simplices_free(mesh);
-    return iccp_fail(err, status, "no map");
-}
-
-START_TEST(failures)
-{
-    problem p = problem_of(arch, star);
-    faulty_sweep(unfold_once, &p);
-    free_problem(&p);
-}
-END_TEST
-
 int main(void)
 {
-    Suite *suite = suite_create("cone map");
+    Suite *suite = suite_create("coats and pockets");
     TCase *tests = tcase_create("all");
     tcase_set_timeout(tests, 300);
-    tcase_add_test(tests, arch_onto_ball);
-    tcase_add_test(tests, arch_onto_cube);
-    tcase_add_test(tests, arch_onto_star);
+    tcase_add_test(tests, apices);
     tcase_add_test(tests, coat);
     tcase_add_test(tests, coat_failures);
     tcase_add_test(tests, pockets);
     tcase_add_test(tests, pockets_in_vain);
-    tcase_add_test(tests, none_onto_arch);
-    tcase_add_test(tests, failures);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
 }
