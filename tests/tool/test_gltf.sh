@@ -91,9 +91,9 @@ class Scene:
         self.tree['nodes'].append(what)
         return len(self.tree['nodes']) - 1
 
-    def write(self, name):
+    def write(self, name, text=None):
         self.tree['buffers'] = [{'byteLength': len(self.body)}]
-        text = json.dumps(self.tree).encode()
+        text = (text or json.dumps(self.tree)).encode()
         text += b' ' * (-len(text) % 4)
         body = self.body + b'\0' * (-len(self.body) % 4)
         with open(name, 'wb') as f:
@@ -209,6 +209,27 @@ for parent in ({}, {'translation': [1, -.5, .25]}, {'rotation': [0, 0, 3, 4], 's
                 mask[view['byteOffset']:view['byteOffset'] + view['byteLength']] = False
             a, b = np.frombuffer(before.body, 'u1'), np.frombuffer(after.body, 'u1')
             assert len(a) == len(b) and (a[mask] == b[mask]).all()
+END
+
+python 'the text of the JSON stays, but for bounds' <<'END'
+import re
+v, f, *_ = ball()
+for missing in ((), ('min',), ('max',), ('min', 'max')):
+    s = Scene()
+    s.mesh(v, f), s.node(mesh=0, extras={'price': 0, 'name': 'é'})
+    for side in missing:
+        del s.tree['accessors'][0][side]
+    s.write('in.glb')
+    before = json.dumps(s.tree, indent=1).replace('"price": 0', '"price": 1.10')
+    s.write('in.glb', before)
+    run(0, 'mesh', '-s', 'box.obj', '-t', 'sheared.obj', 'in.glb', 'out.glb')
+    after = Read('out.glb')
+    assert after.tree['accessors'][0].keys() >= {'min', 'max'}
+    after.array(0)
+    raw = open('out.glb', 'rb').read()
+    after = raw[20:20 + struct.unpack('<I', raw[12:16])[0]].decode().rstrip()
+    bare = [re.sub(r'("(?:min|max)": )\[[^]]*\]', r'\1', re.sub(r',"(?:min|max)":\[[^]]*\]', '', text)) for text in (before, after)]
+    assert bare[0] == bare[1] and before != after, bare
 END
 
 python 'a cage that nodes place is a cage in the scene, whichever way they turn it' <<'END'
