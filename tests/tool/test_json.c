@@ -113,6 +113,8 @@ START_TEST(test_place_of_fault)
         {"[1]\n{}", 2, "this is not valid JSON: something follows its end (column 1)"},
         {"{\"a\\n\\n\":1,\n\"b\":\"\\n\",\n\"c\":?}", 3, "this is not valid JSON (column 5)"},
         {"[\"a\\u\"]", 1, "this string is not valid JSON (column 5)"},
+        {"{\"a\tb\": 1}", 1, "this string is not valid JSON (column 4)"},
+        {"{1: 2}", 1, "this is not valid JSON: the name of a member should be here (column 2)"},
         {"[-]", 1, "this number is not valid JSON (column 3)"},
         {"[\n\"\xff\"]", 2, "this string is not UTF-8 (column 1)"},
         {"[\"\\ud800\"]", 1, "this string has half of a surrogate pair (column 2)"},

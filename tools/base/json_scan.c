@@ -132,8 +132,10 @@ static json_kind scan_value(json_scan *s)
 
 static json_kind scan_name(json_scan *s)
 {
-    if (s->text[s->at] != '"' || !scan_string(s))
+    if (s->text[s->at] != '"')
         return bad(s, "this is not valid JSON: the name of a member should be here");
+    if (!scan_string(s))
+        return bad(s, "this string is not valid JSON");
     s->end = s->at;
     skip_blanks(s);
     if (s->text[s->at] != ':')

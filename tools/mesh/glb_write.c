@@ -80,13 +80,17 @@ static void put_positions(char *text, const mesh_file *m, const glb_positions *s
     }
 }
 
-/* The least or the greatest of a coordinate, as JSON. */
+/* Adds the least or the greatest of a coordinate, which is 0 if no vertex has an image. */
 static void put_bound(edits *e, const char *text, const glb_items *items, size_t k, bool greatest)
 {
     double bound = 0;
+    bool any = false;
     for (size_t i = 0; i < items->n; i++) {
         double x = (double)little_endian_float(text + items->at + i * items->stride + 4 * k);
-        bound = i == 0 || (greatest ? x > bound : x < bound) ? x : bound;
+        if (isfinite(x) && (!any || (greatest ? x > bound : x < bound))) {
+            bound = x;
+            any = true;
+        }
     }
     edits_put_number(e, bound);
 }
