@@ -20,7 +20,8 @@ icc_status iccp_encode_points(const icc_chart *chart, size_t n, const double *po
                               iccp_coords *coords, double *volume, icc_status *status,
                               iccp_path *path);
 
-/* Decodes points likewise. Points whose status is already an error stay failed. Scales the
+/* Decodes at most ICCP_CHART_MANY points without derivatives, with `status` and `volume` as in
+ * iccp_encode_points(). Points whose status is already an error stay failed. Scales the
  * barycentric coordinates to a sum of 1. */
 icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coords, double *points,
                               double *volume, icc_status *status, iccp_path *path);

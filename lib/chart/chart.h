@@ -97,7 +97,7 @@ typedef struct iccp_chart_ops {
     void (*encode_vertex)(const icc_chart *chart, size_t v, iccp_coords *coords);
     icc_status (*decode)(const icc_chart *chart, const iccp_coords *coords, double *point,
                          iccp_decode_jet *jet, iccp_path *path);
-    /* The same for many points without derivatives, with the same bits. NULL if that is not
+    /* Encode and decode many points without derivatives, with the same bits. NULL if that is not
      * faster. The n points are those that `which` selects, of at most ICCP_CHART_MANY. Only
      * `place` counts from 0 to n. `status` gets the outcome of each point, and the return value
      * is an error that concerns all of them. `volume`, or NULL, gets for each point the

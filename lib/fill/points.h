@@ -15,7 +15,7 @@
 typedef struct iccp_dyadic {
     uint32_t of[3]; /* vertices of the surface */
     uint32_t next;  /* of a point on an edge: the next one */
-    /* Of a point on an edge the third share is 0; all are 0 after the point was moved */
+    /* the third share is 0 for a point on an edge; all are 0 after the point was moved */
     double share[3];
 } iccp_dyadic;
 

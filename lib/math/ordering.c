@@ -46,10 +46,10 @@ typedef struct node {
     uint32_t n_elements;    /* of a variable: elements in its list, which come first */
     int32_t size;           /* of a variable: how many it represents; negative in the new element */
     uint32_t degree;        /* variables of an element; for a variable, a bound of its neighbours */
-    /* Neighbours in the list of the same cost. In a bucket: the next variable, and the hash. Of an
+    /* Neighbours in the list of the same cost. In a bucket: the next variable, and the hash. For an
      * absorbed element: the one that absorbed it. */
     uint32_t next, last;
-    /* Of an element: the stamp plus the number of its variables outside the new one. 0: it no
+    /* For an element: the stamp plus the number of its variables outside the new one. 0 if it no
      * longer exists. */
     uint32_t mark;
 } node;

@@ -15,7 +15,7 @@ typedef struct iccp_circulation {
     const double *reference; /* flux through each side */
     iccp_links links;
     double *weight; /* by facet of the links: area over the distance of the barycentres */
-    double *least;  /* likewise: the least flux, a share of the flux nearby */
+    double *least;  /* by facet of the links: the least flux, a share of the flux nearby */
 } iccp_circulation;
 
 icc_status iccp_circulation_create(iccp_circulation *circulation, const iccp_simplices *mesh,

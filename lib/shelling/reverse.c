@@ -24,7 +24,7 @@ enum { MOST_PASSES = 20 };
 typedef struct reversal {
     const iccp_order_priority *priority;
     uint8_t *entered; /* of each simplex: the sides by which leaves enter; bit i is side i */
-    uint8_t *inner;   /* likewise: the sides to simplices outside the star */
+    uint8_t *inner;   /* of each simplex: the sides to simplices outside the star */
     uint32_t *wrong;  /* sides that the flux crosses the wrong way and that may be tried */
     size_t n_wrong;
     uint32_t *reversed; /* sides reversed in this pass, as seen from the simplex that had the

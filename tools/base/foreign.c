@@ -130,7 +130,7 @@ static bool is_well_known_binary(const char *text, size_t n)
     return order < 2 && type / 1000 < 4 && type % 1000 >= 1 && type % 1000 <= 7;
 }
 
-/* The same as PostGIS prints it: hexadecimal digits. */
+/* Recognises well-known binary as PostGIS prints it, in hexadecimal digits. */
 static bool is_hexadecimal(const char *p)
 {
     bool little = strncmp(p, "010", 3) == 0 && strncmp(p + 4, "000", 3) == 0;

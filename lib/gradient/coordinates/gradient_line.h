@@ -20,7 +20,7 @@ typedef struct iccp_gradient_line {
 icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from, iccp_path *path,
                               iccp_jetn *jet, iccp_gradient_line *line);
 
-/* Likewise, to the maximum. */
+/* Follows the line to the maximum, with the same arguments. */
 icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from, iccp_path *path,
                             iccp_jetn *jet, iccp_gradient_line *line);
 

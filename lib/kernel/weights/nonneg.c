@@ -20,9 +20,9 @@
 
 /* Multiple of |g| that is added to the diagonal. */
 static const double DAMPING = 1e-6;
-/* Share of the size of the numbers: a smaller g is rounding. */
+/* A g smaller than this share of the size of the numbers is rounding. */
 static const double TIGHT = 16 * DBL_EPSILON;
-/* Likewise: with a larger remainder the target lies outside the reach of the columns. */
+/* If the remainder is larger than this share of that size, the columns do not reach the target. */
 static const double OUTSIDE = 1e-11;
 /* Largest slope at the end of a step, as a share of that at its start. */
 static const double STEEP = 0.5;

@@ -50,7 +50,7 @@ typedef struct iccp_plmap {
     size_t vertex_room, triangle_room;
     double *points;  /* 2 n_vertices: local in the source */
     double *images;  /* 2 n_vertices: local in the target */
-    uint8_t *fixed;  /* of each vertex: as above */
+    uint8_t *fixed;  /* of each vertex: ICCP_FREE or what it is fixed to */
     uint32_t *facet; /* of fixed vertices: a facet of the source (domain/features.h) */
     double *along;   /* of fixed vertices: their place on that facet, in [0, 1] */
     double stretch;  /* multiplies lengths of the source in energies, so that both areas are

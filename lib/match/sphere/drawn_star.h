@@ -5,7 +5,8 @@
 #include "base/memory.h"
 #include "match/surface/half_edges.h"
 
-/* Of the surface: the products of a corner's two sides, and values that follow from them. */
+/* A face of the surface: the products of its two sides at the vertex, and values that follow from
+ * them. */
 typedef struct iccp_drawn_star_face {
     double aa, ab, bb; /* a goes from the vertex to ring[i], b to ring[i + 1] */
     double inverse;    /* 1 / (aa bb - ab^2) */
