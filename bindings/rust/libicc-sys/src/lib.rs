@@ -1619,11 +1619,8 @@ extern "C" {
     pub fn icc_match_get_info(r#match: *const icc_match, info: *mut icc_match_info) -> icc_status;
 
     /// Reports where the common vertices come from: n_vertices numbers each, `u32::MAX` for one that was added.
-    pub fn icc_match_get_origins(
-        r#match: *const icc_match,
-        source: *mut u32,
-        target: *mut u32,
-    ) -> icc_status;
+    pub fn icc_match_get_origins(r#match: *const icc_match, source: *mut u32, target: *mut u32)
+        -> icc_status;
 
     /// Takes points of the source to the target: each to the nearest place on the rings, lines and points of
     /// `icc_match_source()`, and from there to the same place of the target. Common vertices go to their partners

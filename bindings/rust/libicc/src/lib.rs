@@ -63,7 +63,8 @@ pub use domain::{
 pub use env::Env;
 pub use error::{Error, Item, Result, Side, Status};
 pub use map::{
-    Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, MapReport, OwnedTie, Tie,
+    Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, MapReport,
+    OwnedTie, Tie,
 };
 pub use matching::{Between, Match, MatchInfo, MatchOptions, Turning};
 pub use object::Borrowed;
