@@ -14,6 +14,12 @@
  * - fail: functions that describe a failure in the caller's icc_error and return its status
  *   (error.h).
  *
+ * Ways: memory.h allocates, error.h fails, threads.h runs loops. options.h reads and writes structs
+ * of the caller's version, blob.h objects as bytes, within the limits of budget.h. fpenv.h sets the
+ * floating-point environment, simd.h chooses instructions, clock.h measures. For algorithms:
+ * heap.h, sort.h, sets.h (union-find), random.h, minmax.h, and once.h for what is made on first
+ * use.
+ *
  * Invariants: results do not depend on the number of threads. No variables keep state between
  * calls. Allocations whose size overflows fail (memory.h). */
 #ifndef ICCP_ENV_H

@@ -7,12 +7,20 @@
  * - feature: a hole, line or point inside a polygon (features.h). Its rim is the circle that a
  *   radius adds.
  * - checks: geometry/polygon_check.h checks polygons, features_check.h their features. Both ask
- *   geometry/sweep.h what touches or crosses. complex.h checks surfaces.
+ *   geometry/sweep.h what touches or crosses. Of other boundaries, complex.h pairs
+ *   the facets, complex_shape.c finds whether they form a manifold, in space a sphere, and
+ *   simplicial.h whether they are flat, or meet.
  * - mask: a solid made of lattice cells (mask.h).
  * - mesh: simplices that fill the domain (geometry/simplices.h). Another mesh of the same domain is
  *   a filling.
  * - part, ring: a connected piece of a boundary; in the plane, a closed polygon.
  * - locator: the search structure of a polygon without features (geometry/locate.h).
+ *
+ * Ways
+ * - Making: domain.c from a boundary, features.h with features, mesh_domain.h from a mesh,
+ *   mask_boundary.h from a mask, which solid.h checks and mask_repair.h repairs.
+ * - Asking: domain_query.c. Bytes: domain_file.h, features_file.h.
+ * - Boundaries of meshes that are no domains: boundary_parts.h, in the plane by outlines.h.
  *
  * Invariants: a domain is checked when it is made and when it is read from bytes, and then never
  * changes. Only search trees are built later, on first use, and any number of threads may share

@@ -17,6 +17,13 @@
  * - metric: a linear map in which a stretched surface has the same extent in all directions
  *   (metric.h).
  *
+ * Ways, in the order of fill_domain.c
+ * - insert.h for the vertices. segments.h for edges, by flip.h, then points on them (split.c).
+ * - facets.h for facets, and to remove the outside. facet_scan.h finds what pierces a facet.
+ * - lift.h, with lifting.h for the facets of one point. reshape.h settles, inner_points.h refines,
+ *   reshape.h improves, by flip.h; quality.h says what is better.
+ * - Exact signs of dyadic points: fixed.h.
+ *
  * Invariants: every tetrahedron is positive by exact signs after every step. A step that fails
  * changes nothing. */
 #ifndef ICCP_FILL_DOMAIN_H

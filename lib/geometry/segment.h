@@ -13,6 +13,16 @@
  * - share: a position along a segment, from 0 to 1.
  * - piece, group: parts of items that near_pairs.h compares, and items that it does not compare.
  *
+ * Ways
+ * - Polygons: polygon_check.h says what is wrong. simple.h decides most, sweep.h the others, and
+ *   also whether chains stay apart. defects.h lists all defects.
+ * - Triangles that meet: triangles.h, which skips what fans.h clears. needles.h, on near_pairs.h,
+ *   takes over where too many boxes overlap.
+ * - Point in polygon: locate.h, by buckets.h, and boxtree.h for the nearest edge. In any dimension:
+ *   inside.h, by crossings.h, and facet_nearest.c on the boxes of facet_tree.h.
+ * - Nearest point of one simplex: simplex.h. Meshes: simplices.h, simplices_check.c (topology).
+ * - Lattices: octants.h. Curves: path.h. Equal lists of vertices: tuples.h.
+ *
  * Invariants: decisions about meeting, inside and orientation are exact up to dimension 3. If
  * several answers are equally good, the one with the smallest number wins, so results do not depend
  * on trees. */

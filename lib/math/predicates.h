@@ -13,6 +13,14 @@
  * - scaled: numbers beyond the range of double (scaled.h).
  * - to within 0.6 ulp: error bound of the functions in elementary.h, in units in the last place.
  *
+ * Ways
+ * - Signs: predicates.c in the plane, orient3d.c in space, orient.h in up to six dimensions,
+ *   exact up to three.
+ * - Linear systems: ldlt.c orders and analyses, ldlt_factorise.c factorises, ldlt_solve.c solves,
+ *   ldlt_scaled.c for scaled numbers. dense.h has the inner loops, subtrees.h the parts for
+ *   threads. pcg.h iterates instead. gram.h makes normal equations.
+ * - Functions of elementary.h: exponential.c, angle.c, root.c. Eigenvectors: jacobi.h.
+ *
  * Invariants: all results have the same bits on every machine and for every number of threads.
  * Predicates are exact for finite arguments that are 0 or have magnitudes in [2^-200, 2^200];
  * lib/domain brings every shape into that range. */

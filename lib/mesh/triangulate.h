@@ -11,6 +11,10 @@
  * - finder: a grid that finds the triangle of a point (finder.h).
  * - legalise: to flip edges until they are Delaunay.
  *
+ * Ways: triangulate.c takes delaunay.h (in the order of insertion_order.h), then constrain.h for
+ * the walls, and drops what is outside. planar.h meshes a domain, with the points of grading.h.
+ * corners.h cuts and flips edges of a mesh, finder.h finds triangles, laplacian.h has equations.
+ *
  * Invariants: all triangles are counter-clockwise, by exact signs. The same points give the same
  * triangulation on every machine. */
 #ifndef ICCP_TRIANGULATE_H

@@ -12,6 +12,9 @@
  * - parameters, digest: what a chart is rebuilt from, and a hash of its result
  *   (chart_parameters.h).
  *
+ * Ways: chart_gradient.c makes charts and has the coordinates. gradient_boundary.h gives values to
+ * vertices outside that no tree reaches, gradient_measure.h samples what is not covered.
+ *
  * Invariants: curves end at the maximum, which is the tree's root. A chart that is read from bytes
  * is made again and must have the same digest. */
 #ifndef ICCP_CHART_GRADIENT_H

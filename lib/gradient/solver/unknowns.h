@@ -17,6 +17,16 @@
  * - level, row, half, run, slab: how multigrid stores a grid (mg_level.h).
  * - shell: the unknowns that the iterative solver handles at the same scale (tied_iterative.c).
  *
+ * Ways (function/laplace.c calls the first three)
+ * - Laplace: tied_direct.c, by the order of dissection.h, or tied_iterative.c, by tied_cg.h. Under
+ *   the inequalities: active_set.h, which calls these with tied unknowns.
+ * - Bi-Laplace: bilaplace.c, on laplacian_factor.h or energy.h, or bilaplace_iterative.c, on
+ *   mg_cg.h.
+ * - Bi-Laplace under the inequalities: bilaplace_constrained.c, which takes polish.h, then
+ *   interior_point.h (on newton_qp.h), on large grids after nested.h (coarse_qp.h, smoothing.h).
+ * - Multigrid: multigrid.h has the cycle, mg_sweep.h a slab of it, mg_coarse.c the coarse levels,
+ *   mg_kernel.h the inner loops.
+ *
  * Invariants: functions span hundreds of orders of magnitude, so values are fractions with
  * exponents (math/scaled.h) and tests are relative. All solvers give the same bits on every
  * machine. */
