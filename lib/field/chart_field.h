@@ -18,9 +18,14 @@
  * all contacts, and no inside vertex that was given up. So its curves never merge, and each crosses
  * the boundary once.
  *
- * Ways: incidence.h finds the simplices, extension.h the values, vectors.h the vectors. flow.h
- * follows one curve, flow_follow.h many. field_encode.c and field_decode.c compute the coordinates.
- * field_certificate.h certifies the chart.
+ * Ways
+ * - Making: chart_field.c makes a chart, field_charts.h pairs maxima (pairing.h) and shifts grids.
+ *   incidence.h finds the simplices, of some masks by incidence_mask.h; extension.h finds values,
+ *   vectors.h vectors (by minnorm.h, the nearest point of a hull). field_certificate.h certifies.
+ * - Following: flow.h one curve, flow_follow.h many, side by side in flow_batch.h. flow_step.h
+ *   tries the end of a piece, flow_exit.h finds it slowly, flow_leave.c finds the boundary.
+ * - Coordinates: field_encode.c, field_decode.c; field_trace.c has whole curves. field_state.h has
+ *   the operations, field_measure.h samples.
  *
  * Begin with vectors.h and flow.h. */
 #ifndef ICCP_CHART_FIELD_H

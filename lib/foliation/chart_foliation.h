@@ -19,7 +19,8 @@
  * once.
  *
  * Ways: harmonic_charts.c creates the charts of both methods. psi.c and chart_foliation.c serve
- * method foliation, chart_disc.c serves method disc.
+ * method foliation, chart_disc.c serves method disc. harmonic_file.h and psi_file.h read and write
+ * bytes.
  *
  * Begin with psi.h and leaf2.h. */
 #ifndef ICCP_CHART_FOLIATION_H

@@ -14,16 +14,21 @@
  * - flux: amount that leaves a simplex through a side; negative if it enters (reference.h).
  * - potential: a function on the simplices that rises with the distance from the star.
  * - link: the cycle of simplices round a face of dimension dim - 2 (links.h).
- * - grow, peel, reverse: ways to make and to improve an order.
+ * - grow, peel, reverse: ways to make an order (shelling_order.h) and to improve it (reverse.h).
  * - place, note: a point as simplex and barycentric coordinates; a place saved with its length.
  *
  * Invariants: along an order, every union of simplices is a ball. Leaves enter a simplex from
  * greater rank and leave it to smaller rank. A chart exists only if shelling_certificate.h accepts
  * it.
  *
- * Ways: centres.h chooses the centres. reference.h, best_order.h and circulation.h make the order
- * and its flux. shelling_certificate.h proves the foliation, leafn.h follows leaves, and
- * shelling_state.c has the coordinates.
+ * Ways
+ * - Centres: centres.h; shelling_split.h adds a vertex if the mesh has none inside.
+ * - Flux that is wanted: inflow.c at the boundary, reference.h inside.
+ * - Order: shelling_order.h grows and peels, reverse.h improves, best_order.h chooses and repeats
+ *   what got stuck. circulation.h makes the flux along an order.
+ * - Chart: shelling_certificate.h proves it, leafn.h follows leaves (leafn_find.c finds the simplex
+ *   of a point), shelling_state.c has the coordinates, shelling_file.h reads saved bytes.
+ * - Equations: solve.h, on stiffness.h and element.h. Memory: arranged.h orders simplices in space.
  *
  * Begin with shelling_order.h and leafn.h. */
 #ifndef ICCP_CHART_SHELLING_H

@@ -18,8 +18,10 @@
  *
  * Ways
  * - To a one-to-one map: overlay.h, compatible.h, overlay_start.h, overlay_patches.h.
- * - To less energy on one mesh: both_sides.h, flips.h. To another mesh: improve.h, coarsen.h,
- *   density.h.
+ * - To less energy: both_sides.h moves points and images, flips.h flips edges, and improve.h does
+ *   both and refines the mesh.
+ * - To another mesh: coarsen.h, density.h. What new triangles are worth: triangle_quality.h.
+ * - To bytes: plmap_file.h.
  * - To another target: move_targets.h, improve_moving.h.
  *
  * Begin with this file, then overlay.c. */

@@ -19,6 +19,14 @@
  * - In the plane: a sparse factorisation of the Hessian. In space: truncated conjugate gradients.
  * - Positive maps are improved by the symmetric Dirichlet energy (dirichlet.h).
  * - Inverted ones are repaired by the untangling energy (untangling.h, untangle.h, mesh_repair.h).
+ * - One step: newton.c solves (truncated_cg.h in space), newton_sums.c adds up, assembly.h
+ *   assembles, newton_move.c goes along it. newton_plan.c keeps the plan.
+ * - Many: descent.h on one mesh, for points that movable.h chooses; refinement.h on finer ones, as
+ *   far as schedule.h says.
+ * - After a target that moves: continuation.h. An affine boundary, or the part of a motion that is
+ *   affine: affine.h.
+ * - Hessians of one simplex: dirichlet.h, untangling.h, in space on modes.h and singular.h.
+ *   Untangling moves patches (patches.h).
  *
  * Begin with simplicial_map.h and this file. */
 #ifndef ICCP_NEWTON_H

@@ -19,6 +19,9 @@
  * - Without ties: cuts.h chooses cuts, path_search.h finds their paths, shorten.h draws them.
  * - With ties: ties.h reads the caller's cuts.
  * - Map to class: isotopy.h, by crossing_sequence.h. After a motion: sequence_motion.h.
+ * - From cuts to a map: cut_polygon.h opens a domain, map/compatible/overlay.h overlays the two
+ *   polygons, close_cuts.h closes them (called by map/plane/feature_start.c).
+ * - A drawing of paths that are only known by what they cross: draw_crossings.h.
  *
  * Begin with cuts.h and isotopy.h. docs/theory.md explains the method under "features". */
 #ifndef ICCP_DOMAIN_PAIR_H

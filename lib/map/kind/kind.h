@@ -7,7 +7,8 @@
  * - state: the data of a map that only its kind knows.
  * - certificate: the proof that a map is one-to-one; *_certificate.c in each kind's folder.
  *
- * Ways: lib/map/plane, lib/map/solid and lib/map/curves fill the table.
+ * Ways: lib/map/plane, lib/map/solid and lib/map/curves fill the table. caller_point.h maps one
+ * point in the caller's coordinates, map_facts.h holds what a map's info says.
  *
  * Invariants: after its creation a map changes only by `ready`. Every map has been certified in
  * its final form before the caller gets it (iccp_map_conclude()). Only a curve map may lack its

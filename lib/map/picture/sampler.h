@@ -18,6 +18,8 @@
  * Ways
  * - Colours and a mesh map: triangle by triangle (warp.c, scan.h).
  * - Any other map, or values: pixel by pixel (warp_points.c, picture_values.h).
+ * - One sample, by processor: sampler_portable.c, or sampler_sse.c and sampler_avx2.c from
+ *   sampler_lanes.h. sampler.c chooses; sampler_kernels.h says what a kernel provides.
  *
  * Begin with warp.c for the picture, and with sampler_portable.c for one sample. */
 #ifndef ICCP_SAMPLER_H

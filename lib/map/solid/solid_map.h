@@ -20,6 +20,13 @@
  *   tetrahedra stay inverted.
  * - Later: solid_improve.h lowers the energy, and solid_follow.h follows a moving target.
  *
+ * Files that these use
+ * - Before all: filled_pair.h fills both surfaces (map/map.c calls it).
+ * - A star-shaped target: apex.h finds the point that sees all, coat_raise.h raises vertices
+ *   without a point below, coat_mesh.h moves images, and halfspaces.h tells where a vertex may be.
+ * - The mesh is changed by solid_edit.h: solid_chords.h cuts chords, solid_cuts.h other edges,
+ *   solid_flips.h flips. solid_certificate.h proves, solid_kind.h has the operations.
+ *
  * Begin with solid_map.c and solid_start.c. */
 #ifndef ICCP_SOLID_MAP_H
 #define ICCP_SOLID_MAP_H
