@@ -15,7 +15,10 @@
  *
  * Ways
  * - In the plane: outline/ pairs the rings, feature_pairing.h then pairs the features.
+ *   feature_partners.h (assignment.h) says which, by the places that mean_value.h predicts.
+ *   feature_landmarks.h shares out the landmarks.
  * - In space: surfaces.h, by sphere_pair.h and common_mesh/. The words are in surface/half_edges.h.
+ * - Points from one domain to the other: match_apply.h. Bytes: match_file.h.
  *
  * Begin with match.c. */
 #ifndef ICCP_MATCH_H

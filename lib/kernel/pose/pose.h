@@ -13,6 +13,9 @@
  *   (rigid_slopes.h).
  * - face: the set of weights that are 0 at present.
  *
+ * Ways: pose.c poses points. Rigid parts: rigid_program.h sets up, rigid.c minimises,
+ * rigid_hessian.h computes the matrix.
+ *
  * Invariants: a pose computes no weights, and a rigid part changes weights but no poses. All
  * results have the same bits for every number of threads. */
 #ifndef ICCP_POSE_H

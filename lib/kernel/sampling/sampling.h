@@ -12,6 +12,12 @@
  * - sigma: the width of the kernel that suits a sampling (spectrum.h).
  * - held: a sample that stays where it is when blue noise is relaxed (blue_noise.h).
  *
+ * Ways: sampling_create.c makes samples on a grid (lattice_filter.h) or as blue noise
+ * (blue_noise.h). Those on walls and curves: boundary_samples.h, on surfaces surface_samples.c.
+ * visibility.c finds spots and what they see, along curves by segment_graph.h. point_list.h and
+ * cells.h find neighbours. sampling.c checks the caller's samples; sampling_file.h and shape_file.h
+ * have bytes.
+ *
  * Invariants: a seed always gives the same samples. Every sample lies in the shape, or within the
  * margin that the caller sets. */
 #ifndef ICCP_SAMPLING_H

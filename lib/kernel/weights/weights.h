@@ -16,6 +16,12 @@
  * - held, free: nodes that keep their weights, and the others.
  * - binding: weights of the caller's points, ready for posing (binding.h).
  *
+ * Ways
+ * - Start: initial_weights.c. Weights of one point: handles.c, by method nonneg.h (QP; dual.h where
+ *   that fails) or l1.h. Lines: straight_lines.c; rigid parts: kernel/pose/rigid.c.
+ * - All nodes, and the interpolant: handle_weights.c. Edits: weights_edit.c. Values at points and
+ *   their quality: weights_report.c. Bytes: binding_file.c.
+ *
  * Invariants: optimised weights sum to 1 and reproduce their point, up to rounding. With method QP
  * they are not negative unless a status tells otherwise. */
 #ifndef ICCP_WEIGHTS_H

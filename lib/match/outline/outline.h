@@ -22,6 +22,10 @@
  * - By shape: elastic.h over all starts, then pins.h (corners) and vertices.h (single edges).
  * - With landmarks: iccp_elastic_between() and iccp_elastic_bend(). By arc length: arc.h.
  * - Vertices that correspond already: one_to_one.h. Always last: union_outline.h.
+ * - Elastic search: elastic.h finds candidates, elastic_candidate.h refines them (widths.h judges),
+ *   elastic_between.c goes from landmark to landmark, lattice_path.h finds the cheapest path.
+ * - Landmarks on the outlines: landmarks.h. What vertices.h may pair: places.h.
+ * - Which vertices become one: merge_vertices.c. The two domains so far: matched_domains.h.
  *
  * Begin with ring_pairing.c. */
 #ifndef ICCP_OUTLINE_H

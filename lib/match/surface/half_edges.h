@@ -25,6 +25,16 @@
  * - With landmarks: landmark_sphere.h, which begins with a base of few triangles (landmark_base.h).
  * - Equal surfaces: equal_surfaces.h. Then common_mesh/sphere_overlay.h makes common triangles.
  * - common_mesh/simplify_apart.h removes vertices that are not needed.
+ * - Drawing, in sphere/: sphere.h shrinks by decimate.h and grows, by the stars of drawn_star.h,
+ *   within kernel_room.h. relax.h moves by composed_star.h; close_vertices.h joins what is left.
+ * - Landmarks, in sphere/: landmark_paths.h joins them (landmark_web.h, on a split_surface.h).
+ *   landmark_guesses.h and likely_pairs.h add pairs where there are few.
+ * - Overlay, in common_mesh/: arc_walk.h walks edges, paired_crossings.h and shared_vertices.h
+ *   compare, overlay_darts.h orders the pieces, common_surface.h is the result.
+ * - Simplification, in common_mesh/: simplify.h collapses edges, as far as kept_cells.h allows.
+ *   optimise_shape.h also flips and moves; shape_patch.h asks covering.h for distances and
+ *   clearance.h for contact. intersections.h finds what meets.
+ * - Measures: stretch.h, corner_angle.h. Back to the surface: drawn_place.h, sphere/drawn_finder.h.
  *
  * Begin with ../surfaces.c and ../sphere_pair.c. */
 #ifndef ICCP_HALF_EDGES_H
