@@ -12,6 +12,14 @@
  * - foreign: a file of a format that the command cannot read (foreign.h).
  * - piece, tree: JSON as places in a text (json_scan.h), and as values (json_tree.h).
  *
+ * Ways
+ * - In: file.h reads bytes, foreign.h refuses other formats (the list: foreign_table.c), number.h,
+ *   table.h, npy.h, json_in.h on json_tree.h (strings: json_decode.h). guess.h finds a mistyped
+ *   word.
+ * - Out: json.h reports, edits.h changes a text in place, progress.h draws the bar. bytes.h:
+ *   binary.
+ * - degrees.h: longitudes. orientation.h: exact signs.
+ *
  * Begin with table.h, which shows all of these. */
 #ifndef SAY_H
 #define SAY_H

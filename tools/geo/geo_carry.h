@@ -10,8 +10,11 @@
  * - policy, fate: the choice for geometries that leave the cage, and its result.
  *
  * Ways
- * - A geometry inside the cage is mapped in place. Others follow the policy: kept, emptied or
- *   clipped (geo_cut.c, clip.h).
+ * - A geometry inside the cage is mapped in place, with more vertices where the map bends it
+ *   (densify.h, geo_write.c). Others follow the policy: kept, emptied or clipped (geo_cut.c,
+ *   clip.h, clip_rings.h).
+ * - Bounding boxes: geo_bounds.c, last. Edges near a segment: cage_grid.h. The map or maps:
+ *   carrier.h.
  *
  * Begin with geo_carry.c. */
 #ifndef GEO_CARRY_H

@@ -9,6 +9,16 @@
  * Steps, each of which does those before it
  * - job_read_cages(), job_make_domains(), job_make_chart() or job_make_map(), job_end().
  *
+ * Ways
+ * - Options: option_table.c lists them, args.c parses, args_check.c says what excludes what,
+ *   args_help.c prints.
+ * - Cages: job_cages.c reads and makes domains, correspond.h compares, match_cages.h matches,
+ *   landmark_file.h. Several polygons: parts.h, nesting.h. Meshes inside: fill.h.
+ * - Files: output_name.h, call_files.h (nothing overwritten), point_file.h, cage_file.h,
+ *   ties_file.h, triangulation.h (axes: axis_order.h). Requirements: require.h. Normals:
+ *   attached.h.
+ * - Functions of method gradient: function_choice.h.
+ *
  * Begin with job.c; args.h has the options. */
 #ifndef JOB_H
 #define JOB_H

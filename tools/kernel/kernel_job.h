@@ -9,6 +9,12 @@
  * - binding: points saved with their weights.
  * - certified pose: a pose replaced by a one-to-one map (pose_certified.c).
  *
+ * Ways
+ * - In: handle_set.c reads handles, pose_json.c poses. linear_edges.h: weights along edges.
+ * - Poses: pose_points.c, pose_picture.c; one-to-one: pose_certified.c, by pose_outline.h and
+ *   pose_places.h. Reports: kernel_report.c, pose_report.c.
+ * - Figures of weights: plot_weight.c, plot_along.c, their colours weight_colour.c.
+ *
  * Begin with kernel_job.c. */
 #ifndef KERNEL_JOB_H
 #define KERNEL_JOB_H

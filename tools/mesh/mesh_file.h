@@ -13,6 +13,11 @@
  * - tally: counts of elements by the sign of their images (tally.h).
  * - plan: tables that prove the sign of a curved element (element_plan.h, element_sign.h).
  *
+ * Ways
+ * - Text formats read by mesh_lines.h; numbers of VTK by vtk_numbers.h. glTF: glb.h finds places,
+ *   glb_nodes.c nodes, glb_vectors.c normals and morph targets, glb_write.c writes; affine_map.h.
+ * - A new kind of element: element_kinds.h. The boundary of a mesh: mesh_boundary.h.
+ *
  * A format is a file mesh_NAME.c with one reader. Begin with mesh_file.c. */
 #ifndef MESH_FILE_H
 #define MESH_FILE_H

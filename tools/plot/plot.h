@@ -6,6 +6,13 @@
  * - stages: the intermediate results of a chart that are drawn (stages.h).
  * - sheet: the cut through a solid (solid_cut.h).
  *
+ * Ways
+ * - Figures: plot_shape.c (outline, curves, tree), plot_picture.c (patterns), plot_surface.c
+ *   (relief), plot_pairs.c (matches), plot_vtk.c. On svg.h.
+ * - Space: plot_solid.c, on solid_cut.h, solid_view.h, cut.h; hidden parts: z_buffer.h.
+ * - Pictures: picture_warp.h by a map, picture_sample.h between pixels, coverage.h whether a cage
+ *   fits.
+ *
  * A format of pictures is a file NAME_io.c, and a line each in picture.h, picture_file.c and
  * job/output_name.c. Begin with plot_shape.c, or with picture_file.h for pictures. */
 #ifndef PLOT_H

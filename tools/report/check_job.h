@@ -1,5 +1,6 @@
-/* The parts of `libicc check`: check_find.c finds what is wrong, check_report.c writes the report
- * of --json, and check_write.c writes repaired shapes. The words of this folder are in info.h. */
+/* The parts of `libicc check`: check_find.c finds what is wrong, check_report.c prints it and
+ * writes the report of --json, and check_write.c writes repaired shapes. The words of this folder
+ * are in info.h. */
 #ifndef CHECK_JOB_H
 #define CHECK_JOB_H
 

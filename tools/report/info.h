@@ -6,6 +6,10 @@
  * - report: the JSON of --json (info_report.c, check_report.c).
  * - shares: how areas change under a map (info_shares.c).
  *
+ * Ways: info_print.c prints, info_report.c writes JSON, info_words.c has words of both, sample.h
+ * spreads points. Of `check`: check_find.c finds, check_report.c prints and reports, check_write.c
+ * repairs.
+ *
  * Begin with this file for `libicc info`, and with check_job.h for `libicc check`. */
 #ifndef INFO_H
 #define INFO_H
