@@ -128,18 +128,3 @@ void iccp_multigrid_cycle(iccp_multigrid *mg)
     for (size_t s = 0; s < n + 2; ++s)
         iccp_multigrid_ascend(mg, s);
 }
-
-static size_t level_bytes(const iccp_mg_level *level)
-{
-    const size_t floats = level->inverse != NULL ? 3 : 2;
-    return level->n_entries * floats * sizeof(float) + (level->n_rows + 1) * sizeof *level->row +
-           level->row[level->n_rows].run[0] * sizeof *level->run;
-}
-
-size_t iccp_multigrid_bytes(const iccp_multigrid *mg)
-{
-    size_t sum = 4 * ((size_t)mg->level[0].extent[0] + 8) * sizeof(float);
-    for (int32_t l = 0; l < mg->n_levels; ++l)
-        sum += level_bytes(&mg->level[l]);
-    return sum;
-}

@@ -37,7 +37,4 @@ void iccp_multigrid_correct(iccp_multigrid *mg);
  * including slab s - 2. */
 void iccp_multigrid_ascend(iccp_multigrid *mg, size_t s);
 
-/* Returns the number of bytes allocated. */
-size_t iccp_multigrid_bytes(const iccp_multigrid *mg);
-
 #endif

@@ -192,7 +192,6 @@ static icc_status allocate(icc_weights **out, const iccp_node_set *set, const ic
     if (weights == NULL)
         return ICC_ERR_MEMORY;
     weights->memory = env->memory;
-    atomic_init(&weights->references, 1);
     weights->nodes = iccp_node_set_retain(set);
     weights->values = iccp_alloc(&weights->memory, n, m * sizeof *weights->values);
     weights->status = iccp_alloc(&weights->memory, n, sizeof *weights->status);
@@ -279,16 +278,9 @@ icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const i
     return ICC_OK;
 }
 
-icc_weights *iccp_weights_retain(const icc_weights *weights)
-{
-    icc_weights *k = (icc_weights *)weights;
-    atomic_fetch_add(&k->references, 1);
-    return k;
-}
-
 void iccp_weights_release(icc_weights *weights)
 {
-    if (weights == NULL || atomic_fetch_sub(&weights->references, 1) > 1)
+    if (weights == NULL)
         return;
     iccp_node_set_release(weights->nodes);
     iccp_free(&weights->memory, weights->values);

@@ -6,7 +6,6 @@
 
 struct icc_weights {
     iccp_memory memory;
-    atomic_size_t references;
     iccp_node_set *nodes;
     double *values;        /* n * n_handles */
     icc_status *status;    /* by node */
@@ -18,7 +17,6 @@ struct icc_weights {
 icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, size_t n_handles,
                                const double *handles, const icc_weights_options *options,
                                const iccp_env *env, icc_error *err);
-icc_weights *iccp_weights_retain(const icc_weights *weights);
 void iccp_weights_release(icc_weights *weights);
 
 /* Makes a copy on the same nodes, with the weights, statuses and coefficients of `from`. */

@@ -14,7 +14,6 @@
 #include "base/threads.h"
 
 #include <math.h>
-#include <stdatomic.h>
 #include <string.h>
 
 /* Cells are half the reach wide. Then half of the points in the cells that a ball touches are in
@@ -29,7 +28,6 @@ enum { SIDES = 32, MOST_TAIL = 4 };
 
 struct iccp_collocation {
     iccp_memory memory;
-    atomic_size_t references;
     size_t dim, n, n_tail; /* n_tail is dim + 1, or 0 */
     iccp_radial radial;
     double *points;
@@ -165,7 +163,6 @@ icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
     if (c == NULL)
         return ICC_ERR_MEMORY;
     c->memory = c->cells.memory = c->kernel.memory = c->factor.memory = env->memory;
-    atomic_init(&c->references, 1);
     c->dim = dim;
     c->n = n;
     c->radial = *radial;
@@ -175,21 +172,14 @@ icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
     if (status == ICC_OK)
         *out = c;
     else
-        iccp_collocation_release(c);
+        iccp_collocation_free(c);
     return status;
 }
 
-iccp_collocation *iccp_collocation_retain(const iccp_collocation *collocation)
-{
-    iccp_collocation *c = (iccp_collocation *)collocation;
-    atomic_fetch_add(&c->references, 1);
-    return c;
-}
-
-void iccp_collocation_release(iccp_collocation *collocation)
+void iccp_collocation_free(iccp_collocation *collocation)
 {
     iccp_collocation *c = collocation;
-    if (c == NULL || atomic_fetch_sub(&c->references, 1) > 1)
+    if (c == NULL)
         return;
     iccp_cells_free(&c->cells);
     iccp_kernel_matrix_free(&c->kernel);

@@ -17,8 +17,7 @@ typedef struct iccp_collocation iccp_collocation;
 icc_status iccp_collocation_create(iccp_collocation **out, size_t dim, size_t n,
                                    const double *points, const iccp_radial *radial, bool tail,
                                    const iccp_env *env, icc_error *err);
-iccp_collocation *iccp_collocation_retain(const iccp_collocation *collocation);
-void iccp_collocation_release(iccp_collocation *collocation);
+void iccp_collocation_free(iccp_collocation *collocation);
 
 size_t iccp_collocation_entries(const iccp_collocation *collocation);
 const iccp_symmetric *iccp_collocation_matrix(const iccp_collocation *collocation);

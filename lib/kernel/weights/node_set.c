@@ -364,7 +364,7 @@ void iccp_node_set_release(iccp_node_set *set)
         iccp_free(&set->memory, arrays[i]);
     if (set->handles != NULL)
         iccp_handles_free(set->handles);
-    iccp_collocation_release(set->collocation);
+    iccp_collocation_free(set->collocation);
     iccp_sampling_release(set->sampling);
     const iccp_memory memory = set->memory;
     iccp_free(&memory, set);

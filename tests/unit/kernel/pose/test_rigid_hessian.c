@@ -65,7 +65,7 @@ static void make_part(part *p, size_t dim, size_t side, size_t m, bool tail)
 static void free_part(part *p)
 {
     iccp_hessian_free(&p->hessian);
-    iccp_collocation_release(p->collocation);
+    iccp_collocation_free(p->collocation);
 }
 
 /* As the matrix, from the derivatives, and as what the energy bends by. Returns whether there was

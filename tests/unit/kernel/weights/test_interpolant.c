@@ -166,7 +166,7 @@ START_TEST(a_grid_has_the_properties_that_the_thesis_measured)
     ck_assert_double_eq_tol(reproduction[n_points - 1], 3.4e-3, 0.05 * 3.4e-3);
     ck_assert_double_eq_tol(mean, 0.6e-3, 0.05 * 0.6e-3);
     ck_assert_double_eq_tol(reproduction[n_points / 2], 0.33e-3, 0.05 * 0.33e-3);
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(points);
     free(values);
     free(coefficients);
@@ -194,7 +194,7 @@ START_TEST(the_interpolant_has_a_minimum_where_the_thesis_finds_it)
     }
     ck_assert_double_eq_tol(least, -0.0092, 0.00005);
     ck_assert_double_eq_tol(place, 0.397, 0.0005);
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(coefficients);
 }
 END_TEST
@@ -266,7 +266,7 @@ START_TEST(values_at_nodes_are_taken)
         }
         ck_assert_double_le(fabs(sum), 1e-11 * size);
     }
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(points);
     free(values);
     free(product);
@@ -304,7 +304,7 @@ START_TEST(gradients_are_those_of_the_values)
         }
     }
     ck_assert_msg(worst <= 1e-7, "gradients deviate by %g", worst);
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(points);
     free(values);
     free(a);
@@ -373,7 +373,7 @@ START_TEST(sums_are_those_of_all_kernels)
             point[k] = random_between(&r, -0.1, 1.1);
         compare_sums(dim, n, nodes, &radial, c, m, a, point);
     }
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(nodes);
     free(a);
 }
@@ -406,8 +406,8 @@ START_TEST(affine_values_are_continued_exactly)
     }
     ck_assert_msg(with <= 1e-11, "affine values deviate by %g", with);
     ck_assert_double_gt(without, 1e-3);
-    iccp_collocation_release(tail);
-    iccp_collocation_release(bare);
+    iccp_collocation_free(tail);
+    iccp_collocation_free(bare);
     free(points);
     free(values);
     free(a);
@@ -422,7 +422,7 @@ static icc_status try(int kind, size_t n, const double *points, double sigma, ic
     iccp_collocation *c;
     const icc_status status = iccp_collocation_create(&c, 2, n, points, &radial, false, &env, err);
     ck_assert_int_eq(status == ICC_OK, c != NULL);
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     return status;
 }
 
@@ -463,7 +463,7 @@ START_TEST(a_cut_gaussian_jumps)
             ck_assert_double_eq_tol(before, 3.7e-6, 1e-7);
         else
             ck_assert_double_lt(before, 1e-20);
-        iccp_collocation_release(c);
+        iccp_collocation_free(c);
         free(a);
     }
 }
@@ -508,7 +508,7 @@ START_TEST(columns_do_not_depend_on_each_other)
     ck_assert_int_eq(iccp_collocation_solve_some(c, m, values, which, some, &env), ICC_OK);
     for (size_t i = 0; i < rows * m; ++i)
         ck_assert(some[i] == (which[i % m] ? a[i] : 0));
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     free(points);
     free(values);
     free(some);
@@ -529,7 +529,7 @@ static icc_status make_and_solve(const icc_env *given, icc_error *err, void *arg
     ck_assert_int_eq(status == ICC_OK, c != NULL);
     if (status == ICC_OK)
         status = iccp_collocation_solve(c, 1, points, a, &env);
-    iccp_collocation_release(c);
+    iccp_collocation_free(c);
     return iccp_explain(err, status);
 }
 

@@ -375,7 +375,7 @@ START_TEST(rigid_parts_are_at_the_optimum)
     for (size_t k = 0; k < TIPS * before.info.n_nodes; ++k)
         ck_assert_double_ge(after.values[k], fmin(before.values[k], 0));
     free(l.places);
-    iccp_collocation_release(l.collocation);
+    iccp_collocation_free(l.collocation);
     clear(&before);
     clear(&after);
     icc_sampling_free(sampling);
