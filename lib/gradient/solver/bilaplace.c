@@ -16,18 +16,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Largest residual of a component, relative to the component. It is far above the 1e-15 of correct
- * solutions and far below the 1 of wrong ones. */
-static const double MOST_RESIDUAL = 1e-6;
-
 /* Divides by the value at the root, which becomes 1. */
 static void scale(const iccp_scaled *f, size_t n)
 {
     const double root = f->fraction[0];
     const int32_t exponent = f->exponent[0];
     for (size_t k = 0; k < n; ++k)
-        if (f->exponent[k] != ICCP_ZERO_EXPONENT)
-            iccp_scaled_set(f, k, f->fraction[k] / root, f->exponent[k] - exponent);
+        iccp_scaled_set(f, k, f->fraction[k] / root, f->exponent[k] - exponent);
 }
 
 /* Returns ICC_ERR_SOLVER unless every component of L x = b holds approximately. */
@@ -40,7 +35,7 @@ static icc_status check_solution(const iccp_unknowns *unknowns, const iccp_scale
         if (k % ICCP_VERTICES_PER_REPORT == 0)
             status = iccp_progress(env, "solve", (double)k / (double)unknowns->n);
         const double r = iccp_laplacian_row(unknowns, x, k, unit) - iccp_scaled_get(b, k, unit);
-        if (!(fabs(r) <= MOST_RESIDUAL * unknowns->n_neighbours * x->fraction[k]))
+        if (!(fabs(r) <= ICCP_MOST_ERROR * unknowns->n_neighbours * x->fraction[k]))
             return ICC_ERR_SOLVER;
     }
     return status;

@@ -19,9 +19,8 @@
 #include <string.h>
 
 enum {
-    SMALL = 16,      /* parts with fewer unknowns are not cut */
-    MOST_PARTS = 64, /* parts on the stack; the smaller half goes first, so sizes halve */
-    MOST_PLANES = 16 /* per unknown of a part: coordinates with more planes are skipped */
+    SMALL = 16,     /* parts with fewer unknowns are not cut */
+    MOST_PARTS = 64 /* parts on the stack; the smaller half goes first, so sizes halve */
 };
 
 /* Natural logarithm of the factor by which values fall in a band: 2^-288. Entries of a factor may
@@ -159,7 +158,7 @@ static icc_status find_places(dissection *d)
 }
 
 /* Counts the unknowns of a part in its planes across one axis, from the lowest on. Returns the
- * number of planes, or 0 if there are too many. */
+ * number of planes. */
 static size_t count_planes(const dissection *d, const part *p, size_t axis, uint32_t *lowest)
 {
     const uint32_t *place = d->place + axis;
@@ -171,8 +170,6 @@ static size_t count_planes(const dissection *d, const part *p, size_t axis, uint
         highest = at > highest ? at : highest;
     }
     const size_t n_planes = (size_t)(highest - *lowest) + 1;
-    if (n_planes / MOST_PLANES > p->end - p->begin)
-        return 0;
     memset(d->count, 0, n_planes * sizeof *d->count);
     for (size_t i = p->begin; i < p->end; ++i)
         ++d->count[place[d->order[i] * d->n_axes] - *lowest];
@@ -186,8 +183,7 @@ static bool is_thin(const dissection *d, const part *p, size_t n_generations)
     double work = 0;
     for (size_t g = 0; g < n_generations; ++g)
         work += iccp_power(d->count[g], 3);
-    return n_generations > 0 &&
-           work <= factor * iccp_pow((double)(p->end - p->begin), iccp_max(1, 3 - 3 / dim));
+    return work <= factor * iccp_pow((double)(p->end - p->begin), iccp_max(1, 3 - 3 / dim));
 }
 
 /* Chooses a plane with few unknowns in it and many on either side. At the median, neither side is
@@ -250,8 +246,6 @@ static bool cut_part(dissection *d, const part *p, part half[2])
             return false;
         choose_plane(d, p, axis, n_planes, lowest, &best);
     }
-    if (!(best.score < HUGE_VAL))
-        return false;
     split(d, p, &best, half);
     return true;
 }

@@ -10,13 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_CORRECTIONS = 8 };
-
 /* A smaller correction, relative to the solution, is rounding. */
 static const double SMALL_CORRECTION = 1e-15;
-
-/* If the last correction is larger, relative to the solution, there is no result. */
-static const double LARGE_CORRECTION = 1e-6;
 
 static uint32_t neighbour(const iccp_unknowns *unknowns, size_t k, int32_t d)
 {
@@ -196,17 +191,15 @@ static double correct(const least_squares *s, double *f)
 
 static icc_status solve(const least_squares *s, double *f, const iccp_env *env)
 {
-    double size = HUGE_VAL;
+    double last, size = HUGE_VAL;
     memset(s->x, 0, s->b.n_columns * sizeof *s->x);
     expand(s, f);
     (void)correct(s, f); /* yields the solution itself */
-    for (int k = 0; k < MAX_CORRECTIONS; ++k) {
-        const double last = size;
+    do {
+        last = size;
         size = correct(s, f);
-        if (!(size > SMALL_CORRECTION && size < 0.5 * last))
-            break;
-    }
-    if (size < LARGE_CORRECTION)
+    } while (size > SMALL_CORRECTION && size < 0.5 * last);
+    if (size < ICCP_MOST_ERROR)
         return ICC_OK;
     iccp_log(env, "least energy: the solution is uncertain by %.1e of itself", size);
     return ICC_ERR_SOLVER;

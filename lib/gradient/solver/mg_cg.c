@@ -15,9 +15,6 @@
 
 #include <math.h>
 
-/* Stops after this many iterations without a smaller residual. */
-enum { PATIENCE = 40 };
-
 /* Number of entries between progress reports. */
 static const size_t ENTRIES_PER_REPORT = (size_t)1 << 20;
 
@@ -97,13 +94,10 @@ static icc_status report(const solver *s, size_t slab, const iccp_env *env)
     return slab % slabs == 0 ? iccp_progress(env, "solve", 0) : ICC_OK;
 }
 
-/* Multiplications per entry of an iteration, with all levels. */
-static const double WORK_PER_ENTRY = 60;
-
 static icc_status pass_down(solver *s, const iccp_env *env)
 {
     const size_t n = s->level->n_slabs;
-    icc_status status = iccp_budget_work(env, WORK_PER_ENTRY * (double)s->level->n_entries);
+    icc_status status = iccp_budget_work(env, ICCP_CG_WORK * (double)s->level->n_entries);
     s->down = (iccp_mg_downward){{0}, {0}, {0}};
     for (int j = 0; j < ICCP_MG_LANES; ++j)
         s->down.excess[j] = -HUGE_VAL;
@@ -134,9 +128,8 @@ static icc_status pass_up(solver *s, const iccp_env *env)
     return status;
 }
 
-/* As in the source, p'Ap is not summed up but follows from z'Az and the last step. It is a
- * difference, which rounding may spoil; then the next direction is z alone. The measurements of a
- * pass down belong to the x that it made. So the goal is tested between the passes. */
+/* As in the source, p'Ap is not summed up but follows from z'Az and the last step. The measurements
+ * of a pass down belong to the x that it made. So the goal is tested between the passes. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {
@@ -152,18 +145,14 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
             break;
         since = rr < least ? 0 : since + 1;
         least = iccp_min(rr, least);
-        if (!isfinite(rr) || since > PATIENCE)
+        if (!isfinite(rr) || since > ICCP_CG_PATIENCE)
             return ICC_ERR_SOLVER;
         status = pass_up(s, env);
         if (status != ICC_OK)
             break;
         const double next = add_lanes(s->up.rz), zaz = add_lanes(s->up.zaz);
         s->beta = s->alpha > 0 ? next / rz : 0;
-        double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
-        if (!(curvature > 0)) { /* a difference of rounding errors: restart from here */
-            s->beta = 0;
-            curvature = zaz;
-        }
+        const double curvature = s->alpha > 0 ? zaz - s->beta * next / s->alpha : zaz;
         if (!(next > 0 && curvature > 0))
             return ICC_ERR_SOLVER;
         rz = next;

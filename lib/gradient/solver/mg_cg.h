@@ -12,6 +12,12 @@ typedef struct iccp_mg_goal {
     double floor;
 } iccp_mg_goal;
 
+/* Iterations without a smaller residual, after which the goal is out of reach. */
+enum { ICCP_CG_PATIENCE = 60 };
+
+/* Multiplications per entry of an iteration, with all levels. */
+#define ICCP_CG_WORK 60.0
+
 /* On entry x is a guess and r = b - L x its residual. On return they are the solution and its
  * residual. Both have n_entries of level 0 and are 0 outside; |b| = `size`. Adds to *n_iterations.
  * Returns ICC_ERR_SOLVER if the goal is out of reach. Needs 4 bytes per entry while it runs.

@@ -5,6 +5,10 @@
 
 #include "icc/stages.h"
 
+/* Largest error of a component, relative to the component. It is far above the 1e-15 of correct
+ * solutions and far below the 1 of wrong ones. */
+#define ICCP_MOST_ERROR 1e-6
+
 typedef struct iccp_solution {
     int32_t function, constrained, solver, beside;
     size_t n_unknowns, n_violated, n_active;

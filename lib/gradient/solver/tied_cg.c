@@ -11,10 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Stops after this many iterations without a smaller residual. */
-enum { PATIENCE = 60 };
-
-enum { LANES = 8 };
+enum { LANES = ICCP_MG_LANES };
 
 double iccp_mg_dot(size_t n, const double *a, const double *b)
 {
@@ -148,12 +145,9 @@ static double dot_float(size_t n, const double *a, const float *b)
     return sum;
 }
 
-/* Multiplications per entry of an iteration, with all levels. */
-static const double WORK_PER_ENTRY = 60;
-
 /* Preconditioned conjugate gradients as in every textbook, on the tops. The entries of members in
  * r, p and q stay 0, or iccp_tied_apply() fills them in. Ends when the goal is reached. Fails if
- * the residual has not fallen for PATIENCE iterations. */
+ * the residual has not fallen for ICCP_CG_PATIENCE iterations. */
 static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size_t *n_iterations,
                           const iccp_env *env)
 {
@@ -162,11 +156,11 @@ static icc_status iterate(solver *s, double size, const iccp_mg_goal *goal, size
     while (!is_reached(s, rr, size, goal)) {
         since = rr < least ? 0 : since + 1;
         least = iccp_min(rr, least);
-        if (!isfinite(rr) || since > PATIENCE)
+        if (!isfinite(rr) || since > ICCP_CG_PATIENCE)
             return ICC_ERR_SOLVER;
         icc_status status = iccp_progress(env, "solve", 0);
         if (status == ICC_OK)
-            status = iccp_budget_work(env, WORK_PER_ENTRY * (double)s->level->n_entries);
+            status = iccp_budget_work(env, ICCP_CG_WORK * (double)s->level->n_entries);
         if (status != ICC_OK)
             return status;
         precondition(s);

@@ -17,10 +17,6 @@
 /* Clusters between two calls of the progress callback. */
 enum { CLUSTERS_PER_REPORT = 1 << 16 };
 
-/* Largest residual of a component, relative to the component. It is far above the 1e-15 of correct
- * solutions and far below the 1 of wrong ones. */
-static const double MOST_RESIDUAL = 1e-6;
-
 typedef struct assembly {
     const iccp_unknowns *unknowns;
     const iccp_ties *ties;
@@ -184,7 +180,7 @@ static bool is_accurate(const assembly *a, const iccp_scaled *x, const iccp_scal
 {
     for (size_t u = 0; u < a->n; ++u) {
         const double r = fabs(iccp_scaled_get(residual, u, x->exponent[u]));
-        if (!(r <= MOST_RESIDUAL * a->diagonal[u] * x->fraction[u]))
+        if (!(r <= ICCP_MOST_ERROR * a->diagonal[u] * x->fraction[u]))
             return false;
     }
     return true;

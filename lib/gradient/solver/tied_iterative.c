@@ -16,11 +16,12 @@
 
 #include <string.h>
 
-/* Accepts values above CUT of the largest and TRUNCATION times those where the shell ends. All CUTs
+/* Accepts values above CUT of the largest and 1 / CUT times those where the shell ends. All CUTs
  * from 1e-5 to 1e-8 leave residuals below 1e-9 of each value. Lower ones need fewer shells. */
-static const double CUT = 1e-7, TRUNCATION = 1e7;
+static const double CUT = 1e-7;
 
-/* Values below this share of the largest do not help to guess the size of a shell. */
+/* CUT squared. Values below this share of the largest do not help to guess the size of a shell, and
+ * at the border of a shell they should be no larger. */
 static const double NEGLIGIBLE = 1e-14;
 
 /* Each shell is solved to a tenth of CUT, so that unknowns next to an accepted one are good,
@@ -345,7 +346,7 @@ static void keep_unknowns(shells *s, const shell *h, double negligible, double o
 /* A shell that ends too early is not worth its work, and one that goes too far costs more. */
 static void adapt_growth(shells *s, const extent *e)
 {
-    const double wanted = CUT / TRUNCATION * e->peak;
+    const double wanted = NEGLIGIBLE * e->peak;
     if (s->first)
         s->growth = e->significant / 2;
     else if (e->border > wanted)
@@ -359,7 +360,7 @@ static void adapt_growth(shells *s, const extent *e)
 static icc_status advance(shells *s, shell *h)
 {
     const extent e = measure(s, h);
-    const double limit = iccp_max(CUT * e.peak, TRUNCATION * e.border);
+    const double limit = iccp_max(CUT * e.peak, 1 / CUT * e.border);
     const double one = s->first ? h->x[h->position[0]] : 1;
     if (!(e.peak > 0 && one > 0 && isfinite(one)))
         return ICC_ERR_SOLVER;
