@@ -444,7 +444,6 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
     iccp_solution info = {0};
     iccp_qp qp;
     iccp_interior_point ip;
-    bool stuck = false;
     icc_status status = iccp_qp_create(&qp, &p->unknowns, function, 1e-6, 1e-9, env);
     if (status != ICC_OK)
         return status;
@@ -452,14 +451,13 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
     iccp_candidate candidate = {f, HUGE_VAL};
     status = iccp_interior_point_create(&ip, &qp, &info, env);
     if (status == ICC_OK) {
-        status = iccp_interior_point_run(&ip, 1e-17, &stuck, &info, env);
+        status = iccp_interior_point_run(&ip, 1e-17, &info, env);
         for (size_t i = 0; i < iccp_qp_inequalities(&qp); ++i) {
             ck_assert(ip.newton.slack[i] > 0 && ip.newton.multiplier[i] > 0);
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         }
         if (status == ICC_OK)
-            status =
-                iccp_polish(&qp, active, false, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
+            status = iccp_polish(&qp, active, false, 1e-12, &candidate, &info, env);
         iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
