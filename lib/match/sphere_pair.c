@@ -5,6 +5,7 @@
 #include "match/sphere_pair.h"
 
 #include "base/error.h"
+#include "match/outline/landmarks.h"
 #include "match/sphere/close_vertices.h"
 #include "match/sphere/equal_surfaces.h"
 #include "match/sphere/landmark_guesses.h"
@@ -21,12 +22,9 @@
 /* Rounds in which drawings without landmarks are moved on each other. */
 enum { ROUNDS = 30 };
 
-/* The largest distance of a landmark from a vertex, as a share of the diagonal. */
-static const double farthest_landmark = 0.02;
-
-/* Paths need LEAST_PAIRS pairs. If there are fewer than ENOUGH_PAIRS, more are guessed, so that a
- * limb without a landmark comes to lie on its partner. */
-enum { LEAST_PAIRS = 4, ENOUGH_PAIRS = 12 };
+/* If there are fewer pairs, more are guessed, so that a limb without a landmark comes to lie on its
+ * partner. */
+enum { ENOUGH_PAIRS = 12 };
 
 static icc_status make_body(iccp_body *b, const icc_domain *domain, const iccp_env *env,
                             icc_error *err)
@@ -112,7 +110,7 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
                                  const iccp_memory *memory, icc_error *err)
 {
     const icc_domain *const d = b->domain;
-    const double most = farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
+    const double most = iccp_farthest_landmark * iccp_vec_distance(3, d->lower, d->upper);
     b->landmarks = iccp_alloc(memory, n + ENOUGH_PAIRS, sizeof *b->landmarks);
     if (b->landmarks == NULL)
         return iccp_fail_memory(err);
@@ -145,7 +143,7 @@ static icc_status find_landmarks(iccp_body *b, size_t n, const double *given, in
 static icc_status draw_by_landmarks(iccp_body bodies[2], size_t n, const iccp_env *env,
                                     icc_error *err)
 {
-    size_t n_all = n < LEAST_PAIRS ? LEAST_PAIRS : n;
+    size_t n_all = n < ICCP_LEAST_SURFACE_LANDMARKS ? ICCP_LEAST_SURFACE_LANDMARKS : n;
     iccp_env parts[3];
     iccp_split(parts, 3, (const double[]){n < n_all ? 1 : 0, n < ENOUGH_PAIRS ? 0.1 : 0, 2}, env);
     iccp_split_surface split[2] = {{.memory = env->memory}, {.memory = env->memory}};

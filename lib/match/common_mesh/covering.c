@@ -9,9 +9,6 @@
 /* A point that was accepted as close stays close if it is measured another way. */
 static const double rounding = 1 - 1e-9;
 
-/* A normal stays within 60 degrees of the surface's. */
-static const double least_cosine = 0.5;
-
 bool iccp_covering_create(iccp_covering *c, const iccp_half_edges *given, const double *x_given,
                           size_t n_points, const double *points, double most,
                           const iccp_facet_tree *coarse, const iccp_memory *memory)
@@ -95,8 +92,9 @@ static double look_at(const iccp_covering *c, const iccp_corners *t, const doubl
         p[k] = weight[0] * t->at[0][k] + weight[1] * t->at[1][k] + weight[2] * t->at[2][k];
     iccp_facet_corners(&c->given, iccp_facet_tree_nearest(&c->given, p, bary, &off2), right);
     iccp_triangle_normal(wanted, right[0], right[1], right[2]);
-    *faces_so = *faces_so || iccp_vec_dot(3, normal, wanted) >
-                                 least_cosine * iccp_vec_norm(3, normal) * iccp_vec_norm(3, wanted);
+    *faces_so =
+        *faces_so || iccp_vec_dot(3, normal, wanted) >
+                         iccp_least_cosine * iccp_vec_norm(3, normal) * iccp_vec_norm(3, wanted);
     return off2;
 }
 

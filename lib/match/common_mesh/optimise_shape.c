@@ -15,14 +15,12 @@
 /* More rounds make triangles a little rounder, and each takes as long. */
 enum { ROUNDS = 2 };
 
-/* fair_sine: a collapse may leave triangles whose least angle has this sine, or as small a one as
- * before. worse_if_kept: it may leave this share of it if a surface keeps its vertices, because
- * vertices may have to come to them one by one. better: flips and moves must improve thinner
- * triangles by this factor. */
-static const double fair_sine = 0.2, worse_if_kept = 0.1, better = 0.98;
+/* Flips and moves must improve triangles that are not fair by this factor. A collapse may leave
+ * triangles that are fair or not thinner than before. */
+static const double better = 0.98;
 
-/* Vertices at triangles thinner than thin_sine go first. Their cost is multiplied by `readily`. */
-static const double thin_sine = 0.12, readily = 0.05;
+/* Vertices at triangles with a smaller sine go first. */
+static const double thin_sine = 0.12;
 
 /* After a collapse, neighbours wait until this multiple of its cost before they are tested
  * again. */
@@ -39,11 +37,11 @@ typedef struct optimisation {
 static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best, double *cost)
 {
     const iccp_half_edges *const m = &s->m;
-    const double share = s->cells != NULL ? worse_if_kept : 1;
+    const double share = s->cells != NULL ? iccp_worse_if_kept : 1;
     uint32_t found = ICCP_NO_EDGE, h = m->out[u];
     iccp_patch ring = {.vertex = ICCP_NO_EDGE};
     *cost = HUGE_VAL;
-    if (m->degree[u] > ICCP_PATCH_NEIGHBOURS || s->keep[u] != 0)
+    if (m->degree[u] > ICCP_MERGED_NEIGHBOURS || s->keep[u] != 0)
         return found;
     iccp_patch_add_ring(s, &ring, u, ICCP_NO_EDGE, u);
     const iccp_patch_shape round_u = iccp_patch_before(s, &ring);
@@ -54,8 +52,8 @@ static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best,
             length +=
                 sqrt(iccp_vec_distance2(3, s->x[side] + 3 * (size_t)u, s->x[side] + 3 * (size_t)v) /
                      s->edge2[side]);
-        if (m->degree[u] + m->degree[v] - 4 > ICCP_PATCH_NEIGHBOURS || length * readily >= *cost ||
-            !iccp_edge_collapsible(m, h))
+        if (m->degree[u] + m->degree[v] - 4 > ICCP_MERGED_NEIGHBOURS ||
+            length * iccp_readily >= *cost || !iccp_edge_collapsible(m, h))
             continue;
         iccp_patch_shape before = round_u, after;
         /* Takes both places from v, or one from u. */
@@ -70,12 +68,12 @@ static uint32_t find_cheapest(iccp_patch_state *s, uint32_t u, iccp_patch *best,
             }
             if (from_u == 0 || (from_u > 0 && !iccp_patch_may_unite(s, 0, u, v)))
                 before = iccp_patch_before(s, &p);
-            if ((from_u >= 0 && before.least > fair_sine) ||
-                !iccp_patch_after(s, &p, &before, iccp_min(fair_sine, share * before.least),
+            if ((from_u >= 0 && before.least > iccp_fair_sine) ||
+                !iccp_patch_after(s, &p, &before, iccp_min(iccp_fair_sine, share * before.least),
                                   HUGE_VAL, &after))
                 continue;
-            const double sum = length * (before.least < thin_sine ? readily : 1) *
-                               (1 + 0.1 / (after.least + 0.02));
+            const double sum =
+                length * (before.least < thin_sine ? iccp_readily : 1) * iccp_thinness(after.least);
             if (sum < *cost && iccp_patch_allowed(s, &p, before.least)) {
                 *cost = sum;
                 *best = p;
@@ -137,7 +135,7 @@ static bool flip_all(iccp_patch_state *s)
                               .vertex = ICCP_NO_EDGE};
         const iccp_patch_shape before = iccp_patch_before(s, &p);
         iccp_patch_shape after;
-        if (before.least > fair_sine ||
+        if (before.least > iccp_fair_sine ||
             !iccp_patch_after(s, &p, &before, 0, better * before.sum, &after) ||
             !iccp_patch_allowed(s, &p, before.least))
             continue;
@@ -158,7 +156,7 @@ static bool move(iccp_patch_state *s, uint32_t v, uint32_t sides)
     const iccp_patch_shape before = iccp_patch_before(s, &p);
     double most = better * before.sum;
     bool any = false;
-    for (uint32_t t = 0; t < p.before.n && before.least < fair_sine; ++t)
+    for (uint32_t t = 0; t < p.before.n && before.least < iccp_fair_sine; ++t)
         for (uint32_t i = points->first[p.before.number[t]]; i != ICCP_NO_EDGE;
              i = points->next[i]) {
             iccp_patch_shape after;
@@ -184,7 +182,7 @@ static bool move_all(iccp_patch_state *s)
     bool any = false;
     for (uint32_t v = 0; v < s->m.n_vertices; ++v)
         for (uint32_t sides = 1; sides <= 3; ++sides)
-            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_PATCH_NEIGHBOURS &&
+            if (s->m.degree[v] > 0 && s->m.degree[v] <= ICCP_MERGED_NEIGHBOURS &&
                 (s->keep[v] & sides) == 0)
                 any = move(s, v, sides) || any;
     return any;

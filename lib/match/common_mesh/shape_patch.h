@@ -6,8 +6,8 @@
 #include "match/common_mesh/covering.h"
 #include "match/common_mesh/kept_cells.h"
 
-/* The most neighbours of a vertex that changes, and the most triangles in one change. */
-enum { ICCP_PATCH_NEIGHBOURS = 18, ICCP_PATCH_TRIANGLES = ICCP_PATCH_NEIGHBOURS + 2 };
+/* The most triangles in one change. */
+enum { ICCP_PATCH_TRIANGLES = ICCP_MERGED_NEIGHBOURS + 2 };
 
 /* Restrictions on changes. Each level adds one to those before it. */
 typedef enum iccp_patch_caution {

@@ -11,19 +11,12 @@
 
 #include <string.h>
 
-/* The most neighbours of a vertex that others are merged into. */
-enum { MOST_NEIGHBOURS = 18 };
+/* A collapse may leave triangles whose least angle has the sine iccp_fair_sine, or the share
+ * `not_much_worse` of the least one before. */
+static const double not_much_worse = 0.7;
 
-/* A collapse may leave triangles whose least angle has the sine `fair_sine`, or the share
- * `not_much_worse` of the least one before. If a surface keeps its vertices, fewer collapses are
- * possible, so worse triangles are allowed on the way. */
-static const double fair_sine = 0.2, not_much_worse = 0.7, worse_if_kept = 0.1;
-
-/* A normal stays within 60 degrees of that of the given face that contains the triangle. */
-static const double least_cosine = 0.5;
-
-/* Vertices at triangles thinner than thin_sine go first. Their cost is multiplied by `readily`. */
-static const double thin_sine = 0.05, readily = 0.05;
+/* Vertices at triangles with a smaller sine go first. */
+static const double thin_sine = 0.05;
 
 typedef struct plane {
     double normal[3], at; /* normal . p = at */
@@ -162,7 +155,8 @@ static double thinnest_after(const simplification *s, uint32_t h)
             if (iccp_vec_distance2(3, p, q) > longest || iccp_vec_distance2(3, p, r) > longest)
                 return -1;
             const double after = facing(s, side, e / 3, p, q, r);
-            if (after < least_cosine && !(after >= facing(s, side, e / 3, at(s, side, u), q, r)))
+            if (after < iccp_least_cosine &&
+                !(after >= facing(s, side, e / 3, at(s, side, u), q, r)))
                 return -1;
             least = iccp_min(least, iccp_least_sine(p, q, r));
         }
@@ -176,17 +170,17 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
     const iccp_half_edges *const m = &s->m;
     uint32_t best = ICCP_NO_EDGE, h = m->out[u];
     *cost = HUGE_VAL;
-    if (m->degree[u] == 0 || m->degree[u] > MOST_NEIGHBOURS ||
+    if (m->degree[u] == 0 || m->degree[u] > ICCP_MERGED_NEIGHBOURS ||
         (s->limits->keep != NULL && s->limits->keep[u] != 0))
         return best;
     const iccp_kept_cells *const cells = s->limits->cells;
-    const double thin = thinnest_round(s, u), factor = thin < thin_sine ? readily : 1;
+    const double thin = thinnest_round(s, u), factor = thin < thin_sine ? iccp_readily : 1;
     const double fair =
-        iccp_min(fair_sine, (cells != NULL ? worse_if_kept : not_much_worse) * thin);
+        iccp_min(iccp_fair_sine, (cells != NULL ? iccp_worse_if_kept : not_much_worse) * thin);
     for (uint32_t k = 0; k < m->degree[u]; ++k, h = iccp_edge_turn(m, h)) {
         const uint32_t v = iccp_edge_end(m, h);
         double sum = 0, off = 0;
-        if (m->degree[u] + m->degree[v] - 4 > MOST_NEIGHBOURS ||
+        if (m->degree[u] + m->degree[v] - 4 > ICCP_MERGED_NEIGHBOURS ||
             (cells != NULL && !iccp_kept_cells_may_go(cells, u, v)))
             continue;
         for (int side = 0; side < 2 && off <= 1; ++side) {
@@ -201,7 +195,7 @@ static uint32_t find_cheapest(const simplification *s, uint32_t u, double *cost)
         const double after = thinnest_after(s, h);
         if (after < fair)
             continue;
-        sum *= 1 + 0.1 / (after + 0.02);
+        sum *= iccp_thinness(after);
         if (sum < *cost && iccp_edge_collapsible(m, h)) {
             *cost = sum;
             best = h;

@@ -13,6 +13,18 @@ typedef struct iccp_simplify_limits {
     const iccp_kept_cells *cells; /* of the first surface if it keeps its shape; or NULL */
 } iccp_simplify_limits;
 
+/* iccp_fair_sine: triangles whose least angle has this sine are fair. iccp_worse_if_kept: if a
+ * surface keeps its vertices, fewer collapses are possible, and vertices may have to come to them
+ * one by one. So a collapse may leave this share of the least sine before. iccp_readily: the factor
+ * on the costs of vertices at thin triangles, which go first. */
+static const double iccp_fair_sine = 0.2, iccp_worse_if_kept = 0.1, iccp_readily = 0.05;
+
+/* The factor on the cost of a collapse that leaves a least angle with this sine. */
+static inline double iccp_thinness(double sine)
+{
+    return 1 + 0.1 / (sine + 0.02);
+}
+
 /* Collapses edges of both surfaces at once. Their triangles stay the same, and each surface keeps
  * its shape. Triangles do not become much thinner. Remaining vertices do not move. `given` are the
  * two surfaces that `common` was made from, with coordinates `x`. Parts of a surface may come to

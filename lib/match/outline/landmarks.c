@@ -7,10 +7,9 @@
 
 #include <math.h>
 
-/* Shares of the outline's diameter. farthest: largest distance of a landmark from the outline.
- * vertex_reach: a vertex this close is meant, unless the landmark lies on the outline up to
- * `rounding`. */
-static const double farthest = 0.02, vertex_reach = 0.005, rounding = 1e-9;
+/* Shares of the outline's diameter. vertex_reach: a vertex this close is meant, unless the landmark
+ * lies on the outline up to `rounding`. */
+static const double vertex_reach = 0.005, rounding = 1e-9;
 
 typedef struct landmark {
     double share[2];
@@ -75,12 +74,12 @@ static icc_status place(landmark *out, const double *given, const iccp_outline *
                                                out->number),
                                   side + 1);
         out->share[side] = iccp_landmark_share(outlines[side], p, &away);
-        if (!(away <= farthest)) {
+        if (!(away <= iccp_farthest_landmark)) {
             iccp_fail_at(
                 err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
                 "landmark %zu lies off the outline, by %.3g %% of its diameter; at most %g %% are "
                 "allowed",
-                out->number, 100 * away, 100 * farthest);
+                out->number, 100 * away, 100 * iccp_farthest_landmark);
             return iccp_fail_side(err, ICC_ERR_ARGUMENT, side + 1);
         }
     }

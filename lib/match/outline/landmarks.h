@@ -4,8 +4,12 @@
 
 #include "match/outline/outline.h"
 
-/* The largest number of landmarks. */
+/* The largest number of landmarks of outlines. */
 enum { ICCP_MAX_LANDMARKS = 1000 };
+
+/* The largest distance of a landmark from an outline, or from a vertex of a surface, as a share of
+ * the diagonal of the bounding box. */
+static const double iccp_farthest_landmark = 0.02;
 
 /* Returns the share of the outline's point nearest to a point in the caller's coordinates, or of a
  * vertex close to it. *away is the distance in diameters. For a line the share is on the way from

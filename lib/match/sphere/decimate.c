@@ -14,9 +14,6 @@
  * normal n, and n . p = d. It stores n n^T (six entries), -d n and d^2. */
 enum { QUADRIC = 10 };
 
-/* Most neighbours of a vertex that another is merged into. It is doubled if no collapse is left. */
-enum { MOST_NEIGHBOURS = 18 };
-
 /* Weight of the collapsed edge's length beside the change of shape. It thins out flat parts
  * evenly. */
 static const double length_weight = 1e-4;
@@ -26,7 +23,7 @@ typedef struct decimation {
     const double *x;
     double (*quadric)[QUADRIC];
     double area;                  /* twice that of the surface */
-    uint32_t most;                /* the most neighbours */
+    uint32_t most;                /* the most neighbours; doubled if no collapse is left */
     const iccp_decimate_web *web; /* or NULL */
     iccp_heap heap; /* vertices by the cost of their cheapest collapse, as computed last */
 } decimation;
@@ -246,7 +243,7 @@ static icc_status run(decimation *d, size_t n_left, const iccp_env *env)
 static icc_status decimate(iccp_half_edges *m, const double *x, size_t n_left,
                            const iccp_decimate_web *web, const iccp_env *env)
 {
-    decimation d = {.m = m, .x = x, .most = MOST_NEIGHBOURS, .web = web};
+    decimation d = {.m = m, .x = x, .most = ICCP_MERGED_NEIGHBOURS, .web = web};
     icc_status status = ICC_ERR_MEMORY;
     d.quadric = iccp_alloc_zero(&m->memory, m->n_vertices, sizeof *d.quadric);
     if (iccp_heap_create(&d.heap, m->n_vertices, &m->memory) && d.quadric != NULL) {

@@ -11,7 +11,8 @@ typedef struct iccp_paths_report {
     uint32_t landmark;
 } iccp_paths_report;
 
-/* vertices[side][k] is landmark k, 4 <= n <= 128, all different on each side. Finds 3 n - 6 paths
+/* vertices[side][k] is landmark k, ICCP_LEAST_SURFACE_LANDMARKS <= n <=
+ * ICCP_MOST_SURFACE_LANDMARKS, all different on each side. Finds 3 n - 6 paths
  * along edges that meet only at landmarks. They leave each landmark in the same order on both
  * surfaces. Edges are halved if there is no room for a path.
  *
@@ -31,7 +32,7 @@ icc_status iccp_landmark_paths(iccp_split_surface s[2], size_t n, const uint32_t
                                double most_ratio, uint32_t (*ends)[2], uint8_t *joined,
                                iccp_paths_report *report, const iccp_env *env);
 
-enum { ICCP_MOST_SURFACE_LANDMARKS = 128 };
+enum { ICCP_LEAST_SURFACE_LANDMARKS = 4, ICCP_MOST_SURFACE_LANDMARKS = 128 };
 #define ICCP_LANDMARK ((uint32_t)1 << 31)
 
 #endif

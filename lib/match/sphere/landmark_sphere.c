@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "match/sphere/landmark_base.h"
+#include "match/sphere/landmark_paths.h"
 #include "match/sphere/relax.h"
 #include "match/sphere/sphere.h"
 
@@ -26,7 +27,7 @@ static const double lengths[2] = {ICCP_LONGER, 1.25};
 /* If some landmarks are guesses, there are several starts. Each of them uses FEWER guesses less
  * than the one before. The start with the least energy at CHOICE vertices goes on. On t04 with 4
  * landmarks three starts end at 5.38, 5.25 (chosen) and 13.1, where 4 is an isometry. */
-enum { FEWER = 4, MOST_FEWER = 2, LEAST = 4, CHOICE = 300 };
+enum { FEWER = 4, MOST_FEWER = 2, CHOICE = 300 };
 
 /* If a path is longer on one surface by this factor, it may pass something on one surface only.
  * Then another start is made with paths whose lengths differ little. */
@@ -208,7 +209,9 @@ icc_status iccp_landmark_sphere_draw(double *directions[2], iccp_half_edges m[2]
         .scale = {iccp_sphere_scale(given[0], x[0]), iccp_sphere_scale(given[1], x[1])},
         .n = n,
         .n_fixed = n_fixed};
-    const size_t least = n_fixed < LEAST ? LEAST : n_fixed, n_more = (n - least) / FEWER;
+    const size_t least =
+        n_fixed < ICCP_LEAST_SURFACE_LANDMARKS ? ICCP_LEAST_SURFACE_LANDMARKS : n_fixed;
+    const size_t n_more = (n - least) / FEWER;
     const size_t n_tries = 2 + (n_more < MOST_FEWER ? n_more : MOST_FEWER);
     beginning tries[2 + MOST_FEWER] = {{.level = 0}};
     size_t best;

@@ -17,10 +17,8 @@
 enum { TRIALS = 5 };
 static const double shorter = 0.4;
 
-/* A vertex may jump if its triangles have a mean energy above `bad`, or a mean of the power 1.5
- * above `severely_bad`. Vertices with very many neighbours do not jump. */
-static const double bad = 20, severely_bad = 90;
-enum { MOST_NEIGHBOURS = 64 };
+/* A vertex may jump if its triangles have a mean energy above this, unless that is severe. */
+static const double bad = 20;
 
 /* Rounds end when one lowers the energy by less than this share. */
 static const double little = 0.003;
@@ -156,7 +154,8 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
         step[0] *= shorter;
         step[1] *= shorter;
     }
-    if (least > (star->is_severe ? severely_bad : bad) * star->weight && star->n <= MOST_NEIGHBOURS)
+    if (least > (star->is_severe ? iccp_severely_bad : bad) * star->weight &&
+        star->n <= ICCP_JUMP_NEIGHBOURS)
         least = jump(r, star, p, least);
     *gain += here - least;
     return ICC_OK;

@@ -25,15 +25,8 @@ enum { FEW = 2000, SWEEPS_OF_FEW = 24, SWEEPS = 6, LAST_SWEEPS = 30 };
 /* Most steps of a vertex in one turn, and most trial lengths of a step. */
 enum { STEPS = 8, STEPS_WHEN_NEW = 4, HALVINGS = 6 };
 
-/* Vertices with more neighbours than this never jump and move in sweeps only, not each time that a
- * neighbour is put back. So the work stays in proportion. */
-enum { MOST_NEIGHBOURS = 64 };
-
 /* A vertex takes another step if the last one left less than this share of its energy. */
 static const double worthwhile = 0.9;
-
-/* A vertex may jump if the mean energy of its faces, to the power 1.5, exceeds this. */
-static const double bad = 90;
 
 /* The last sweeps end when one lowers the energy by less than this share. */
 static const double little = 1e-3;
@@ -127,7 +120,7 @@ static double improve(drawing *d, uint32_t vertex, int n_steps, double *gain)
         if (n > 0 && energy > worthwhile * before)
             break;
     }
-    if (energy > bad * d->star.weight && d->star.n <= MOST_NEIGHBOURS) {
+    if (energy > iccp_severely_bad * d->star.weight && d->star.n <= ICCP_JUMP_NEIGHBOURS) {
         const double now = jump(d, vertex, direction_of(d, vertex), energy);
         if (now < energy) {
             *gain += energy - now;
@@ -167,7 +160,8 @@ static void begin(drawing *d)
         iccp_direction(direction_of(d, iccp_edge_end(m, h)), corner[k]);
 }
 
-/* Puts back the vertex that was removed last. */
+/* Puts back the vertex that was removed last. Neighbours with very many neighbours wait for the
+ * next sweep, so the work stays in proportion. */
 static bool grow(drawing *d)
 {
     const uint32_t u = iccp_edge_restore(d->m);
@@ -179,7 +173,7 @@ static bool grow(drawing *d)
     uint32_t h = d->m->out[u];
     do {
         const uint32_t v = iccp_edge_end(d->m, h);
-        if (d->m->degree[v] <= MOST_NEIGHBOURS && !is_fixed(d, v) && !d->is_quiet)
+        if (d->m->degree[v] <= ICCP_JUMP_NEIGHBOURS && !is_fixed(d, v) && !d->is_quiet)
             improve(d, v, STEPS_WHEN_NEW, &gain);
         h = iccp_edge_turn(d->m, h);
     } while (h != d->m->out[u]);

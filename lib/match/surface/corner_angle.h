@@ -5,6 +5,9 @@
 #include "base/minmax.h"
 #include "math/vec.h"
 
+/* The normal of a triangle that replaces others stays within 60 degrees of the surface's. */
+static const double iccp_least_cosine = 0.5;
+
 /* Sets a normal whose length is twice the area. */
 static inline void iccp_triangle_normal(double normal[3], const double *a, const double *b,
                                         const double *c)

@@ -47,6 +47,9 @@
 
 #define ICCP_NO_EDGE UINT32_MAX
 
+/* The most neighbours of a vertex that another is merged into. */
+enum { ICCP_MERGED_NEIGHBOURS = 18 };
+
 typedef struct iccp_half_edges {
     iccp_memory memory;
     size_t n_vertices, n_faces; /* of the whole surface */

@@ -8,6 +8,12 @@
  * them. */
 enum { ICCP_ROOM_CORNERS = 8 };
 
+/* A vertex of a drawing may jump to another place in its room if its triangles have a mean of the
+ * energy to the power 1.5 above iccp_severely_bad. Vertices with more than ICCP_JUMP_NEIGHBOURS
+ * neighbours do not jump, so the work stays in proportion: the poles of a globe have many. */
+static const double iccp_severely_bad = 90;
+enum { ICCP_JUMP_NEIGHBOURS = 64 };
+
 /* Finds the cone of directions that have all sides of a ring of n >= 3 directions on their left. It
  * is cut off at 83 degrees from an axis that lies in the cone or on its boundary. The cone's
  * corners, up to rounding and not of length 1, become the first ones of `work`, counter-clockwise.
