@@ -14,4 +14,10 @@ static inline uint64_t iccp_random(uint64_t *state)
     return z ^ (z >> 31);
 }
 
+/* Returns a number in [0, 1). */
+static inline double iccp_random_unit(uint64_t *state)
+{
+    return (double)(iccp_random(state) >> 11) * 0x1p-53;
+}
+
 #endif

@@ -26,9 +26,8 @@ enum {
 static const double TYPICAL_ROUNDS = 8;
 
 /* Slacks and multipliers in units of f up to NOISE are rounding errors. With a factorisation they
- * were at most 3e-14 (700,000 unknowns). Up to ACCEPTABLE they are within the errors of an
- * iterative solver. */
-static const double NOISE = 3e-13, ACCEPTABLE = 1e-9;
+ * were at most 3e-14 (700,000 unknowns). */
+static const double NOISE = 3e-13;
 
 /* Shares are squared, and a tenth of the exponents is left for the entries of the factor. */
 static const double LEAST_SHARE = 1e-120;
@@ -40,7 +39,6 @@ typedef struct state {
     bool *active; /* by unknown: the edge to its parent is active */
     bool *wrong;  /* by unknown: its edge is active with a negative multiplier, or violated */
     size_t n_wrong;
-    double worst;  /* the largest such multiplier or violation */
     uint32_t *top; /* ties that follow from `active`: see iccp_ties, like the next two */
     double *share;
     uint32_t *order;
@@ -100,12 +98,10 @@ static void mark_wrong(state *s)
 {
     find_multipliers(s);
     s->n_wrong = 0;
-    s->worst = 0;
     for (size_t k = 1; k < s->unknowns->n; ++k) {
         const double by = s->active[k] ? pull(s, k) : violation(s, k);
         s->wrong[k] = by > NOISE;
         s->n_wrong += s->wrong[k];
-        s->worst = iccp_max(s->worst, by);
     }
 }
 
@@ -132,7 +128,7 @@ static void flip_some(state *s, int level)
 
 /* Begins with the empty set, for which f is the solution. All wrong inequalities change as long as
  * their number falls. After every PATIENCE steps without a new minimum, the share that changes is
- * halved. Errors that remain are accepted if they are within those of an iterative solver. */
+ * halved; only a solver that never settles was seen to need that. */
 static icc_status iterate(state *s, iccp_tied_solver solve, iccp_solution *info,
                           const iccp_env *env)
 {
@@ -154,8 +150,6 @@ static icc_status iterate(state *s, iccp_tied_solver solve, iccp_solution *info,
         ++info->n_iterations;
         mark_wrong(s);
         stalled = s->n_wrong < least ? 0 : stalled + 1;
-        if (stalled >= PATIENCE && s->worst <= ACCEPTABLE)
-            break;
         least = s->n_wrong < least ? s->n_wrong : least;
     }
     return ICC_OK;

@@ -62,21 +62,12 @@ static icc_status fill(iccp_hessian *h, const iccp_env *env)
  * that of derivatives. SHIFT, as a share of the greatest entry, keeps X definite in spite of
  * rounding. */
 static const double FIXED = 100, SHIFT = 1e-14;
-/* Largest cost of a factor, in multiplications of half a product with the Hessian. It saves some
- * hundreds of products. */
-static const double MOST_WORK = 1000;
-
-static double product_work(const iccp_hessian *h)
-{
-    return (double)h->map.m * ((double)iccp_collocation_entries(h->map.collocation) +
-                               (double)h->map.kernel.first[h->map.n_rows]);
-}
 
 /* Except for the affine function, E is D K^-1 at the free nodes, and other nodes keep their
  * weights. So the inverse of the Hessian is nearly K_f X^-1 K_f'. K_f has the rows of K for the
  * free nodes, and K_o those for other nodes nearby. The sparse matrix X is D'CD + FIXED / sigma^2
  * K_o'K_o. The condition number of the preconditioned Hessian is 1.4 to 1.9 on the star. There is
- * no inverse if X is not definite in spite of all, or if its factor is too large. */
+ * no inverse if X is not definite in spite of all. */
 static icc_status invert(iccp_hessian *h, const iccp_env *env)
 {
     const iccp_slopes *map = &h->map;
@@ -97,7 +88,7 @@ static icc_status invert(iccp_hessian *h, const iccp_env *env)
             gram.diagonal[i] += SHIFT * most;
         status = iccp_ldlt_analyse(&h->inverse, &gram.matrix, 1, env);
     }
-    if (status == ICC_OK && h->inverse.work <= MOST_WORK * product_work(h)) {
+    if (status == ICC_OK) {
         status = iccp_ldlt_factorise(&h->inverse, &gram.matrix, env);
         h->needed = iccp_alloc_zero(&h->memory, h->inverse.nodes.n, sizeof *h->needed);
         if (h->needed == NULL)

@@ -25,10 +25,11 @@ static const double SCALE = 0.45; /* s of the Gaussian; the thesis has about 1/3
 static const double REACH = 3;    /* in s: beyond it the push is below 6 % of the largest */
 static const double GAIN = 0.7;   /* lambda / s^2 */
 static const double LONGEST_STEP = 0.2; /* less than CLEARANCE, so no step leads through a wall */
-/* Samples nearer to each other than this are one too many */
-static const double TOO_NEAR = 0.55;
 
 /* ----------------------------------------------------------------- lattice */
+
+/* Distances of points in a row, of rows, and of layers: sqrt(3) / 2 and sqrt(2 / 3). */
+static const double PITCH[3] = {1, 0.86602540378443865, 0.81649658092772603};
 
 typedef struct lattice {
     const icc_shape *shape;
@@ -36,11 +37,6 @@ typedef struct lattice {
     double spacing;
     uint64_t seed;
 } lattice;
-
-static double unit(uint64_t *state)
-{
-    return (double)(iccp_random(state) >> 11) * 0x1p-53;
-}
 
 /* Rows of points, each shifted by half a spacing against the previous row. Layers of such rows lie
  * above the gaps of the previous layer. */
@@ -50,13 +46,13 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
     const size_t dim = l->shape->dim;
     const double row = (double)at[1], layer = (double)at[2], turn = (double)(at[2] % 3);
     const double rest[3] = {(double)at[0] + 0.5 * (double)(at[1] % 2) + 0.5 * turn - 1.5,
-                            0.86602540378443865 * row + 0.28867513459481288 * turn - 1,
-                            0.81649658092772603 * layer - 1};
+                            PITCH[1] * row + 0.28867513459481288 * turn - 1, PITCH[2] * layer - 1};
     uint64_t state = l->seed ^ (at[0] + ((uint64_t)at[1] << 24) + ((uint64_t)at[2] << 44));
     double local[3];
     (void)iccp_random(&state);
     for (size_t k = 0; k < dim; ++k)
-        local[k] = l->lower[k] + l->spacing * (rest[k] + JITTER * (2 * unit(&state) - 1));
+        local[k] =
+            l->lower[k] + l->spacing * (rest[k] + JITTER * (2 * iccp_random_unit(&state) - 1));
     iccp_frame_out(&l->shape->frame, (int32_t)dim, local, point);
 }
 
@@ -66,7 +62,6 @@ static void lattice_point(const void *argument, const size_t *at, double *point)
 static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, double spacing,
                               uint64_t seed, const iccp_env *env)
 {
-    static const double pitch[3] = {1, 0.86602540378443865, 0.81649658092772603};
     lattice l = {.shape = shape, .spacing = spacing, .seed = seed};
     iccp_lattice_filter filter = {.shape = shape,
                                   .point = lattice_point,
@@ -78,7 +73,7 @@ static icc_status add_lattice(iccp_point_list *list, const icc_shape *shape, dou
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, shape->lower, l.lower);
     iccp_frame_in(&shape->frame, (int32_t)shape->dim, shape->upper, upper);
     for (size_t k = 0; k < shape->dim; ++k) {
-        const double n = floor((upper[k] - l.lower[k]) / (pitch[k] * spacing)) + 5;
+        const double n = floor((upper[k] - l.lower[k]) / (PITCH[k] * spacing)) + 5;
         all *= n;
         if (all > (double)ICCP_MAX_LATTICE)
             return ICC_ERR_RESOLUTION;
@@ -241,10 +236,10 @@ icc_status iccp_blue_noise_fill(iccp_point_list *list, const icc_shape *shape, d
     iccp_split(part, 2, (const double[]){1, 4}, env);
     icc_status status = add_lattice(list, shape, spacing, seed, &part[0]);
     if (status == ICC_OK)
-        status = iccp_point_list_thin(list, n_held, 0.5 * TOO_NEAR * spacing, env);
+        status = iccp_point_list_thin(list, n_held, 0.5 * ICCP_SAMPLE_GAP * spacing, env);
     if (status == ICC_OK && list->n > n_held)
         status = relax(list, n_held, shape, spacing, steps, &part[1]);
     if (status == ICC_OK)
-        status = iccp_point_list_thin(list, n_held, TOO_NEAR * spacing, env);
+        status = iccp_point_list_thin(list, n_held, ICCP_SAMPLE_GAP * spacing, env);
     return status;
 }

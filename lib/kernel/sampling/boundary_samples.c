@@ -7,8 +7,6 @@
 
 #include <math.h>
 
-/* A sharper turn is a corner. At 30 degrees, circles with at least 13 vertices are round. */
-static const double CORNER_COSINE = 0.86602540378443865;
 /* In spacings: corners nearer to each other along the line share a sample. */
 static const double CORNER_GAP = 0.75;
 
@@ -29,7 +27,7 @@ static bool is_corner(const iccp_segment_graph *graph, uint32_t a, uint32_t v, u
     double dot = 0;
     for (size_t k = 0; k < graph->dim; ++k)
         dot += (q[k] - p[k]) * (r[k] - q[k]);
-    return dot < CORNER_COSINE * iccp_segment_graph_length(graph, a, v) *
+    return dot < ICCP_SHARP_COSINE * iccp_segment_graph_length(graph, a, v) *
                      iccp_segment_graph_length(graph, v, b);
 }
 
@@ -61,8 +59,6 @@ static void follow_line(sampler *r, uint32_t v, uint32_t segment)
             return;
         const uint32_t *at = r->graph.incident + r->graph.first[v];
         segment = at[0] == segment ? at[1] : at[0];
-        if (r->followed[segment])
-            return;
     }
 }
 

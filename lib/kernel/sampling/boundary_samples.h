@@ -5,6 +5,10 @@
 #include "kernel/sampling/point_list.h"
 #include "kernel/sampling/shape.h"
 
+/* cos 30 degrees. A sharper turn of a line is a corner, and faces that meet at a larger angle form
+ * a crease, which is sampled as a line. Circles with at least 13 vertices are round. */
+#define ICCP_SHARP_COSINE 0.86602540378443865
+
 /* Adds samples on segments between vertices (dim coordinates each), about `spacing` apart along
  * each line. Ends, forks and corners come first, then even samples between them. A closed line
  * without any of these begins at a vertex. */

@@ -45,8 +45,7 @@ static size_t nearest_to(const iccp_cells *cells, size_t i, const bool *stays, d
     const double *place = cells->points + cells->dim * i;
     size_t found = cells->n;
     iccp_cell_box box;
-    if (!iccp_cells_box(cells, place, sqrt(*best2), &box))
-        return found;
+    (void)iccp_cells_box(cells, place, sqrt(*best2), &box);
     for (size_t z = box.from[2]; z <= box.to[2]; ++z)
         for (size_t y = box.from[1]; y <= box.to[1]; ++y) {
             const size_t row = (z * cells->shape[1] + y) * cells->shape[0];

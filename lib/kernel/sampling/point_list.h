@@ -6,6 +6,9 @@
 
 #include <stdbool.h>
 
+/* In spacings: samples nearer to each other than this are one too many. */
+#define ICCP_SAMPLE_GAP 0.55
+
 /* Points of dim coordinates each, in the order in which they were added. */
 typedef struct iccp_point_list {
     iccp_memory memory;

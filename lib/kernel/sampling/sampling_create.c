@@ -16,10 +16,8 @@ static const double MAX_SAMPLES = 16777216; /* 2^24 */
  * with the square of the number of samples. */
 static const double DEFAULT_SPACING[] = {0.01, 0.05};
 static const int32_t DEFAULT_STEPS = 60;
-/* In spacings: least distance of samples on walls and curves where lines meet at sharp angles. */
-static const double LINE_GAP = 0.55;
-/* On surfaces, where samples are spread at random. This limit leaves about one per square of the
- * spacing. */
+/* In spacings: the gap on surfaces, where samples are spread at random. It leaves about one per
+ * square of the spacing. */
 static const double SURFACE_GAP = 0.75;
 /* Least spacing, in distances at which a point is on a wall. Inside and edge samples must be
  * distinguishable. */
@@ -186,7 +184,7 @@ static icc_status add_boundary_samples(iccp_point_list *list, const icc_shape *s
     if (status == ICC_OK && dim == 3 && shape->walls.n > 0)
         status = iccp_creases_sample(list, shape, spacing, env);
     if (status == ICC_OK)
-        status = iccp_point_list_thin(list, n_fixed, LINE_GAP * spacing, env);
+        status = iccp_point_list_thin(list, n_fixed, ICCP_SAMPLE_GAP * spacing, env);
     if (status != ICC_OK || dim == 2 || shape->walls.n == 0)
         return status;
     const size_t n_lines = list->n;

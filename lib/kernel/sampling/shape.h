@@ -9,6 +9,10 @@
 
 #define ICCP_NOWHERE UINT32_MAX
 
+/* Local, where the size of the shape is about 1: a point within this distance of a curve, or of an
+ * edge between handles, is meant to be on it. */
+#define ICCP_ON_LINE 1e-9
+
 struct icc_shape {
     iccp_memory memory;
     atomic_size_t references;
@@ -42,7 +46,7 @@ typedef struct iccp_spot {
     uint32_t wall;    /* nearest wall if the point is on it, else ICCP_NOWHERE */
     /* Innermost region that contains it, including its boundary; ICCP_NOWHERE outside all */
     uint32_t region;
-    uint32_t curve; /* a segment within 1e-9 of the box, or ICCP_NOWHERE */
+    uint32_t curve; /* a segment within ICCP_ON_LINE, or ICCP_NOWHERE */
     bool beside;    /* derived from another spot */
 } iccp_spot;
 iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point);

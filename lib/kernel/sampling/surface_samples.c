@@ -12,13 +12,6 @@
 /* Random points per square of the spacing. They leave almost no hole in which a sample would
  * fit. */
 static const double POINTS_A_SQUARE = 12;
-/* cos 30 degrees. Faces that meet at a larger angle form a crease, which is sampled as a line. */
-static const double CREASE_COSINE = 0.86602540378443865;
-
-static double unit(uint64_t *state)
-{
-    return (double)(iccp_random(state) >> 11) * 0x1p-53;
-}
 
 /* Returns twice the area. Writes the unit normal unless `normal` is NULL. */
 static double normal_of(const icc_shape *shape, uint32_t f, double *normal)
@@ -43,7 +36,7 @@ static bool is_crease(const icc_shape *shape, uint32_t f, uint32_t g)
     double m[3], n[3];
     (void)normal_of(shape, f, m);
     (void)normal_of(shape, g, n);
-    return !(m[0] * n[0] + m[1] * n[1] + m[2] * n[2] >= CREASE_COSINE);
+    return !(m[0] * n[0] + m[1] * n[1] + m[2] * n[2] >= ICCP_SHARP_COSINE);
 }
 
 /* Writes the creases as pairs of vertices, and returns their number. */
@@ -86,7 +79,7 @@ icc_status iccp_creases_sample(iccp_point_list *list, const icc_shape *shape, do
 static void add_random(iccp_point_list *list, const icc_shape *shape, uint32_t f, uint64_t *state)
 {
     const double *c[3];
-    double a = unit(state), b = unit(state), point[3];
+    double a = iccp_random_unit(state), b = iccp_random_unit(state), point[3];
     iccp_facet_corners(&shape->walls, f, c);
     if (a + b > 1) {
         a = 1 - a;

@@ -11,9 +11,6 @@
 
 #include <math.h>
 
-/* In units of about the box. Curves have no inside, so a point that is meant to be on one gets this
- * tolerance. */
-static const double CURVE_TOLERANCE = 1e-9;
 /* In units of the straight way. Points on two legs of a curve see each other down to an angle of 60
  * degrees. */
 static const double LONGEST_DETOUR = 2 * (1 + 1e-12);
@@ -55,7 +52,7 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
     }
     if (shape->curves.n > 0) {
         const uint32_t s = iccp_facet_tree_nearest(&shape->curves, spot.at, bary, &distance2);
-        if (sqrt(distance2) <= CURVE_TOLERANCE + shape->tolerance)
+        if (sqrt(distance2) <= ICCP_ON_LINE + shape->tolerance)
             spot.curve = s;
     }
     return spot;

@@ -11,9 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes per task. */
-enum { GRAIN = 256 };
-
 /* ---- initial weights ---- */
 
 /* Returns the sample nearest to a node on a line. */
@@ -116,7 +113,8 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
                                  const iccp_env *env)
 {
     optimisation o = {weights, nodes, &env->memory};
-    const icc_status status = iccp_for_chunks(env, "weights", n, GRAIN, optimise_some, &o);
+    const icc_status status =
+        iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, optimise_some, &o);
     weights->info.n_infeasible = 0;
     for (size_t i = 0; i < weights->nodes->n; ++i)
         weights->info.n_infeasible += weights->status[i] != ICC_OK;

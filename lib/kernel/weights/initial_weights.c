@@ -49,9 +49,6 @@ void iccp_initial_inverse(const iccp_nodes *nodes, double *weights)
 
 /* ---- diffusion ---- */
 
-/* Nodes per task. */
-enum { GRAIN = 256 };
-
 typedef struct diffusion {
     const iccp_nodes *nodes;
     const iccp_symmetric *matrix;
@@ -129,13 +126,13 @@ static icc_status take_steps(diffusion *d, int32_t steps, double *weights, doubl
     const size_t n = d->nodes->n, m = d->nodes->n_handles;
     icc_status status = ICC_OK;
     if (d->spots != NULL)
-        status = iccp_for_chunks(env, "weights", n, GRAIN, find_spots, d);
+        status = iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, find_spots, d);
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "weights", n, GRAIN, find_shares, d);
+        status = iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, find_shares, d);
     d->from = weights;
     d->to = other;
     for (int32_t s = 0; status == ICC_OK && s < steps; ++s) {
-        status = iccp_for_chunks(env, "weights", n, GRAIN, take_means, d);
+        status = iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, take_means, d);
         const double *from = d->from;
         d->from = d->to;
         d->to = from == weights ? weights : other;

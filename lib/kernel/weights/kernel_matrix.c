@@ -13,8 +13,6 @@ static const double WENDLAND_REACH = 3;
 /* Limits of the matrix: entries, 12 bytes each, and entries per node, of which the default kernel
  * has 26 in 2-D. The larger limit applies. */
 static const size_t MOST_ENTRIES = (size_t)1 << 27, MOST_NEAR = 256;
-/* Rows per task. */
-enum { GRAIN = 1024 };
 
 iccp_radial iccp_radial_make(int32_t kind, double sigma, double cutoff)
 {
@@ -58,8 +56,7 @@ static size_t scan_row(const assembly *a, size_t i, size_t at)
     const size_t *shape = cells->shape;
     iccp_cell_box box;
     size_t n = 0;
-    if (!iccp_cells_box(cells, cells->points + cells->dim * i, a->radial->reach, &box))
-        return 0;
+    (void)iccp_cells_box(cells, cells->points + cells->dim * i, a->radial->reach, &box);
     for (size_t z = box.from[2]; z <= box.to[2]; ++z)
         for (size_t y = box.from[1]; y <= box.to[1]; ++y) {
             const uint32_t *run = cells->first + shape[0] * (y + shape[1] * z);
@@ -93,7 +90,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
 {
     iccp_kernel_matrix *out = a->out;
     const size_t n = a->cells->n;
-    icc_status status = iccp_for_chunks(env, "weights", n, GRAIN, count_rows, a);
+    icc_status status = iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, count_rows, a);
     out->first[0] = 0;
     for (size_t i = 0; status == ICC_OK && i < n; ++i)
         out->first[i + 1] += out->first[i];
@@ -108,7 +105,7 @@ static icc_status fill(assembly *a, const iccp_env *env, icc_error *err)
     if (out->column == NULL || out->value == NULL)
         return ICC_ERR_MEMORY;
     a->count_only = false;
-    return iccp_for_chunks(env, "weights", n, GRAIN, fill_rows, a);
+    return iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, fill_rows, a);
 }
 
 icc_status iccp_kernel_matrix_create(iccp_kernel_matrix *out, const iccp_cells *cells,

@@ -9,6 +9,9 @@
 
 #include <math.h>
 
+/* Nodes that a thread takes at a time. */
+enum { ICCP_NODES_A_TASK = 256 };
+
 /* A radial function of finite reach, of kind `ICC_KERNEL_*`. Its value at 0 is 1. */
 typedef struct iccp_radial {
     int32_t kind;

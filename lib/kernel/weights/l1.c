@@ -18,9 +18,7 @@
 static const double TIGHT = 1e-9;
 /* A basic x below this share of the target is 0. */
 static const double ZERO = 1e-12;
-/* Steps by the steepest column. After that the first column is taken, which cannot cycle
- * (Bland). */
-enum { STEEPEST_STEPS = 50, MOST_STEPS = 1000 };
+enum { MOST_STEPS = 1000 };
 
 typedef struct basis {
     uint32_t column[ICCP_ROWS];
@@ -98,8 +96,8 @@ static double slack(const iccp_l1 *p, const double *y, size_t j)
     return sum;
 }
 
-/* Returns the column with the greatest |column'y|, or the first one above 1; m if there is none. */
-static size_t entering(const iccp_l1 *p, const double *y, bool first)
+/* Returns the column with the greatest |column'y| above 1, or m if there is none. */
+static size_t entering(const iccp_l1 *p, const double *y)
 {
     double most = 1 + TIGHT;
     size_t best = p->m;
@@ -108,8 +106,6 @@ static size_t entering(const iccp_l1 *p, const double *y, bool first)
         if (size <= most)
             continue;
         best = j;
-        if (first)
-            break;
         most = size;
     }
     return best;
@@ -147,7 +143,7 @@ static void optimise(const iccp_l1 *p, basis *b)
         b->sign[k] = b->x[k] < 0 ? -1 : 1;
     for (int step = 0; step < MOST_STEPS; ++step) {
         solve_transpose(b, p->rows, b->sign, b->y);
-        const size_t j = entering(p, b->y, step >= STEEPEST_STEPS);
+        const size_t j = entering(p, b->y);
         if (j == p->m)
             return;
         const double sign = slack(p, b->y, j) < 0 ? -1 : 1;

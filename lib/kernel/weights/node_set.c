@@ -16,15 +16,11 @@
 static const double TOO_NEAR = 0.5;
 /* In spacings: points nearer than this are equal. Callers' numbers may have six digits. */
 static const double SAME = 1e-6;
-/* Local, where the shape's size is about 1: nodes within this distance of an edge are on it. */
-static const double ON_EDGE = 1e-9;
 /* Sine of the angle below which lines count as parallel. */
 static const double PARALLEL = 1e-9;
 /* In spacings: narrower kernels would be needles at the nodes. */
 static const double LEAST_SIGMA = 1e-3;
 static const size_t MOST_NODES = (size_t)1 << 24;
-/* Nodes per task. */
-enum { GRAIN = 4096 };
 
 static double distance(size_t dim, const double *a, const double *b)
 {
@@ -225,7 +221,7 @@ static bool is_on_edge(size_t dim, const double *a, const double *b, const doubl
         const double away = x[d] - a[d] - *share * (b[d] - a[d]);
         off += away * away;
     }
-    return off <= ON_EDGE * ON_EDGE;
+    return off <= ICCP_ON_LINE * ICCP_ON_LINE;
 }
 
 static icc_status find_edges(void *argument, size_t begin, size_t end)
@@ -294,7 +290,8 @@ static icc_status connect(iccp_node_set *set, const icc_weights_options *options
     set->n_edges = options->n_edges;
     if (set->n_edges > 0)
         memcpy(set->edges, options->edges, 2 * set->n_edges * sizeof *set->edges);
-    const icc_status status = iccp_for_chunks(env, "weights", set->n, GRAIN, find_edges, set);
+    const icc_status status =
+        iccp_for_chunks(env, "weights", set->n, ICCP_NODES_A_TASK, find_edges, set);
     for (size_t i = 0; status == ICC_OK && i < set->n; ++i)
         set->held[i] = i < set->n_handles + set->n_line_nodes ||
                        (options->initial == ICC_INITIAL_EDGES && set->edge[i] != ICCP_NO_EDGE);

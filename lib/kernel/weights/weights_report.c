@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Points per task. */
-enum { GRAIN = 256 };
 /* Places along an edge where weights are compared with linear ones. */
 enum { EDGE_PLACES = 64 };
 /* Weights below this are negative. Others may be negative by rounding. */
@@ -73,7 +71,7 @@ icc_status iccp_weights_evaluate(const icc_weights *weights, size_t n, const dou
         failed += !is_finite(dim, points + dim * i);
     if (n_failed != NULL)
         *n_failed = failed;
-    return iccp_for_chunks(env, "check", n, GRAIN, evaluate_some, &e);
+    return iccp_for_chunks(env, "check", n, ICCP_NODES_A_TASK, evaluate_some, &e);
 }
 
 /* ---- dual functions ---- */
@@ -109,7 +107,7 @@ icc_status iccp_weights_dual(const icc_weights *weights, size_t node, size_t n,
         unit[node] = 1;
         status = iccp_collocation_solve(set->collocation, 1, unit, coefficients, env);
         if (status == ICC_OK)
-            status = iccp_for_chunks(env, "check", n, GRAIN, evaluate_dual, &d);
+            status = iccp_for_chunks(env, "check", n, ICCP_NODES_A_TASK, evaluate_dual, &d);
     }
     iccp_free(&env->memory, unit);
     iccp_free(&env->memory, coefficients);
@@ -225,7 +223,7 @@ icc_status iccp_weights_measure(const icc_weights *weights, size_t n, const doub
     measurement m = {weights, memory, points, qualities};
     icc_status status = qualities != NULL && values != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "check", n, GRAIN, measure_some, &m);
+        status = iccp_for_chunks(env, "check", n, ICCP_NODES_A_TASK, measure_some, &m);
     if (status == ICC_OK) {
         summarise(n, qualities, report);
         measure_handles(weights, report, values);
