@@ -8,7 +8,15 @@
 #include <math.h>
 #include <string.h>
 
-enum { MAX_ITERATIONS = 200 };
+enum {
+    MAX_ITERATIONS = 200,
+    MAX_CORRECTIONS = 8,
+    /* Iterations that reduce products by less than a tenth, and hardly any residuals */
+    PATIENCE = 6
+};
+
+/* Share of the first residuals above which products do not fall. */
+static const double NEARLY_FEASIBLE = 1e-6;
 
 /* The share of the way to the boundary that a step takes. */
 static const double SHORTEN = 0.995;
@@ -47,9 +55,10 @@ static void solve(iccp_interior_point *p, double tolerance)
     double last = HUGE_VAL;
     memset(p->newton.step_f, 0, n_rows(p) * sizeof *p->newton.step_f);
     memset(p->newton.step_multiplier, 0, n_pairs(p) * sizeof *p->newton.step_multiplier);
-    for (int k = 0;; ++k) {
+    for (int k = 0; k <= MAX_CORRECTIONS; ++k) {
         const double error = iccp_newton_qp_errors(&p->newton);
-        if (k > 0 && (error <= tolerance || (k > 2 && !(error < 0.7 * last))))
+        if (k > 0 &&
+            (error <= tolerance || k == MAX_CORRECTIONS || (k > 2 && !(error < 0.7 * last))))
             return;
         last = error;
         iccp_newton_qp_add_solution(&p->newton);
@@ -74,9 +83,9 @@ static double step_length(const iccp_interior_point *p)
 
 /* The predictor goes straight to products of 0. The corrector goes to equal products, which are
  * smaller the further the predictor got, and includes the predictor's second-order terms. If that
- * is stopped early by a bound, it goes to equal products alone: on the coarsest grid of a letter L
- * of 300 cells, for example. */
-static void find_step(iccp_interior_point *p)
+ * is stopped early by a bound, it goes to equal products alone. Returns the share of the residuals
+ * that a whole step removes. */
+static double find_step(iccp_interior_point *p)
 {
     const double mean = mean_product(p);
     for (size_t i = 0; i < n_pairs(p); ++i)
@@ -93,13 +102,14 @@ static void find_step(iccp_interior_point *p)
             p->newton.step_slack[i] * p->newton.step_multiplier[i] - after * after * after * mean;
     solve(p, CORRECTOR_ERROR);
     if (step_length(p) >= SHORT_STEP)
-        return;
+        return 1;
     for (size_t i = 0; i < n_pairs(p); ++i) {
         p->newton.product[i] = p->newton.slack[i] * p->newton.multiplier[i] - mean;
         p->newton.primal[i] = 0;
     }
     memset(p->newton.dual, 0, n_rows(p) * sizeof *p->newton.dual);
     solve(p, CORRECTOR_ERROR);
+    return 0;
 }
 
 static void take_step(iccp_interior_point *p, double length)
@@ -120,27 +130,39 @@ static icc_status iterate(iccp_interior_point *p, iccp_solution *info, const icc
     if (status != ICC_OK)
         return status;
     const double start = iccp_seconds();
-    find_step(p);
+    const double made_up = find_step(p);
     const double length = SHORTEN * step_length(p);
     info->seconds_solve += iccp_seconds() - start;
     if (!(length > 1e-6))
         return ICC_ERR_SOLVER;
     take_step(p, length);
+    p->remaining *= 1 - made_up * length;
     ++p->n_iterations;
     return ICC_OK;
 }
 
-icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, iccp_solution *info,
-                                   const iccp_env *env)
+icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
+                                   iccp_solution *info, const iccp_env *env)
 {
-    icc_status status = ICC_OK;
-    while (status == ICC_OK && mean_product(ip) > target && ip->n_iterations < MAX_ITERATIONS) {
-        const iccp_env part = iccp_round(env, ip->n_iterations, ICCP_NEWTON_TYPICAL);
-        status = iccp_progress(&part, "solve", 0);
+    int patience = PATIENCE;
+    double mean = mean_product(ip);
+    *stuck = false;
+    while (mean > target && !*stuck) {
+        const double remaining = ip->remaining;
+        const iccp_env part = iccp_round(env, ip->n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
+        icc_status status = iccp_progress(&part, "solve", 0);
         if (status == ICC_OK)
             status = iterate(ip, info, &part);
+        if (status != ICC_OK && status != ICC_ERR_SOLVER)
+            return status;
+        const double last = mean;
+        mean = mean_product(ip);
+        const bool gets_feasible =
+            ip->remaining > NEARLY_FEASIBLE && ip->remaining < 0.98 * remaining;
+        patience = mean < 0.9 * last || gets_feasible ? PATIENCE : patience - 1;
+        *stuck = status != ICC_OK || patience == 0 || ip->n_iterations >= MAX_ITERATIONS;
     }
-    return status == ICC_ERR_SOLVER ? ICC_OK : status;
+    return ICC_OK;
 }
 
 /* Starts from the function with the least energy plus sum of squared slacks. Takes its slacks and
@@ -178,7 +200,7 @@ icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp
 {
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){2, 1}, env);
-    *ip = (iccp_interior_point){0};
+    *ip = (iccp_interior_point){.remaining = 1};
     icc_status status = iccp_newton_qp_create(&ip->newton, qp, info, &part[0]);
     if (status == ICC_OK)
         status = start(ip, info, &part[1]);

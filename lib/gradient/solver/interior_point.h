@@ -8,6 +8,8 @@
 typedef struct iccp_interior_point {
     iccp_newton_qp newton;
     size_t n_iterations;
+    /* Share of the first iterate's residuals; each step reduces it by its length */
+    double remaining;
 } iccp_interior_point;
 
 /* Analyses the systems and finds a starting point. For memory see newton_qp.h. */
@@ -15,9 +17,12 @@ icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp
                                       iccp_solution *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);
 
-/* Iterates until the mean of slack * multiplier is below `target`. If rounding errors prevent that,
- * the iterate is the last good one. Adds to `info` (work, seconds_*). */
-icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, iccp_solution *info,
-                                   const iccp_env *env);
+/* Progress reports count this many iterations as half of the work. */
+#define ICCP_INTERIOR_POINT_TYPICAL 15.0
+
+/* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors prevent
+ * that, and the iterate is the last good one. Adds to `info` (work, seconds_*). */
+icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,
+                                   iccp_solution *info, const iccp_env *env);
 
 #endif

@@ -11,14 +11,18 @@
 /* Mean of slack * multiplier at which the interior point method stops on the coarsest grid. */
 static const double COARSEST_TARGET = 1e-16;
 
+/* Residual for the coarser grids: the finer grid loses any further digits. */
+static const double COARSE_ENOUGH = 1e-8;
+
 static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplier,
                                  iccp_solution *info, const iccp_env *env)
 {
     iccp_interior_point ip;
+    bool stuck;
     icc_status status = iccp_interior_point_create(&ip, qp, info, env);
     if (status != ICC_OK)
         return status;
-    status = iccp_interior_point_run(&ip, COARSEST_TARGET, info, env);
+    status = iccp_interior_point_run(&ip, COARSEST_TARGET, &stuck, info, env);
     memcpy(f, ip.newton.f, qp->unknowns->n * sizeof *f);
     memcpy(multiplier, ip.newton.multiplier, iccp_qp_inequalities(qp) * sizeof *multiplier);
     info->n_iterations += ip.n_iterations;
@@ -101,8 +105,7 @@ static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier, 
     uint8_t *active = iccp_alloc(&env->memory, m, sizeof *active);
     icc_status status = candidate.f != NULL && active != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status =
-            iccp_smoothing_run(&p->smoothing, ICCP_NESTED_ENOUGH, &candidate, active, info, env);
+        status = iccp_smoothing_run(&p->smoothing, COARSE_ENOUGH, &candidate, active, info, env);
     memcpy(f, p->newton.f, n * sizeof *f);
     memcpy(multiplier, p->newton.multiplier, m * sizeof *multiplier);
     iccp_free(&env->memory, candidate.f);

@@ -14,6 +14,8 @@
 
 #include <math.h>
 
+enum { MAX_SOFTENINGS = 4 };
+
 /* Weights are at most the inverse of this. A'A has entries up to 4 dim (dim + 1/2) and keeps its
  * digits beside such weights. Between 1e-8 and 1e-5 the iterations are the same. */
 static const double SOFTNESS = 1e-6;
@@ -50,10 +52,14 @@ icc_status iccp_newton_qp_factorise(iccp_newton_qp *p, iccp_solution *info, cons
 {
     const double start = iccp_seconds();
     double *w = p->weight + p->qp->a.n_rows;
-    for (size_t i = 0; i < n_pairs(p); ++i)
-        w[i] = 1 / (p->slack[i] / p->multiplier[i] + SOFTNESS);
-    iccp_gram_fill(&p->gram, &p->b, p->weight);
-    const icc_status status = iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env);
+    icc_status status = ICC_ERR_SOLVER;
+    for (int k = 0; k < MAX_SOFTENINGS && status == ICC_ERR_SOLVER; ++k) {
+        p->softness *= k == 0 ? 1 : 100;
+        for (size_t i = 0; i < n_pairs(p); ++i)
+            w[i] = 1 / (p->slack[i] / p->multiplier[i] + p->softness);
+        iccp_gram_fill(&p->gram, &p->b, p->weight);
+        status = iccp_ldlt_factorise(&p->factor, &p->gram.matrix, env);
+    }
     info->seconds_factor += iccp_seconds() - start;
     return status;
 }
@@ -159,7 +165,7 @@ icc_status iccp_newton_qp_create(iccp_newton_qp *newton, const iccp_qp *qp, iccp
                                  const iccp_env *env)
 {
     iccp_newton_qp *p = newton;
-    *p = (iccp_newton_qp){.memory = env->memory, .qp = qp};
+    *p = (iccp_newton_qp){.memory = env->memory, .qp = qp, .softness = SOFTNESS};
     p->b.memory = p->gram.memory = p->factor.memory = env->memory;
     double clock = iccp_seconds();
     iccp_env part[2];

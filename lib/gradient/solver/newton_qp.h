@@ -7,14 +7,12 @@
 #include "gradient/solver/solution.h"
 #include "math/ldlt.h"
 
-/* Progress reports count this many iterations of either method as half of the work. */
-#define ICCP_NEWTON_TYPICAL 15.0
-
 typedef struct iccp_newton_qp {
     iccp_memory memory;
     const iccp_qp *qp;          /* borrowed */
     double *f;                  /* by unknown; f_0 = 1 */
     double *slack, *multiplier; /* by inequality; positive */
+    double softness;            /* see newton_qp.c */
     iccp_sparse b;              /* A above G, without the root's column */
     iccp_gram gram;
     iccp_ldlt factor;
@@ -41,7 +39,7 @@ void iccp_newton_qp_stationarity(const iccp_newton_qp *newton, const double *f, 
 void iccp_newton_qp_residuals(iccp_newton_qp *newton);
 
 /* Factorises for the present slacks and multipliers. Returns ICC_ERR_SOLVER if the matrix is not
- * positive definite. */
+ * positive definite, however soft it becomes. */
 icc_status iccp_newton_qp_factorise(iccp_newton_qp *newton, iccp_solution *info,
                                     const iccp_env *env);
 

@@ -22,8 +22,8 @@
  *   the inequalities: active_set.h, which calls these with tied unknowns.
  * - Bi-Laplace: bilaplace.c, on laplacian_factor.h or energy.h, or bilaplace_iterative.c, on
  *   mg_cg.h.
- * - Bi-Laplace under the inequalities: bilaplace_constrained.c, which takes polish.h, on large
- *   grids after nested.h (coarse_qp.h, smoothing.h, and on the coarsest grid interior_point.h).
+ * - Bi-Laplace under the inequalities: bilaplace_constrained.c, which takes polish.h, then
+ *   interior_point.h (on newton_qp.h), on large grids after nested.h (coarse_qp.h, smoothing.h).
  * - Multigrid: multigrid.h has the cycle, mg_sweep.h a slab of it, mg_coarse.c the coarse levels,
  *   mg_kernel.h the inner loops.
  *

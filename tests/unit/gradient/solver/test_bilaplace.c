@@ -444,6 +444,7 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
     iccp_solution info = {0};
     iccp_qp qp;
     iccp_interior_point ip;
+    bool stuck = false;
     icc_status status = iccp_qp_create(&qp, &p->unknowns, function, 1e-6, 1e-9, env);
     if (status != ICC_OK)
         return status;
@@ -451,13 +452,14 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
     iccp_candidate candidate = {f, HUGE_VAL};
     status = iccp_interior_point_create(&ip, &qp, &info, env);
     if (status == ICC_OK) {
-        status = iccp_interior_point_run(&ip, 1e-17, &info, env);
+        status = iccp_interior_point_run(&ip, 1e-17, &stuck, &info, env);
         for (size_t i = 0; i < iccp_qp_inequalities(&qp); ++i) {
             ck_assert(ip.newton.slack[i] > 0 && ip.newton.multiplier[i] > 0);
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         }
         if (status == ICC_OK)
-            status = iccp_polish(&qp, active, false, 1e-12, &candidate, &info, env);
+            status =
+                iccp_polish(&qp, active, false, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
         iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
@@ -487,6 +489,20 @@ START_TEST(both_ways_lead_to_the_same_function)
             free(f);
             problem_clear(&p);
         }
+}
+END_TEST
+
+/* The active set goes astray here, and the interior point method tells it where to begin. */
+START_TEST(a_serpentine_needs_both_ways)
+{
+    const iccp_env env = default_env();
+    problem p = problem_of(mask_serpentine, 2, 225);
+    iccp_solution info = {0};
+    ck_assert_int_eq(iccp_bilaplace_constrained(&p.unknowns, ICC_FUNCTION_BILAPLACE, 1e-6, 1e-9,
+                                                &p.f, &info, &env),
+                     ICC_OK);
+    ck_assert_double_le(info.residual_before, 1e-11);
+    problem_clear(&p);
 }
 END_TEST
 
@@ -673,6 +689,7 @@ int main(void)
     tcase_add_test(tests, nothing_underflows);
     tcase_add_test(tests, small_constrained_minima_have_the_least_energy);
     tcase_add_test(tests, both_ways_lead_to_the_same_function);
+    tcase_add_test(tests, a_serpentine_needs_both_ways);
     tcase_add_test(tests, coarse_to_fine_leads_there_too);
     tcase_add_test(tests, grids_that_lose_the_shape_are_not_used);
     tcase_add_loop_test(tests, large_problems_hold_every_inequality, 0, share_of(2));
