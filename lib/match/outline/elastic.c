@@ -121,7 +121,7 @@ static size_t cheapest(const iccp_lattice_path *paths)
 }
 
 /* Finds the candidates by shape alone, and the best upright one. Shapes alone do not distinguish
- * the upright one if they are round. */
+ * the upright one if they are round. The letter o needs it, and a Q that becomes an @. */
 static icc_status find_candidates(elastic *e, bool is_free, const iccp_env *env)
 {
     iccp_env parts[2];
@@ -232,7 +232,8 @@ icc_status iccp_elastic_search(iccp_pairing_knots *knots, iccp_elastic_report *r
     return status;
 }
 
-/* Returns true if a candidate passes close to all landmarks. */
+/* Returns true if a candidate passes close to all landmarks. That of d17, a disc with three
+ * landmarks, does not. */
 static bool passes(const iccp_elastic_candidate *c, size_t n, const double *landmarks)
 {
     for (size_t k = 0; k < n; ++k) {

@@ -184,11 +184,7 @@ icc_status iccp_lattice_cyclic(iccp_lattice_path *paths, iccp_lattice *lattice, 
     iccp_lattice_search(&paths[0], lattice, n, cost, width, 0);
     for (int32_t half = n / 2; half >= stride; half /= 2)
         for (int32_t first = half; first < n; first += 2 * half) {
-            int32_t before = first - half, after = first + half;
-            while (paths[before / stride].n_points == 0)
-                before -= stride;
-            while (paths[after % n / stride].n_points == 0)
-                after += stride;
+            const int32_t before = first - half, after = first + half;
             envelope(lattice->low, &paths[before / stride], false, 0);
             envelope(lattice->high, &paths[after % n / stride], true, after == n ? n : 0);
             for (int32_t i = 0; i <= n; ++i)

@@ -1,5 +1,6 @@
 /* Recognises outlines whose vertices correspond already, for example those of an earlier match.
- * Then the order of the vertices replaces the pairing by shape. */
+ * Then the order of the vertices replaces the pairing by shape. d01 to d03 with their own
+ * vertices need this, because the pairing by shape joins only most of them. */
 #include "match/outline/one_to_one.h"
 
 #include <math.h>

@@ -11,9 +11,6 @@
 
 #define NONE UINT32_MAX
 
-/* Rounds in which joins are undone one by one. */
-enum { SINGLE_ROUNDS = 8 };
-
 /* Knots keep this distance from joined vertices, as a share of the perimeter. */
 static const double clear = 1e-7;
 
@@ -163,22 +160,9 @@ static void forget(iccp_merge_order *w)
     w->n_knots -= knot - n;
 }
 
-/* Undoes the joins within `reach` events of event k. Returns true if there were any. */
-static bool undo_around(iccp_merge_order *w, size_t k, size_t reach)
-{
-    bool has_any = false;
-    const size_t n = 2 * reach + 2 < w->n_events ? 2 * reach + 2 : w->n_events;
-    for (size_t m = 0; m < n; ++m) {
-        iccp_event *const at = &w->event[(k + w->n_events + m - reach % w->n_events) % w->n_events];
-        has_any = has_any || (!at->is_fixed && at->d < HUGE_VAL);
-        at->d = at->is_fixed ? at->d : HUGE_VAL;
-    }
-    return has_any;
-}
-
-/* Undoes joins at edges that they stretch too much. At first that is the worse of the two joins at
- * such an edge, later all joins within `reach` events. Returns true if there were any. */
-static bool relent(iccp_merge_order *w, size_t reach)
+/* Undoes the worse of the two joins at each edge that they stretch too much. Returns true if there
+ * were any. */
+static bool relent(iccp_merge_order *w)
 {
     bool has_any = false;
     for (size_t k = 0; k < w->n_events; ++k) {
@@ -187,9 +171,7 @@ static bool relent(iccp_merge_order *w, size_t reach)
             continue;
         iccp_event *const a = &w->event[k], *const b = &w->event[(k + 1) % w->n_events];
         iccp_event *const worse = b->is_fixed || (!a->is_fixed && a->d >= b->d) ? a : b;
-        if (reach > 0) {
-            has_any = undo_around(w, k, reach) || has_any;
-        } else if (!worse->is_fixed) {
+        if (!worse->is_fixed) {
             worse->d = HUGE_VAL;
             has_any = true;
         }
@@ -205,14 +187,13 @@ static bool relent(iccp_merge_order *w, size_t reach)
     return has_any;
 }
 
-/* Joins vertices and undoes joins until none stretches an edge too much. Joins are undone one by
- * one at first, then in a growing range, so the number of rounds is logarithmic. */
+/* Joins vertices and undoes joins until none stretches an edge too much. Outlines in
+ * tests/unit/match/test_match.c need this. */
 static void merge(iccp_merge_order *w)
 {
     bend(w);
     line_up(w);
-    for (size_t round = 0, reach = 0; relent(w, reach); ++round) {
-        reach = round < SINGLE_ROUNDS ? 0 : 2 * reach + 1;
+    while (relent(w)) {
         bend(w);
         line_up(w);
     }

@@ -28,7 +28,7 @@ enum { PASSES = 2 };
 
 /* stiffness: the cost of stretch relative to turns. Limits: roots of the factor by which an edge
  * may be stretched more or less than its surroundings. The last limit is used if the first finds no
- * path. */
+ * path, as for d17 with three landmarks. */
 static const float stiffness = 1, first_limit = 2, last_limit = 4;
 
 /* A first pair is searched within this share of the perimeter on each side of a place. */
@@ -81,7 +81,7 @@ static search *prepare(const iccp_pairing_knots *knots, const iccp_outline *sour
     s->band = band_for(source->n > target->n ? source->n : target->n);
     s->width = 2 * s->band + 1;
     s->inverse.knot = iccp_alloc(memory, 2 * knots->n, sizeof *s->inverse.knot);
-    s->out.knot = iccp_alloc(memory, 2 * (rows + 2 * n_landmarks + knots->n), sizeof *s->out.knot);
+    s->out.knot = iccp_alloc(memory, 2 * (rows + 2 * n_landmarks), sizeof *s->out.knot);
     s->low = iccp_alloc(memory, rows, sizeof *s->low);
     s->end = iccp_alloc(memory, rows, sizeof *s->end);
     s->from = iccp_alloc(memory, rows, s->width);
@@ -199,24 +199,8 @@ static void read_path(search *s)
     s->out.n += n;
 }
 
-/* Appends the knots as they were, except the last. */
-static void copy_knots(search *s, const double *from, const double *to)
-{
-    double *last = s->out.knot + 2 * s->out.n++;
-    memcpy(last, from, 2 * sizeof *last);
-    for (int turn = -1; turn <= 2; ++turn)
-        for (size_t k = 0; k < s->knots->n; ++k) {
-            const double *const knot = s->knots->knot + 2 * k;
-            const double at[2] = {knot[0] + turn, knot[1] + turn};
-            if (!(at[0] > last[0] && at[1] > last[1] && at[0] < to[0] && at[1] < to[1]))
-                continue;
-            last = s->out.knot + 2 * s->out.n++;
-            memcpy(last, at, sizeof at);
-        }
-}
-
-/* Finds the pairs between two given pairs of shares. */
-static void pair_between(search *s, const double *from, const double *to)
+/* Finds the pairs between two given pairs of shares. Returns false if there is no path. */
+static bool pair_between(search *s, const double *from, const double *to)
 {
     for (size_t e = 0; e < 2; ++e) {
         iccp_places_find(&s->places[e], s->outline[e], s->outline[1 - e],
@@ -227,18 +211,19 @@ static void pair_between(search *s, const double *from, const double *to)
     float limit = first_limit;
     while (limit <= last_limit && !find_path(s, limit))
         limit *= 2;
-    if (limit <= last_limit)
-        read_path(s);
-    else
-        copy_knots(s, from, to);
+    if (limit > last_limit)
+        return false;
+    read_path(s);
+    return true;
 }
 
 /* Finds a first pair if there is no landmark: the closest one around the first knot. */
-static void find_first(search *s, double *first)
+static bool find_first(search *s, double *first)
 {
     const double share = s->knots->knot[0], from = share - around, to = share + around;
-    pair_between(s, (const double[]){from, iccp_knots_at(s->knots, from)},
-                 (const double[]){to, iccp_knots_at(s->knots, to)});
+    if (!pair_between(s, (const double[]){from, iccp_knots_at(s->knots, from)},
+                      (const double[]){to, iccp_knots_at(s->knots, to)}))
+        return false;
     double least = HUGE_VAL;
     for (size_t k = 0; k < s->out.n; ++k) {
         const double away = fabs(s->out.knot[2 * k] - share);
@@ -248,8 +233,10 @@ static void find_first(search *s, double *first)
         }
     }
     s->out.n = 0;
+    return true;
 }
 
+/* Pairs the vertices. If there is no path, the knots stay as they are. */
 static icc_status pair_once(iccp_pairing_knots *knots, const iccp_outline *source,
                             const iccp_outline *target, size_t n_landmarks, const double *landmarks,
                             const iccp_env *env)
@@ -259,21 +246,20 @@ static icc_status pair_once(iccp_pairing_knots *knots, const iccp_outline *sourc
         return ICC_ERR_MEMORY;
     iccp_bends_find(s->bends, knots, source, target);
     double first[2];
-    if (n_landmarks == 0)
-        find_first(s, first);
+    bool is_found = n_landmarks > 0 || find_first(s, first);
     const size_t n = n_landmarks > 0 ? n_landmarks : 1;
     const double *const pairs = n_landmarks > 0 ? landmarks : first;
     icc_status status = ICC_OK;
-    for (size_t k = 0; k < n && status == ICC_OK; ++k) {
+    for (size_t k = 0; k < n && is_found && status == ICC_OK; ++k) {
         double next[2] = {pairs[2 * ((k + 1) % n)], pairs[2 * ((k + 1) % n) + 1]};
         if (k + 1 == n) {
             next[0] += 1;
             next[1] += 1;
         }
-        pair_between(s, pairs + 2 * k, next);
+        is_found = pair_between(s, pairs + 2 * k, next);
         status = iccp_progress(env, NULL, (double)(k + 1) / (double)n);
     }
-    if (status == ICC_OK) {
+    if (status == ICC_OK && is_found) {
         double *const old = knots->knot;
         *knots = s->out;
         s->out.knot = old;
