@@ -19,9 +19,6 @@
 
 #include <string.h>
 
-/* Rounds in which drawings without landmarks are moved on each other. */
-enum { ROUNDS = 30 };
-
 /* If there are fewer pairs, more are guessed, so that a limb without a landmark comes to lie on its
  * partner. */
 enum { ENOUGH_PAIRS = 12 };
@@ -59,7 +56,7 @@ static icc_status relax(iccp_body bodies[2], const iccp_env *env, icc_error *err
     icc_status status =
         iccp_relaxation_create(&r, side, (const uint8_t *const[]){NULL, NULL}, &env->memory);
     if (status == ICC_OK)
-        status = iccp_relax(&r, ICCP_LONGER, true, ROUNDS, &left, env);
+        status = iccp_relax(&r, ICCP_LONGER, true, &left, env);
     iccp_relaxation_free(&r, &env->memory);
     status = iccp_explain(err, status);
     if (status == ICC_OK)
@@ -96,12 +93,11 @@ static icc_status draw(iccp_body bodies[2], const uint32_t *partner, const iccp_
             return iccp_fail_side(err, status, side + 1);
     }
     const iccp_env turning = iccp_part(env, NULL, 0.5, 0.7), last = iccp_part(env, NULL, 0.7, 1);
-    double energy;
     status = iccp_explain(
         err, iccp_rotation_find(bodies[0].directions, bodies[1].directions,
                                 (const iccp_half_edges *const[]){&bodies[0].m, &bodies[1].m},
                                 (const double *const[]){bodies[0].x, bodies[1].x}, 0,
-                                (const uint32_t *const[]){NULL, NULL}, &energy, &turning));
+                                (const uint32_t *const[]){NULL, NULL}, &turning));
     return status == ICC_OK ? relax(bodies, &last, err) : status;
 }
 

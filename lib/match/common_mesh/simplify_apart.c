@@ -164,7 +164,7 @@ static icc_status take_if_near(rounds *r, iccp_common_surface *c, iccp_common_su
 }
 
 /* Optimises the shape of the result. If the energy rises too much, it starts again with more
- * caution. If that does not help, the result stays as it was. */
+ * caution, as for t08 without landmarks. If that does not help, the result stays as it was. */
 static icc_status optimise(rounds *r, iccp_common_surface *c, const uint8_t *keep,
                            const iccp_env *env)
 {
@@ -209,7 +209,8 @@ static void widen(rounds *r)
 }
 
 /* Removes those vertices of the whole where triangles meet, then more around them as long as
- * triangles meet, and no others. If no triangles of the whole meet, it changes nothing. */
+ * triangles meet, and no others. If no triangles of the whole meet, it changes nothing. A
+ * surface in tests/unit/match/test_match_surfaces.c needs this. */
 static icc_status mend(rounds *r, const uint8_t *keep, iccp_common_surface *c, bool *is_done,
                        const iccp_env *env)
 {

@@ -56,7 +56,7 @@ icc_status iccp_landmark_guesses_find(uint32_t *const vertices[2], size_t n, siz
                                       const iccp_half_edges *const m[2], const double *const x[2],
                                       const iccp_env *env, icc_error *err)
 {
-    double *directions[2] = {NULL, NULL}, energy;
+    double *directions[2] = {NULL, NULL};
     iccp_env parts[3];
     icc_status status = ICC_OK;
     iccp_split(parts, 3, (const double[]){2, 2, 1}, env);
@@ -72,9 +72,9 @@ icc_status iccp_landmark_guesses_find(uint32_t *const vertices[2], size_t n, siz
     }
     if (status == ICC_OK)
         status = iccp_explain(
-            err, iccp_rotation_find(directions[0], directions[1], m, x, n,
-                                    (const uint32_t *const[]){vertices[0], vertices[1]}, &energy,
-                                    &parts[2]));
+            err,
+            iccp_rotation_find(directions[0], directions[1], m, x, n,
+                               (const uint32_t *const[]){vertices[0], vertices[1]}, &parts[2]));
     for (size_t k = n; k < n_all && status == ICC_OK; ++k)
         add_pair(vertices, k, m, directions);
     iccp_free(&env->memory, directions[0]);

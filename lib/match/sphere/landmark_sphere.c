@@ -15,22 +15,24 @@
 
 /* Each drawing is first moved on the other when FEW vertices, or FEW_EACH for each landmark, are
  * present. Then it is moved whenever the number has grown by `finer`, and by `finer_of_few` up to
- * MANY vertices. With few vertices this costs little and decides where limbs come to lie. The last
- * two are the largest numbers of rounds. */
-enum { FEW = 120, FEW_EACH = 12, MANY = 6000, ROUNDS_OF_FEW = 200, ROUNDS = 30 };
+ * MANY vertices. With few vertices this costs little and decides where limbs come to lie. */
+enum { FEW = 120, FEW_EACH = 12, MANY = 6000 };
 static const double finer = 1.6, finer_of_few = 1.3;
 
 /* With few vertices, two step lengths are tried: the later one and a shorter one. Either may leave
- * a limb beside its partner, from where it never returns. */
+ * a limb beside its partner, from where it never returns. With 4 landmarks the longer steps are
+ * better for t05, and the shorter ones for most starts of t06. */
 static const double lengths[2] = {ICCP_LONGER, 1.25};
 
 /* If some landmarks are guesses, there are several starts. Each of them uses FEWER guesses less
  * than the one before. The start with the least energy at CHOICE vertices goes on. On t04 with 4
- * landmarks three starts end at 5.38, 5.25 (chosen) and 13.1, where 4 is an isometry. */
+ * landmarks three starts end at 5.38, 5.25 (chosen) and 13.1, where 4 is an isometry. With 4
+ * landmarks the second start goes on for t01 and t07, and the third one for t02 and t05. */
 enum { FEWER = 4, MOST_FEWER = 2, CHOICE = 300 };
 
 /* If a path is longer on one surface by this factor, it may pass something on one surface only.
- * Then another start is made with paths whose lengths differ little. */
+ * Then another start is made with paths whose lengths differ little. With 2 landmarks it goes on
+ * for t01 and t08. */
 static const double uneven = 2;
 
 typedef struct beginning {
@@ -73,7 +75,7 @@ static icc_status relax_few(iccp_relaxation *r, bool is_severe, double *least, c
         double energy = HUGE_VAL;
         for (int side = 0; side < 2; ++side)
             memcpy(r->side[side].directions, kept[side], n[side] * sizeof *kept[side]);
-        status = iccp_relax(r, lengths[k], is_severe, ROUNDS_OF_FEW, &energy, &part);
+        status = iccp_relax(r, lengths[k], is_severe, &energy, &part);
         for (int side = 0; side < 2 && energy < *least; ++side)
             memcpy(kept[side] + n[side], r->side[side].directions, n[side] * sizeof *kept[side]);
         *least = iccp_min(*least, energy);
@@ -117,7 +119,7 @@ static icc_status grow(beginning *b, const problem *p, double until, const iccp_
                 b->is_fixed[side][p->vertices[side][k]] = 0;
         if (status == ICC_OK && (!is_first || p->n > p->n_fixed))
             status = iccp_explain(err, iccp_relax(&b->r, ICCP_LONGER, is_sure || b->level >= most,
-                                                  ROUNDS, &b->energy, &part));
+                                                  &b->energy, &part));
     }
     return status;
 }

@@ -17,9 +17,6 @@ enum { TRIES = 3 };
  * by `back`. Tried on t01 to t08 with 4 landmarks. */
 static const double near = 0.43, least_far = 1.06, back = 0.35, differ = 0.25;
 
-/* The partner's distance from all pairs is at least this share of the vertex's distance. */
-static const double as_far = 0.5;
-
 typedef struct likely {
     const iccp_half_edges *m[2];
     const double *x[2], *scale;
@@ -78,7 +75,7 @@ static uint32_t find_partner(const likely *l, int side, size_t n, uint32_t other
  * vertex). *any is true if there was one. */
 static void try_one(likely *l, double *room, uint32_t *const vertices[2], size_t *n, bool *any)
 {
-    double off, none, apart = HUGE_VAL;
+    double off, none;
     uint32_t a = 0;
     for (uint32_t v = 1; v < l->m[0]->n_vertices; ++v)
         a = room[v] > room[a] ? v : a;
@@ -87,13 +84,11 @@ static void try_one(likely *l, double *room, uint32_t *const vertices[2], size_t
     if (!*any)
         return;
     const uint32_t b = find_partner(l, 1, *n, a, &off), again = find_partner(l, 0, *n, b, &none);
-    for (size_t k = 0; k < *n; ++k)
-        apart = iccp_min(apart, row_of(l, 1, k)[b]);
     double *const from_a = row_of(l, 0, *n);
     find_distances(l, 0, a, from_a);
     for (uint32_t v = 0; v < l->m[0]->n_vertices; ++v)
         room[v] = iccp_min(room[v], from_a[v]);
-    if (from_a[again] < back && off < differ * iccp_max(least_far, far) && apart > as_far * far) {
+    if (from_a[again] < back && off < differ * iccp_max(least_far, far)) {
         find_distances(l, 1, b, row_of(l, 1, *n));
         vertices[0][*n] = a;
         vertices[1][(*n)++] = b;

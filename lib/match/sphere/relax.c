@@ -100,7 +100,7 @@ static double energy_towards(iccp_composed_star *star, double q[3])
 }
 
 /* Looks for a better place in the whole room that the ring leaves a vertex: at its middle, and on
- * the way from there to each corner. */
+ * the way from there to each corner. The bodies t02 to t04 and the fox t08 need this. */
 static double jump(iccp_relaxation *r, iccp_composed_star *star, double p[3], double least)
 {
     const size_t n = iccp_kernel_room(r->room, star->p, star->n, star->ring);
@@ -161,14 +161,15 @@ static icc_status move(iccp_relaxation *r, double longer, int s, uint32_t v, dou
     return ICC_OK;
 }
 
-icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, int most_rounds,
-                      double *left, const iccp_env *env)
+icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, double *left,
+                      const iccp_env *env)
 {
     icc_status status = ICC_OK;
     *left = HUGE_VAL;
     for (int s = 0; s < 2; ++s)
         r->star[s].is_severe = is_severe;
-    for (int round = 0; round < most_rounds && status == ICC_OK; ++round) {
+    for (size_t round = 0; status == ICC_OK; ++round) {
+        const iccp_env part = iccp_round(env, round, 4);
         double energy = 0, gain = 0;
         for (int s = 0; s < 2; ++s) {
             const iccp_half_edges *const m = r->side[s].m;
@@ -176,11 +177,11 @@ icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, int mos
                 if (m->degree[v] > 0 && !(r->is_fixed[s] != NULL && r->is_fixed[s][v] != 0))
                     status = move(r, longer, s, v, &energy, &gain);
                 if (v % 256 == 0 && status == ICC_OK)
-                    status = iccp_progress(env, "match", (double)round / most_rounds);
+                    status = iccp_progress(&part, "match", 0);
             }
         }
         *left = energy - gain;
-        if (gain < little * energy)
+        if (!(gain >= little * energy))
             break;
     }
     return status;

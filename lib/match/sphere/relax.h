@@ -25,12 +25,12 @@ void iccp_relaxation_free(iccp_relaxation *r, const iccp_memory *memory);
 #define ICCP_LONGER 1.5
 
 /* Moves the present vertices of both drawings that are not fixed, one by one. Steps are `longer`
- * times as long as Newton's. It ends after `most_rounds` rounds, or when one lowers the energy by
- * less than 0.3 %. The energy is that of match/sphere/composed_star.h and may be severe. *left
+ * times as long as Newton's. It ends with the first round that lowers the energy by less than
+ * 0.3 %. The energy is that of match/sphere/composed_star.h and may be severe. *left
  * becomes the energy of all stars of both drawings. Every face stays positive, exactly, and each
  * vertex's neighbours turn once around it. The same on every machine. ICC_ERR_MEMORY,
  * ICC_ERR_CANCELLED without a text. */
-icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, int most_rounds,
-                      double *left, const iccp_env *env);
+icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, double *left,
+                      const iccp_env *env);
 
 #endif

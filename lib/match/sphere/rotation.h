@@ -9,13 +9,10 @@
  * refined. Pairs pairs[0][k], pairs[1][k], k < n_pairs, should come close to each other. x has
  * coordinates of size about 1.
  *
- * The turned drawing is certified, as it was before. If rounding spoils all good rotations, which
- * should never happen, it is not changed. *energy is that of the map, weighted by the areas on both
- * sides. It is 4 for an isometry, and the distances of pairs add to it. ICC_ERR_MEMORY,
- * ICC_ERR_CANCELLED without a text. */
+ * The turned drawing is certified, as it was before. If rounding spoils the rotation, the drawing
+ * is not changed. ICC_ERR_MEMORY, ICC_ERR_CANCELLED without a text. */
 icc_status iccp_rotation_find(double *first, const double *second,
                               const iccp_half_edges *const m[2], const double *const x[2],
-                              size_t n_pairs, const uint32_t *const pairs[2], double *energy,
-                              const iccp_env *env);
+                              size_t n_pairs, const uint32_t *const pairs[2], const iccp_env *env);
 
 #endif

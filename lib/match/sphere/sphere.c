@@ -20,7 +20,7 @@
 /* All vertices are moved in sweeps whenever their number has grown by this factor. There are more
  * sweeps while vertices are few, which costs little and decides where limbs come to lie. */
 static const double level = 1.5;
-enum { FEW = 2000, SWEEPS_OF_FEW = 24, SWEEPS = 6, LAST_SWEEPS = 30 };
+enum { FEW = 2000, SWEEPS_OF_FEW = 24, SWEEPS = 6 };
 
 /* Most steps of a vertex in one turn, and most trial lengths of a step. */
 enum { STEPS = 8, STEPS_WHEN_NEW = 4, HALVINGS = 6 };
@@ -202,11 +202,13 @@ static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_er
         if (d->m->n_left % 256 == 0)
             status = iccp_progress(env, "match", 0.7 * (double)d->m->n_left / (double)until);
     }
-    for (int k = 0; k < LAST_SWEEPS && status == ICC_OK && !d->is_quiet; ++k) {
+    const iccp_env last = iccp_part(env, NULL, 0.7, 1);
+    for (size_t k = 0; status == ICC_OK && !d->is_quiet; ++k) {
+        const iccp_env part = iccp_round(&last, k, 4);
         move_all(d, &energy, &gain);
-        if (gain < little * energy)
+        if (!(gain >= little * energy))
             break;
-        status = iccp_progress(env, "match", 0.7 + 0.3 * k / LAST_SWEEPS);
+        status = iccp_progress(&part, "match", 1);
     }
     return iccp_explain(err, status);
 }

@@ -117,7 +117,7 @@ START_TEST(relaxing_lowers_the_energy_and_keeps_the_class)
                                                     (const uint8_t *const[]){is_fixed, NULL},
                                                     &env.memory),
                              ICC_OK);
-            ck_assert_int_eq(iccp_relax(&relaxation, ICCP_LONGER, is_severe, 10, &left[run], &env),
+            ck_assert_int_eq(iccp_relax(&relaxation, ICCP_LONGER, is_severe, &left[run], &env),
                              ICC_OK);
             ck_assert(left[run] > 0 && left[run] < 1e8);
             iccp_relaxation_free(&relaxation, &env.memory);
