@@ -181,7 +181,7 @@ icc_status iccp_relax(iccp_relaxation *r, double longer, bool is_severe, double 
             }
         }
         *left = energy - gain;
-        if (!(gain >= little * energy))
+        if (!(gain > little * energy))
             break;
     }
     return status;

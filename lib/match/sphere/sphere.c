@@ -206,7 +206,7 @@ static icc_status grow_all(drawing *d, size_t until, const iccp_env *env, icc_er
     for (size_t k = 0; status == ICC_OK && !d->is_quiet; ++k) {
         const iccp_env part = iccp_round(&last, k, 4);
         move_all(d, &energy, &gain);
-        if (!(gain >= little * energy))
+        if (!(gain > little * energy))
             break;
         status = iccp_progress(&part, "match", 1);
     }
