@@ -402,6 +402,36 @@ START_TEST(landmarks_go_to_their_partners)
 }
 END_TEST
 
+/* The landmarks hold all vertices, so no drawing can be moved. */
+START_TEST(every_vertex_may_be_a_landmark)
+{
+    static const double axes[3] = {1, 1.5, .7};
+    double landmarks[6 * 6];
+    surface_octahedron(&one);
+    two = one;
+    for (size_t k = 0; k < 3 * two.n_vertices; ++k)
+        two.vertices[k] *= axes[k % 3];
+    for (size_t k = 0; k < one.n_vertices; ++k)
+        for (size_t e = 0; e < 3; ++e) {
+            landmarks[6 * k + e] = one.vertices[3 * k + e];
+            landmarks[6 * k + 3 + e] = two.vertices[3 * k + e];
+        }
+    icc_domain *source = domain_of_surface(&one), *target = domain_of_surface(&two);
+    icc_match *match = NULL;
+    icc_match_info info = {.size = sizeof info};
+    ck_assert_uint_eq(one.n_vertices, 6);
+    ck_assert_int_eq(
+        icc_match_create(&match, source, target, one.n_vertices, landmarks, NULL, NULL, NULL),
+        ICC_OK);
+    ck_assert_int_eq(icc_match_get_info(match, &info), ICC_OK);
+    ck_assert_uint_eq(info.n_landmarks, one.n_vertices);
+    ck_assert_uint_ge(info.n_joined, one.n_vertices);
+    icc_match_free(match);
+    icc_domain_free(source);
+    icc_domain_free(target);
+}
+END_TEST
+
 static icc_status match_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_match *match = NULL;
@@ -456,6 +486,7 @@ int main(void)
     tcase_add_test(tests, tolerance_is_kept);
     tcase_add_test(tests, creases_that_cross_leave_no_thin_triangles);
     tcase_add_test(tests, landmarks_go_to_their_partners);
+    tcase_add_test(tests, every_vertex_may_be_a_landmark);
     tcase_add_test(tests, what_cannot_be_matched_is_refused);
     tcase_add_test(tests, landmarks_without_room_are_named);
     tcase_add_test(tests, fails_cleanly);
