@@ -9,9 +9,9 @@
 #define NONE UINT32_MAX
 
 /* Vertices are joined within `reach`, as a share of the shorter edge at them on both sides. They
- * are also joined within `least_edge`, as a share of the perimeter, because an edge between them
- * would be lost. The coasts d14 and d15 have such edges. */
-static const double reach = 0.3, least_edge = 1e-9;
+ * are also joined if they count as one place, because an edge between them would be lost. The
+ * coasts d14 and d15 have such edges. */
+static const double reach = 0.3;
 
 /* With a larger `drop`, vertices farther apart are joined. Two neighbouring joins must then not
  * stretch the piece between them by more than this factor, compared with the pairing. */
@@ -67,7 +67,7 @@ static void propose(iccp_merge_order *w, double drop)
             const double da = fabs(a[i] - iccp_merge_order_follow(w->knot, w->n_knots, 1, b[j]));
             const double db = fabs(b[j] - image);
             const double d = da / w->edge[i] > db / edge_b[j] ? da / w->edge[i] : db / edge_b[j];
-            const bool must_join = d < reach || da < least_edge || db < least_edge;
+            const bool must_join = d < reach || da < iccp_one_place || db < iccp_one_place;
             if (must_join || (da < drop && db < drop))
                 w->join[w->n_joins++] =
                     (iccp_event){{a[i], b[j]}, {i, j}, must_join && d > reach ? reach : d, false};

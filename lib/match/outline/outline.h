@@ -33,6 +33,9 @@
 
 #include "domain/domain.h"
 
+/* Places of an outline that are closer than this share of its length count as one. */
+static const double iccp_one_place = 1e-9;
+
 typedef struct iccp_outline {
     const icc_domain *domain; /* borrowed */
     size_t n;

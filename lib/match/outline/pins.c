@@ -16,8 +16,8 @@ static const double least_corner = 25.0 / 360, alike = 60.0 / 360,
                     near_corner = 3.0 / ICCP_MATCH_SAMPLES;
 
 /* arc_share: the weight of arc length in a pairing between pins. least_slope: the smallest slope of
- * steps along one outline alone that results. apart: the least distance of pins. */
-static const double arc_share = 0.01, least_slope = 1.25e-3, apart = 1e-9;
+ * steps along one outline alone that results. */
+static const double arc_share = 0.01, least_slope = 1.25e-3;
 
 typedef struct corner {
     double share, angle;
@@ -154,15 +154,16 @@ static size_t thin_out(pin *pins, size_t n)
                     const double dy = gap(pins[k].at[1], pins[m].at[1]);
                     has_room = fabs(dx) > 1e-6 && fabs(dy) > 1e-6 && (dx > 0) == (dy > 0);
                 }
-            has_room = has_room && (kept == 0 || (pins[k].at[0] > pins[kept - 1].at[0] + apart &&
-                                                  pins[k].at[1] > pins[kept - 1].at[1] + apart));
+            has_room =
+                has_room && (kept == 0 || (pins[k].at[0] > pins[kept - 1].at[0] + iccp_one_place &&
+                                           pins[k].at[1] > pins[kept - 1].at[1] + iccp_one_place));
         }
         if (has_room)
             pins[kept++] = pins[k];
     }
     while (kept > 1 && !pins[kept - 1].is_landmark &&
-           (pins[kept - 1].at[0] >= pins[0].at[0] + 1 - apart ||
-            pins[kept - 1].at[1] >= pins[0].at[1] + 1 - apart))
+           (pins[kept - 1].at[0] >= pins[0].at[0] + 1 - iccp_one_place ||
+            pins[kept - 1].at[1] >= pins[0].at[1] + 1 - iccp_one_place))
         --kept;
     return kept;
 }
