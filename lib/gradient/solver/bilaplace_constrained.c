@@ -17,23 +17,15 @@
 #include <string.h>
 
 /* Residuals for a maximum of 1. With ENOUGH no better one is sought, with GOOD no other method is
- * tried, and beyond ACCEPTABLE there is no result. */
+ * tried, and beyond ACCEPTABLE there is no result. Slacks up to ENOUGH, relative to the parent or
+ * the bound, count as equality. */
 static const double ENOUGH = 1e-12, GOOD = 1e-11, ACCEPTABLE = 1e-8;
-
-/* Residual at which smoothing has found most active inequalities. On letters C of 117,000 to
- * 468,000 unknowns that takes 16 to 30 iterations. The active set finds the rest in 5 to 20 steps,
- * each of which takes half as long. */
-static const double EARLY = 1e-8;
 
 /* Means of slack * multiplier at which the active set is tried. The last one is never reached. */
 static const double TARGETS[] = {1e-12, 1e-14, 1e-16, 1e-18, 0};
 
-/* A slack below this, relative to the parent or the bound, counts as equality. */
-static const double EQUAL = 1e-12;
-
-/* Unknowns from which on coarser grids pay, most unknowns of the coarsest grid, and steps of the
- * active set afterwards. */
-enum { LARGE = 50000, COARSEST = 3000, STEPS = 60 };
+/* Unknowns from which on coarser grids pay, and most unknowns of the coarsest grid. */
+enum { LARGE = 50000, COARSEST = 3000 };
 
 /* Runs the interior point method to one target after another, and tries the active set that each
  * iterate suggests: the multiplier exceeds the slack. Ends when a residual is good enough, or when
@@ -53,26 +45,24 @@ static icc_status alternate_methods(const iccp_qp *qp, uint8_t *active, iccp_can
         status = iccp_interior_point_run(&ip, TARGETS[t], &stuck, info, &part);
         for (size_t i = 0; i < iccp_qp_inequalities(qp); ++i)
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
-        const iccp_env polishing = iccp_round(&part, ip.n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
+        const iccp_env polishing = iccp_round(&part, ip.n_iterations, ICCP_NEWTON_TYPICAL);
         if (status == ICC_OK)
-            status = iccp_polish(qp, active, false, ENOUGH, ICCP_POLISH_MOST, candidate, info,
-                                 &polishing);
+            status = iccp_polish(qp, active, false, ENOUGH, candidate, info, &polishing);
     }
     info->n_iterations += ip.n_iterations;
     iccp_interior_point_free(&ip);
     return status;
 }
 
-/* Runs a few steps of the active set, which give the same function with the active inequalities as
+/* Runs the active set, which give the same function with the active inequalities as
  * equations. If they lead elsewhere, the candidate stays. */
 static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted, bool *is_exact,
                              iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n;
     iccp_candidate exact = {iccp_alloc(&env->memory, n, sizeof *exact.f), HUGE_VAL};
-    const icc_status status = exact.f != NULL
-                                  ? iccp_polish(qp, active, true, ENOUGH, STEPS, &exact, info, env)
-                                  : ICC_ERR_MEMORY;
+    const icc_status status =
+        exact.f != NULL ? iccp_polish(qp, active, true, ENOUGH, &exact, info, env) : ICC_ERR_MEMORY;
     *is_exact = status == ICC_OK && exact.residual <= accepted;
     if (*is_exact) {
         memcpy(candidate->f, exact.f, n * sizeof *exact.f);
@@ -87,7 +77,7 @@ static icc_status make_exact(const iccp_qp *qp, uint8_t *active, double accepted
 static icc_status run_nested(const iccp_qp *qp, iccp_nested *nested, uint8_t *active,
                              iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
-    const double residual[] = {EARLY, ENOUGH}, needed[] = {EARLY, GOOD},
+    const double residual[] = {ICCP_NESTED_ENOUGH, ENOUGH}, needed[] = {ICCP_NESTED_ENOUGH, GOOD},
                  accepted[] = {ENOUGH, GOOD};
     iccp_env part[4];
     icc_status status = ICC_OK;
@@ -136,8 +126,7 @@ static icc_status optimise(const iccp_qp *qp, int32_t function, iccp_candidate *
     if (is_large)
         status = start_coarse(qp, function, active, candidate, info, &part[0]);
     if (status == ICC_OK && candidate->residual > GOOD)
-        status =
-            iccp_polish(qp, active, false, ENOUGH, ICCP_POLISH_MOST, candidate, info, &part[1]);
+        status = iccp_polish(qp, active, false, ENOUGH, candidate, info, &part[1]);
     if (status == ICC_OK && candidate->residual > GOOD)
         status = alternate_methods(qp, active, candidate, info, &part[2]);
     iccp_free(&env->memory, active);
@@ -166,9 +155,9 @@ static size_t count_active(const iccp_qp *qp, const double *f)
     const uint32_t *parent = qp->unknowns->parent;
     size_t n_active = 0;
     for (size_t k = 1; k < qp->unknowns->n; ++k)
-        n_active += f[parent[k]] * (1 - EQUAL) <= qp->sigma * f[k];
+        n_active += f[parent[k]] * (1 - ENOUGH) <= qp->sigma * f[k];
     for (size_t j = 0; j < qp->n_leaves; ++j)
-        n_active += f[qp->leaf_unknown[j]] * (1 - EQUAL) <= qp->leaf;
+        n_active += f[qp->leaf_unknown[j]] * (1 - ENOUGH) <= qp->leaf;
     return n_active;
 }
 

@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* A coarse tree that reaches less than this share of the expected vertices is useless. */
+/* A coarse tree that reaches less than this share of the expected vertices is useless. A comb with
+ * teeth of one vertex has such trees (test_bilaplace.c). */
 static const double LEAST_SHARE = 0.5;
 
 /* A multiplier is the sum of forces along a path. In grid units, doubling the spacing makes forces

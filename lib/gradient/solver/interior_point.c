@@ -10,7 +10,6 @@
 
 enum {
     MAX_ITERATIONS = 200,
-    MAX_CORRECTIONS = 8,
     /* Iterations that reduce products by less than a tenth, and hardly any residuals */
     PATIENCE = 6
 };
@@ -55,10 +54,9 @@ static void solve(iccp_interior_point *p, double tolerance)
     double last = HUGE_VAL;
     memset(p->newton.step_f, 0, n_rows(p) * sizeof *p->newton.step_f);
     memset(p->newton.step_multiplier, 0, n_pairs(p) * sizeof *p->newton.step_multiplier);
-    for (int k = 0; k <= MAX_CORRECTIONS; ++k) {
+    for (int k = 0;; ++k) {
         const double error = iccp_newton_qp_errors(&p->newton);
-        if (k > 0 &&
-            (error <= tolerance || k == MAX_CORRECTIONS || (k > 2 && !(error < 0.7 * last))))
+        if (k > 0 && (error <= tolerance || (k > 2 && !(error < 0.7 * last))))
             return;
         last = error;
         iccp_newton_qp_add_solution(&p->newton);
@@ -149,7 +147,7 @@ icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool 
     *stuck = false;
     while (mean > target && !*stuck) {
         const double remaining = ip->remaining;
-        const iccp_env part = iccp_round(env, ip->n_iterations, ICCP_INTERIOR_POINT_TYPICAL);
+        const iccp_env part = iccp_round(env, ip->n_iterations, ICCP_NEWTON_TYPICAL);
         icc_status status = iccp_progress(&part, "solve", 0);
         if (status == ICC_OK)
             status = iterate(ip, info, &part);

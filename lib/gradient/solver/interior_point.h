@@ -17,9 +17,6 @@ icc_status iccp_interior_point_create(iccp_interior_point *ip, const iccp_qp *qp
                                       iccp_solution *info, const iccp_env *env);
 void iccp_interior_point_free(iccp_interior_point *ip);
 
-/* Progress reports count this many iterations as half of the work. */
-#define ICCP_INTERIOR_POINT_TYPICAL 15.0
-
 /* Iterates until the mean of slack * multiplier is below `target`. *stuck: rounding errors prevent
  * that, and the iterate is the last good one. Adds to `info` (work, seconds_*). */
 icc_status iccp_interior_point_run(iccp_interior_point *ip, double target, bool *stuck,

@@ -1,5 +1,7 @@
-/* Nested iteration. The active inequalities are those of the coarser grid, except a few along their
- * border. The function is that of the coarser grid, except for its detail. */
+/* Nested iteration. On a letter C of 400 cells it takes a third of the time that the active set
+ * takes from the empty set. On a serpentine of 400 cells that ends without the solution. The active
+ * inequalities are those of the coarser grid, except a few along their border. The function is that
+ * of the coarser grid, except for its detail. */
 #include "gradient/solver/nested.h"
 
 #include "gradient/solver/coarse_qp.h"
@@ -10,9 +12,6 @@
 
 /* Mean of slack * multiplier at which the interior point method stops on the coarsest grid. */
 static const double COARSEST_TARGET = 1e-16;
-
-/* Residual for the coarser grids: the finer grid loses any further digits. */
-static const double COARSE_ENOUGH = 1e-8;
 
 static icc_status solve_coarsest(const iccp_qp *qp, double *f, double *multiplier,
                                  iccp_solution *info, const iccp_env *env)
@@ -105,7 +104,8 @@ static icc_status solve_by_guess(iccp_nested *p, double *f, double *multiplier, 
     uint8_t *active = iccp_alloc(&env->memory, m, sizeof *active);
     icc_status status = candidate.f != NULL && active != NULL ? ICC_OK : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_smoothing_run(&p->smoothing, COARSE_ENOUGH, &candidate, active, info, env);
+        status =
+            iccp_smoothing_run(&p->smoothing, ICCP_NESTED_ENOUGH, &candidate, active, info, env);
     memcpy(f, p->newton.f, n * sizeof *f);
     memcpy(multiplier, p->newton.multiplier, m * sizeof *multiplier);
     iccp_free(&env->memory, candidate.f);

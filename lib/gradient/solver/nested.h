@@ -5,6 +5,10 @@
 #include "gradient/solver/smoothing.h"
 #include "gradient/solver/solution.h"
 
+/* Residual at which smoothing has found most active inequalities. On letters C of 117,000 to
+ * 468,000 unknowns that takes 16 to 30 iterations. A finer grid loses any further digits. */
+#define ICCP_NESTED_ENOUGH 1e-8
+
 /* An iterate on the grid of `qp`. */
 typedef struct iccp_nested {
     iccp_newton_qp newton;

@@ -7,6 +7,9 @@
 #include "gradient/solver/solution.h"
 #include "math/ldlt.h"
 
+/* Progress reports count this many iterations of either method as half of the work. */
+#define ICCP_NEWTON_TYPICAL 15.0
+
 typedef struct iccp_newton_qp {
     iccp_memory memory;
     const iccp_qp *qp;          /* borrowed */

@@ -19,10 +19,8 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    PATIENCE = 20, /* corrections with neither a smaller residual nor fewer changes */
-    TRUST = 3      /* number of these that are made in full */
-};
+/* Corrections with neither a smaller residual nor fewer changes that are made in full. */
+enum { TRUST = 3 };
 
 /* Slacks and multipliers are wrong below minus this share of `enough`. With a share of 1, a contact
  * moves by one unknown per step where the function is tiny. With 0.01, rounding errors become
@@ -54,7 +52,8 @@ typedef struct state {
     uint64_t random;
 } state;
 
-/* Decides whether to make a change. Making all changes may cycle. */
+/* Decides whether to make a change. Making all changes may cycle: it does on a serpentine of 100
+ * cells and on a letter C of 200. */
 static bool decide(state *s)
 {
     if (!s->hesitant)
@@ -238,12 +237,12 @@ static void let_rise(state *s)
 /* Keeps the best candidate, whatever becomes of the set. A step costs patience if it finds neither
  * a smaller residual nor fewer wrong inequalities than ever before. When some patience is used up,
  * only every other change is made, which breaks cycles. */
-static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, iccp_solution *info,
+static icc_status iterate(state *s, iccp_candidate *candidate, iccp_solution *info,
                           const iccp_env *env)
 {
-    int patience = PATIENCE;
+    int patience = ICCP_QP_PATIENCE;
     size_t fewest = SIZE_MAX;
-    for (size_t k = 0; k < most && patience > 0; ++k) {
+    while (patience > 0) {
         double residual;
         const icc_status status = solve(s, &residual, info, env);
         if (status == ICC_ERR_SOLVER)
@@ -255,9 +254,9 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, iccp
         if (residual < candidate->residual) {
             memcpy(candidate->f, s->f, s->n * sizeof *s->f);
             candidate->residual = residual;
-            patience = PATIENCE;
+            patience = ICCP_QP_PATIENCE;
         }
-        s->hesitant = patience <= PATIENCE - TRUST;
+        s->hesitant = patience <= ICCP_QP_PATIENCE - TRUST;
         const size_t n_wrong = correct_leaves(s) + correct_edges(s);
         if (s->by_rows)
             tie_rows(s);
@@ -266,13 +265,13 @@ static icc_status iterate(state *s, size_t most, iccp_candidate *candidate, iccp
             break;
         if (n_wrong < fewest) {
             fewest = n_wrong;
-            patience = PATIENCE;
+            patience = ICCP_QP_PATIENCE;
         }
     }
     return ICC_OK;
 }
 
-icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough,
                        iccp_candidate *candidate, iccp_solution *info, const iccp_env *env)
 {
     const size_t n = qp->unknowns->n, n_work = qp->a.n_rows + n; /* at least 2 n */
@@ -292,7 +291,7 @@ icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double 
         s.gradient = s.room + 3 * n;
         s.sum = s.room + 4 * n;
         s.work = s.room + 5 * n;
-        status = iterate(&s, most, candidate, info, env);
+        status = iterate(&s, candidate, info, env);
     }
     iccp_free(&env->memory, s.top);
     iccp_free(&env->memory, s.open);

@@ -5,8 +5,8 @@
 #include "gradient/solver/qp.h"
 #include "gradient/solver/solution.h"
 
-/* Most systems to solve if no other method is left. */
-#define ICCP_POLISH_MOST 1000
+/* Steps in a row that find nothing better, after which a method ends. */
+enum { ICCP_QP_PATIENCE = 20 };
 
 /* A function, and how far it is from the solution. */
 typedef struct iccp_candidate {
@@ -15,11 +15,11 @@ typedef struct iccp_candidate {
 } iccp_candidate;
 
 /* Solves with the inequalities for which active[i] != 0 as equations, and corrects this set, which
- * is overwritten. Ends when nothing is wrong by more than `enough`, when several corrections in a
- * row have not helped, or when `most` systems have been solved. `by_rows` says that only the ends
- * of rows of active inequalities are wrong, so they may be corrected a row at a time. Replaces the
- * candidate by any better one. Adds to `info` (n_iterations, work, seconds_*). */
-icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough, size_t most,
+ * is overwritten. Ends when nothing is wrong by more than `enough`, or when several corrections in
+ * a row have not helped. `by_rows` says that only the ends of rows of active inequalities are
+ * wrong, so they may be corrected a row at a time. Replaces the candidate by any better one. Adds
+ * to `info` (n_iterations, work, seconds_*). */
+icc_status iccp_polish(const iccp_qp *qp, uint8_t *active, bool by_rows, double enough,
                        iccp_candidate *candidate, iccp_solution *info, const iccp_env *env);
 
 #endif

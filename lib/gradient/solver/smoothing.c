@@ -18,12 +18,6 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    MAX_ITERATIONS = 100,
-    PATIENCE = 20, /* iterations without a smaller residual */
-    TYPICAL = 15   /* progress reports count this many as half of the work */
-};
-
 /* Unit of multipliers relative to slacks. Multipliers are smaller by the square of the number of
  * vertices across a limb. Chosen on a letter C of 75,000 unknowns, where a tenth of it costs a
  * third more iterations. */
@@ -114,7 +108,7 @@ static void consider(const iccp_smoothing *s, iccp_candidate *candidate, int *pa
     if (residual < candidate->residual) {
         memcpy(candidate->f, s->newton->f, s->n * sizeof *candidate->f);
         candidate->residual = residual;
-        *patience = PATIENCE;
+        *patience = ICCP_QP_PATIENCE;
     }
     info->seconds_verify += iccp_seconds() - start;
 }
@@ -122,9 +116,9 @@ static void consider(const iccp_smoothing *s, iccp_candidate *candidate, int *pa
 static icc_status iterate(iccp_smoothing *s, double enough, iccp_candidate *candidate,
                           iccp_solution *info, const iccp_env *env)
 {
-    int patience = PATIENCE;
-    for (size_t k = 0; k < MAX_ITERATIONS; ++k) {
-        const iccp_env part = iccp_round(env, k, TYPICAL);
+    int patience = ICCP_QP_PATIENCE;
+    for (size_t k = 0;; ++k) {
+        const iccp_env part = iccp_round(env, k, ICCP_NEWTON_TYPICAL);
         icc_status status = iccp_progress(&part, "solve", 0);
         if (status != ICC_OK)
             return status;
@@ -138,7 +132,6 @@ static icc_status iterate(iccp_smoothing *s, double enough, iccp_candidate *cand
             /* The best candidate so far may suffice */
             return status == ICC_ERR_SOLVER ? ICC_OK : status;
     }
-    return ICC_OK;
 }
 
 static void begin(iccp_smoothing *s)

@@ -67,7 +67,7 @@ static const double FIXED = 100, SHIFT = 1e-14;
  * weights. So the inverse of the Hessian is nearly K_f X^-1 K_f'. K_f has the rows of K for the
  * free nodes, and K_o those for other nodes nearby. The sparse matrix X is D'CD + FIXED / sigma^2
  * K_o'K_o. The condition number of the preconditioned Hessian is 1.4 to 1.9 on the star. There is
- * no inverse if X is not definite in spite of all. */
+ * no inverse if X is not definite in spite of all (one in test_weights_edit.c). */
 static icc_status invert(iccp_hessian *h, const iccp_env *env)
 {
     const iccp_slopes *map = &h->map;

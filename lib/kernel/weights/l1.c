@@ -158,7 +158,7 @@ static void optimise(const iccp_l1 *p, basis *b)
 }
 
 /* Finds the solution with the least sum of squares, over the columns where |column'y| = 1, with its
- * sign. */
+ * sign. If rounding hides it, the basic solution is taken, as once in test_handle_weights.c. */
 static void least_squares(const iccp_l1 *p, const basis *b, double *x, double *work)
 {
     double *columns = work, *part = work + ICCP_ROWS * p->m;

@@ -458,8 +458,7 @@ static icc_status solve_from_inside(const problem *p, int32_t function, double *
             active[i] = ip.newton.multiplier[i] > ip.newton.slack[i];
         }
         if (status == ICC_OK)
-            status =
-                iccp_polish(&qp, active, false, 1e-12, ICCP_POLISH_MOST, &candidate, &info, env);
+            status = iccp_polish(&qp, active, false, 1e-12, &candidate, &info, env);
         iccp_interior_point_free(&ip);
     }
     *residual = candidate.residual;
