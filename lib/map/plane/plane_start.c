@@ -24,9 +24,9 @@
 /* A start with features counts as entangled if its energy is higher. */
 static const double ENTANGLED = 20;
 
-/* The whole map is overlaid if the borders of all patches have more than 1 / PATCHES of the cage's
- * corners. Then it is as cheap, and on spirals of hundreds of turns it has less than half of the
- * energy. */
+/* The whole map is overlaid if the borders of all patches have more than 1 / PATCHES of the
+ * boundary's vertices. Then it is as cheap, and on spirals of hundreds of turns it has less than
+ * half of the energy. */
 enum { PATCHES = 4 };
 
 /* ---- start ---- */
@@ -139,12 +139,13 @@ static icc_status start(iccp_plmap *pl, iccp_newton_plan **plan, const icc_chart
 static icc_status overlay(iccp_plmap *pl, const icc_domain *source, const icc_domain *target,
                           iccp_allowance *work, const iccp_env *env)
 {
-    size_t n_left;
+    size_t n_left, n_boundary = 0;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 2}, env);
+    for (size_t v = 0; v < pl->n_vertices; ++v)
+        n_boundary += pl->fixed[v] != ICCP_FREE;
     iccp_work patches = {.left = work->relaxing};
-    icc_status status =
-        iccp_overlay_patches(pl, source->n_facets / PATCHES, &patches, &n_left, &part[0]);
+    icc_status status = iccp_overlay_patches(pl, n_boundary / PATCHES, &patches, &n_left, &part[0]);
     iccp_work_charge(&work->overlay, patches.spent);
     if (status == ICC_OK && n_left > 0) {
         iccp_plmap_free(pl);
