@@ -21,11 +21,13 @@
  * - A call on many points (encode, decode, apply, jacobian) returns ::ICC_OK once it has run, even
  *   if every point failed. Look at `n_failed`, or at the status of each point.
  * - These calls have no `err`: the statuses say what happened to each point.
+ * - A chart or a map may be there without a certificate. `reason` of icc_chart_info and
+ *   icc_map_info tells why. For method field icc_field_info counts what is wrong: n_infeasible,
+ *   n_not_inward and n_stray.
  * - Saving takes two calls: with a capacity of 0 for the number of bytes, then for the bytes.
  * - icc_domain_create_mask() takes a mask of cells, icc_grid_create_mask() one of grid vertices.
  *
- * SPDX-License-Identifier: MIT
- */
+ * SPDX-License-Identifier: MIT */
 #ifndef ICC_ICC_H
 #define ICC_ICC_H
 
