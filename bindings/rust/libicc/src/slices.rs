@@ -52,9 +52,9 @@ pub(crate) fn mesh_of(dim: usize, vertices: &[f64], simplices: &[u32]) -> Result
     Ok(sys::icc_mesh {
         dim: int(dim),
         n_vertices: count(vertices, dim, "vertices")?,
-        vertices: vertices.as_ptr().cast_mut(),
+        vertices: vertices.as_ptr() as *mut f64,
         n_cells: count(simplices, dim.saturating_add(1), "simplices")?,
-        cells: simplices.as_ptr().cast_mut(),
+        cells: simplices.as_ptr() as *mut u32,
         ..Default::default()
     })
 }
