@@ -20,6 +20,7 @@
 #include "mesh/triangulate.h"
 
 #include <math.h>
+#include <string.h>
 
 ICCP_END(grid)
 ICCP_END(tree)
@@ -376,17 +377,20 @@ icc_status icc_function_get_info(const icc_function *function, icc_function_info
     if (function == NULL || info == NULL)
         return ICC_ERR_ARGUMENT;
     const iccp_solution *s = &function->info;
-    const icc_function_info full = {.function = s->function,
-                                    .constrained = s->constrained,
-                                    .solver = s->solver,
-                                    .beside = s->beside,
-                                    .n_unknowns = s->n_unknowns,
-                                    .n_violated = s->n_violated,
-                                    .n_active = s->n_active,
-                                    .residual = s->residual,
-                                    .least_log = s->least_log,
-                                    .excess = s->excess,
-                                    .highest = s->highest};
+    /* Zeros the bytes behind the last member, too, so that equal infos have equal bytes. */
+    icc_function_info full;
+    memset(&full, 0, sizeof full);
+    full.function = s->function;
+    full.constrained = s->constrained;
+    full.solver = s->solver;
+    full.beside = s->beside;
+    full.n_unknowns = s->n_unknowns;
+    full.n_violated = s->n_violated;
+    full.n_active = s->n_active;
+    full.residual = s->residual;
+    full.least_log = s->least_log;
+    full.excess = s->excess;
+    full.highest = s->highest;
     return iccp_write_struct(info, &full, sizeof full, "icc_function_info", NULL);
 }
 
