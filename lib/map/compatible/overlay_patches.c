@@ -230,14 +230,6 @@ static icc_status fill(iccp_plmap *filled, size_t n_border, const iccp_overlay *
     return ICC_OK;
 }
 
-static bool is_positive(const iccp_plmap *map)
-{
-    bool is = true;
-    for (uint32_t t = 0; t < map->corners.n_triangles && is; ++t)
-        is = iccp_plmap_positive_point(map, t) && iccp_plmap_positive_image(map, t);
-    return is;
-}
-
 /* Fills a patch whose border was read. It stays empty if the border is not simple before or after
  * the map, or if rounding spoils the overlay. */
 static icc_status draw(patch *own, const iccp_plmap *map, iccp_work *work, const iccp_env *env)
@@ -258,7 +250,7 @@ static icc_status draw(patch *own, const iccp_plmap *map, iccp_work *work, const
     }
     iccp_overlay_free(&overlay);
     iccp_free(&env->memory, ends);
-    if (status == ICC_OK && !is_positive(&own->filled))
+    if (status == ICC_OK && !iccp_plmap_is_positive(&own->filled))
         iccp_plmap_free(&own->filled);
     else if (status == ICC_OK)
         status = iccp_overlay_relax(&own->filled, work, env);

@@ -113,6 +113,14 @@ bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle)
                          iccp_plmap_image(map, c + 2)) > 0;
 }
 
+bool iccp_plmap_is_positive(const iccp_plmap *map)
+{
+    bool is = true;
+    for (uint32_t t = 0; t < map->corners.n_triangles && is; ++t)
+        is = iccp_plmap_positive_point(map, t) && iccp_plmap_positive_image(map, t);
+    return is;
+}
+
 /* Whether the halves x a m and x m b of triangle x a b keep its sign. */
 static bool can_halve(const double *x, const double *a, const double *b, const double m[2])
 {

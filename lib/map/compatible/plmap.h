@@ -159,6 +159,9 @@ bool iccp_plmap_find_vertices(const iccp_plmap *map, const icc_domain *source, u
 bool iccp_plmap_positive_point(const iccp_plmap *map, uint32_t triangle);
 bool iccp_plmap_positive_image(const iccp_plmap *map, uint32_t triangle);
 
+/* Whether that holds for all triangles. */
+bool iccp_plmap_is_positive(const iccp_plmap *map);
+
 /* Cuts the edge that a corner faces at its middle, before and after the map. *done is false if
  * rounding would spoil a triangle that is positive now. Makes room as needed. */
 icc_status iccp_plmap_cut(iccp_plmap *map, uint32_t corner, bool *done);

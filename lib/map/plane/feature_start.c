@@ -55,9 +55,8 @@ static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, con
     }
     if (status == ICC_OK)
         status = iccp_close_cuts(map, &overlay, &polygon[0], scene, env);
-    for (uint32_t t = 0; status == ICC_OK && t < map->corners.n_triangles; ++t)
-        if (!iccp_plmap_positive_point(map, t) || !iccp_plmap_positive_image(map, t))
-            status = ICC_ERR_CERTIFICATE;
+    if (status == ICC_OK && !iccp_plmap_is_positive(map))
+        status = ICC_ERR_CERTIFICATE;
     iccp_overlay_free(&overlay);
     for (int side = 0; side < 2; ++side)
         iccp_cut_polygon_free(&polygon[side]);
