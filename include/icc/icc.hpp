@@ -52,10 +52,10 @@ inline constexpr bool is_matrix<C, std::void_t<decltype(std::declval<C &>().inne
                                                decltype(std::declval<C &>().outerStride()),
                                                decltype(C::IsVectorAtCompileTime)>> = true;
 
-/** Contiguous elements that someone else owns: a vector, an array, a `std::span`, or a list in braces;
- *  also of `std::array`, such as `std::vector<std::array<double, 2>>` for points; or a matrix of Eigen's, of
- *  which each column is a point (`Matrix<double, 2, Dynamic>`), or, where it is RowMajor, each row. Any other way
- *  to lie is refused by the call. */
+/** Contiguous elements that someone else owns: a vector, an array, a `std::span` or a list in
+ *  braces. Elements may be `std::array`, such as `std::vector<std::array<double, 2>>` for points.
+ *  A matrix of Eigen's is taken, too: each column is a point (`Matrix<double, 2, Dynamic>`), or each
+ *  row if it is RowMajor. The call refuses other layouts. */
 template <class T> class view {
     using value = std::remove_const_t<T>;
     template <class C> using element = std::remove_pointer_t<decltype(std::data(std::declval<C &>()))>;

@@ -74,7 +74,7 @@ struct icc_domain {
     double measure; /* local length, area, volume, ... */
     /* Over local vertices; of a polygon without features: for corners only, without boxes */
     iccp_facet_tree tree;
-    /* Of a polygon without features: the polygon in its order, with faster queries; else NULL */
+    /* The polygon in its order, for faster queries. NULL with features and beyond 2-D. */
     struct iccp_locator *locator;
     struct iccp_features *features; /* inside a polygon, or NULL */
     struct iccp_mask *mask;         /* the mask that the boundary was made from, or NULL */

@@ -106,8 +106,8 @@ uint32_t iccp_avl_insert(iccp_avl *tree, uint32_t before, uint32_t item)
     n[node] = (iccp_avl_node){.before = before, .after = after, .item = item, .height = 1};
     n[before].after = node;
     n[after].before = node;
-    /* Of two neighbours in order, one is an ancestor of the other, and the lower one has a free
-     * child. */
+    /* Two neighbours in order are ancestor and descendant. The descendant has a free child on the
+     * side of the other. */
     if (tree->root == 0) {
         tree->root = node;
     } else if (before != 0 && n[before].right == 0) {

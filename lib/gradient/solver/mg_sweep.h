@@ -1,4 +1,4 @@
-/* What the V-cycle does with one slab of a level. Red vertices are those whose coordinates have an
+/* The V-cycle's operations on one slab of a level. Red vertices are those whose coordinates have an
  * even sum. They include all vertices that are also on the coarse level. */
 #ifndef ICCP_MG_SWEEP_H
 #define ICCP_MG_SWEEP_H

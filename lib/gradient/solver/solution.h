@@ -1,5 +1,5 @@
-/* What is known of a function that a solver has found: the members of icc_function_info and of
- * icc_solver_report. */
+/* The facts about a function that a solver has found. icc_function_info and icc_solver_report are
+ * filled in from them. */
 #ifndef ICCP_SOLUTION_H
 #define ICCP_SOLUTION_H
 

@@ -1,4 +1,4 @@
-/* What is known of a map: the members of icc_map_info, and the stored ones of icc_map_report. */
+/* The facts about a map. icc_map_info and icc_map_report are filled in from them. */
 #ifndef ICCP_MAP_FACTS_H
 #define ICCP_MAP_FACTS_H
 
