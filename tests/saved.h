@@ -195,13 +195,6 @@ static inline void read_story(const icc_chart *chart, chart_story *s)
         s->foliation.n_mesh_boundary + s->shelling.n_mesh_boundary + s->disc.n_mesh_boundary;
     s->n_mesh_simplices =
         s->foliation.n_mesh_simplices + s->shelling.n_mesh_simplices + s->disc.n_mesh_simplices;
-    s->gradient.seconds_grid = s->gradient.seconds_tree = s->gradient.seconds_function = 0;
-    s->field.seconds_grid = s->field.seconds_tree = s->field.seconds_function = 0;
-    s->field.seconds_solve = 0;
-    s->foliation.seconds_mesh = s->foliation.seconds_solve = s->foliation.seconds_certify = 0;
-    s->shelling.seconds_centre = s->shelling.seconds_solve = s->shelling.seconds_order = 0;
-    s->shelling.seconds_certify = s->shelling.seconds_leaves = 0;
-    s->disc.seconds_mesh = s->disc.seconds_solve = s->disc.seconds_certify = 0;
 }
 
 static inline chart_story story_of(const icc_chart *chart)

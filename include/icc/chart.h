@@ -171,9 +171,6 @@ typedef struct icc_gradient_info {
                                      icc_chart_info::maximum lies from the vertex that was asked for
                                      (or the grassfire's), because the function is greatest beside
                                      it; else 0 */
-    double seconds_grid;        /**< time to make the grid and find the maximum */
-    double seconds_tree;        /**< time to make and verify the tree */
-    double seconds_function;    /**< time to make and verify the function */
 } icc_gradient_info;
 
 /** What only charts of method field have. The function is ::ICC_FUNCTION_LAPLACE, the tree's form
@@ -195,10 +192,6 @@ typedef struct icc_field_info {
     size_t n_contacts;          /**< pairs of a facet and a grid vertex of a simplex that it runs
                                      through */
     size_t n_not_inward;        /**< those of them where the vector does not point inward */
-    double seconds_grid;        /**< time to make the grid and find the maximum */
-    double seconds_tree;        /**< time to make and verify the tree */
-    double seconds_function;    /**< time to make and verify the function */
-    double seconds_solve;       /**< time to find the vectors and check them */
 } icc_field_info;
 
 /** What only charts of method foliation have in 2-D, on a mesh that the library makes. */
@@ -209,9 +202,6 @@ typedef struct icc_foliation_info {
     size_t n_mesh_simplices; /**< triangles of the mesh */
     size_t n_ties;           /**< mesh edges whose ends have the same label: ordered by index */
     double harmonic_share;   /**< share of the boundary flux that is harmonic */
-    double seconds_mesh;     /**< time to make the mesh */
-    double seconds_solve;    /**< time to solve for the leaves */
-    double seconds_certify;  /**< time to certify them */
 } icc_foliation_info;
 
 /** What only charts of method foliation have on a domain's mesh, icc_domain_create_mesh(). */
@@ -230,11 +220,6 @@ typedef struct icc_shelling_info {
     double flux_energy;      /**< how far the flux along the leaves is from the harmonic one: sum of
                                   the squared differences, weighted; 0 at best */
     double flux_divergence;  /**< largest share of a simplex's flux that gets lost by rounding */
-    double seconds_centre;   /**< time to choose the maximum */
-    double seconds_solve;    /**< time to solve for the harmonic flux */
-    double seconds_order;    /**< time to find the order */
-    double seconds_certify;  /**< time to certify it */
-    double seconds_leaves;   /**< time to prepare the leaves */
 } icc_shelling_info;
 
 /** What only charts of method disc have. */
@@ -243,10 +228,21 @@ typedef struct icc_disc_info {
     size_t n_mesh_vertices;  /**< vertices of the mesh */
     size_t n_mesh_boundary;  /**< of them on the boundary */
     size_t n_mesh_simplices; /**< triangles of the mesh */
-    double seconds_mesh;     /**< time to make the mesh */
-    double seconds_solve;    /**< time to solve for the map to the disc */
-    double seconds_certify;  /**< time to certify it */
 } icc_disc_info;
+
+/** How long each step of making a chart took, in seconds: what icc_chart_get_timings() fills in. A
+ *  step that the chart's method does not have is 0. A loaded chart has those of loading it. */
+typedef struct icc_chart_timings {
+    size_t size;     /**< set by the caller: `sizeof(icc_chart_timings)` */
+    double grid;     /**< gradient, field: the grid, and the maximum */
+    double tree;     /**< gradient, field: the tree, and checking it */
+    double function; /**< gradient, field: the function, and checking it */
+    double mesh;     /**< foliation, disc: the mesh; on a domain's mesh, preparing the leaves */
+    double centre;   /**< foliation on a domain's mesh: choosing the maximum */
+    double solve;    /**< field: the vectors, and checking them; foliation, disc: the equations */
+    double order;    /**< foliation on a domain's mesh: the order of the simplices */
+    double certify;  /**< foliation, disc: the certificate */
+} icc_chart_timings;
 
 /** Shares that icc_chart_get_report() estimates from evenly spread points. All lie in [0,1]. "Area"
  *  and "length" are for 2-D; beyond, read volume and area, and so on. For a certified chart all
@@ -311,6 +307,9 @@ ICC_API icc_status icc_chart_get_shelling_info(const icc_chart *chart, icc_shell
 
 /** The same for method disc. */
 ICC_API icc_status icc_chart_get_disc_info(const icc_chart *chart, icc_disc_info *info);
+
+/** Fills in `timings`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_chart_get_timings(const icc_chart *chart, icc_chart_timings *timings);
 
 /** The domain that the chart was made on; borrowed. */
 ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);
@@ -414,7 +413,7 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
 
 /**
  * Reads a chart back. It gives the same results as the one that was saved, bit for bit, with any
- * number of threads. Its info is the same but for the seconds.
+ * number of threads. Its info is the same.
  *
  * Charts on a mesh (foliation, disc) are stored in full and certified anew: bytes that do not pass
  * are refused, wherever they come from. Charts on a grid (gradient, field) are rebuilt from their

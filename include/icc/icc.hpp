@@ -490,6 +490,7 @@ public:
 
     std::vector<std::byte> save() const { return bytes(icc_chart_save); } /**< with the domain */
     icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, maximum, .. */
+    icc_chart_timings timings() const { return tell(icc_chart_get_timings); } /**< of making it */
     bool certified() const { return info().certified == 1; }              /**< else info() says why */
     /** What only charts of one method have; nothing for charts of others. */
     std::optional<icc_gradient_info> gradient_info() const { return own(icc_chart_get_gradient_info); }

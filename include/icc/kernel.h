@@ -249,29 +249,36 @@ typedef struct icc_weights_options {
 
 /** What icc_weights_get_info() reports. */
 typedef struct icc_weights_info {
-    size_t size;            /**< set by the caller: `sizeof(icc_weights_info)` */
-    int32_t dim;            /**< dimension */
-    int32_t kernel;         /**< `ICC_KERNEL_*` */
-    int32_t initial;        /**< `ICC_INITIAL_*` */
-    int32_t method;         /**< `ICC_WEIGHTS_*` */
-    size_t n_handles;       /**< handles */
-    size_t n_nodes;         /**< places that carry weights: first the handles, then places on lines,
+    size_t size;         /**< set by the caller: `sizeof(icc_weights_info)` */
+    int32_t dim;         /**< dimension */
+    int32_t kernel;      /**< `ICC_KERNEL_*` */
+    int32_t initial;     /**< `ICC_INITIAL_*` */
+    int32_t method;      /**< `ICC_WEIGHTS_*` */
+    size_t n_handles;    /**< handles */
+    size_t n_nodes;      /**< places that carry weights: first the handles, then places on lines,
                                  then the samples, except those within half a spacing of a handle or
                                  a line's node */
-    size_t n_infeasible;    /**< QP: nodes that no non-negative weights reproduce (outside the
+    size_t n_infeasible; /**< QP: nodes that no non-negative weights reproduce (outside the
                                  handles' convex hull): QP is relaxed there, the sums still hold */
-    size_t n_entries;       /**< kernel values of the matrix, diagonal included, one triangle */
-    double sigma;           /**< width of the kernel */
-    double definiteness;    /**< how far the matrix is from losing positive definiteness: its least
+    size_t n_entries;    /**< kernel values of the matrix, diagonal included, one triangle */
+    double sigma;        /**< width of the kernel */
+    double definiteness; /**< how far the matrix is from losing positive definiteness: its least
                                  pivot over the greatest */
-    double seconds_initial; /**< time for the initial weights */
-    double seconds_weights; /**< time to optimise */
-    double seconds_factor;  /**< time to place the nodes and to factorise */
-    double residual;        /**< of icc_weights_stiffen(), if that made these weights: how far they
+    double residual;     /**< of icc_weights_stiffen(), if that made these weights: how far they
                                  are from its program's optimality conditions, as the step that is
                                  still possible down the energy's projected gradient, over the one
                                  at the start; else 0 */
 } icc_weights_info;
+
+/** How long each step of making weights took, in seconds: what icc_weights_get_timings() fills in.
+ *  Weights that were made from others have the steps that were done again; the other members are
+ *  those of the weights before. */
+typedef struct icc_weights_timings {
+    size_t size;     /**< set by the caller: `sizeof(icc_weights_timings)` */
+    double factor;   /**< placing the nodes, and the factorisation */
+    double initial;  /**< the initial weights */
+    double optimise; /**< the optimisation */
+} icc_weights_timings;
 
 /**
  * Makes weights for handles.
@@ -301,6 +308,10 @@ ICC_API void icc_weights_free(icc_weights *weights);
 
 /** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *info);
+
+/** Fills in `timings`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+ICC_API icc_status icc_weights_get_timings(const icc_weights *weights,
+                                           icc_weights_timings *timings);
 
 /**
  * Copies the nodes.

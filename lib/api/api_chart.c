@@ -96,6 +96,15 @@ icc_status icc_chart_get_disc_info(const icc_chart *chart, icc_disc_info *info)
                      "icc_disc_info");
 }
 
+icc_status icc_chart_get_timings(const icc_chart *chart, icc_chart_timings *timings)
+{
+    ICCP_ENTER;
+    if (chart == NULL || timings == NULL)
+        return ICC_ERR_ARGUMENT;
+    return iccp_write_struct(timings, &chart->timings, sizeof chart->timings, "icc_chart_timings",
+                             NULL);
+}
+
 const icc_domain *icc_chart_domain(const icc_chart *chart)
 {
     return chart != NULL ? chart->domain : NULL;

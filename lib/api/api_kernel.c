@@ -205,6 +205,15 @@ icc_status icc_weights_get_info(const icc_weights *weights, icc_weights_info *in
     return iccp_write_struct(info, &weights->info, sizeof weights->info, "icc_weights_info", NULL);
 }
 
+icc_status icc_weights_get_timings(const icc_weights *weights, icc_weights_timings *timings)
+{
+    ICCP_ENTER;
+    if (weights == NULL || timings == NULL)
+        return ICC_ERR_ARGUMENT;
+    return iccp_write_struct(timings, &weights->timings, sizeof weights->timings,
+                             "icc_weights_timings", NULL);
+}
+
 icc_status icc_weights_get_nodes(const icc_weights *weights, double *points, double *initial,
                                  double *values, icc_status *status)
 {

@@ -135,7 +135,8 @@ struct icc_chart {
         icc_foliation_info foliation;
         icc_shelling_info shelling; /* see iccp_chart_is_shelling() */
         icc_disc_info disc;
-    } own;                       /* information that only the chart's method has */
+    } own; /* information that only the chart's method has */
+    icc_chart_timings timings;
     double maximum[ICC_MAX_DIM]; /* local */
     const iccp_chart_ops *ops;
     void *state;             /* the method's own data */

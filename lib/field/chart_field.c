@@ -86,7 +86,7 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
     chart->own.field.n_grid = grid->n_vertices;
     chart->info.cells = grid->cells;
     status = choose_root(grid, maximum, &root, &part[1], err);
-    chart->own.field.seconds_grid += iccp_seconds() - start;
+    chart->timings.grid += iccp_seconds() - start;
     start = iccp_seconds();
     uint32_t *rank = iccp_alloc(&env->memory, grid->n_vertices, sizeof *rank);
     if (status == ICC_OK && rank == NULL)
@@ -98,7 +98,7 @@ static icc_status make_tree_on(iccp_field_state *state, icc_chart *chart, int32_
         status = iccp_tree_verify(state->tree, &report, &part[3]);
     iccp_free(&env->memory, rank);
     iccp_grid_release(grid);
-    chart->own.field.seconds_tree += iccp_seconds() - start;
+    chart->timings.tree += iccp_seconds() - start;
     chart->own.field.n_tree = report.n_inside + report.n_outside;
     chart->own.field.n_unreachable = report.n_unreachable;
     chart->own.field.n_cousin_violations = report.n_cousin_violations;
@@ -140,7 +140,7 @@ static icc_status make_field(iccp_field_state *state, icc_chart *chart,
     chart->own.field.n_maxima = report.n_maxima;
     chart->own.field.n_minima = report.n_minima;
     chart->own.field.n_saddles = report.n_saddles;
-    chart->own.field.seconds_function = iccp_seconds() - start;
+    chart->timings.function = iccp_seconds() - start;
     return status;
 }
 
@@ -168,7 +168,7 @@ static icc_status make_vectors(iccp_field_state *state, icc_chart *chart, const 
         status = iccp_vectors_create(&state->vectors, &extension, &state->incidence, &part[2]);
     iccp_incidence_trim(&state->incidence);
     iccp_extension_free(&extension);
-    chart->own.field.seconds_solve = iccp_seconds() - start;
+    chart->timings.solve = iccp_seconds() - start;
     return status;
 }
 

@@ -349,7 +349,7 @@ static icc_status fill_state(icc_chart *chart, const iccp_planar *mesh, const do
     return ICC_OK;
 }
 
-/* Creates the certified chart. `seconds` is the time that the base and the image took. */
+/* Creates the certified chart. `seconds` is the time that the certificate took. */
 static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmonic *base,
                          double **image, double seconds, const iccp_env *env, icc_error *err)
 {
@@ -363,10 +363,9 @@ static icc_status create(icc_chart **out, const icc_domain *domain, iccp_harmoni
     iccp_harmonic_describe(base, domain, &chart->info);
     chart->own.disc = (icc_disc_info){.n_mesh_vertices = base->mesh.n_vertices,
                                       .n_mesh_boundary = base->mesh.n_boundary,
-                                      .n_mesh_simplices = base->mesh.n_triangles,
-                                      .seconds_mesh = base->seconds_mesh,
-                                      .seconds_solve = base->seconds_solve,
-                                      .seconds_certify = seconds};
+                                      .n_mesh_simplices = base->mesh.n_triangles};
+    chart->timings = (icc_chart_timings){
+        .mesh = base->seconds_mesh, .solve = base->seconds_solve, .certify = seconds};
     disc_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
     chart->state = state;
     status = state != NULL ? fill_state(chart, &base->mesh, *image, env) : ICC_ERR_MEMORY;

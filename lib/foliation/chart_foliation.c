@@ -394,8 +394,8 @@ static icc_status make_psi(icc_chart *chart, const iccp_harmonic *base, uint32_t
             chart->info.certified = 1;
             info->n_ties = certificate.n_ties;
             info->harmonic_share = HARMONIC_SHARES[k];
-            info->seconds_solve += solved - start;
-            info->seconds_certify = iccp_seconds() - solved;
+            chart->timings.solve += solved - start;
+            chart->timings.certify = iccp_seconds() - solved;
             return ICC_OK;
         }
         iccp_psi_free(&state->psi);
@@ -419,9 +419,9 @@ static icc_status begin(icc_chart **out, const icc_domain *domain, const iccp_ha
     iccp_harmonic_describe(base, domain, &chart->info);
     chart->own.foliation = (icc_foliation_info){.n_mesh_vertices = base->mesh.n_vertices,
                                                 .n_mesh_boundary = base->mesh.n_boundary,
-                                                .n_mesh_simplices = base->mesh.n_triangles,
-                                                .seconds_mesh = base->seconds_mesh,
-                                                .seconds_solve = base->seconds_solve};
+                                                .n_mesh_simplices = base->mesh.n_triangles};
+    chart->timings.mesh = base->seconds_mesh;
+    chart->timings.solve = base->seconds_solve;
     chart->state = iccp_alloc_zero(&env->memory, 1, sizeof(foliation_state));
     return chart->state != NULL ? ICC_OK : ICC_ERR_MEMORY;
 }

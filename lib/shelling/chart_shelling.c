@@ -125,9 +125,10 @@ static void work_free(work *w, const iccp_memory *memory)
 
 /* Makes ranks and fluxes from a mesh in three steps. They are the inflow through the boundary,
  * the harmonic flux with that inflow, and the order that reverses the least of that flux. */
-static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre,
-                             icc_shelling_info *info, const iccp_env *env, icc_error *err)
+static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centre, icc_chart *chart,
+                             const iccp_env *env, icc_error *err)
 {
+    icc_shelling_info *info = &chart->own.shelling;
     const size_t n = mesh->n_simplices;
     iccp_best_order_info best_order = {0};
     const double start = iccp_seconds();
@@ -151,8 +152,8 @@ static icc_status find_order(work *w, const iccp_simplices *mesh, uint32_t centr
         status = iccp_best_order(mesh, centre, w->inflow, w->reference, w->potential, w->rank,
                                  w->flux, &best_order, &part[2], err);
     info->harmonic_share = HARMONIC_SHARE;
-    info->seconds_solve = solved - start;
-    info->seconds_order = iccp_seconds() - solved;
+    chart->timings.solve = solved - start;
+    chart->timings.order = iccp_seconds() - solved;
     info->order_peeled = best_order.peeled;
     info->n_orders = (int32_t)best_order.n_finished;
     info->order_beta = best_order.beta;
@@ -187,7 +188,7 @@ static icc_status certify(icc_chart *chart, const iccp_simplices *mesh, uint32_t
     const double start = iccp_seconds();
     const icc_status status =
         iccp_certify_shelling(&found, mesh, chart->domain->facets, centre, w->rank, w->flux, env);
-    chart->own.shelling.seconds_certify = iccp_seconds() - start;
+    chart->timings.certify = iccp_seconds() - start;
     if (status != ICC_OK)
         return status;
     chart->info.certified = iccp_shelling_certificate_holds(&found);
@@ -207,7 +208,6 @@ static icc_status make_leaves(icc_chart *chart, const iccp_simplices *mesh, uint
                               const iccp_env *env, icc_error *err)
 {
     iccp_shelling_state *state = chart->state;
-    icc_shelling_info *info = &chart->own.shelling;
     work w = {0};
     iccp_arranged arranged;
     iccp_env part[3];
@@ -215,7 +215,7 @@ static icc_status make_leaves(icc_chart *chart, const iccp_simplices *mesh, uint
     icc_status status = iccp_arranged_create(&arranged, mesh, env);
     if (status != ICC_OK)
         return status;
-    status = find_order(&w, &arranged.mesh, centre, info, &part[0], err);
+    status = find_order(&w, &arranged.mesh, centre, chart, &part[0], err);
     if (status == ICC_OK) {
         find_directions(&arranged.mesh, w.flux);
         status = certify(chart, &arranged.mesh, centre, &w, &part[1], err);
@@ -226,7 +226,7 @@ static icc_status make_leaves(icc_chart *chart, const iccp_simplices *mesh, uint
         status = iccp_leafn_create(&state->leaves, mesh, centre, w.reference,
                                    chart->domain->band.reach, &part[2]);
     }
-    info->seconds_leaves = iccp_seconds() - start;
+    chart->timings.mesh = iccp_seconds() - start;
     iccp_arranged_free(&arranged);
     work_free(&w, &env->memory);
     return status;
@@ -239,7 +239,7 @@ static icc_status make_chart(job *j, size_t k, icc_chart **out, const iccp_env *
     const icc_status status = iccp_shelling_begin(out, j->domain[k], own, j->centre[k], env);
     if (status != ICC_OK)
         return status;
-    (*out)->own.shelling.seconds_centre = j->seconds / (double)j->n;
+    (*out)->timings.centre = j->seconds / (double)j->n;
     return make_leaves(*out, j->mesh[k], j->centre[k], env, err);
 }
 

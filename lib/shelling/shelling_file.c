@@ -119,26 +119,26 @@ static icc_status read_leaves(icc_chart *chart, const iccp_simplices *mesh, uint
     return status;
 }
 
-static void copy_story(icc_shelling_info *info, const icc_shelling_info *story)
+static void copy_facts(icc_shelling_info *info, const icc_shelling_info *facts)
 {
-    info->order_peeled = story->order_peeled;
-    info->n_orders = story->n_orders;
-    info->n_reversed = story->n_reversed;
-    info->harmonic_share = story->harmonic_share;
-    info->order_beta = story->order_beta;
-    info->flux_energy = story->flux_energy;
-    info->flux_divergence = story->flux_divergence;
+    info->order_peeled = facts->order_peeled;
+    info->n_orders = facts->n_orders;
+    info->n_reversed = facts->n_reversed;
+    info->harmonic_share = facts->harmonic_share;
+    info->order_beta = facts->order_beta;
+    info->flux_energy = facts->flux_energy;
+    info->flux_divergence = facts->flux_divergence;
 }
 
 icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, iccp_blob *b,
                                     const iccp_env *env, icc_error *err)
 {
     (void)err;
-    icc_shelling_info story = {0};
+    icc_shelling_info facts = {0};
     iccp_simplices *own;
     uint64_t centre;
     *out = NULL;
-    icc_status status = iccp_shelling_visit_head(b, &story, &own, &centre, domain);
+    icc_status status = iccp_shelling_visit_head(b, &facts, &own, &centre, domain);
     const iccp_simplices *mesh = own != NULL ? own : domain->mesh;
     if (status == ICC_OK && (centre < mesh->n_boundary || centre >= mesh->n_points))
         status = ICC_ERR_FORMAT;
@@ -148,7 +148,7 @@ icc_status iccp_chart_shelling_read(icc_chart **out, const icc_domain *domain, i
     }
     status = iccp_shelling_begin(out, domain, own, (uint32_t)centre, env);
     if (status == ICC_OK) {
-        copy_story(&(*out)->own.shelling, &story);
+        copy_facts(&(*out)->own.shelling, &facts);
         status = read_leaves(*out, mesh, (uint32_t)centre, b, env);
     }
     if (status != ICC_OK) {

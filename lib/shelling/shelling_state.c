@@ -242,17 +242,17 @@ static void free_state(icc_chart *chart)
     iccp_free(&chart->memory, state);
 }
 
-icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp_simplices **own,
+icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *facts, iccp_simplices **own,
                                     uint64_t *centre, const icc_domain *domain)
 {
-    iccp_blob_i32(b, ICCP_U64, 0, 1, &story->order_peeled);
-    iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &story->n_orders);
-    iccp_blob_size(b, &story->n_reversed);
-    iccp_blob_require(b, story->n_reversed <= UINT32_MAX);
-    iccp_blob_f64(b, 1, &story->harmonic_share);
-    iccp_blob_f64(b, 1, &story->order_beta);
-    iccp_blob_f64(b, 1, &story->flux_energy);
-    iccp_blob_f64(b, 1, &story->flux_divergence);
+    iccp_blob_i32(b, ICCP_U64, 0, 1, &facts->order_peeled);
+    iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &facts->n_orders);
+    iccp_blob_size(b, &facts->n_reversed);
+    iccp_blob_require(b, facts->n_reversed <= UINT32_MAX);
+    iccp_blob_f64(b, 1, &facts->harmonic_share);
+    iccp_blob_f64(b, 1, &facts->order_beta);
+    iccp_blob_f64(b, 1, &facts->flux_energy);
+    iccp_blob_f64(b, 1, &facts->flux_divergence);
     const icc_status status = iccp_filling_visit(b, own, domain);
     iccp_blob_u64(b, 1, centre);
     return status == ICC_OK ? b->status : status;
@@ -264,9 +264,9 @@ static void save(const icc_chart *chart, iccp_blob *b)
     const iccp_shelling_state *state = chart->state;
     iccp_simplices *own = state->mesh;
     const iccp_simplices *mesh = own != NULL ? own : chart->domain->mesh;
-    icc_shelling_info story = chart->own.shelling;
+    icc_shelling_info facts = chart->own.shelling;
     uint64_t centre = state->leaves.centre;
-    (void)iccp_shelling_visit_head(b, &story, &own, &centre, chart->domain);
+    (void)iccp_shelling_visit_head(b, &facts, &own, &centre, chart->domain);
     for (size_t s = 0; s < mesh->n_simplices; ++s) {
         double direction[ICCP_LEAFN_CORNERS];
         iccp_leafn_direction(&state->leaves, mesh, s, direction);

@@ -20,7 +20,7 @@ icc_status iccp_shelling_begin(icc_chart **out, const icc_domain *domain, iccp_s
 
 /* Reads or writes the first part of the chart's bytes: information on how the order was found,
  * the chart's own mesh or NULL, and the centre. */
-icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *story, iccp_simplices **own,
+icc_status iccp_shelling_visit_head(iccp_blob *b, icc_shelling_info *facts, iccp_simplices **own,
                                     uint64_t *centre, const icc_domain *domain);
 
 #endif

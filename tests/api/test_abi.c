@@ -245,7 +245,7 @@ AT(icc_chart_info, cells, 24);
 AT(icc_chart_info, maximum, 32);
 AT(icc_chart_info, spacing, 80);
 
-SIZE(icc_gradient_info, 136);
+SIZE(icc_gradient_info, 112);
 AT(icc_gradient_info, size, 0);
 AT(icc_gradient_info, function, 8);
 AT(icc_gradient_info, tree, 12);
@@ -261,11 +261,8 @@ AT(icc_gradient_info, n_edges, 80);
 AT(icc_gradient_info, n_compression, 88);
 AT(icc_gradient_info, n_expansion, 96);
 AT(icc_gradient_info, moved, 104);
-AT(icc_gradient_info, seconds_grid, 112);
-AT(icc_gradient_info, seconds_tree, 120);
-AT(icc_gradient_info, seconds_function, 128);
 
-SIZE(icc_field_info, 136);
+SIZE(icc_field_info, 104);
 AT(icc_field_info, size, 0);
 AT(icc_field_info, n_grid, 8);
 AT(icc_field_info, n_inside, 16);
@@ -279,23 +276,16 @@ AT(icc_field_info, n_saddles, 72);
 AT(icc_field_info, n_infeasible, 80);
 AT(icc_field_info, n_contacts, 88);
 AT(icc_field_info, n_not_inward, 96);
-AT(icc_field_info, seconds_grid, 104);
-AT(icc_field_info, seconds_tree, 112);
-AT(icc_field_info, seconds_function, 120);
-AT(icc_field_info, seconds_solve, 128);
 
-SIZE(icc_foliation_info, 72);
+SIZE(icc_foliation_info, 48);
 AT(icc_foliation_info, size, 0);
 AT(icc_foliation_info, n_mesh_vertices, 8);
 AT(icc_foliation_info, n_mesh_boundary, 16);
 AT(icc_foliation_info, n_mesh_simplices, 24);
 AT(icc_foliation_info, n_ties, 32);
 AT(icc_foliation_info, harmonic_share, 40);
-AT(icc_foliation_info, seconds_mesh, 48);
-AT(icc_foliation_info, seconds_solve, 56);
-AT(icc_foliation_info, seconds_certify, 64);
 
-SIZE(icc_shelling_info, 120);
+SIZE(icc_shelling_info, 80);
 AT(icc_shelling_info, size, 0);
 AT(icc_shelling_info, n_mesh_vertices, 8);
 AT(icc_shelling_info, n_mesh_boundary, 16);
@@ -307,20 +297,23 @@ AT(icc_shelling_info, order_beta, 48);
 AT(icc_shelling_info, n_reversed, 56);
 AT(icc_shelling_info, flux_energy, 64);
 AT(icc_shelling_info, flux_divergence, 72);
-AT(icc_shelling_info, seconds_centre, 80);
-AT(icc_shelling_info, seconds_solve, 88);
-AT(icc_shelling_info, seconds_order, 96);
-AT(icc_shelling_info, seconds_certify, 104);
-AT(icc_shelling_info, seconds_leaves, 112);
 
-SIZE(icc_disc_info, 56);
+SIZE(icc_disc_info, 32);
 AT(icc_disc_info, size, 0);
 AT(icc_disc_info, n_mesh_vertices, 8);
 AT(icc_disc_info, n_mesh_boundary, 16);
 AT(icc_disc_info, n_mesh_simplices, 24);
-AT(icc_disc_info, seconds_mesh, 32);
-AT(icc_disc_info, seconds_solve, 40);
-AT(icc_disc_info, seconds_certify, 48);
+
+SIZE(icc_chart_timings, 72);
+AT(icc_chart_timings, size, 0);
+AT(icc_chart_timings, grid, 8);
+AT(icc_chart_timings, tree, 16);
+AT(icc_chart_timings, function, 24);
+AT(icc_chart_timings, mesh, 32);
+AT(icc_chart_timings, centre, 40);
+AT(icc_chart_timings, solve, 48);
+AT(icc_chart_timings, order, 56);
+AT(icc_chart_timings, certify, 64);
 
 SIZE(icc_chart_report, 56);
 AT(icc_chart_report, size, 0);
@@ -549,7 +542,7 @@ AT(icc_weights_options, n_lines, 64);
 AT(icc_weights_options, lines, 72);
 AT(icc_weights_options, initial_weights, 80);
 
-SIZE(icc_weights_info, 104);
+SIZE(icc_weights_info, 80);
 AT(icc_weights_info, size, 0);
 AT(icc_weights_info, dim, 8);
 AT(icc_weights_info, kernel, 12);
@@ -561,10 +554,13 @@ AT(icc_weights_info, n_infeasible, 40);
 AT(icc_weights_info, n_entries, 48);
 AT(icc_weights_info, sigma, 56);
 AT(icc_weights_info, definiteness, 64);
-AT(icc_weights_info, seconds_initial, 72);
-AT(icc_weights_info, seconds_weights, 80);
-AT(icc_weights_info, seconds_factor, 88);
-AT(icc_weights_info, residual, 96);
+AT(icc_weights_info, residual, 72);
+
+SIZE(icc_weights_timings, 32);
+AT(icc_weights_timings, size, 0);
+AT(icc_weights_timings, factor, 8);
+AT(icc_weights_timings, initial, 16);
+AT(icc_weights_timings, optimise, 24);
 
 SIZE(icc_weights_report, 80);
 AT(icc_weights_report, size, 0);

@@ -607,6 +607,7 @@ START_TEST(kernels_refuse_bad_arguments)
     icc_error err;
     icc_weights_report report = {.size = sizeof report};
     icc_weights_info info = {.size = sizeof info};
+    icc_weights_timings timings = {.size = sizeof timings};
     double weights[N_HANDLES], images[2], transforms[6 * N_HANDLES];
     size_t n_bytes;
     EXPLAINED(icc_weights_create(NULL, o.sampling, N_HANDLES, HANDLES, NULL, NULL, &err));
@@ -626,6 +627,8 @@ START_TEST(kernels_refuse_bad_arguments)
     EXPLAINED(icc_weights_get_report(o.kernel, 0, NULL, NULL, NULL, &err));
     REFUSED(icc_weights_get_info(NULL, &info));
     REFUSED(icc_weights_get_info(o.kernel, NULL));
+    REFUSED(icc_weights_get_timings(NULL, &timings));
+    REFUSED(icc_weights_get_timings(o.kernel, NULL));
     REFUSED(icc_weights_get_nodes(NULL, NULL, NULL, NULL, NULL));
     REFUSED(icc_weights_evaluate(NULL, 1, HANDLES, weights, NULL, NULL, NULL, NULL));
     REFUSED(icc_weights_evaluate(o.kernel, 1, NULL, weights, NULL, NULL, NULL, NULL));
@@ -948,6 +951,11 @@ static icc_status write_chart_info(const objects *o, void *info)
     return icc_chart_get_info(o->chart, info);
 }
 
+static icc_status write_chart_timings(const objects *o, void *timings)
+{
+    return icc_chart_get_timings(o->chart, timings);
+}
+
 static icc_status write_gradient_info(const objects *o, void *info)
 {
     return icc_chart_get_gradient_info(o->chart, info);
@@ -1037,6 +1045,11 @@ static icc_status write_kernel_info(const objects *o, void *info)
     return icc_weights_get_info(o->kernel, info);
 }
 
+static icc_status write_weights_timings(const objects *o, void *timings)
+{
+    return icc_weights_get_timings(o->kernel, timings);
+}
+
 static icc_status write_kernel_report(const objects *o, void *info)
 {
     return icc_weights_get_report(o->kernel, 9, o->points, info, NULL, NULL);
@@ -1083,6 +1096,7 @@ START_TEST(infos_may_be_older_or_newer)
                    {write_feature_info, sizeof(icc_feature_info)},
                    {write_tie_info, sizeof(icc_tie_info)},
                    {write_chart_info, sizeof(icc_chart_info)},
+                   {write_chart_timings, sizeof(icc_chart_timings)},
                    {write_measures, sizeof(icc_chart_report)},
                    {write_map_info, sizeof(icc_map_info)},
                    {write_map_report, sizeof(icc_map_report)},
@@ -1095,6 +1109,7 @@ START_TEST(infos_may_be_older_or_newer)
                    {write_field_report, sizeof(icc_function_report)},
                    {write_sampling_info, sizeof(icc_sampling_info)},
                    {write_kernel_info, sizeof(icc_weights_info)},
+                   {write_weights_timings, sizeof(icc_weights_timings)},
                    {write_kernel_report, sizeof(icc_weights_report)}};
     objects o;
     objects_init(&o, 0);

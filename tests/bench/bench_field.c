@@ -31,15 +31,16 @@ static void print_chart(const char *name, const icc_chart *chart)
 {
     icc_chart_info common = {.size = sizeof common};
     icc_field_info i = {.size = sizeof i};
+    icc_chart_timings took = {.size = sizeof took};
     bench_check(icc_chart_get_info(chart, &common), NULL);
     bench_check(icc_chart_get_field_info(chart, &i), NULL);
+    bench_check(icc_chart_get_timings(chart, &took), NULL);
     printf("  %s: %ld cells, %zu of %zu vertices inside, %zu given up; critical %zu/%zu/%zu, "
            "infeasible %zu, not inward %zu of %zu%s; s: grid %.2f tree %.2f function %.2f vectors "
            "%.2f\n",
            name, (long)common.cells, i.n_inside, i.n_grid, i.n_stray, i.n_maxima, i.n_minima,
            i.n_saddles, i.n_infeasible, i.n_not_inward, i.n_contacts,
-           common.certified ? ", certified" : "", i.seconds_grid, i.seconds_tree,
-           i.seconds_function, i.seconds_solve);
+           common.certified ? ", certified" : "", took.grid, took.tree, took.function, took.solve);
 }
 
 static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS],

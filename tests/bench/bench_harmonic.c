@@ -70,12 +70,14 @@ static void print_sizes(const icc_map *map)
     for (int k = 0; k < 2; ++k) {
         icc_foliation_info leaves = {.size = sizeof leaves};
         icc_disc_info disc = {.size = sizeof disc};
+        icc_chart_timings took = {.size = sizeof took};
         (void)icc_chart_get_foliation_info(charts[k], &leaves);
         (void)icc_chart_get_disc_info(charts[k], &disc);
+        (void)icc_chart_get_timings(charts[k], &took);
         printf(" %6zu", leaves.n_mesh_vertices + disc.n_mesh_vertices);
-        mesh += 1e3 * (leaves.seconds_mesh + disc.seconds_mesh);
-        solve += 1e3 * (leaves.seconds_solve + disc.seconds_solve);
-        certify += 1e3 * (leaves.seconds_certify + disc.seconds_certify);
+        mesh += 1e3 * took.mesh;
+        solve += 1e3 * took.solve;
+        certify += 1e3 * took.certify;
     }
     printf("  %6.1f %6.1f %5.1f", mesh, solve, certify);
 }

@@ -52,19 +52,19 @@ static void print_chart(const char *name, const icc_chart *chart)
 {
     icc_chart_info common = {.size = sizeof common};
     icc_shelling_info i = {.size = sizeof i};
+    icc_chart_timings took = {.size = sizeof took};
     bench_check(icc_chart_get_info(chart, &common), NULL);
     bench_check(icc_chart_get_shelling_info(chart, &i), NULL);
-    const double sum =
-        i.seconds_centre + i.seconds_solve + i.seconds_order + i.seconds_leaves + i.seconds_certify;
+    bench_check(icc_chart_get_timings(chart, &took), NULL);
+    const double sum = took.centre + took.solve + took.order + took.mesh + took.certify;
     printf(
         "  %s: %zu tetrahedra, %zu vertices; %s beta %g of %ld, %zu reversed, energy %.1e, "
         "divergence "
         "%.0e%s\n    ms: centre %.0f flux %.0f order %.0f certificate %.1f (%.1f %%) leaves %.0f\n",
         name, i.n_mesh_simplices, i.n_mesh_vertices, i.order_peeled ? "peeled" : "grown",
         i.order_beta, (long)i.n_orders, i.n_reversed, i.flux_energy, i.flux_divergence,
-        common.certified ? ", certified" : "", 1e3 * i.seconds_centre, 1e3 * i.seconds_solve,
-        1e3 * i.seconds_order, 1e3 * i.seconds_certify, 100 * i.seconds_certify / sum,
-        1e3 * i.seconds_leaves);
+        common.certified ? ", certified" : "", 1e3 * took.centre, 1e3 * took.solve,
+        1e3 * took.order, 1e3 * took.certify, 100 * took.certify / sum, 1e3 * took.mesh);
 }
 
 static double points[3 * N_POINTS], images[3 * N_POINTS], back[3 * N_POINTS],

@@ -155,10 +155,12 @@ static void run_chart(int32_t cells)
                     &err);
         const double back = bench_processor_seconds();
         (void)icc_chart_get_gradient_info(chart, &info);
+        icc_chart_timings took = {.size = sizeof took};
+        (void)icc_chart_get_timings(chart, &took);
         printf("ball, %3ld cells %-9s %8zu inside %7.2f s, of these %5.2f for f %7.1f us there "
                "%7.1f us "
                "back %5zu %5zu astray\n",
-               (long)cells, FUNCTION[i].name, info.n_inside, made - begin, info.seconds_function,
+               (long)cells, FUNCTION[i].name, info.n_inside, made - begin, took.function,
                1e6 * (there - ready) / N_WALKS, 1e6 * (back - there) / N_WALKS, down, up);
         icc_chart_free(chart);
     }

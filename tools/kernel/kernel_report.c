@@ -48,15 +48,17 @@ static int report_quality(json *out, kernel_job *k, size_t n, const double *poin
     return DONE;
 }
 
-static void report_seconds(json *out, const kernel_job *k, const icc_weights_info *info)
+static void report_seconds(json *out, const kernel_job *k)
 {
+    icc_weights_timings made = {.size = sizeof made};
+    icc_weights_get_timings(k->weights, &made);
     json_open(out, "seconds", '{');
     json_number(out, "read", k->job.seconds_read);
     json_number(out, "samples", k->seconds_samples);
     json_number(out, "make", k->seconds_weights);
-    json_number(out, "initial", info->seconds_initial);
-    json_number(out, "weights", info->seconds_weights);
-    json_number(out, "factor", info->seconds_factor);
+    json_number(out, "initial", made.initial);
+    json_number(out, "weights", made.optimise);
+    json_number(out, "factor", made.factor);
     if (k->set.n_rigid > 0)
         json_number(out, "rigid", k->seconds_rigid);
     json_close(out, '}');
@@ -76,7 +78,7 @@ int kernel_report_open(report *r, kernel_job *k, size_t n, const double *points)
         json_number(&r->json, NULL, k->energy[1]);
         json_close(&r->json, ']');
     }
-    report_seconds(&r->json, k, &info);
+    report_seconds(&r->json, k);
     int result = report_quality(&r->json, k, n, points);
     if (result != DONE)
         outfile_abandon(&r->file);

@@ -11,19 +11,18 @@ typedef struct grid_facts {
     int32_t tree; /* ICC_TREE_* */
     size_t n_vertices, n_inside, n_tree, n_unreachable, n_cousin_violations;
     size_t n_maxima, n_minima, n_saddles; /* of the function */
-    double seconds_grid, seconds_tree, seconds_function;
 } grid_facts;
 
 /* Methods foliation and disc. */
 typedef struct mesh_facts {
     size_t n_vertices, n_boundary, n_simplices;
     double harmonic_share; /* foliation */
-    double seconds_mesh, seconds_solve, seconds_certify;
 } mesh_facts;
 
 /* Members that a chart does not have are 0. */
 typedef struct chart_facts {
     icc_chart_info common;
+    icc_chart_timings seconds;
     grid_facts grid;
     mesh_facts mesh;
     icc_gradient_info gradient;

@@ -211,24 +211,23 @@ static void print_map(const info *x)
 
 static void print_grid_seconds(const info *x)
 {
-    const grid_facts *g = &x->chart.grid;
+    const icc_chart_timings *c = &x->chart.seconds;
     const icc_solver_report *f = &x->solved;
-    printf("grid %.4f, tree %.4f, function %.4f", g->seconds_grid, g->seconds_tree,
-           g->seconds_function);
+    printf("grid %.4f, tree %.4f, function %.4f", c->grid, c->tree, c->function);
     if (function_solves(x->field.function))
         printf(" (set up %.4f, order %.4f, factorise %.4f, solve %.4f, verify %.4f)",
                f->seconds_setup, f->seconds_order, f->seconds_factor, f->seconds_solve,
                f->seconds_verify);
     if (x->chart.common.method == ICC_METHOD_FIELD)
-        printf(", vectors %.4f", x->chart.field.seconds_solve);
+        printf(", vectors %.4f", x->chart.seconds.solve);
 }
 
 static void print_mesh_seconds(const chart_facts *c)
 {
-    printf("mesh %.4f, solve %.4f, ", c->mesh.seconds_mesh, c->mesh.seconds_solve);
+    printf("mesh %.4f, solve %.4f, ", c->seconds.mesh, c->seconds.solve);
     if (c->is_shelling)
-        printf("order %.4f, ", c->shelling.seconds_order);
-    printf("certify %.4f", c->mesh.seconds_certify);
+        printf("order %.4f, ", c->seconds.order);
+    printf("certify %.4f", c->seconds.certify);
 }
 
 void info_print(const info *x)

@@ -179,15 +179,15 @@ static void report_seconds(json *j, const info *x)
     json_open(j, "seconds", '{');
     json_number(j, "read", x->job.seconds_read);
     if (chart_has_grid(&x->chart)) {
-        json_number(j, "grid", c->grid.seconds_grid);
-        json_number(j, "tree", c->grid.seconds_tree);
-        json_number(j, "function", c->grid.seconds_function);
+        json_number(j, "grid", c->seconds.grid);
+        json_number(j, "tree", c->seconds.tree);
+        json_number(j, "function", c->seconds.function);
     } else if (c->common.method != 0) {
-        json_number(j, "mesh", c->mesh.seconds_mesh);
-        json_number(j, "solve", c->mesh.seconds_solve);
+        json_number(j, "mesh", c->seconds.mesh);
+        json_number(j, "solve", c->seconds.solve);
         if (c->is_shelling)
-            json_number(j, "order", c->shelling.seconds_order);
-        json_number(j, "certify", c->mesh.seconds_certify);
+            json_number(j, "order", c->seconds.order);
+        json_number(j, "certify", c->seconds.certify);
     }
     json_number(j, "all", seconds_now() - x->job.started);
     json_close(j, '}');

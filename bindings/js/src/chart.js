@@ -24,6 +24,7 @@ export function chartOf(core, Domain) {
     save() { return core.save('icc_chart_save', this); }
 
     get info() { return core.info('icc_chart_get_info', this); }
+    get timings() { return core.info('icc_chart_get_timings', this); }
     get certified() { return this.info.certified === 1; }
     get domain() { return new Domain(core.made('icc_chart_domain', this), this); }
 

@@ -50,6 +50,7 @@ export function kernelOf(core) {
     }
 
     get info() { return core.info('icc_weights_get_info', this); }
+    get timings() { return core.info('icc_weights_get_timings', this); }
 
     /** The places that carry weights: { points, initial, values, status }. */
     nodes() {

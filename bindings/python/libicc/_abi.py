@@ -24,11 +24,12 @@ fill_options ratio:f64 max_points:u64
 feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
 chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
 chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
-gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64 seconds_grid:f64 seconds_tree:f64 seconds_function:f64
-field_info n_grid:size n_inside:size n_stray:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_infeasible:size n_contacts:size n_not_inward:size seconds_grid:f64 seconds_tree:f64 seconds_function:f64 seconds_solve:f64
-foliation_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64 seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
-shelling_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size harmonic_share:f64 order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64 seconds_centre:f64 seconds_solve:f64 seconds_order:f64 seconds_certify:f64 seconds_leaves:f64
-disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size seconds_mesh:f64 seconds_solve:f64 seconds_certify:f64
+gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64
+field_info n_grid:size n_inside:size n_stray:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_infeasible:size n_contacts:size n_not_inward:size
+foliation_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size n_ties:size harmonic_share:f64
+shelling_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size harmonic_share:f64 order_peeled:i32 n_orders:i32 order_beta:f64 n_reversed:size flux_energy:f64 flux_divergence:f64
+disc_info n_mesh_vertices:size n_mesh_boundary:size n_mesh_simplices:size
+chart_timings grid:f64 tree:f64 function:f64 mesh:f64 centre:f64 solve:f64 order:f64 certify:f64
 chart_report n_points:size n_boundary:size unreachable:f64 uncovered:f64 collapsed:f64 not_inward:f64
 match_options turning:i32 between:i32 least_sure:f64 drop:f64 tolerance:f64 keep_source:i32
 match_info dim:i32 mirrored:i32 n_vertices:size n_landmarks:size n_joined:size cost:f64 second:f64 sure:f64 turn:f64 least_slope:f64 most_slope:f64 energy:f64 off:f64 least_angle:f64 n_overlay:size
@@ -53,7 +54,8 @@ grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:siz
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
 sampling_info dim:i32 kind:i32 n_samples:size n_edge:size spacing:f64 nearest:f64 sigma:f64
 weights_options kernel:i32 initial:i32 method:i32 steps:i32 affine_tail:i32 within_shape:i32 sigma:f64 cutoff:f64 n_edges:size edges:ptr n_lines:size lines:ptr initial_weights:ptr
-weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 seconds_initial:f64 seconds_weights:f64 seconds_factor:f64 residual:f64
+weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 residual:f64
+weights_timings factor:f64 initial:f64 optimise:f64
 weights_report n_infeasible:size n_negative:size unity:f64 reproduction:f64 reproduction_mean:f64 lagrange:f64 linearity:f64 least_weight:f64 definiteness:f64
 """
 
@@ -83,6 +85,7 @@ chart_get_field_info chart* field_info*
 chart_get_foliation_info chart* foliation_info*
 chart_get_shelling_info chart* shelling_info*
 chart_get_disc_info chart* disc_info*
+chart_get_timings chart* chart_timings*
 domain*:chart_domain chart*
 chart_get_report chart* size chart_report* env* error*
 chart_encode chart* size f64* u32* f64* f64* i32* size* env*
@@ -161,6 +164,7 @@ sampling_load sampling** size void* env* error*
 weights_create weights** sampling* size f64* weights_options* env* error*
 void:weights_free weights*
 weights_get_info weights* weights_info*
+weights_get_timings weights* weights_timings*
 weights_get_nodes weights* f64* f64* f64* i32*
 weights_paint weights** weights* size f64* f64 f64 env* error*
 weights_repaint weights** weights* size u32* f64* env* error*

@@ -111,6 +111,11 @@ class Chart(Saved):
         return result
 
     @property
+    def timings(self) -> SimpleNamespace:
+        """How long each step of making the chart took, in seconds: the members of ``icc_chart_timings``."""
+        return fields(self._info("chart_get_timings", "chart_timings"))
+
+    @property
     def certified(self) -> bool:
         """Whether the chart is proved to be one-to-one."""
         return bool(self._info("chart_get_info", "chart_info").certified)

@@ -195,6 +195,11 @@ class Weights(Handle):
         result.method = name_of(result.method, METHODS)
         return result
 
+    @property
+    def timings(self) -> SimpleNamespace:
+        """How long each step of making the weights took, in seconds: the members of ``icc_weights_timings``."""
+        return fields(self._info("weights_get_timings", "weights_timings"))
+
     def nodes(self) -> SimpleNamespace:
         """points (n, dim), initial and weights (n, n_handles), status (n,) of the nodes."""
         info = self._info("weights_get_info", "weights_info")

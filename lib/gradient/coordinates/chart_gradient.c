@@ -59,7 +59,7 @@ static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const 
     iccp_tree_release(state->tree);
     state->tree = tree;
     status = iccp_tree_verify(tree, &report, &part[1]);
-    chart->own.gradient.seconds_tree += iccp_seconds() - start;
+    chart->timings.tree += iccp_seconds() - start;
     chart->own.gradient.n_tree = report.n_inside + report.n_outside;
     chart->own.gradient.n_unreachable = report.n_unreachable;
     chart->own.gradient.n_cousin_violations = report.n_cousin_violations;
@@ -80,7 +80,7 @@ static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
     if (status != ICC_OK)
         return status;
     status = choose_root(grid, chart->domain, options->maximum, &state->chosen, &part[1], err);
-    chart->own.gradient.seconds_grid = iccp_seconds() - start;
+    chart->timings.grid = iccp_seconds() - start;
     if (status == ICC_OK)
         status = grow_tree(state, chart, grid, state->chosen, &part[2], err);
     chart->info.cells = grid->cells;
@@ -138,7 +138,7 @@ static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
 static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                              const icc_chart_options *options, const iccp_env *env, icc_error *err)
 {
-    const double start = iccp_seconds(), grown = chart->own.gradient.seconds_tree;
+    const double start = iccp_seconds(), grown = chart->timings.tree;
     icc_function_report report = {0};
     const icc_function_options function = {.function = options->function,
                                            .constraints = options->constraints,
@@ -165,8 +165,7 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
                                   &chart->own.gradient.n_compression,
                                   &chart->own.gradient.n_expansion);
     status = iccp_gradient_extend(state->field, &part[2]);
-    chart->own.gradient.seconds_function =
-        iccp_seconds() - start - (chart->own.gradient.seconds_tree - grown);
+    chart->timings.function = iccp_seconds() - start - (chart->timings.tree - grown);
     return status;
 }
 

@@ -157,7 +157,7 @@ icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env)
         status = iccp_weights_optimise(weights, set->n, NULL, env);
     for (size_t k = 0; status == ICC_OK && k < set->n_lines; ++k)
         status = iccp_weights_follow_line(weights, k, env);
-    weights->info.seconds_weights = iccp_seconds() - start;
+    weights->timings.optimise = iccp_seconds() - start;
     return status;
 }
 
@@ -227,7 +227,7 @@ static icc_status create_at_nodes(icc_weights **out, iccp_node_set *set,
     if (status != ICC_OK)
         return status;
     describe(*out, options);
-    (*out)->info.seconds_initial = seconds;
+    (*out)->timings.initial = seconds;
     status = iccp_weights_start(*out, &part[1]);
     return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, &part[2]) : status;
 }
@@ -249,7 +249,7 @@ icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, 
         status = create_at_nodes(out, set, options, &part[1]);
     iccp_node_set_release(set);
     if (status == ICC_OK)
-        (*out)->info.seconds_factor = seconds;
+        (*out)->timings.factor = seconds;
     if (status == ICC_OK)
         return ICC_OK;
     iccp_weights_release(*out);
@@ -268,6 +268,7 @@ icc_status iccp_weights_copy(icc_weights **out, const icc_weights *from, const i
     }
     icc_weights *weights = *out;
     weights->info = from->info;
+    weights->timings = from->timings;
     weights->info.residual = 0;
     memcpy(weights->values, from->values, set->n * set->n_handles * sizeof *from->values);
     memcpy(weights->status, from->status, set->n * sizeof *from->status);

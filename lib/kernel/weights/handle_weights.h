@@ -11,6 +11,7 @@ struct icc_weights {
     icc_status *status;    /* by node */
     double *coefficients;  /* of the interpolant: n + dim + 1 rows of n_handles */
     icc_weights_info info; /* except `size` */
+    icc_weights_timings timings;
 };
 
 /* See icc_weights_create(). Arguments have been checked, but not against each other's geometry. */

@@ -581,12 +581,6 @@ pub struct icc_gradient_info {
     /// bi-Laplace functions without constraints: how far `icc_chart_info.maximum` lies from the vertex that was
     /// asked for (or the grassfire's), because the function is greatest beside it; else 0
     pub moved: f64,
-    /// time to make the grid and find the maximum
-    pub seconds_grid: f64,
-    /// time to make and verify the tree
-    pub seconds_tree: f64,
-    /// time to make and verify the function
-    pub seconds_function: f64,
 }
 sized!(icc_gradient_info);
 
@@ -620,14 +614,6 @@ pub struct icc_field_info {
     pub n_contacts: usize,
     /// those of them where the vector does not point inward
     pub n_not_inward: usize,
-    /// time to make the grid and find the maximum
-    pub seconds_grid: f64,
-    /// time to make and verify the tree
-    pub seconds_tree: f64,
-    /// time to make and verify the function
-    pub seconds_function: f64,
-    /// time to find the vectors and check them
-    pub seconds_solve: f64,
 }
 sized!(icc_field_info);
 
@@ -647,12 +633,6 @@ pub struct icc_foliation_info {
     pub n_ties: usize,
     /// share of the boundary flux that is harmonic
     pub harmonic_share: f64,
-    /// time to make the mesh
-    pub seconds_mesh: f64,
-    /// time to solve for the leaves
-    pub seconds_solve: f64,
-    /// time to certify them
-    pub seconds_certify: f64,
 }
 sized!(icc_foliation_info);
 
@@ -683,16 +663,6 @@ pub struct icc_shelling_info {
     pub flux_energy: f64,
     /// largest share of a simplex's flux that gets lost by rounding
     pub flux_divergence: f64,
-    /// time to choose the maximum
-    pub seconds_centre: f64,
-    /// time to solve for the harmonic flux
-    pub seconds_solve: f64,
-    /// time to find the order
-    pub seconds_order: f64,
-    /// time to certify it
-    pub seconds_certify: f64,
-    /// time to prepare the leaves
-    pub seconds_leaves: f64,
 }
 sized!(icc_shelling_info);
 
@@ -708,14 +678,34 @@ pub struct icc_disc_info {
     pub n_mesh_boundary: usize,
     /// triangles of the mesh
     pub n_mesh_simplices: usize,
-    /// time to make the mesh
-    pub seconds_mesh: f64,
-    /// time to solve for the map to the disc
-    pub seconds_solve: f64,
-    /// time to certify it
-    pub seconds_certify: f64,
 }
 sized!(icc_disc_info);
+
+/// How long each step of making a chart took, in seconds: what `icc_chart_get_timings()` fills in. A step that the
+/// chart's method does not have is 0. A loaded chart has those of loading it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_chart_timings {
+    /// set by the caller: `sizeof(icc_chart_timings)`
+    pub size: usize,
+    /// gradient, field: the grid, and the maximum
+    pub grid: f64,
+    /// gradient, field: the tree, and checking it
+    pub tree: f64,
+    /// gradient, field: the function, and checking it
+    pub function: f64,
+    /// foliation, disc: the mesh; on a domain's mesh, preparing the leaves
+    pub mesh: f64,
+    /// foliation on a domain's mesh: choosing the maximum
+    pub centre: f64,
+    /// field: the vectors, and checking them; foliation, disc: the equations
+    pub solve: f64,
+    /// foliation on a domain's mesh: the order of the simplices
+    pub order: f64,
+    /// foliation, disc: the certificate
+    pub certify: f64,
+}
+sized!(icc_chart_timings);
 
 /// Shares that `icc_chart_get_report()` estimates from evenly spread points. All lie in \[0,1\]. Area and length
 /// are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
@@ -1450,6 +1440,9 @@ extern "C" {
 
     /// The same for method disc.
     pub fn icc_chart_get_disc_info(chart: *const icc_chart, info: *mut icc_disc_info) -> icc_status;
+
+    /// Fills in `timings`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    pub fn icc_chart_get_timings(chart: *const icc_chart, timings: *mut icc_chart_timings) -> icc_status;
 
     /// The domain that the chart was made on; borrowed.
     pub fn icc_chart_domain(chart: *const icc_chart) -> *const icc_domain;
@@ -2699,18 +2692,28 @@ pub struct icc_weights_info {
     /// how far the matrix is from losing positive definiteness: its least pivot over
     /// the greatest
     pub definiteness: f64,
-    /// time for the initial weights
-    pub seconds_initial: f64,
-    /// time to optimise
-    pub seconds_weights: f64,
-    /// time to place the nodes and to factorise
-    pub seconds_factor: f64,
     /// of `icc_weights_stiffen()`, if that made these weights: how far they are from its program's
     /// optimality conditions, as the step that is still possible down the energy's projected
     /// gradient, over the one at the start; else 0
     pub residual: f64,
 }
 sized!(icc_weights_info);
+
+/// How long each step of making weights took, in seconds: what `icc_weights_get_timings()` fills in. Weights that were
+/// made from others have the steps that were done again; the other members are those of the weights before.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_weights_timings {
+    /// set by the caller: `sizeof(icc_weights_timings)`
+    pub size: usize,
+    /// placing the nodes, and the factorisation
+    pub factor: f64,
+    /// the initial weights
+    pub initial: f64,
+    /// the optimisation
+    pub optimise: f64,
+}
+sized!(icc_weights_timings);
 
 /// How well weights do what they should, at points of the caller's choice.
 #[repr(C)]
@@ -2888,6 +2891,9 @@ extern "C" {
 
     /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_weights_get_info(weights: *const icc_weights, info: *mut icc_weights_info) -> icc_status;
+
+    /// Fills in `timings`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    pub fn icc_weights_get_timings(weights: *const icc_weights, timings: *mut icc_weights_timings) -> icc_status;
 
     /// Copies the nodes.
     ///

@@ -9,6 +9,7 @@ use crate::sys;
 
 pub use crate::sys::icc_chart_info as ChartInfo;
 pub use crate::sys::icc_chart_report as ChartReport;
+pub use crate::sys::icc_chart_timings as ChartTimings;
 pub use crate::sys::icc_disc_info as DiscInfo;
 pub use crate::sys::icc_field_info as FieldInfo;
 pub use crate::sys::icc_foliation_info as FoliationInfo;
@@ -216,6 +217,14 @@ impl Chart {
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_chart_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// How long each step of making the chart took.
+    pub fn timings(&self) -> ChartTimings {
+        let mut timings = ChartTimings::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_chart_get_timings(self.as_ptr(), &mut timings) };
+        timings
     }
 
     /// What only charts of method gradient have; `None` for others.

@@ -54,7 +54,7 @@ mod triangulate;
 mod weights;
 
 pub use chart::{
-    Chart, ChartInfo, ChartOptions, ChartReport, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo,
+    Chart, ChartInfo, ChartOptions, ChartReport, ChartTimings, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo,
     FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
 };
 pub use domain::{

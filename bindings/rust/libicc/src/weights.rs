@@ -8,6 +8,7 @@ use crate::sys;
 use std::ptr;
 
 pub use crate::sys::icc_weights_info as WeightsInfo;
+pub use crate::sys::icc_weights_timings as WeightsTimings;
 pub use crate::sys::icc_weights_report as WeightsReport;
 
 object!(
@@ -165,6 +166,14 @@ impl Weights {
         // SAFETY: `size` is set. It cannot fail.
         unsafe { sys::icc_weights_get_info(self.as_ptr(), &mut info) };
         info
+    }
+
+    /// How long each step of making the weights took.
+    pub fn timings(&self) -> WeightsTimings {
+        let mut timings = WeightsTimings::default();
+        // SAFETY: `size` is set. It cannot fail.
+        unsafe { sys::icc_weights_get_timings(self.as_ptr(), &mut timings) };
+        timings
     }
 
     /// The places that carry weights: the handles first, then those on lines, then samples.
