@@ -17,8 +17,8 @@ const read = (file) => fs.readFileSync(path.join(top, file), 'utf8');
 const picture = (file) => `data:image/png;base64,${fs.readFileSync(path.join(top, file), 'base64')}`;
 
 /** A file that a tutorial shows, and its first block of Python. */
-const shown = (page, name) => new RegExp(`<!-- file: ${name} -->\n\`\`\`\\w+\n([^]*?)\`\`\``).exec(read(`docs/tutorials/${page}.md`))[1];
-const program = (page) => /```python\n([^]*?)```/.exec(read(`docs/tutorials/${page}.md`))[1];
+const shown = (page, name) => new RegExp(`<!-- file: ${name} -->\n\`\`\`\\w+\n([^]*?)\`\`\``).exec(read(`docs/${page}.md`))[1];
+const program = (page) => /```python\n([^]*?)```/.exec(read(`docs/${page}.md`))[1];
 
 /** The Python that has NumPy: the first one found, or the system's. */
 const hasNumpy = (python) => spawnSync(python, ['-c', 'import numpy']).status === 0;
@@ -81,12 +81,12 @@ const data = (name) => fromText(read(`examples/data/${name}`));
 
 /** name -> the state to begin with */
 const STATES = {
-  fox: () => photo({ source: fromText(shown('cage-2d', 'face.txt')), target: fromText(shown('cage-2d', 'fox.txt')) }),
-  eye: () => photo(both(computed('eye.geojson', '-c', program('photograph')))),
+  fox: () => photo({ source: fromText(shown('tutorials/first-map', 'face.txt')), target: fromText(shown('tutorials/first-map', 'fox.txt')) }),
+  eye: () => photo(both(computed('eye.geojson', '-c', program('howto/photograph')))),
   character: () => drawn(both(example('character.py', 'character.geojson'))),
   county: () => drawn(both(example('county.py', 'county.geojson'))),
   parish: () => drawn(both(example('cadastre.py', 'parish.geojson'))),
-  island: () => drawn(both(shown('geojson', 'island.geojson'))),
+  island: () => drawn(both(shown('howto/geojson', 'island.geojson'))),
   square: () => drawn(outlines()),
   tripus: () => ({ ...drawn({ source: data('tripus.src.txt'), target: data('tripus.tgt.txt') }), mode: 'stages' }),
   star: () => ({ ...drawn({ source: data('star.txt'), target: data('star.txt') }), mode: 'handles', rig: 'cage' }),

@@ -1,6 +1,6 @@
 /* Reads and writes objects as bytes: little-endian numbers after a header. The header holds the
  * kind of object, the version of its format, the length and a checksum (CRC-32 of IEEE 802.3).
- * docs/formats.md describes it.
+ * docs/reference/formats.md describes it.
  *
  * One function visits the parts of an object in both directions: it writes the values that it
  * names, or reads into them. Writing changes no value, so several threads may save an object at

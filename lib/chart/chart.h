@@ -66,7 +66,7 @@ typedef struct iccp_chart_place {
 /* The operations of a method. All points are local. `path` is scratch memory. */
 typedef struct iccp_chart_ops {
     int32_t number;  /* ICC_METHOD_... */
-    uint64_t format; /* the method's number in saved bytes (docs/formats.md) */
+    uint64_t format; /* the method's number in saved bytes (docs/reference/formats.md) */
     bool is_planar;  /* the method is for domains of dimension 2 only */
     bool needs_mesh; /* the method needs a mesh of the inside in every given domain */
 

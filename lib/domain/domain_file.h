@@ -1,4 +1,4 @@
-/* Reads and writes domains as part of other objects' bytes; see docs/formats.md. The bytes contain
+/* Reads and writes domains as part of other objects' bytes; see docs/reference/formats.md. The bytes contain
  * the data that the domain was made from. Reading makes the domain again with all its checks.
  * Writing takes no env and cannot fail. If reading fails with ICC_ERR_FORMAT, there is no message
  * and the object is NULL. */

@@ -1,4 +1,4 @@
-/* Reads and writes the mesh of a harmonic chart. Format: docs/formats.md. */
+/* Reads and writes the mesh of a harmonic chart. Format: docs/reference/formats.md. */
 #include "foliation/harmonic_file.h"
 
 #include "domain/domain_file.h"

@@ -1,4 +1,4 @@
-/* The mesh of a harmonic chart as part of its bytes. Format: docs/formats.md. */
+/* The mesh of a harmonic chart as part of its bytes. Format: docs/reference/formats.md. */
 #ifndef ICCP_HARMONIC_FILE_H
 #define ICCP_HARMONIC_FILE_H
 

@@ -1,4 +1,4 @@
-/* Reads and writes the rises of psi. Format: docs/formats.md. */
+/* Reads and writes the rises of psi. Format: docs/reference/formats.md. */
 #include "foliation/psi_file.h"
 
 /* The most turns along one edge. So sums over a triangle stay far from the ends of int64_t. */

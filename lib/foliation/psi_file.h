@@ -1,4 +1,4 @@
-/* The function psi as part of the bytes of a chart. Format: docs/formats.md. */
+/* The function psi as part of the bytes of a chart. Format: docs/reference/formats.md. */
 #ifndef ICCP_PSI_FILE_H
 #define ICCP_PSI_FILE_H
 

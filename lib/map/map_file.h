@@ -1,4 +1,4 @@
-/* Maps as bytes; see docs/formats.md, icc_map_save() and icc_map_load(). */
+/* Maps as bytes; see docs/reference/formats.md, icc_map_save() and icc_map_load(). */
 #ifndef ICCP_MAP_FILE_H
 #define ICCP_MAP_FILE_H
 

@@ -1,4 +1,4 @@
-/* Matches as bytes: kind MTCH of docs/formats.md. */
+/* Matches as bytes: kind MTCH of docs/reference/formats.md. */
 #ifndef ICCP_MATCH_FILE_H
 #define ICCP_MATCH_FILE_H
 

@@ -1,4 +1,4 @@
-/* Charts as bytes. Format: docs/formats.md. */
+/* Charts as bytes. Format: docs/reference/formats.md. */
 #ifndef ICCP_CHART_LOAD_H
 #define ICCP_CHART_LOAD_H
 

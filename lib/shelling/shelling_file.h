@@ -1,4 +1,4 @@
-/* Reads charts of method foliation on a caller-supplied mesh. Format: docs/formats.md. */
+/* Reads charts of method foliation on a caller-supplied mesh. Format: docs/reference/formats.md. */
 #ifndef ICCP_SHELLING_FILE_H
 #define ICCP_SHELLING_FILE_H
 

@@ -62,7 +62,7 @@ if [ "$(architecture "$work/now.xml")" != "$(architecture "$baseline")" ]; then
     exit 77
 fi
 abidiff --no-added-syms --harmless "$baseline" "$work/now.xml" >"$work/report" ||
-    fail "the binary interface has changed (see docs/abi.md):" "$work/report"
+    fail "the binary interface has changed (see docs/reference/abi.md):" "$work/report"
 symbols "$baseline" | comm -13 - "$work/now" >"$work/added"
 if [ -s "$work/added" ]; then
     echo "not in the baseline (cmake --build BUILD --target update_abi puts them there):"

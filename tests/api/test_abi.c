@@ -1,5 +1,5 @@
 /* What a program compiled against these headers relies on. A number that changes here breaks every
- * program that is not recompiled: see docs/abi.md. */
+ * program that is not recompiled: see docs/reference/abi.md. */
 #include "../suite.h"
 
 #include <check.h>

@@ -1,4 +1,4 @@
-/* Samplings as bytes; see docs/formats.md. */
+/* Samplings as bytes; see docs/reference/formats.md. */
 #ifndef ICCP_SAMPLING_FILE_H
 #define ICCP_SAMPLING_FILE_H
 

@@ -1,4 +1,4 @@
-/* Shapes as part of other objects' bytes; see docs/formats.md. */
+/* Shapes as part of other objects' bytes; see docs/reference/formats.md. */
 #ifndef ICCP_SHAPE_FILE_H
 #define ICCP_SHAPE_FILE_H
 

@@ -1,4 +1,4 @@
-/* Bindings as bytes: kind "BIND"; see docs/formats.md. */
+/* Bindings as bytes: kind "BIND"; see docs/reference/formats.md. */
 #include "base/blob.h"
 #include "base/error.h"
 #include "kernel/weights/binding.h"

@@ -1,4 +1,4 @@
-/* The mesh of a map in the plane as part of the bytes of maps; see docs/formats.md. */
+/* The mesh of a map in the plane as part of the bytes of maps; see docs/reference/formats.md. */
 #ifndef ICCP_PLMAP_FILE_H
 #define ICCP_PLMAP_FILE_H
 

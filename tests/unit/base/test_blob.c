@@ -116,7 +116,7 @@ START_TEST(integers_beyond_their_range_are_refused)
 }
 END_TEST
 
-/* The bytes of docs/formats.md, the checksum from zlib: the same on every machine. */
+/* The bytes of docs/reference/formats.md, the checksum from zlib: the same on every machine. */
 START_TEST(the_format_is_the_documented_one)
 {
     static const unsigned char EXPECTED[32] = {

@@ -1542,7 +1542,7 @@ extern "C" {
     ) -> icc_status;
 
     /// Writes a chart to memory, its domain included, so that other processes and machines can use it. The format
-    /// is described in docs/formats.md: versioned, the same on every machine, with a checksum.
+    /// is described in docs/reference/formats.md: versioned, the same on every machine, with a checksum.
     ///
     /// - `chart`: the chart
     /// - `capacity`: bytes that `data` has room for
@@ -2835,7 +2835,7 @@ extern "C" {
     /// Copies the samples: room for n_samples * dim doubles. `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_sampling_get_points(sampling: *const icc_sampling, points: *mut f64) -> icc_status;
 
-    /// Writes a sampling to memory, its shape included. The format is described in docs/formats.md: versioned, the
+    /// Writes a sampling to memory, its shape included. The format is described in docs/reference/formats.md: versioned, the
     /// same on every machine, with a checksum.
     ///
     /// - `sampling`: the sampling
