@@ -398,8 +398,8 @@ ICC_API icc_status icc_chart_trace(const icc_chart *chart, const double *point, 
 
 /**
  * Writes a chart and its domain to memory, for other processes and machines. Call it twice: with
- * capacity 0 for the number of bytes, then with a buffer of that size. The format (docs/reference/formats.md)
- * is versioned, the same on every machine, and has a checksum.
+ * capacity 0 for the number of bytes, then with a buffer of that size. The format
+ * (docs/reference/formats.md) is versioned, the same on every machine, and has a checksum.
  *
  * @param chart         the chart
  * @param capacity      bytes that `data` has room for

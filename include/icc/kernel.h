@@ -158,8 +158,8 @@ ICC_API icc_status icc_sampling_get_points(const icc_sampling *sampling, double 
 
 /**
  * Writes a sampling and its shape to memory. Call it twice: with capacity 0 for the number of
- * bytes, then with a buffer of that size. The format (docs/reference/formats.md) is versioned, the same on
- * every machine, and has a checksum.
+ * bytes, then with a buffer of that size. The format (docs/reference/formats.md) is
+ * versioned, the same on every machine, and has a checksum.
  *
  * @param sampling      the sampling
  * @param capacity      bytes that `data` has room for

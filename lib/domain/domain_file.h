@@ -1,5 +1,5 @@
-/* Reads and writes domains as part of other objects' bytes; see docs/reference/formats.md. The bytes contain
- * the data that the domain was made from. Reading makes the domain again with all its checks.
+/* Reads and writes domains as part of other objects' bytes; see docs/reference/formats.md. The
+ * bytes contain the data that the domain was made from. Reading makes it again with all its checks.
  * Writing takes no env and cannot fail. If reading fails with ICC_ERR_FORMAT, there is no message
  * and the object is NULL. */
 #ifndef ICCP_DOMAIN_FILE_H

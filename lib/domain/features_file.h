@@ -1,4 +1,5 @@
-/* Reads and writes domains with features as part of other objects' bytes; see docs/reference/formats.md. */
+/* Reads and writes domains with features as part of other objects' bytes; see
+ * docs/reference/formats.md. */
 #ifndef ICCP_FEATURES_FILE_H
 #define ICCP_FEATURES_FILE_H
 

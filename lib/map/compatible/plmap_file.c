@@ -1,5 +1,5 @@
-/* Reads and writes the mesh of a plane map (docs/reference/formats.md). The mesh that is read must be a
- * manifold, and its boundary and lines must run along those of both domains. */
+/* Reads and writes the mesh of a plane map (docs/reference/formats.md). The mesh that is read must
+ * be a manifold, and its boundary and lines must run along those of both domains. */
 #include "map/compatible/plmap_file.h"
 
 #include "domain/domain_file.h"

@@ -73,8 +73,8 @@ typedef struct iccp_map_kind {
     /* See icc_map_get_tie(). Fails with ICC_ERR_ARGUMENT if there is no such tie. */
     icc_status (*tie)(const icc_map *map, size_t tie, icc_tie_info *info, double *target);
 
-    /* Reads or writes the state as part of the bytes of a map (docs/reference/formats.md). A state that
-     * was read still needs its certificate. */
+    /* Reads or writes the state as part of the bytes of a map (docs/reference/formats.md). A state
+     * that was read still needs its certificate. */
     icc_status (*visit)(iccp_blob *b, icc_map *map, const iccp_env *env);
     void (*free_state)(icc_map *map);
 } iccp_map_kind;

@@ -96,8 +96,8 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
                                   const icc_improve_options *options, icc_improve_report *report,
                                   const iccp_env *env);
 
-/* Reads or writes a map as part of its bytes (docs/reference/formats.md). A map that is read still needs its
- * certificate. Writing takes no info and no env. */
+/* Reads or writes a map as part of its bytes (docs/reference/formats.md). A map that is read still
+ * needs its certificate. Writing takes no info and no env. */
 icc_status iccp_solid_map_visit(iccp_blob *b, iccp_solid_map **map, const icc_domain *source,
                                 const icc_domain *target, iccp_map_facts *info,
                                 const iccp_env *env);
