@@ -77,15 +77,26 @@ function outlines() {
   const [, source, target] = /square = (\[.*\]), leaning = (\[.*\]);/.exec(read('docs/tutorials/browser.md'));
   return { source: [{ kind: 'outline', points: JSON.parse(source) }], target: [{ kind: 'outline', points: JSON.parse(target) }] };
 }
+
+/** With a source in pixels, which count downwards. */
+const upwards = ({ source, target }) =>
+  ({ source: source.map((part) => ({ ...part, points: part.points.map(([x, y]) => [x, -y]) })), target });
+
+/** The cages that `libicc demo` writes, and its picture: docs/images/fish.png. */
+const FISH = {
+  before: [30, 55, 115, 105, 190, 62, 262, 40, 345, 72, 425, 160, 345, 248, 262, 275, 190, 258, 115, 215, 30, 265, 58, 160],
+  after: [92, 58, 136, 134, 200, 106, 252, 86, 314, 102, 414, 146, 373, 262, 274, 312, 180, 296, 100, 238, 8, 234, 65, 162],
+};
+const pairs = (numbers) => [{ kind: 'outline', points: numbers.flatMap((x, k) => (k % 2 ? [] : [[x, numbers[k + 1]]])) }];
 const data = (name) => fromText(read(`examples/data/${name}`));
 
 /** name -> the state to begin with */
 const STATES = {
-  fox: () => photo({ source: fromText(shown('tutorials/first-map', 'face.txt')), target: fromText(shown('tutorials/first-map', 'fox.txt')) }),
+  fish: () => ({ ...photo({ source: pairs(FISH.before), target: pairs(FISH.after) }), picture: picture('docs/images/fish.png') }),
   eye: () => photo(both(computed('eye.geojson', '-c', program('howto/photograph')))),
   character: () => drawn(both(example('character.py', 'character.geojson'))),
   county: () => drawn(both(example('county.py', 'county.geojson'))),
-  parish: () => drawn(both(example('cadastre.py', 'parish.geojson'))),
+  parish: () => drawn(upwards(both(example('cadastre.py', 'parish.geojson')))),
   island: () => drawn(both(shown('howto/geojson', 'island.geojson'))),
   square: () => drawn(outlines()),
   tripus: () => ({ ...drawn({ source: data('tripus.src.txt'), target: data('tripus.tgt.txt') }), mode: 'stages' }),

@@ -144,7 +144,11 @@ class Page:
                             crate / "Cargo.toml", "--bin", name)
 
     def run_sh(self, text):
-        return self.command("sh", "-eu", self.program(".sh", text))
+        # The next block goes on in the folder that this one ends in, as a reader's shell does.
+        folder = self.work / "folder"
+        printed = self.command("sh", "-eu", self.program(".sh", f'{text}\npwd > "{folder}"\n'))
+        os.chdir(folder.read_text(encoding="utf-8").rstrip("\n"))
+        return printed
 
     def run_cmake(self, text):
         Path("CMakeLists.txt").write_text(text, encoding="utf-8")
