@@ -4,7 +4,7 @@ coordinates, thin-plate splines and a locally injective map (baselines.py), on a
 a frog, a long thin shape and the shape with three legs (shapes.py). Triangles that are turned over or flat are counted
 exactly: libicc's by icc_map_certify, those of the others by rational numbers where doubles do not decide.
 
-    python3 examples/compare/compare.py [--cells N] [--steps N] [OUT.svg]
+    python3 examples/compare/compare.py [--cells N] [--steps N] [--shapes NAMES] [OUT.svg]
 
 Needs libicc for Python and NumPy.
 """
@@ -56,7 +56,7 @@ def compare(source, target, cells, steps):
 
 # ---- a picture
 
-SIDE, GAP = 150, 12
+SIDE, GAP, COLUMNS, FONT = 150, 14, 5, 17
 
 
 def panel(out, mesh, placed, left, top, frame):
@@ -74,20 +74,29 @@ def panel(out, mesh, placed, left, top, frame):
         out.write(f'<path fill="{colour}" stroke="{colour}" stroke-width=".3" d="{path}"/>\n')
 
 
+def caption(result):
+    """The name of a method, and what is wrong with what it made."""
+    name, _, n_folds, missed, n_lost = result
+    return name, f"misses {100 * missed:.0f} %" if missed > .02 else f"{n_folds + n_lost} folded"
+
+
 def draw(name, rows):
-    """A row for each shape: the source, then each method."""
-    width, height = (len(rows[0][2]) + 1) * (SIDE + GAP) + GAP, len(rows) * (SIDE + 3 * GAP) + GAP
+    """For each shape the source, then each method, five to a line."""
+    height = SIDE + 3 * FONT + GAP
+    lines = -(-(1 + len(rows[0][2])) // COLUMNS)
+    width, total = COLUMNS * (SIDE + GAP) + GAP, len(rows) * lines * height + GAP
     with open(name, "w", encoding="utf-8") as out:
-        out.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif"'
-                  f' font-size="11"><rect width="{width}" height="{height}" fill="white"/>\n')
+        out.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {total}" font-family="sans-serif"'
+                  f' font-size="{FONT}"><rect width="{width}" height="{total}" fill="white"/>\n')
         for j, (title, mesh, results) in enumerate(rows):
-            top = GAP + j * (SIDE + 3 * GAP)
-            panels = [(title, mesh.points)] + [(f"{method}: {n}", placed) for method, placed, n, *_ in results]
+            panels = [((title, "at rest"), mesh.points)] + [(caption(result), result[1]) for result in results]
             for i, (text, placed) in enumerate(panels):
                 around = mesh.points if i == 0 else mesh.boundary_images[mesh.on_boundary]
                 low, size = around.min(axis=0), np.ptp(around, axis=0).max()
-                panel(out, mesh, placed, GAP + i * (SIDE + GAP), top, (low, size))
-                out.write(f'<text x="{GAP + i * (SIDE + GAP)}" y="{top + SIDE + 2 * GAP - 8}">{text}</text>\n')
+                left, top = GAP + i % COLUMNS * (SIDE + GAP), GAP + (j * lines + i // COLUMNS) * height
+                panel(out, mesh, placed, left, top, (low, size))
+                for k, line in enumerate(text):
+                    out.write(f'<text x="{left}" y="{top + SIDE + (1.2 + 1.1 * k) * FONT:.0f}">{line}</text>\n')
         out.write("</svg>\n")
 
 
@@ -95,10 +104,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
     parser.add_argument("--cells", type=int, default=24, help="of the mesh, along the longest side (default: 24)")
     parser.add_argument("--steps", type=int, default=400, help="of the locally injective map (default: 400)")
+    parser.add_argument("--shapes", help="parts of the names of shapes, with commas between them (default: all)")
     parser.add_argument("out", nargs="?", metavar="OUT.svg")
     options = parser.parse_args()
     rows = []
-    for title, source, target in shapes.pairs():
+    wanted = options.shapes.split(",") if options.shapes else [""]
+    for title, source, target in (pair for pair in shapes.pairs() if any(part in pair[0] for part in wanted)):
         mesh, results = compare(source, target, options.cells, options.steps)
         rows.append((title, mesh, results))
         print(f"{title}: {len(mesh.triangles)} triangles")
