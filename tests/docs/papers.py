@@ -42,7 +42,7 @@ def missing(root, named):
         return None if (root / "tests/bench" / f"{named}.c").is_file() else "no such benchmark"
     if not named.startswith("libicc "):
         return None if (root / named).is_file() else "no such file"
-    manual = (root / "docs/man/libicc.1").read_text(encoding="utf-8").replace("\\-", "-")
+    manual = "".join(page.read_text(encoding="utf-8") for page in (root / "docs/man").glob("*.1")).replace("\\-", "-")
     return next((f"the manual has no {word}" for word in named.split()[1:] if word not in manual), None)
 
 

@@ -32,7 +32,7 @@ if command -v bash >/dev/null; then
 
     # Every option that help lists, and no other.
     for command in map warp pose; do
-        run 0 $command --help
+        run 0 $command --help-all
         grep -oE '^ +(-[a-z], )?--[a-z-]+' out | grep -oE -- '--[a-z-]+' | sort -u >listed
         bash -c '. ./script.bash; COMP_WORDS=(libicc "$1" --) COMP_CWORD=2; _libicc; printf "%s\n" "${COMPREPLY[@]}"' bash \
             $command | sort -u >offered

@@ -28,7 +28,7 @@ try "by a path that needs quotes" 'a folder'
 PATH=$PWD/bin:$PATH
 export PATH
 libicc demo found >said
-holds said '  libicc check -s before.txt -t after.txt'
+holds said "  libicc check -s found/before.txt -t found/after.txt"
 try "by PATH" found
 
 run 1 demo found

@@ -14,8 +14,8 @@ for command in map encode decode warp animate mesh check info plot match weights
     holds out "Usage: libicc $command"
     holds out "--source FILE"
     [ ! -s err ] || complain "$command --help writes to stderr"
-    # Below an option nothing begins at the left but the next group's heading.
-    awk -v c="$command" 'option && /^[^ ]/ && !/^Options/ { print c ": at the left: " $0; bad = 1 }
+    # Below an option nothing begins at the left but headings and the last line.
+    awk -v c="$command" 'option && /^[^ ]/ && !/^(Options|Further options|.libicc)/ { print c ": at the left: " $0; bad = 1 }
         /^ +(-.|--)/ { option = 1 } END { exit bad }' out || complain "$command --help is broken off"
     run 0 "$command" -h
     run 2 "$command"
@@ -28,7 +28,7 @@ done
 # Lines fit into a terminal.
 for command in '' map encode decode warp animate mesh check info plot match weights pose demo; do
     # shellcheck disable=SC2086 # one word or none
-    run 0 $command --help
+    run 0 $command --help-all
     awk 'length > 80 { print; bad = 1 } END { exit bad }' out || complain "$command --help is wider than 80 columns"
 done
 
@@ -116,6 +116,7 @@ for name in o o.dat .png; do run 0 map -s source.txt -t target.txt -p points.txt
 
 # Help of a command, in two ways; the papers' options come behind the usual ones.
 run 0 map --help
+for word in "--help-all" "--quiet"; do holds out "$word"; done
 cp out expected
 run 0 help map
 same out expected "help map"
@@ -123,7 +124,7 @@ run 0 help
 holds out 'Usage: libicc COMMAND'
 run 2 help nothing
 says "there is no command 'nothing' (see"
-for words in maap:map wrap:warp chekc:check anim:animate mathc:match inof:info pse:pose; do
+for words in transform:map film:animate maap:map wrap:warp chekc:check anim:animate mathc:match inof:info pse:pose; do
     run 2 ${words%%:*}
     says "there is no command '${words%%:*}'; did you mean ${words#*:}? (see 'libicc --help')"
 done
@@ -137,10 +138,18 @@ for word in version --version -v -V; do
     run 0 $word
     [ "$(cut -d' ' -f1 <out)" = libicc ] || complain "$word prints no version"
 done
+# The usual options come first; the papers' options are listed only where all are asked for.
 run 0 help warp
+[ "$(grep -n -- '--source' out | head -n 1 | cut -d: -f1)" -lt "$(grep -n '^Further options' out | cut -d: -f1)" ] ||
+    complain "--source is not among the usual options"
+if grep -q -- '--min-fall\|--tree\|--function' out; then complain "help lists the papers' options"; fi
+holds out "'libicc warp --help-all' also lists the options of the papers' method."
+run 0 warp --help-all
 [ "$(sed -n '/^Options of the papers/,$p' out | grep -c -- '--min-fall\|--tree\|--function')" = 3 ] ||
     complain "the papers' options are not in a group of their own"
 sed '/^Options of the papers/,$d' out | grep -q -- '--min-fall' && complain "--min-fall stands among the usual options"
+run 0 pose --help-all
+holds out "--sigma LENGTH"
 # Second meanings have long names; what was spelt before works.
 run 0 help pose
 if grep -q -- '-t, ' out; then complain "help tells of pose -t"; fi

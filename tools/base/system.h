@@ -62,9 +62,8 @@ int system_columns(void);
 
 /* ---- this program, and others */
 
-/* A word that calls this program again from any folder: its name as called if the shell searches
- * PATH for it, else its full name. free() it. */
-char *system_program(const char *called);
+/* Prints a word on stdout, quoted for the system's shell where it needs quotes. */
+void system_print_word(const char *text);
 
 bool system_has_program(const char *name);
 

@@ -131,28 +131,18 @@ int system_columns(void)
     return 80;
 }
 
-/* The current folder, or NULL if it is unknown. free() it. */
-static char *current_folder(void)
+void system_print_word(const char *text)
 {
-    for (size_t room = 256;; room *= 2) {
-        char *name = need(room, 1);
-        if (getcwd(name, room) != NULL)
-            return name;
-        free(name);
-        if (errno != ERANGE)
-            return NULL;
+    static const char plain[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,+=@%";
+    if (text[0] != '\0' && text[strspn(text, plain)] == '\0') {
+        fputs(text, stdout);
+        return;
     }
-}
-
-char *system_program(const char *called)
-{
-    bool relative = called[0] != '/' && strchr(called, '/') != NULL;
-    char *folder = relative ? current_folder() : NULL;
-    size_t n = (folder != NULL ? strlen(folder) : 0) + strlen(called) + 2;
-    char *name = need(n, 1);
-    snprintf(name, n, "%s%s%s", folder != NULL ? folder : "", folder != NULL ? "/" : "", called);
-    free(folder);
-    return name;
+    putchar('\'');
+    for (const char *c = text; *c != '\0'; c++)
+        fputs(*c == '\'' ? "'\\''" : (char[]){*c, '\0'}, stdout);
+    putchar('\'');
 }
 
 bool system_has_program(const char *name)

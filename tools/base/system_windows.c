@@ -213,16 +213,10 @@ int system_columns(void)
     return info.dwSize.X > 0 ? info.dwSize.X : 80;
 }
 
-char *system_program(const char *called)
+void system_print_word(const char *text)
 {
-    if (system_last_part(called) == called)
-        return copy(called);
-    DWORD room = GetFullPathNameA(called, 0, NULL, NULL);
-    char *place = need((size_t)room + 1, 1);
-    if (room > 0 && GetFullPathNameA(called, room, place, NULL) > 0)
-        return place;
-    free(place);
-    return copy(called);
+    const char *quote = strpbrk(text, " &()[]{}^=;!'+,`~") != NULL ? "\"" : "";
+    printf("%s%s%s", quote, text, quote);
 }
 
 bool system_has_program(const char *name)

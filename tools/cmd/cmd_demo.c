@@ -56,56 +56,81 @@ static int write_picture(const char *folder)
     return result;
 }
 
-/* Prints a word quoted for a shell. */
-static void print_word(const char *text)
+/* Prints a file of the folder after a blank. */
+static void print_file(const char *folder, const char *name)
 {
-    static const char plain[] =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./,+=@%";
-    if (text[0] != '\0' && text[strspn(text, plain)] == '\0') {
-        fputs(text, stdout);
-        return;
-    }
-    putchar('\'');
-    for (const char *c = text; *c != '\0'; c++)
-        fputs(*c == '\'' ? "'\\''" : (char[]){*c, '\0'}, stdout);
-    putchar('\'');
+    char *path = inside(folder, name);
+    putchar(' ');
+    system_print_word(path);
+    free(path);
 }
 
-/* Prints a line to try, with this program in front of its arguments. */
-static void print_call(const char *program, const char *lead, const char *arguments)
+/* Prints a line to try, without its end: this program as the user called it, a command, and its two
+ * cages. It works in the folder that the user is in. */
+static void print_call(const args *a, const char *folder, const char *lead, const char *name)
 {
     printf("  %s", lead);
-    print_word(program);
-    printf(" %s\n", arguments);
+    system_print_word(a->program);
+    printf(" %s -s", name);
+    print_file(folder, "before.txt");
+    fputs(" -t", stdout);
+    print_file(folder, "after.txt");
 }
 
-/* Prints what to try next. The commands run inside the folder, so they are short, and they call
- * this program as the user called it. */
-static void print_next(const char *folder, const char *program)
+/* The film begins with the cage before, so both cages are on its path. */
+static void print_film(const args *a, const char *folder)
 {
-    fputs("In ", stdout);
-    print_word(folder);
-    puts(" are a picture, fish.png, and two cages: a polygon round the fish,\n"
-         "before.txt, and where its corners go, after.txt. To try next:\n");
-    fputs("  cd ", stdout);
-    print_word(folder);
+    fputs("\nMake a film from before to after in 24 steps. Look at film-0000.png and so on:\n  ",
+          stdout);
+    system_print_word(a->program);
+    fputs(" animate -s", stdout);
+    print_file(folder, "before.txt");
+    fputs(" --steps 24 --background 78b9d7", stdout);
+    static const char *const files[] = {"fish.png", "film.png", "before.txt", "after.txt"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        print_file(folder, files[i]);
+    putchar('\n');
+}
+
+/* Prints commands that map a point and its image back. */
+static void print_points(const args *a, const char *folder)
+{
+    puts("\nWhere does the eye go, and where does its image come from?");
+    print_call(a, folder, "echo 358 140 | ", "map");
+    fputs(" -o", stdout);
+    print_file(folder, "eye.txt");
+    putchar('\n');
+    print_call(a, folder, "", "map");
+    fputs(" --inverse -p", stdout);
+    print_file(folder, "eye.txt");
+    putchar('\n');
+}
+
+/* Prints what to try next. */
+static void print_next(const args *a, const char *folder)
+{
+    fputs("The folder ", stdout);
+    system_print_word(folder);
+    puts(" now holds a picture, fish.png, and two cages.\n"
+         "before.txt is a polygon around the fish, and after.txt says where its corners\n"
+         "go. Try these commands:\n\nBend the fish. Look at bent.png:");
+    print_call(a, folder, "", "warp");
+    fputs(" --background 78b9d7", stdout);
+    print_file(folder, "fish.png");
+    print_file(folder, "bent.png");
     puts("\n\nIs the map from one cage to the other one-to-one?");
-    print_call(program, "", "check -s before.txt -t after.txt");
-    puts("\nBend the fish; look at bent.png:");
-    print_call(program, "",
-               "warp -s before.txt -t after.txt --background 78b9d7 fish.png bent.png");
-    puts("\nSee what becomes of a checkerboard; look at map.svg:");
-    print_call(program, "", "plot -s before.txt -t after.txt --y-down map.svg");
-    puts("\nWhere does the eye go, and back?");
-    print_call(program, "echo 358 140 | ", "map -s before.txt -t after.txt >eye.txt; cat eye.txt");
-    print_call(program, "", "map -s before.txt -t after.txt --inverse <eye.txt");
-    puts(
-        "\nMake a film of it, from before to after in 24 steps; look at film-0000.png and\nso on:");
-    print_call(program, "",
-               "animate -s before.txt --steps 24 --background 78b9d7 fish.png film.png "
-               "before.txt after.txt");
-    puts("\nMove corners in after.txt, a text file, and warp again. See what else there is:");
-    print_call(program, "", "help");
+    print_call(a, folder, "", "check");
+    puts("\n\nSee what becomes of a checkerboard. Look at map.svg:");
+    print_call(a, folder, "", "plot");
+    fputs(" --y-down", stdout);
+    print_file(folder, "map.svg");
+    putchar('\n');
+    print_points(a, folder);
+    print_film(a, folder);
+    puts("\nMove corners in after.txt, a text file, and warp again. For the other commands:");
+    fputs("  ", stdout);
+    system_print_word(a->program);
+    puts(" help");
 }
 
 int run_demo(const args *a)
@@ -113,16 +138,13 @@ int run_demo(const args *a)
     const char *folder = a->n_operands > 0 ? a->operands[0] : "libicc-demo";
     if (!system_make_folder(folder))
         return failed(folder, 0, "cannot be made: %s%s", strerror(errno),
-                      errno == EEXIST ? "; 'libicc demo FOLDER' makes another" : "");
+                      errno == EEXIST ? "; choose another name: libicc demo FOLDER" : "");
     int result = write_cage(folder, "before.txt", before);
     if (result == DONE)
         result = write_cage(folder, "after.txt", after);
     if (result == DONE)
         result = write_picture(folder);
-    if (result == DONE) {
-        char *program = system_program(a->program);
-        print_next(folder, program);
-        free(program);
-    }
+    if (result == DONE)
+        print_next(a, folder);
     return result;
 }

@@ -15,7 +15,7 @@ typedef struct reading {
     const command *command;
     int argc, at;
     char **argv;
-    bool *help;
+    int *help;
 } reading;
 
 static bool *flag_at(args *a, size_t offset)
@@ -158,7 +158,10 @@ static int take_option(reading *r, const option *o, const char *attached)
     if (o->kind == OPTION_FLAG || o->kind == OPTION_HELP) {
         if (attached != NULL)
             return misused(r->command->name, "--%s takes no value", o->name);
-        *(o->kind == OPTION_HELP ? r->help : flag_at(r->out, o->offset)) = true;
+        if (o->kind == OPTION_HELP)
+            *r->help = o->low;
+        else
+            *flag_at(r->out, o->offset) = true;
         return DONE;
     }
     if (attached == NULL && r->at == r->argc)
@@ -236,11 +239,11 @@ static int take_operand(reading *r, char *text)
     return DONE;
 }
 
-int args_parse(args *out, const command *c, int argc, char **argv, bool *help)
+int args_parse(args *out, const command *c, int argc, char **argv, int *help)
 {
     *out = (args){
         .program = argv[0], .command = c->name, .operands = argv + 2, .improve = -1, .snap = -1};
-    *help = false;
+    *help = HELP_NONE;
     reading r = {.out = out, .command = c, .argc = argc, .at = 2, .argv = argv, .help = help};
     bool only_operands = false;
     int result = DONE;

@@ -105,13 +105,17 @@ typedef struct command {
     int (*run)(const args *a);
     const char *usage;   /* the text after the name: one line for each way to call the command */
     const char *summary; /* one line */
+    const char *example; /* the text after the name */
     const char *details; /* paragraphs for --help, which wraps lines that do not begin with a
                             blank */
 } command;
 
-/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a message on stderr. *help is
- * set if --help is given; then nothing else counts. */
-int args_parse(args *out, const command *c, int argc, char **argv, bool *help);
+/* What the user wants to read instead of running the command. */
+enum { HELP_NONE, HELP_USUAL, HELP_ALL };
+
+/* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a message on stderr. If --help
+ * or --help-all is given, *help is set and nothing else counts. */
+int args_parse(args *out, const command *c, int argc, char **argv, int *help);
 
 /* The last step of parsing: checks of several options together. */
 int args_check(args *a, const command *c);
@@ -119,8 +123,9 @@ int args_check(args *a, const command *c);
 /* The operand that names the result, or NULL if none does. */
 const char *args_result(const args *a, const command *c);
 
-/* Prints the help of a command on stdout, in lines of at most 80 columns. */
-void args_help(const command *c);
+/* Prints the help of a command on stdout, in lines of at most 80 columns. HELP_ALL lists the
+ * options of the papers too. */
+void args_help(const command *c, int help);
 
 /* Prints paragraphs in such lines. Lines that begin with a blank and empty lines stay as they
  * are. */

@@ -60,11 +60,11 @@ static void print_option(const option *o)
 }
 
 /* Prints one group of a command's options, or nothing if it has none of them. */
-static void print_group(const command *c, bool papers, const char *heading)
+static void print_group(const command *c, option_group group, const char *heading)
 {
     for (size_t i = 0; i < n_options; i++) {
         const option *o = &options[i];
-        if (!(o->commands & c->bit) || o->papers != papers)
+        if (!(o->commands & c->bit) || o->group != group)
             continue;
         printf("%s", heading);
         heading = "";
@@ -84,13 +84,27 @@ static void print_usage(const command *c)
     }
 }
 
-void args_help(const command *c)
+static bool has_group(const command *c, option_group group)
 {
+    for (size_t i = 0; i < n_options; i++)
+        if (options[i].commands & c->bit && options[i].group == group)
+            return true;
+    return false;
+}
+
+void args_help(const command *c, int help)
+{
+    bool kernel = (c->bit & FOR_KERNEL) != 0;
     print_usage(c);
-    printf("%s.\n\n", c->summary);
+    printf("%s.\n\nExample:\n  libicc %s %s\n\n", c->summary, c->name, c->example);
     help_paragraphs(c->details);
-    print_group(c, false, "\nOptions:\n");
-    print_group(c, true,
-                c->bit & FOR_KERNEL ? "\nOptions of the thesis' method:\n"
-                                    : "\nOptions of the papers' method (--method gradient):\n");
+    print_group(c, OPTIONS_USUAL, "\nOptions:\n");
+    print_group(c, OPTIONS_RARE, "\nFurther options:\n");
+    if (help == HELP_ALL)
+        print_group(c, OPTIONS_PAPERS,
+                    kernel ? "\nOptions of the thesis (how weights are computed):\n"
+                           : "\nOptions of the papers' method (--method gradient):\n");
+    else if (has_group(c, OPTIONS_PAPERS))
+        printf("\n'libicc %s --help-all' also lists the options of the %s.\n", c->name,
+               kernel ? "thesis" : "papers' method");
 }

@@ -16,8 +16,15 @@ typedef enum option_kind {
     OPTION_REPORT,      /* bool, and a const char * if =FILE follows */
     OPTION_WITH_LENGTH, /* bool, and a double if =LENGTH follows */
     OPTION_WITH_CHOICE, /* bool, and an int32_t if =NAME follows */
-    OPTION_HELP
+    OPTION_HELP         /* `low`: which of the two helps */
 } option_kind;
+
+/* The groups in which the help lists options. */
+typedef enum option_group {
+    OPTIONS_USUAL,
+    OPTIONS_RARE,
+    OPTIONS_PAPERS /* only --help-all lists these */
+} option_group;
 
 /* A name that an option accepts. Value 0: known, but not in this version. */
 typedef struct choice {
@@ -35,7 +42,7 @@ typedef struct option {
     double most;
     bool zero;
     bool quiet_letter; /* the letter works, but the help does not list it */
-    bool papers;       /* for the papers' method only, listed after the others */
+    option_group group;
     const choice *choices;
     const char *value, *help;
 } option;
