@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """How the functions of the papers' method do on twenty outlines: letters, limbs, figures, coasts of 200 to 15,000 vertices.
-Prints what docs/theory.md says of expansion edges, and how much of the coordinates collapses and is not covered.
+Prints what docs/performance.md says of expansion edges, and how much of the coordinates collapses and is not covered.
 
     python3 examples/compare/outlines.py [--cells N] [FUNCTION..]
 

@@ -283,7 +283,7 @@ typedef struct icc_fill_options {
  * flat.
  *
  * Cost: proportional to the number of tetrahedra, some 10 us and 200 bytes each; several times as
- * long if it fails. docs/theory.md says what is tried.
+ * long if it fails. docs/theory/solid-maps.md says what is tried.
  * @param[out] out the filled domain, for the caller to free; NULL on failure
  * @param surface a domain in 3-D without a mesh
  * @param options may be NULL
@@ -789,8 +789,8 @@ typedef struct icc_map_report {
  * proportion to the size of the boundary in 2-D, and by a number of passes over the tetrahedra in
  * 3-D. In 2-D from 4 ms for cages of a few dozen vertices to 0.3 s for 15,000. Where the limit ends
  * the improvement, icc_map_improve() goes on. Deterministic: work is counted, and no clock is read.
- * In 3-D a map of kind mesh is found for most pairs, not for all. docs/theory.md and
- * docs/explanation/space.md say what is tried, in which order, and what it takes.
+ * In 3-D a map of kind mesh is found for most pairs, not for all. docs/theory/solid-maps.md says
+ * what is tried, and in which order.
  */
 ICC_API icc_status icc_map_create(icc_map **out, const icc_domain *source, const icc_domain *target,
                                   const icc_map_options *options, const icc_env *env,
@@ -879,8 +879,7 @@ typedef struct icc_retarget_options {
  * In 3-D, tetrahedra are replaced and cut where the way is blocked, and as a last resort the map is
  * made anew, as icc_map_create() does it, which fills a target without a mesh; `log` then says so.
  * That a target is reached is not guaranteed, only that what is returned is certified. A frame that
- * is reached at once costs a tenth of making the map or less; docs/explanation/space.md has a
- * table.
+ * is reached at once costs a tenth of making the map or less; docs/performance.md has a table.
  *
  * Features go straight to their new places, and the map stays what becomes of the old one: it
  * passes them on the same sides (icc_map_info::class_kept). The mesh changes as it must. Where

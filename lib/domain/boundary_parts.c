@@ -1,5 +1,5 @@
 /* The parts of a mesh's boundary. The boundary winds around a point as often as positive simplices
- * cover it (docs/theory.md, the mesh map). Suppose that surfaces do not meet. Then they wind around
+ * cover it (docs/theory/plane-maps.md). Suppose that surfaces do not meet. Then they wind around
  * each point once or not at all under one condition: the outermost ones face outwards and every
  * other one faces against the surface around it. */
 #include "domain/boundary_parts.h"

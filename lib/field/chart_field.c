@@ -1,8 +1,8 @@
 /* Creates charts of method field: grid, tree, function, vectors, certificate.
  *
- * Source of grid, tree and function: Huynh and Gingold, Bijective Deformations in R^n via
- * Integral Curve Coordinates. Their curves follow the function's gradient and merge. Here the
- * curves follow the field of docs/theory.md, "fields on grids", instead. */
+ * Source of grid, tree and function: Huynh and Gingold, Bijective Deformations in R^n via Integral
+ * Curve Coordinates. Their curves follow the function's gradient and merge. Here the curves follow
+ * the field of docs/theory/charts-space.md, "fields on grids", instead. */
 #include "field/chart_field.h"
 
 #include "base/budget.h"

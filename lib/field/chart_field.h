@@ -1,6 +1,7 @@
 /* Method field: a chart whose curves follow a Lipschitz field on a grid, in any dimension.
  *
- * Source: docs/theory.md, "fields on grids". Grid, tree and function are those of lib/gradient.
+ * Source: docs/theory/charts-space.md, "fields on grids". Grid, tree and function are those of
+ * lib/gradient.
  *
  * Words of this folder
  * - function: the piecewise linear function on the grid that rises along every curve.

@@ -1,5 +1,5 @@
 /* Extends a function from the inside vertices of a grid to all vertices that simplices of the
- * domain need. Source: docs/theory.md, "fields on grids", step 1.
+ * domain need. Source: docs/theory/charts-space.md, "fields on grids", step 1.
  *
  * Values next to the inside are 0. Farther out they fall by the same amount with each step. */
 #include "field/extension.h"

@@ -1,6 +1,6 @@
 /* Extends a function from the inside vertices to all vertices of the simplices that meet a domain.
  *
- * Source: docs/theory.md, "fields on grids", step 1. */
+ * Source: docs/theory/charts-space.md, "fields on grids", step 1. */
 #ifndef ICCP_EXTENSION_H
 #define ICCP_EXTENSION_H
 

@@ -1,4 +1,5 @@
-/* Certifies a chart of method field by the three conditions of docs/theory.md, "fields on grids":
+/* Certifies a chart of method field by the three conditions of docs/theory/charts-space.md,
+ * "fields on grids":
  * 1. Each vertex has a vector along which the function rises. choose_all() in vectors.c counts the
  *    vertices that have none.
  * 2. At the corners of all simplices that the boundary runs through, the vectors point inward.

@@ -1,4 +1,5 @@
-/* The certificate of a chart of method field. Source: docs/theory.md, "fields on grids". */
+/* The certificate of a chart of method field. Source: docs/theory/charts-space.md, "fields on
+ * grids". */
 #ifndef ICCP_FIELD_CERTIFICATE_H
 #define ICCP_FIELD_CERTIFICATE_H
 

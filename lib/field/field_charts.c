@@ -1,5 +1,5 @@
 /* Creates charts of one domain or of two. It pairs the maxima of two domains, and shifts grids
- * that happen to lie badly. Source: docs/theory.md, "fields on grids". */
+ * that happen to lie badly. Source: docs/theory/charts-space.md, "fields on grids". */
 #include "field/field_charts.h"
 
 #include "base/error.h"

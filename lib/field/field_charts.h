@@ -1,5 +1,5 @@
 /* Charts of method field for one domain, or for two domains that correspond. Source:
- * docs/theory.md, "fields on grids". */
+ * docs/theory/charts-space.md, "fields on grids". */
 #ifndef ICCP_FIELD_CHARTS_H
 #define ICCP_FIELD_CHARTS_H
 

@@ -1,5 +1,5 @@
 /* Decodes coordinates to a point: follows the curve from the boundary by the share t of its
- * length. Source: docs/theory.md, "fields on grids". */
+ * length. Source: docs/theory/charts-space.md, "fields on grids". */
 #include "field/field_state.h"
 #include "field/flow_jet.h"
 

@@ -1,5 +1,5 @@
 /* Encodes a point of the domain: follows its curve downhill to the boundary, and uphill to the
- * maximum. Source: docs/theory.md, "fields on grids". */
+ * maximum. Source: docs/theory/charts-space.md, "fields on grids". */
 #include "field/field_state.h"
 #include "field/flow_jet.h"
 

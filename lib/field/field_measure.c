@@ -1,6 +1,6 @@
-/* Measures a chart of method field by sampling. Curves of this method do not merge, so nothing
- * is uncovered or collapsed. What can go wrong is a curve that does not arrive, or one that
- * crosses the boundary outward on its way up. Source: docs/theory.md, "fields on grids". */
+/* Measures a chart of method field by sampling. Curves of this method do not merge, so nothing is
+ * uncovered or collapsed. What can go wrong is a curve that does not arrive, or one that crosses
+ * the boundary outward on its way up. Source: docs/theory/charts-space.md, "fields on grids". */
 #include "field/field_measure.h"
 
 #include "base/threads.h"

@@ -1,5 +1,6 @@
 /* Samples which share of the points cannot be encoded, and at which share of the boundary curves
- * leave the domain. For charts of method field. Source: docs/theory.md, "fields on grids". */
+ * leave the domain. For charts of method field. Source: docs/theory/charts-space.md, "fields on
+ * grids". */
 #ifndef ICCP_FIELD_MEASURE_H
 #define ICCP_FIELD_MEASURE_H
 

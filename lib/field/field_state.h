@@ -1,5 +1,5 @@
-/* The state of a chart of method field, and its operations. Source: docs/theory.md, "fields on
- * grids". */
+/* The state of a chart of method field, and its operations. Source: docs/theory/charts-space.md,
+ * "fields on grids". */
 #ifndef ICCP_FIELD_STATE_H
 #define ICCP_FIELD_STATE_H
 

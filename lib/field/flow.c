@@ -1,5 +1,5 @@
 /* Curves of a field that is linear in each simplex, piece by piece. flow_piece.c explains what a
- * piece is. Source: docs/theory.md, "fields on grids", step 3. */
+ * piece is. Source: docs/theory/charts-space.md, "fields on grids", step 3. */
 #include "field/flow_piece.h"
 
 #include "base/minmax.h"

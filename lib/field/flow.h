@@ -1,8 +1,8 @@
 /* Follows curves of a field that is linear in each Kuhn simplex of a grid. The field is given by a
  * vector at each vertex.
  *
- * Source: docs/theory.md, "fields on grids", step 3. A curve's place is computed afresh from a
- * power series in each simplex, so there is no step size and no drift. */
+ * Source: docs/theory/charts-space.md, "fields on grids", step 3. A curve's place is computed
+ * afresh from a power series in each simplex, so there is no step size and no drift. */
 #ifndef ICCP_FLOW_H
 #define ICCP_FLOW_H
 

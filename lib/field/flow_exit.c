@@ -1,6 +1,6 @@
-/* Finds the end of a piece: the first root of a barycentric coordinate. The coordinates are
- * power series. Newton's method runs on each, within an interval that holds the root. Source:
- * docs/theory.md, "fields on grids", step 3. */
+/* Finds the end of a piece: the first root of a barycentric coordinate. The coordinates are power
+ * series. Newton's method runs on each, within an interval that holds the root. Source:
+ * docs/theory/charts-space.md, "fields on grids", step 3. */
 #include "field/flow_exit.h"
 
 #include "base/compiler.h"

@@ -1,5 +1,5 @@
 /* Finds where a piece of a curve leaves its simplex. This is slow but always succeeds. Source:
- * docs/theory.md, "fields on grids", step 3. */
+ * docs/theory/charts-space.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_EXIT_H
 #define ICCP_FLOW_EXIT_H
 

@@ -1,5 +1,5 @@
-/* Follows many curves, several side by side. This is far faster than one after another, and
- * gives the same bits. Source: docs/theory.md, "fields on grids", step 3. */
+/* Follows many curves, several side by side. This is far faster than one after another, and gives
+ * the same bits. Source: docs/theory/charts-space.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_FOLLOW_H
 #define ICCP_FLOW_FOLLOW_H
 

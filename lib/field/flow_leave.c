@@ -1,5 +1,5 @@
-/* Finds where a piece of a curve meets the boundary. Source: docs/theory.md, "fields on grids",
- * step 4. */
+/* Finds where a piece of a curve meets the boundary. Source: docs/theory/charts-space.md, "fields
+ * on grids", step 4. */
 #include "field/flow.h"
 
 #include "base/minmax.h"

@@ -1,5 +1,5 @@
 /* One piece of a curve: from its place in a simplex to where it leaves that simplex. Source:
- * docs/theory.md, "fields on grids", step 3. */
+ * docs/theory/charts-space.md, "fields on grids", step 3. */
 #ifndef ICCP_FLOW_PIECE_H
 #define ICCP_FLOW_PIECE_H
 

@@ -2,10 +2,10 @@
  * this one defines LANES and TARGET, the processor. Nothing here branches on a single lane, and
  * each lane gets the bits that it would get alone.
  *
- * Source: docs/theory.md, "fields on grids", step 3. In a simplex the field is linear in position.
- * So its curves solve x' = A x + b, and their power series converge everywhere. The terms of x' are
- * A^j x'(0) s^j / j!. The column of A for an axis is the difference of the vectors at the two
- * corners that the axis joins.
+ * Source: docs/theory/charts-space.md, "fields on grids", step 3. In a simplex the field is linear
+ * in position. So its curves solve x' = A x + b, and their power series converge everywhere. The
+ * terms of x' are A^j x'(0) s^j / j!. The column of A for an axis is the difference of the vectors
+ * at the two corners that the axis joins.
  *
  * The first terms of the barycentric coordinates tell nearly where the first coordinate vanishes.
  * The series is added up there, once. The rest of the way is so short that a few derivatives at

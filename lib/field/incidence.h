@@ -1,5 +1,5 @@
 /* Finds the simplices of the Kuhn triangulation that meet a domain, and the boundary facets near
- * each vertex of the grid. Source: docs/theory.md, "fields on grids", step 4. */
+ * each vertex of the grid. Source: docs/theory/charts-space.md, "fields on grids", step 4. */
 #ifndef ICCP_INCIDENCE_H
 #define ICCP_INCIDENCE_H
 

@@ -1,4 +1,5 @@
-/* Incidence of masks, in whole numbers. Source: docs/theory.md, "fields on grids", step 4.
+/* Incidence of masks, in whole numbers. Source: docs/theory/charts-space.md, "fields on grids",
+ * step 4.
  *
  * A facet of a mask's boundary follows an order of all axes but one, like the simplices of the
  * grid. It takes a number of grid steps on each of these axes (domain/mask_boundary.c). So each

@@ -1,5 +1,5 @@
 /* Incidence of masks whose boundary consists of faces of the grid's simplices. Source:
- * docs/theory.md, "fields on grids", step 4. */
+ * docs/theory/charts-space.md, "fields on grids", step 4. */
 #ifndef ICCP_INCIDENCE_MASK_H
 #define ICCP_INCIDENCE_MASK_H
 

@@ -2,7 +2,7 @@
  * parts of the domain on both sides. It has one vector for each part. A sector is such a part, as
  * seen from the vertex.
  *
- * Source: docs/theory.md, "fields on grids". */
+ * Source: docs/theory/charts-space.md, "fields on grids". */
 #ifndef ICCP_SECTORS_H
 #define ICCP_SECTORS_H
 

@@ -1,4 +1,4 @@
-/* Chooses the vectors of the field. Source: docs/theory.md, "fields on grids".
+/* Chooses the vectors of the field. Source: docs/theory/charts-space.md, "fields on grids".
  *
  * Let X_v . grad f > 0 in every simplex at v, for all vertices v. Then X . grad f > 0 everywhere,
  * because X is linear in each simplex and grad f is constant. X is Lipschitz, so its curves do not

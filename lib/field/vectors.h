@@ -1,6 +1,6 @@
 /* One vector for every vertex of the simplices that meet a domain, uphill in each simplex at the
  * vertex. Interpolated linearly, the vectors form a field along which the function rises
- * everywhere. Source: docs/theory.md, "fields on grids", step 2. */
+ * everywhere. Source: docs/theory/charts-space.md, "fields on grids", step 2. */
 #ifndef ICCP_VECTORS_H
 #define ICCP_VECTORS_H
 

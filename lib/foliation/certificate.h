@@ -1,6 +1,7 @@
 /* Exact proofs that a planar chart is one-to-one, independent of how it was made.
  *
- * Source: docs/theory.md, "method foliation" and "method disc", which say what the checks prove. */
+ * Source: docs/theory/charts-plane.md, "method foliation" and "method disc", which say what the
+ * checks prove. */
 #ifndef ICCP_CERTIFICATE_H
 #define ICCP_CERTIFICATE_H
 

@@ -1,5 +1,5 @@
-/* Method disc: polar coordinates of the harmonic map to a disc. Source: docs/theory.md, "method
- * disc". */
+/* Method disc: polar coordinates of the harmonic map to a disc. Source:
+ * docs/theory/charts-plane.md, "method disc". */
 #ifndef ICCP_CHART_DISC_H
 #define ICCP_CHART_DISC_H
 

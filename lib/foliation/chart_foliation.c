@@ -1,7 +1,7 @@
 /* Charts of method foliation in 2-D: Integral Curve Coordinates along leaves that never meet.
  *
- * Source: docs/theory.md, "method foliation". M. Campen, C. Silva, D. Zorin, Bijective Maps from
- * Simplicial Foliations, 2016, have the idea of simplicial foliations. */
+ * Source: docs/theory/charts-plane.md, "method foliation". M. Campen, C. Silva, D. Zorin,
+ * Bijective Maps from Simplicial Foliations, 2016, have the idea of simplicial foliations. */
 #include "foliation/chart_foliation.h"
 
 #include "base/clock.h"

@@ -1,6 +1,7 @@
 /* Method foliation in 2-D: coordinates along the level lines of an angle-valued function.
  *
- * Source: docs/theory.md, "method foliation". A caller's own mesh uses lib/shelling instead.
+ * Source: docs/theory/charts-plane.md, "method foliation". A caller's own mesh uses lib/shelling
+ * instead.
  *
  * Words of this folder (methods foliation and disc in the plane)
  * - base: the mesh of the domain, its Laplacian, and the factor of that (harmonic.h).

@@ -1,6 +1,6 @@
-/* Creates the charts of methods foliation and disc, for one domain or two. Both methods start
- * with harmonic maps to the disc. So this file also decides what a pair must share: how the
- * boundaries are cut, and where the maxima go. Source: docs/theory.md, "method foliation",
+/* Creates the charts of methods foliation and disc, for one domain or two. Both methods start with
+ * harmonic maps to the disc. So this file also decides what a pair must share: how the boundaries
+ * are cut, and where the maxima go. Source: docs/theory/charts-plane.md, "method foliation",
  * pairs. */
 #include "foliation/harmonic_charts.h"
 

@@ -1,5 +1,5 @@
 /* Charts of methods foliation and disc, for one domain or for two that correspond. Source:
- * docs/theory.md. */
+ * docs/theory/charts-plane.md. */
 #ifndef ICCP_HARMONIC_CHARTS_H
 #define ICCP_HARMONIC_CHARTS_H
 

@@ -1,5 +1,6 @@
 /* Follows level lines of a piecewise linear function in a triangle mesh. With certified labels a
- * leaf meets no triangle twice, so every walk ends. Source: docs/theory.md, "method foliation". */
+ * leaf meets no triangle twice, so every walk ends. Source: docs/theory/charts-plane.md, "method
+ * foliation". */
 #include "foliation/leaf2.h"
 
 #include "math/predicates.h"

@@ -1,7 +1,7 @@
 /* Follows a leaf, a level line of psi, by its label. Integers decide which triangle comes next, and
  * doubles tell where the leaf crosses an edge. Errors do not accumulate.
  *
- * Source: docs/theory.md, "method foliation". */
+ * Source: docs/theory/charts-plane.md, "method foliation". */
 #ifndef ICCP_LEAF2_H
 #define ICCP_LEAF2_H
 

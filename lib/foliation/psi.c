@@ -1,7 +1,7 @@
 /* Computes psi: the boundary flux, the harmonic function inside, and its rounding to integers.
  *
- * Source: S. Gortler, C. Gotsman, D. Thurston, Discrete one-forms on meshes and applications to
- * 3D mesh parameterization, 2006. docs/theory.md has the statement and its limits. */
+ * Source: S. Gortler, C. Gotsman, D. Thurston, Discrete one-forms on meshes and applications to 3D
+ * mesh parameterization, 2006. docs/theory/charts-plane.md has the statement and its limits. */
 #include "foliation/psi.h"
 
 #include "math/elementary.h"

@@ -1,5 +1,5 @@
 /* The angle-valued function psi, whose level lines are the leaves of a foliation. Source:
- * docs/theory.md, "method foliation". */
+ * docs/theory/charts-plane.md, "method foliation". */
 #ifndef ICCP_PSI_H
 #define ICCP_PSI_H
 

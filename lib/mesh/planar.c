@@ -1,5 +1,5 @@
-/* Meshes a polygonal domain. Based on the domain meshes of docs/theory.md; the triangulation is
- * mesh/triangulate.c. */
+/* Meshes a polygonal domain. Based on the domain meshes of docs/theory/charts-plane.md; the
+ * triangulation is mesh/triangulate.c. */
 #include "mesh/planar.h"
 
 #include "base/error.h"

@@ -1,7 +1,7 @@
 /* Creates charts of method foliation on the caller's mesh.
  *
  * Source: M. Campen, C. Silva, D. Zorin, Bijective Maps from Simplicial Foliations, ACM
- * Transactions on Graphics 35, 2016. See docs/theory.md, "foliations of simplices". */
+ * Transactions on Graphics 35, 2016. See docs/theory/charts-space.md, "foliations of simplices". */
 #include "shelling/chart_shelling.h"
 
 #include "base/clock.h"

@@ -1,7 +1,7 @@
 /* Method foliation on the caller's mesh, in any dimension from 2: coordinates along leaves that are
  * straight in every simplex.
  *
- * Source: docs/theory.md, "foliations of simplices"; Campen, Silva, Zorin 2016.
+ * Source: docs/theory/charts-space.md, "foliations of simplices"; Campen, Silva, Zorin 2016.
  *
  * Words of this folder
  * - side: a facet of the mesh as seen from one of its simplices; see geometry/simplices.h.

@@ -1,5 +1,5 @@
-/* Numbers the faces of a mesh, for the rules of docs/theory.md, "foliations of simplices". All
- * simplices that have a face know it by the same number.
+/* Numbers the faces of a mesh, for the rules of docs/theory/charts-space.md, "foliations of
+ * simplices". All simplices that have a face know it by the same number.
  *
  * A face of a simplex is a set of its corners, in which bit i stands for corner i. Only faces of
  * dimension 0 to dim - 2 are numbered: two simplices with such a face need not share a facet. */

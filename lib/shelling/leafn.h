@@ -1,6 +1,6 @@
-/* Leaves of a foliation that are straight in every simplex of a mesh. Along a leaf, the barycentric
- * coordinates of a simplex change at constant rates. Source: docs/theory.md, "foliations of
- * simplices".
+/* Leaves of a foliation that are straight in every simplex of a mesh. Along a leaf, the
+ * barycentric coordinates of a simplex change at constant rates. Source:
+ * docs/theory/charts-space.md, "foliations of simplices".
  *
  * A leaf that rises passes simplices of ever smaller rank and ends at the centre. A leaf that falls
  * ends on the boundary. In the star, the simplices at the centre, leaves are straight lines to it.

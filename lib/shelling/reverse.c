@@ -1,5 +1,5 @@
-/* Improves an order by reversing facets. Source: docs/theory.md, "foliations of simplices",
- * hypotheses 2 and 3 of the theorem.
+/* Improves an order by reversing facets. Source: docs/theory/charts-space.md, "foliations of
+ * simplices", hypotheses 2 and 3 of the theorem.
  *
  * Only two things about an order matter. Leaves enter each simplex by some sides and leave it by
  * others. At each face inside, leaves come to it in exactly one simplex and go from it in exactly

@@ -1,5 +1,6 @@
-/* Checks the theorem of docs/theory.md, "foliations of simplices", hypothesis by hypothesis. A
- * face is a set of vertices. It is examined at its smallest vertex, among the simplices there. */
+/* Checks the theorem of docs/theory/charts-space.md, "foliations of simplices", hypothesis by
+ * hypothesis. A face is a set of vertices. It is examined at its smallest vertex, among the
+ * simplices there. */
 #include "shelling/shelling_certificate.h"
 
 #include "base/sort.h"

@@ -1,6 +1,6 @@
-/* An exact proof that the foliation of a mesh by an order of its simplices is one-to-one. It
- * uses only the definition, with integers and exact signs, and does not depend on how order and
- * directions were made. Source: docs/theory.md, "foliations of simplices". */
+/* An exact proof that the foliation of a mesh by an order of its simplices is one-to-one. It uses
+ * only the definition, with integers and exact signs, and does not depend on how order and
+ * directions were made. Source: docs/theory/charts-space.md, "foliations of simplices". */
 #ifndef ICCP_SHELLING_CERTIFICATE_H
 #define ICCP_SHELLING_CERTIFICATE_H
 

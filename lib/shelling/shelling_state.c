@@ -1,7 +1,7 @@
 /* The operations of a chart of method foliation on a mesh.
  *
- * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates,
- * section 4. The curves are the leaves of docs/theory.md, "foliations of simplices". */
+ * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, section
+ * 4. The curves are the leaves of docs/theory/charts-space.md, "foliations of simplices". */
 #include "shelling/shelling_state.h"
 
 #include "base/minmax.h"

@@ -1,4 +1,4 @@
-/* Improves a plane map (docs/theory.md, the mesh map). map/energy/refinement.c decides when to take
+/* Improves a plane map (docs/theory/plane-maps.md). map/energy/refinement.c decides when to take
  * steps and when to refine. This file cuts the triangles that have most of the energy. */
 #include "map/compatible/improve.h"
 

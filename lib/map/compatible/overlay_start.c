@@ -1,4 +1,4 @@
-/* Makes a start from an overlay (docs/theory.md, the mesh map).
+/* Makes a start from an overlay (docs/theory/plane-maps.md).
  *
  * An overlay has a vertex wherever two diagonals cross. So it has far more triangles than it needs,
  * and most of them are slivers that Newton's method can hardly move. Merging vertices leaves few

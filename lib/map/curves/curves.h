@@ -1,7 +1,7 @@
 /* Curve maps: they map point by point through two charts.
  *
  * Source: Huynh and Gingold, Bijective Deformations in R^n via Integral Curve Coordinates, section
- * 4. docs/theory.md, "fields on grids", has the volumes.
+ * 4. docs/theory/charts-space.md, "fields on grids", has the volumes.
  *
  * Words of this folder
  * - curve map: a map of kind ICC_MAP_CURVES, which has no mesh of its own.

@@ -1,4 +1,4 @@
-/* The certificate that a map of two charts is one-to-one. Source: docs/theory.md. */
+/* The certificate that a map of two charts is one-to-one. Source: docs/theory/charts-space.md. */
 #ifndef ICCP_CURVES_CERTIFICATE_H
 #define ICCP_CURVES_CERTIFICATE_H
 

@@ -1,9 +1,10 @@
 /* Checks the digits of a map by its way back. A point is mapped, and its image is mapped back. The
  * distance of the two is what the doubles have lost.
  *
- * The way back costs as much as the map. So only points are sent back whose surroundings shrink
- * so much that digits may be missing. The divergence of the two fields along the curves tells
- * how much they shrink, and rounding cannot spoil it. Source: docs/theory.md, "fields on grids". */
+ * The way back costs as much as the map. So only points are sent back whose surroundings shrink so
+ * much that digits may be missing. The divergence of the two fields along the curves tells how
+ * much they shrink, and rounding cannot spoil it. Source: docs/theory/charts-space.md, "fields on
+ * grids". */
 #include "map/curves/digits.h"
 
 #include "base/minmax.h"

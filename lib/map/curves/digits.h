@@ -2,7 +2,7 @@
  * may be one-to-one and bring every point back up to rounding, and the map may still lose all
  * digits. The reason is that points which one chart distinguishes may be the same for the other.
  *
- * Source: docs/theory.md, "fields on grids". */
+ * Source: docs/theory/charts-space.md, "fields on grids". */
 #ifndef ICCP_DIGITS_H
 #define ICCP_DIGITS_H
 

@@ -1,4 +1,4 @@
-/* Lowers the energy by Newton steps on one mesh (docs/theory.md, the mesh map). newton.c makes one
+/* Lowers the energy by Newton steps on one mesh (docs/theory/plane-maps.md). newton.c makes one
  * step. */
 #include "map/energy/descent.h"
 

@@ -1,6 +1,6 @@
-/* Improves a map on finer and finer meshes, in the plane and in space (docs/theory.md, the mesh
- * map). The energy falls by steps on one mesh (descent.h). When these gain little, the mesh is
- * refined where most of the energy is. It ends when refinements gain little, too. */
+/* Improves a map on finer and finer meshes, in the plane and in space (docs/theory/plane-maps.md).
+ * The energy falls by steps on one mesh (descent.h). When these gain little, the mesh is refined
+ * where most of the energy is. It ends when refinements gain little, too. */
 #include "map/energy/refinement.h"
 
 #include "base/minmax.h"

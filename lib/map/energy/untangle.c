@@ -1,6 +1,6 @@
 /* Makes inverted simplices positive by Newton steps on the untangling energy: V. Garanzha et al.,
  * Foldover-free maps in 50 lines of code, 2021. Patches around the inverted simplices move first.
- * They grow from round to round (docs/theory.md, the mesh map). */
+ * They grow from round to round (docs/theory/plane-maps.md). */
 #include "map/energy/untangle.h"
 
 #include "base/minmax.h"

@@ -23,7 +23,7 @@
  *   polygons, close_cuts.h closes them (called by map/plane/feature_start.c).
  * - A drawing of paths that are only known by what they cross: draw_crossings.h.
  *
- * Begin with cuts.h and isotopy.h. docs/theory.md explains the method under "features". */
+ * Begin with cuts.h and isotopy.h. docs/theory/features.md explains the method. */
 #ifndef ICCP_DOMAIN_PAIR_H
 #define ICCP_DOMAIN_PAIR_H
 

@@ -1,5 +1,5 @@
-/* The isotopy class of a map between two domains with features. Two maps belong to one class if one
- * can be moved to the other while it stays one-to-one (docs/theory.md, features). */
+/* The isotopy class of a map between two domains with features. Two maps belong to one class if
+ * one can be moved to the other while it stays one-to-one (docs/theory/features.md). */
 #ifndef ICCP_ISOTOPY_H
 #define ICCP_ISOTOPY_H
 

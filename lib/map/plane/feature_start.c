@@ -1,8 +1,8 @@
-/* Makes a start between domains with features (docs/theory.md, features). Both domains are cut open
+/* Makes a start between domains with features (docs/theory/features.md). Both domains are cut open
  * along paths that join their components to a tree. That leaves two polygons whose corners
  * correspond, which are overlaid as cages are (map/compatible/overlay.c). Then the cuts are closed
- * again. Different cuts of the target give maps of different isotopy classes: they pass features on
- * different sides. */
+ * again. Different cuts of the target give maps of different isotopy classes: they pass features
+ * on different sides. */
 #include "map/plane/feature_start.h"
 
 #include "base/error.h"

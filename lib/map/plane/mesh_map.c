@@ -1,4 +1,4 @@
-/* The mesh map in the plane as an object, and its points (docs/theory.md, the mesh map). */
+/* The mesh map in the plane as an object, and its points (docs/theory/plane-maps.md). */
 #include "map/plane/mesh_map.h"
 
 #include "base/clock.h"

@@ -1,4 +1,4 @@
-/* Proves that a piecewise linear map in the plane is one-to-one (docs/theory.md, the mesh map).
+/* Proves that a piecewise linear map in the plane is one-to-one (docs/theory/plane-maps.md).
  *
  * Three facts are enough. Every triangle is positive before and after the map. By Euler's formula
  * the mesh is a disc, or a disc with one hole for each further ring. Before and after the map, the

@@ -1,4 +1,4 @@
-/* Improves a mesh map in the plane within its allowance (docs/theory.md, the mesh map). */
+/* Improves a mesh map in the plane within its allowance (docs/theory/plane-maps.md). */
 #include "map/plane/plane_improve.h"
 
 #include "base/clock.h"

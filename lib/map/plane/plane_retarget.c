@@ -1,5 +1,6 @@
-/* Moves a mesh map to another target (docs/theory.md, the mesh map and "dragging"). Cages move at
- * once if that inverts no triangle. Otherwise, and with features, they move by continuation. */
+/* Moves a mesh map to another target (docs/theory/plane-maps.md, docs/theory/features.md). Cages
+ * move at once if that inverts no triangle. Otherwise, and with features, they move by
+ * continuation. */
 #include "map/plane/plane_retarget.h"
 
 #include "base/clock.h"

@@ -1,4 +1,4 @@
-/* Makes a mesh map in the plane (docs/theory.md, the mesh map). Huynh and Gingold, section 9: a
+/* Makes a mesh map in the plane (docs/theory/plane-maps.md). Huynh and Gingold, section 9: a
  * one-to-one map is the start of one with low distortion.
  *
  * Without features the start is the mesh of the source's chart, with images by the two charts.

@@ -1,6 +1,6 @@
-/* Moves a map to a target that has moved: docs/theory.md, the mesh map in space. If the surface
- * moves mostly by one affine map, the inside moves by the same map. The rest of the motion is
- * answered as in map/energy/continuation.c. */
+/* Moves a map to a target that has moved: docs/theory/solid-maps.md. If the surface moves mostly
+ * by one affine map, the inside moves by the same map. The rest of the motion is answered as in
+ * map/energy/continuation.c. */
 #include "map/solid/solid_follow.h"
 
 #include "base/clock.h"

@@ -1,5 +1,5 @@
-/* Improves a map in levels: docs/theory.md, the mesh map in space. A refinement is made on a copy
- * of the mesh. The copy replaces the mesh once it is certified. */
+/* Improves a map in levels: docs/theory/solid-maps.md. A refinement is made on a copy of the mesh.
+ * The copy replaces the mesh once it is certified. */
 #include "map/solid/solid_improve.h"
 
 #include "map/solid/solid_cuts.h"

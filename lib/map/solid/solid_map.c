@@ -1,4 +1,4 @@
-/* docs/theory.md, the mesh map in space: the object, and how a new one is made. */
+/* docs/theory/solid-maps.md: the object, and how a new one is made. */
 #include "map/solid/solid_map.h"
 
 #include "base/clock.h"

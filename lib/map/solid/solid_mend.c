@@ -2,8 +2,7 @@
  * tetrahedron is compared with one of the size that images have nearby. Otherwise a limb that
  * starts or ends tiny would have to change its volume a thousandfold, and epsilon would fall too
  * late for small tetrahedra. Second, points are added where images are stuck, because some would
- * have to see more of the boundary than any single place sees: docs/theory.md, the mesh map in
- * space. */
+ * have to see more of the boundary than any single place sees: docs/theory/solid-maps.md. */
 #include "map/solid/solid_mend.h"
 
 #include "base/minmax.h"

@@ -1,7 +1,7 @@
-/* Tries strategies for a first map in turn: docs/theory.md, the mesh map in space. A map that
- * cannot be repaired on one of the two meshes often can on the other. A convex target has room for
- * everything, but the mesh of a ball has no points where the limbs of an animal must come from. The
- * inverse of a map is a map. */
+/* Tries strategies for a first map in turn: docs/theory/solid-maps.md. A map that cannot be
+ * repaired on one of the two meshes often can on the other. A convex target has room for
+ * everything, but the mesh of a ball has no points where the limbs of an animal must come from.
+ * The inverse of a map is a map. */
 #include "map/solid/solid_start.h"
 
 #include "base/clock.h"
