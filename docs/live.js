@@ -101,7 +101,7 @@ const STATES = {
   square: () => drawn(outlines()),
   tripus: () => ({ ...drawn({ source: data('tripus.src.txt'), target: data('tripus.tgt.txt') }), mode: 'stages' }),
   star: () => ({ ...drawn({ source: data('star.txt'), target: data('star.txt') }), mode: 'handles', rig: 'cage' }),
-  wings: () => ({ ...photo({ source: data('butterfly.txt'), target: data('butterfly.txt') }), mode: 'handles', rig: 'cage' }),
+  pins: () => ({ ...STATES.fish(), target: pairs(FISH.before), mode: 'handles', rig: 'cage' }),
 };
 
 const rounded = (key, value) => (typeof value === 'number' ? Math.round(value * 1000) / 1000 : value);

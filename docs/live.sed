@@ -6,8 +6,8 @@
 /images\/county\.png/a @htmlonly <iframe src="studio.html#county" title="The studio: the county of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/island\.png/a @htmlonly <iframe src="studio.html#island" title="The studio: the island of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/star-weight\.png/a @htmlonly <iframe src="studio.html#star" title="The studio: the star of this page, with its handles" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
-/images\/butterfly\.png/a @htmlonly <iframe src="studio.html#wings" title="The studio: the butterfly of this page, with its handles" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
+/images\/pins\.png/a @htmlonly <iframe src="studio.html#pins" title="The studio: the fish of this page, with its handles" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /\.\.\/images\/stages\.png/a @htmlonly <iframe src="studio.html#tripus" title="The studio: the papers' steps on the shape of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
-/images\/beam\.png/a @htmlonly <iframe src="studio.html#space" title="The studio: a bar to bend" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
+/images\/bar\.png/a @htmlonly <iframe src="studio.html#space" title="The studio: a bar to bend" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /^<!-- live: parish -->/a @htmlonly <iframe src="studio.html#parish" title="The studio: the parish of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /^<!-- live: square -->/a @htmlonly <iframe src="studio.html#square" title="The studio: the square of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly

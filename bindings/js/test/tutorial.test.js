@@ -1,21 +1,22 @@
-// The blocks of docs/tutorials/browser.md, one after another, with stand-ins for what a page has.
+// The blocks of JavaScript in the documentation, one after another, with stand-ins for what a page has.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test from 'node:test';
 import { pathToFileURL } from 'node:url';
 
 const { load, AsyncIcc } = await import(pathToFileURL(`${process.env.ICC_PACKAGE}/src/index.js`));
-const page = new URL('../../../docs/tutorials/browser.md', import.meta.url);
+const text = ['tutorials/browser', 'howto/handles', 'howto/drag']
+  .map((page) => fs.readFileSync(new URL(`../../../docs/${page}.md`, import.meta.url), 'utf8')).join('\n');
 
-test('every block of the tutorial runs', async () => {
-  const blocks = [...fs.readFileSync(page, 'utf8').matchAll(/^```js\n([^]*?)^```$/gm)].map(([, block]) => block);
+test('every block of JavaScript runs', async () => {
+  const blocks = [...text.matchAll(/^```js\n([^]*?)^```$/gm)].map(([, block]) => block);
   assert.ok(blocks.length >= 7);
   const printed = [], drawn = [], bar = {}, stop = {}, canvas = {};
   const cage = [[0, 0], [4, 0], [4, 4], [2, 5], [0, 4]];
   const moved = (outline, { by }) => outline.map(([x, y], i) => (i === 3 ? [x, y + by] : [x, y]));
-  // One name is declared in several blocks; Node of before 2025 knows no `using`.
+  // One name is declared in several blocks.
   const called = blocks.map((block) => (block.includes('function frame(') ? `${block}frame(moved(cage, { by: 0.1 }));` : block));
-  const code = `${called.join('\n').replace(/^(const|let|using) /gm, 'var ').replace(/^import .*$/gm, '')}\nreturn { icc, chart };`;
+  const code = `${called.join('\n').replace(/^(const|let) /gm, 'var ').replace(/^import .*$/gm, '')}\nreturn { icc, chart };`;
   const make = Object.getPrototypeOf(async () => {}).constructor;
   const parameters = { load, AsyncIcc, cage, moved, canvas, bar, stop, points: [[1, 1], [2, 2]],
     draw: (...what) => drawn.push(what), console: { log: (...what) => printed.push(what) } };

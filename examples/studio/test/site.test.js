@@ -11,9 +11,9 @@ const { STUDIO, LIVE, CHROMIUM, SHOTS } = process.env;
 const KINDS = {
   fish: ['outline'], eye: ['outline', 'line', 'line', 'line'], character: ['outline', ...Array(5).fill('line')],
   county: ['outline', 'hole', 'hole', 'line', ...Array(7).fill('point')], parish: ['outline', ...Array(4).fill('point')],
-  island: ['outline'], square: ['outline'], tripus: ['outline'], star: ['outline'], wings: ['outline'],
+  island: ['outline'], square: ['outline'], tripus: ['outline'], star: ['outline'], pins: ['outline'],
 };
-const MODES = { tripus: 'stages', star: 'handles', wings: 'handles' };
+const MODES = { tripus: 'stages', star: 'handles', pins: 'handles' };
 let browser, page, wrong, links;
 
 before(async () => {
@@ -43,7 +43,7 @@ for (const [name, kinds] of Object.entries(KINDS))
     assert.deepEqual(seen.shapes.source.map((part) => part.kind), kinds);
     assert.deepEqual(seen.shapes.target.map((part) => part.points.length), seen.shapes.source.map((part) => part.points.length));
     assert.equal(seen.uncertified, 0);
-    assert.equal(seen.width, { fish: 480, eye: 324, wings: 324 }[name] ?? 640);
+    assert.equal(seen.width, { fish: 480, eye: 324, pins: 480 }[name] ?? 640);
     await page.screenshot({ path: `${SHOTS}/site-${name}.png` });
     if (mode === 'handles') assert.equal(seen.handles, seen.shapes.source[0].points.length);
     if (mode) return;
