@@ -117,8 +117,8 @@ def outline(drawing, features, scale=1):
             drawing.line(path + path[:1] if kind == "ring" else path, fill=DARK, width=2 * scale)
 
 
-def draw_spline(picture, function, shape):
-    """Small squares of the shape where the spline takes them, on white; those that turn over last, in red."""
+def draw_spline(picture, function, shape, ground=WHITE):
+    """Small squares of the shape where the spline takes them, on a ground; those that turn over last, in red."""
     from PIL import Image, ImageDraw
     height, width = picture.shape[:2]
     places, step = evenly(shape, 240)
@@ -126,7 +126,7 @@ def draw_spline(picture, function, shape):
     squares = 2 * np.stack(corners, axis=1)
     x, y = squares[:, 2] - squares[:, 0], squares[:, 3] - squares[:, 1]
     turned = x[:, 0] * y[:, 1] - x[:, 1] * y[:, 0] <= 0
-    canvas = Image.new("RGB", (2 * width, 2 * height), WHITE)
+    canvas = Image.new("RGB", (2 * width, 2 * height), ground)
     drawing = ImageDraw.Draw(canvas)
     for i in np.argsort(turned, kind="stable"):
         column, row = (np.clip(places[i], 0, [width - 1, height - 1])).astype(int)
