@@ -4,12 +4,12 @@
 smooth and goes through all points, but it is not one-to-one: where points move far, it folds over. How much of the
 shape does is counted.
 
-    python3 examples/thin_plate.py CASE.geojson [OUT.png [--picture IN.png]]
+    python3 examples/thin_plate.py CASE.geojson [OUT.png [--picture IN.png] [--layer LAYER.geojson]]
 
 CASE.geojson holds both sides, as `libicc map` reads them: Polygons with holes, Points and LineStrings. The spline
 gets all their vertices, and points on their edges. OUT.png has three panels: before, by the spline, by libicc; what
-the spline turns over is red. With a picture the coordinates are its pixels, y down. Needs libicc for Python and
-NumPy; to draw, Pillow.
+the spline turns over is red. With a picture the coordinates are its pixels, y down. Lines of a layer, such as roads,
+are carried along in each panel. Needs libicc for Python and NumPy; to draw, Pillow.
 """
 
 import argparse
@@ -32,6 +32,17 @@ def read(name):
         else:
             sides[role].append((0, feature["properties"]["feature"], kind, np.array(places, float).reshape(-1, 2)))
     return [[feature[2:] for feature in sorted(side, key=lambda f: f[:2])] for side in sides.values()]
+
+
+def read_layer(name):
+    """The lines of a layer, with as many vertices as it takes to look smooth when they are bent."""
+    shapes = [feature["geometry"] for feature in json.load(open(name, encoding="utf-8"))["features"]]
+    return [("road", along(np.array(shape["coordinates"], float), False, 40)) for shape in shapes
+            if shape["type"] == "LineString"]
+
+
+def carried(function, layer):
+    return [(kind, function(places)) for kind, places in layer]
 
 
 def domain(features):
@@ -94,7 +105,7 @@ def folded(function, points, step):
 
 # ---- a picture of it
 
-RED, WHITE, DARK = (214, 40, 40), (255, 255, 255), (30, 40, 60)
+RED, WHITE, DARK, ROAD = (214, 40, 40), (255, 255, 255), (30, 40, 60), (245, 140, 0)
 
 
 def checkerboard(width, height, cells=24):
@@ -114,7 +125,8 @@ def outline(drawing, features, scale=1):
             r = 3.5 * scale
             drawing.ellipse([x - r, y - r, x + r, y + r], fill=DARK, outline=WHITE)
         else:
-            drawing.line(path + path[:1] if kind == "ring" else path, fill=DARK, width=2 * scale)
+            colour = ROAD if kind == "road" else DARK
+            drawing.line(path + path[:1] if kind == "ring" else path, fill=colour, width=2 * scale)
 
 
 def draw_spline(picture, function, shape, ground=WHITE):
@@ -135,18 +147,20 @@ def draw_spline(picture, function, shape, ground=WHITE):
     return canvas, drawing
 
 
-def draw(name, before, after, picture):
+def draw(name, before, after, picture, layer=()):
     """Three panels side by side."""
     from PIL import Image, ImageDraw
     height, width = picture.shape[:2]
     source, target = domain(before), domain(after)
     blank = np.full_like(picture, 255)
+    maps = libicc.Map(source, source), libicc.Map(source, target)
     panels = [Image.fromarray(libicc.warp_image(picture, mapping, out=blank)).resize((2 * width, 2 * height))
-              for mapping in (libicc.Map(source, source), libicc.Map(source, target))]
-    spread, drawing = draw_spline(picture, spline(controls(before), controls(after)), source)
-    outline(drawing, after, 2)
-    for panel, features in zip(panels, (before, after)):
-        outline(ImageDraw.Draw(panel), features, 2)
+              for mapping in maps]
+    bent = spline(controls(before), controls(after))
+    spread, drawing = draw_spline(picture, bent, source)
+    outline(drawing, carried(bent, layer) + after, 2)
+    for panel, mapping, features in zip(panels, maps, (before, after)):
+        outline(ImageDraw.Draw(panel), carried(mapping, layer) + features, 2)
     sheet = Image.new("RGB", (3 * width + 24, height), WHITE)
     for k, panel in enumerate((panels[0], spread, panels[1])):
         sheet.paste(panel.resize((width, height), Image.LANCZOS), (k * (width + 12), 0))
@@ -169,6 +183,7 @@ def main():
     parser.add_argument("case")
     parser.add_argument("out", nargs="?")
     parser.add_argument("--picture")
+    parser.add_argument("--layer")
     options = parser.parse_args()
     before, after = read(options.case)
     source, target = domain(before), domain(after)
@@ -177,13 +192,14 @@ def main():
     print(f"thin-plate spline through {len(controls(before))} points: {100 * share:.1f} % of the shape is turned over")
     proof = "certified, none" if mapping.certified else "not certified"
     print(f"libicc: {mapping.info.n_simplices} triangles, {proof}")
+    layer = read_layer(options.layer) if options.layer else []
     if options.out is not None:
         if options.picture is not None:
             from PIL import Image
             picture = np.asarray(Image.open(options.picture).convert("RGB"))
         else:
-            (before, after), picture = to_pixels((before, after))
-        draw(options.out, before, after, picture)
+            (before, after, layer), picture = to_pixels((before, after, layer))
+        draw(options.out, before, after, picture, layer)
 
 
 if __name__ == "__main__":
