@@ -46,8 +46,12 @@ class Page:
         """A fresh folder that looks like the top of the tree, and the library installed for everybody."""
         shutil.rmtree(self.work, ignore_errors=True)
         self.work.mkdir(parents=True)
-        for folder in ("examples", "bindings"):
+        for folder in ("examples", "bindings", "include"):
             (self.work / folder).symlink_to(self.root / folder)
+        built = self.stage.parents[2]               # STAGE is tests/install/stage in it
+        if (built / "tools/libicc").exists():
+            (self.work / "build").mkdir()
+            (self.work / "build/release").symlink_to(built)
         os.chdir(self.work)
         (self.work / "bin").mkdir()
         (self.work / "bin/python3").symlink_to(sys.executable)
