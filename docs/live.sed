@@ -1,6 +1,7 @@
 # Below pictures of what the studio does, the studio in that mode; live.js gives it the shapes of the page. Before links.sed.
 /images\/studio\.png/a @htmlonly <iframe src="studio.html#cage" title="The studio: a cage to drag" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/fish-pair\.png/a @htmlonly <iframe src="studio.html#fish" title="The studio: the fish of this page, in its cage" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
+/images\/hero\.gif/a @htmlonly <iframe src="studio.html#fish" title="The studio: the fish of this page, in its cage" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/eye\.png/a @htmlonly <iframe src="studio.html#eye" title="The studio: the eye of this page, with its contours" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/character\.png/a @htmlonly <iframe src="studio.html#character" title="The studio: the character of this page, with its bones" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /images\/county\.png/a @htmlonly <iframe src="studio.html#county" title="The studio: the county of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly

@@ -6,11 +6,11 @@
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/deps.sh
-need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev python3-numpy
+need gcc g++ libc6-dev make cmake pkg-config libpng-dev libjpeg-dev python3-numpy python3-pil
 
 page=docs/papers.md
 out=build/papers
-library=build/examples/library
+library=build/release
 mkdir -p "$out"
 : >"$out/table.txt"
 
@@ -37,7 +37,7 @@ benchmarks() {
 
 named=$(grep -ow 'bench_[a-z_]*' "$page" | sort -u)
 [ -n "$named" ] || { echo "$page names no benchmark" >&2; exit 1; }
-made examples sh examples/run.sh
+made examples sh examples/run.sh --all
 made benchmarks benchmarks
 for name in $named; do
     made "$name" "$library/tests/bench/$name"
