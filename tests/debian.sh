@@ -4,6 +4,7 @@
 # are not allowed it exits with 77. Prints the seconds that each step took.
 # usage: debian.sh BUILD_FOLDER             logs and packages go to BUILD_FOLDER/debian
 #        LIBICC_DEBIAN_BASE=BASE.tar        the chroots begin as this; it is made if it is not there
+#        LIBICC_DEBIAN_ORIG=FILE.tar.xz     the archive of the sources; else one is made of the tree
 #        DEB_BUILD_OPTIONS=nocheck          the build leaves out its tests, which need not be run twice
 set -eu
 cd "$(dirname "$0")/.."
@@ -73,12 +74,22 @@ make_base() {
 # The tree as it is, without what is built in it, and the upstream archive that Debian wants of it.
 unpack_source() {
     tree=$build_root/build/$source
+    orig=$build_root/build/libicc_${version%-*}.orig.tar.xz
     mkdir -p "$tree"
-    tar -c --exclude-vcs --exclude=./debian --exclude=./build --exclude='./build-*' --exclude=./out \
-        --exclude=./bindings/rust/target --exclude='.*_cache' --exclude=__pycache__ . | tar -C "$tree" -x
-    tar -C "$build_root/build" -cJf "$build_root/build/libicc_${version%-*}.orig.tar.xz" "$source"
+    if [ -n "${LIBICC_DEBIAN_ORIG:-}" ]; then
+        cp "$LIBICC_DEBIAN_ORIG" "$orig"
+        tar -C "$tree" --strip-components=1 -xf "$orig"
+    else
+        pack_tree
+    fi
     cp -r debian "$tree"
     chown -R 1000:1000 "$build_root/build"
+}
+
+pack_tree() {
+    tar -c --exclude-vcs --exclude=./debian --exclude=./build --exclude='./build-*' --exclude=./dist --exclude=./out \
+        --exclude=./bindings/rust/target --exclude='.*_cache' --exclude=__pycache__ . | tar -C "$tree" -x
+    tar -C "$build_root/build" -cJf "$orig" "$source"
 }
 
 in_build_root() {

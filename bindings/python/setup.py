@@ -24,6 +24,7 @@ SOURCES = BESIDE if BESIDE.exists() else ABOVE
 PARTS = ("CMakeLists.txt", "LICENSE", "cmake", "include", "lib")
 NAME = {"win32": "libicc.dll", "darwin": "libicc.0.dylib"}.get(sys.platform, "libicc.so.0")
 GIVEN = os.environ.get("LIBICC_LIBRARY", "")
+MACHINES = {62: "x86_64", 183: "aarch64"}  # as the header of a library (ELF) names them
 
 
 def compiled(folder: pathlib.Path) -> pathlib.Path:
@@ -67,7 +68,8 @@ class PlatformWheel(bdist_wheel):
         versions = [int(minor) for minor in re.findall(rb"GLIBC_2\.(\d+)", library)]
         if not versions:
             return re.sub("[^0-9a-z]", "_", sysconfig.get_platform())
-        return f"manylinux_2_{max(versions)}_{platform.machine()}"
+        machine = MACHINES.get(int.from_bytes(library[18:20], "little"), platform.machine())
+        return f"manylinux_2_{max(versions)}_{machine}"
 
 
 class SourcesOfBoth(sdist):
