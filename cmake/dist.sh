@@ -98,7 +98,7 @@ linux() {
     "$strip" -o "$work/libicc.so.0" "$work/build/lib/libicc.so.0"
     mkdir "$work/$folder/man"
     cp "$tree/LICENSE" "$work/$folder"
-    cp "$tree"/docs/man/*.1 "$work/$folder/man"
+    cp "$tree"/docs/man/*.[15] "$work/$folder/man"
     licences "$work/$folder" glibc="$doc/libc6-dev/copyright" libpng="$doc/libpng-dev/copyright" \
         libjpeg-turbo="$doc/libjpeg62-turbo-dev/copyright" zlib="$doc/zlib1g-dev/copyright"
     packed "$folder.tar.gz" "$folder"
