@@ -3,7 +3,7 @@
  * @brief Status codes, errors, the calling environment and the version.
  *
  * libicc keeps no global and no thread-local state, installs no signal handler, prints nothing and
- * never exits the process. (Not related to ICC colour profiles.)
+ * never exits the process. (It has nothing to do with ICC colour profiles.)
  *
  * You may call libicc in any rounding mode, with subnormal numbers flushed to zero, and with
  * floating-point exceptions that trap. Results are the same bits. Each call computes in C's default
@@ -111,12 +111,12 @@ enum {
 };
 
 /**
- * What went wrong; filled in by the call that failed.
+ * What went wrong: filled in by the call that failed.
  *
- * Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call; members beyond
- * `size` are not touched. A size of 0, as in `icc_error err = {0}`, stands for the members of
- * version 0.1, so a message is written there as well. Any other struct without its size is refused:
- * ::ICC_ERR_ARGUMENT, with a message that names the struct. Every function that takes an error
+ * You own the struct and set `size` to `sizeof(icc_error)` before the call. Members beyond `size`
+ * are not touched. A size of 0, as in `icc_error err = {0}`, stands for the members of version 0.1,
+ * so a message is written there as well. (Any other struct without its size is refused with
+ * ::ICC_ERR_ARGUMENT and a message that names the struct.) Every function that takes an error
  * accepts NULL. A call that succeeds does not touch it.
  */
 typedef struct icc_error {
@@ -125,73 +125,74 @@ typedef struct icc_error {
     int32_t side;      /**< 0: neither; 1: the source; 2: the target */
     int64_t index;     /**< the item at fault, from 0, or -1 */
     int32_t item;      /**< what `index` counts: `ICC_ITEM_*` */
-    char message[252]; /**< one line of English, always terminated; with a side it begins with
-                            "source: " or "target: " */
+    /** one line of English, always terminated; begins with "source: " or "target: " if there is
+     *  a side */
+    char message[252];
 } icc_error;
 
-/** One unit of work handed to icc_env::parallel_for. You may run it in any floating-point
+/** One unit of work passed to icc_env::parallel_for. You may run it in any floating-point
  *  environment, and it leaves the environment as it was. */
 typedef void (*icc_task)(void *argument, size_t index);
 
 /**
  * How a call allocates, reports and runs in parallel.
  *
- * Zero-initialise it, set `size`, then whatever you need; NULL instead of the struct means all
- * defaults. The struct is read during the call only; but objects keep `user`, `alloc` and
- * `dealloc`, which must stay valid as long as the object lives. They serve every call that uses the
- * object: what only some calls need is made by the first that does.
+ * Zero-initialise it, set `size`, then whatever you need. NULL instead of the struct means all
+ * defaults. The struct is read during the call only. But objects keep `user`, `alloc` and
+ * `dealloc`, which must stay valid as long as the object lives. They also serve later calls that
+ * use the object, because some of its data is made on first use.
  *
- * Results are bit-identical for every number of threads and for every
- * implementation of `parallel_for`.
+ * Results are bit-identical for every number of threads and for every implementation of
+ * `parallel_for`.
  */
 typedef struct icc_env {
     size_t size; /**< set by the caller: `sizeof(icc_env)` */
     void *user;  /**< passed to every callback below */
-    /** Memory for any type, or NULL if there is none. Set both or neither; must be
-     *  thread-safe when tasks run in parallel, or threads share an object made with it: some memory
-     *  is allocated when the first point is located. Default: malloc and free. */
+    /** Returns memory for any type, or NULL if there is none. Set both `alloc` and `dealloc`, or
+     *  neither. They must be thread-safe if tasks run in parallel or if threads share an object
+     *  made with them, because some memory is allocated on first use. Default: malloc and free. */
     void *(*alloc)(void *user, size_t size);
     /** Frees what `alloc` returned; never called with NULL. */
     void (*dealloc)(void *user, void *memory);
     /** Takes one line of diagnostics, without a line end. Default: none. */
     void (*log)(void *user, const char *message);
-    /** Called on the calling thread from time to time during long work, with the current stage and
-     *  the share of the whole call that is done: in [0,1], never less than before, and 1 in the
-     *  last report of a call that succeeds. Shares are estimates, from what the parts of a call
-     *  usually cost. Return non-zero to cancel: the call stops as soon as it can and returns
-     *  ::ICC_ERR_CANCELLED. A quick call may report nothing. Default: none.
+    /** Called on the calling thread from time to time during long work, with the current stage
+     *  and the share of the whole call that is done. The share lies in [0,1] and never falls. It
+     *  is 1 in the last report of a call that succeeds. Shares are estimates, from what the
+     *  parts of a call usually cost. Return non-zero to cancel: the call stops as soon as it can
+     *  and returns ::ICC_ERR_CANCELLED. A quick call may report nothing. Default: none.
      *
-     *  `stage` is one of these names (more may be added), and may recur later in the call:
+     *  `stage` is one of these names, and may recur later in the call. More names may be added.
      *  - "check": boundaries, masks, meshes and results are checked and measured
-     *  - "repair": what is not yet one-to-one is repaired
+     *  - "repair": simplices that are not yet one-to-one are repaired
      *  - "mesh": a domain is triangulated
      *  - "grid": a grid is laid over a domain
      *  - "tree": the vertices of a grid are ordered
      *  - "order": the simplices of a mesh are ordered
      *  - "solve": equations are solved
      *  - "trace": points are traced along curves, or looked up
-     *  - "improve": a map is made fairer
+     *  - "improve": the distortion of a map is lowered
      *  - "warp": pictures are warped, or points posed
      *  - "sample": samples are spread over a shape
      *  - "weights": kernel coordinates are computed
      *  - "match": outlines are compared
      *  - "load": an object is read back */
     int32_t (*progress)(void *user, const char *stage, double share);
-    /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any
-     *  threads, and returns when all are done. Replaces the library's own threads. Certificates do
-     *  not rely on it: a task that it leaves out is done by the calling thread after it has
-     *  returned, and one that it runs twice is done once. */
+    /** Runs task(argument, i) for every i in [0, n_tasks), in any order and on any threads, and
+     *  returns when all are done. Replaces the library's own threads. Certificates do not rely
+     *  on it. A task that it leaves out is done by the calling thread after it has returned, and
+     *  a task that it runs twice is done once. Default: none. */
     void (*parallel_for)(void *user, size_t n_tasks, icc_task task, void *argument);
     /** Threads that a call may use, including the calling one; 0 and 1 mean one. The others live
-     *  only during the call. If one cannot be started, the others do its work; a library built with
-     *  ICC_WITH_THREADS off starts none. */
+     *  only during the call. If one cannot be started, the others do its work. A library built
+     *  with ICC_WITH_THREADS off starts none. */
     int32_t threads;
-    /** Bytes of memory that loading an object may take, beyond 64 for each byte of its data; 0
-     *  means 256,000,000. Charts of methods gradient and field, and domains made from masks, are
-     *  rebuilt from a few bytes and may need more: loading then refuses them with ::ICC_ERR_FORMAT
-     *  and a message that names this member, before it allocates the memory. Time is limited in
-     *  proportion: to some ten seconds for the default. UINT64_MAX lifts both limits, for data that
-     *  you trust. */
+    /** Bytes of memory that loading an object may take, in addition to 64 for each byte of its
+     *  data; 0 means 256,000,000. Charts of methods gradient and field, and domains made from
+     *  masks, are rebuilt from a few bytes and may need more. Loading then refuses them with
+     *  ::ICC_ERR_FORMAT and a message that names this member, before it allocates the memory.
+     *  Time is limited in proportion, to about ten seconds for the default. UINT64_MAX lifts
+     *  both limits, for data that you trust. */
     uint64_t load_limit;
 } icc_env;
 

@@ -2,12 +2,12 @@
  * @file icc/icc.h
  * @brief All of libicc: move the inside of a shape along with its boundary.
  *
- * Each header is for other readers, and includes what it needs:
- * - icc/map.h: domains, maps, matches and pictures, which most programs need;
- * - icc/chart.h: charts, the coordinates that maps are made from;
- * - icc/stages.h: the steps of the papers one by one;
- * - icc/kernel.h: kernel coordinates, for handles instead of a boundary;
- * - icc/base.h: status codes, errors, memory, threads and progress, for all of them.
+ * This header includes all others. Each of them can also be included alone:
+ * - icc/map.h: domains, maps, matches and pictures. Most programs need only this one.
+ * - icc/chart.h: charts, the coordinates that maps are made from.
+ * - icc/stages.h: the steps of the papers one by one.
+ * - icc/kernel.h: kernel coordinates, for handles instead of a boundary.
+ * - icc/base.h: status codes, errors, memory, threads and progress. The others include it.
  *
  * Objects are opaque and immutable. Any number of threads may use one object at the same time
  * without locks. An object keeps alive whatever it was made from: you may free a domain while a
@@ -19,13 +19,12 @@
  *
  * What may surprise you:
  * - A call on many points (encode, decode, apply, jacobian) returns ::ICC_OK once it has run, even
- *   if every point failed. Look at `n_failed`, or at the status of each point.
- * - These calls have no `err`: the statuses say what happened to each point.
- * - A chart or a map may be there without a certificate. `reason` of icc_chart_info and
- *   icc_map_info tells why. For method field icc_field_info counts what is wrong: n_infeasible,
- *   n_not_inward and n_stray.
- * - Saving takes two calls: with a capacity of 0 for the number of bytes, then for the bytes.
- * - icc_domain_create_mask() takes a mask of cells, icc_grid_create_mask() one of grid vertices.
+ *   if every point failed. Check `n_failed`, or the status of each point.
+ * - These calls have no `err`, because the statuses say what happened to each point.
+ * - A chart or a map may exist without a certificate. `reason` in icc_chart_info and icc_map_info
+ *   says why. For method field, icc_field_info counts what is wrong.
+ * - To save an object, call twice: with a capacity of 0 for the number of bytes, then for the bytes.
+ * - icc_domain_create_mask() takes a mask of cells, icc_grid_create_mask() a mask of grid vertices.
  *
  * SPDX-License-Identifier: MIT */
 #ifndef ICC_ICC_H

@@ -6,9 +6,9 @@
  *     const auto after = icc::domain::polygon({0, 0, 4, 1, 4, 4, 0, 3});
  *     const std::vector<double> images = icc::map(before, after).apply({1, 1, 2, 1.5});
  *
- * A thin layer over icc/icc.h, where the contracts are. Whatever else the C interface has is one
- * icc::call() or icc::handle away. All of it is inline, so a program depends on the library no more
- * than one in C does.
+ * A thin layer over icc/icc.h, whose headers have the contracts. For anything that has no C++ class,
+ * use icc::call() and icc::handle. All of this is inline, so your program depends on the library
+ * only through its C interface.
  *
  * SPDX-License-Identifier: MIT
  */
@@ -36,16 +36,16 @@ namespace icc {
 
 template <class T> class view;
 
-/** Whether C is a view of something. */
+/** Whether C is an icc::view. */
 template <class C> inline constexpr bool is_view = false;
-/** A view is one. */
+/** True for icc::view itself. */
 template <class T> inline constexpr bool is_view<view<T>> = true;
 
 /** Whether E is a `std::array` of T: a point, the vertices of a facet. */
 template <class E, class T> inline constexpr bool is_row = false;
 template <class T, std::size_t N> inline constexpr bool is_row<std::array<T, N>, T> = true;
 
-/** Whether C is a matrix that tells how its numbers lie, as Eigen's do. */
+/** Whether C is a matrix that says how its numbers lie in memory, such as Eigen's. */
 template <class C, class = void> inline constexpr bool is_matrix = false;
 template <class C>
 inline constexpr bool is_matrix<C, std::void_t<decltype(std::declval<C &>().innerStride()),
@@ -54,7 +54,7 @@ inline constexpr bool is_matrix<C, std::void_t<decltype(std::declval<C &>().inne
 
 /** Contiguous elements that someone else owns: a vector, an array, a `std::span` or a list in
  *  braces. Elements may be `std::array`, such as `std::vector<std::array<double, 2>>` for points.
- *  A matrix of Eigen's is taken, too: each column is a point (`Matrix<double, 2, Dynamic>`), or each
+ *  You may also pass an Eigen matrix. Each column is a point (`Matrix<double, 2, Dynamic>`), or each
  *  row if it is RowMajor. The call refuses other layouts. */
 template <class T> class view {
     using value = std::remove_const_t<T>;
@@ -64,11 +64,11 @@ template <class T> class view {
                                   (std::is_const_v<T> || !std::is_const_v<E>);
 
 public:
-    constexpr view() noexcept = default; /**< none */
-    /** `size` elements from `data` on. */
+    constexpr view() noexcept = default; /**< empty */
+    /** `size` elements that begin at `data`. */
     constexpr view(T *data, std::size_t size) noexcept
         : data_(size != 0 ? data : nullptr), size_(size) {}
-    /** All of what `std::data` and `std::size` understand. */
+    /** Everything that `std::data` and `std::size` accept. */
     template <class C, class = std::enable_if_t<
                            !is_view<std::decay_t<C>> &&
                            std::is_convertible_v<decltype(std::data(std::declval<C &>())), T *>>>
@@ -77,11 +77,11 @@ public:
         if constexpr (is_matrix<std::remove_reference_t<C>>)
             width_ = width_of(all);
     }
-    /** The same to read. */
+    /** A read-only view of a writable one. */
     template <class U, class = std::enable_if_t<std::is_convertible_v<U *, T *>>>
     constexpr view(const view<U> &other) noexcept
         : data_(other.data()), size_(other.size()), width_(other.width()) {}
-    /** The numbers of all rows. */
+    /** All rows, as plain numbers. */
     template <class C, std::enable_if_t<holds<element<C>>, int> = 0>
     view(C &&rows) noexcept
         : view(reinterpret_cast<T *>(std::data(rows)), std::size(rows) * (sizeof(element<C>) / sizeof(T)))
@@ -92,11 +92,11 @@ public:
     constexpr view(std::initializer_list<value> list) noexcept
         : view(std::data(list), list.size()) {}
     constexpr T *data() const noexcept { return data_; }            /**< NULL if there are none */
-    constexpr std::size_t size() const noexcept { return size_; }   /**< how many */
-    constexpr std::size_t width() const noexcept { return width_; } /**< of a row; 0 if there are no rows */
+    constexpr std::size_t size() const noexcept { return size_; }   /**< number of elements */
+    constexpr std::size_t width() const noexcept { return width_; } /**< elements per row; 0: no rows */
 
 private:
-    /** How many numbers follow one another, up to a gap if there is one, which is no width of points. */
+    /** Number of elements before the first gap. A gap makes it an invalid width for points. */
     template <class Matrix> static constexpr std::size_t width_of(const Matrix &m)
     {
         if (Matrix::IsVectorAtCompileTime)
@@ -109,7 +109,7 @@ private:
     std::size_t size_ = 0, width_ = 0;
 };
 
-/** The coordinates of points of a type of yours that holds doubles and nothing else, such as
+/** The coordinates of points whose type holds doubles and nothing else, such as
  *  `struct { double x, y; }` or `std::array<double, 3>`. */
 template <class Points> auto numbers(Points &points) noexcept
 {
@@ -130,16 +130,16 @@ public:
 
 /** How a call runs. */
 struct env {
-    std::int32_t threads = 1; /**< how many it may use; results do not depend on it */
-    /** Called from time to time on the calling thread with the name of the stage and the share of the whole
-     *  call that is done, which never falls. True cancels: icc::error with ::ICC_ERR_CANCELLED. An
-     *  exception cancels, too, and propagates from the call. */
+    std::int32_t threads = 1; /**< threads that the call may use; results do not depend on it */
+    /** Called from time to time on the calling thread, with the name of the stage and the share of the whole
+     *  call that is done, which never falls. Return true to cancel: the call throws icc::error with
+     *  ::ICC_ERR_CANCELLED. An exception cancels as well and propagates from the call. */
     std::function<bool(const char *stage, double share)> progress = {};
-    /** Bytes for objects that are read back, as icc_env::load_limit; 0: the default. */
+    /** Memory limit for loading objects, see icc_env::load_limit; 0: the default. */
     std::uint64_t load_limit = 0;
 };
 
-/** A struct of the C interface with its `size` set; all else is 0, which means the default. */
+/** A struct of the C interface with its `size` set. All else is 0, which means the default. */
 template <class T> T sized() noexcept
 {
     T result{};
@@ -177,7 +177,7 @@ template <class F> void call(const env &e, F &&f)
         throw error(err);
 }
 
-/** How many points, facets or simplices of `each` numbers a list has. */
+/** Number of points, facets or simplices in a list, `each` numbers apiece. */
 template <class T> std::size_t count(view<T> list, std::int64_t each)
 {
     const auto n = static_cast<std::size_t>(each > 0 ? each : 1);
@@ -200,7 +200,7 @@ inline icc_mesh mesh_of(std::int32_t dim, view<const double> vertices, view<cons
     return mesh;
 }
 
-/** Throws icc::error unless a list that the caller provides has room for exactly so many. */
+/** Throws icc::error unless your list has room for exactly this many elements. */
 template <class T> void expect(view<T> list, std::size_t n)
 {
     if (list.size() != n || list.width() == SIZE_MAX)
@@ -211,7 +211,7 @@ template <class T> void expect(view<T> list, std::size_t n)
  *  empty one, which moving leaves behind. */
 template <class T, void (*Free)(T *)> class handle {
 public:
-    /** What f(T **out, const icc_env *, icc_error *) makes. Throws as icc::call() does. */
+    /** Owns the object that f(T **out, const icc_env *, icc_error *) makes. Throws as icc::call() does. */
     template <class F> handle(const env &e, F &&f)
     {
         call(e, [&](const icc_env *c_env, icc_error *err) {
@@ -222,10 +222,10 @@ public:
         });
     }
 
-    const T *get() const noexcept { return owned_.get(); } /**< for calls of the C interface; borrowed */
+    const T *get() const noexcept { return owned_.get(); } /**< pointer for the C interface; borrowed */
 
 protected:
-    /** What `read` fills in. */
+    /** Returns the struct that `read` fills in. */
     template <class Info> Info tell(icc_status (*read)(const T *, Info *)) const
     {
         auto info = sized<Info>();
@@ -233,7 +233,7 @@ protected:
         return info;
     }
 
-    /** The bytes that `write` writes. */
+    /** Returns the bytes that `write` writes. */
     auto bytes(icc_status (*write)(const T *, std::size_t, void *, std::size_t *)) const
     {
         std::size_t n = 0;
@@ -254,18 +254,18 @@ struct places {
     std::vector<double> bary;         /**< `dim` barycentric coordinates on it for each */
 };
 
-/** What lies inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and the like
- *  borrow the coordinates. */
+/** A hole, line or point inside a domain of the plane: domain::with_features(). `icc::feature::hole({..})` and
+ *  its siblings borrow the coordinates. */
 struct feature {
     std::int32_t kind;           /**< `ICC_FEATURE_*` */
     view<const double> vertices; /**< 2 coordinates each */
-    double radius = 0;           /**< of a point with a size, else 0 */
+    double radius = 0;           /**< point: its size, or 0 */
 
     /** A simple polygon that is cut out. */
     static feature hole(view<const double> vertices) noexcept { return {ICC_FEATURE_HOLE, vertices, 0}; }
     /** A polyline. */
     static feature line(view<const double> vertices) noexcept { return {ICC_FEATURE_LINE, vertices, 0}; }
-    /** A point; with a radius the circle round it goes along. */
+    /** A point. With a radius, the circle around it moves along. */
     static feature point(view<const double> vertex, double radius = 0) noexcept
     {
         return {ICC_FEATURE_POINT, vertex, radius};
@@ -277,7 +277,7 @@ class domain : public handle<icc_domain, icc_domain_free> {
 public:
     using handle::handle;
 
-    /** Of a closed boundary, `dim` vertices a facet: icc_domain_create(). */
+    /** Makes a domain from a closed boundary, `dim` vertices a facet: icc_domain_create(). */
     domain(std::int32_t dim, view<const double> vertices, view<const std::uint32_t> facets,
            const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
@@ -285,13 +285,13 @@ public:
                                        count(facets, dim), facets.data(), rest...);
           }) {}
 
-    /** Of a simple polygon. */
+    /** Makes a domain from a simple polygon. */
     static domain polygon(view<const double> vertices, const env &e = {})
     {
         return domain(2, vertices, {}, e);
     }
 
-    /** Of a simple polygon with holes, lines and points inside: icc_domain_create_features(). */
+    /** Makes a domain from a simple polygon with holes, lines and points: icc_domain_create_features(). */
     static domain with_features(view<const double> outer, const std::vector<feature> &features,
                                 const env &e = {})
     {
@@ -310,7 +310,7 @@ public:
         });
     }
 
-    /** Of a mesh of its inside, `dim` + 1 vertices a simplex: icc_domain_create_mesh(). */
+    /** Makes a domain from a mesh of its inside, `dim` + 1 vertices a simplex: icc_domain_create_mesh(). */
     static domain from_mesh(std::int32_t dim, view<const double> vertices,
                             view<const std::uint32_t> simplices,
                             view<const std::uint32_t> facets = {}, const env &e = {})
@@ -321,7 +321,7 @@ public:
         });
     }
 
-    /** This surface in 3-D, filled with tetrahedra: icc_domain_fill(). */
+    /** Fills this surface in 3-D with tetrahedra: icc_domain_fill(). */
     domain filled(const icc_fill_options &options = sized<icc_fill_options>(),
                   const env &e = {}) const
     {
@@ -330,8 +330,8 @@ public:
         });
     }
 
-    /** Of the cells of a mask, as many along each axis as `shape` says, the first axis fastest:
-     *  icc_domain_create_mask(). */
+    /** Makes a domain from a mask of cells, the first axis fastest: icc_domain_create_mask(). `shape` is the
+     *  number of cells along each axis. */
     static domain from_mask(view<const std::size_t> shape, view<const std::uint8_t> cells,
                             const env &e = {})
     {
@@ -342,7 +342,7 @@ public:
         });
     }
 
-    /** How many cells a mask has. */
+    /** Number of cells in a mask. */
     static std::size_t product(view<const std::size_t> shape) noexcept
     {
         std::size_t n = 1;
@@ -371,7 +371,7 @@ public:
         return result;
     }
 
-    /** Its holes, lines and points; vertices() has the coordinates. */
+    /** Its holes, lines and points. vertices() has the coordinates. */
     std::vector<icc_feature_info> features() const
     {
         std::vector<icc_feature_info> result(info().n_features, sized<icc_feature_info>());
@@ -405,7 +405,7 @@ public:
         return where;
     }
 
-    /** The same with the nearest points of the boundary. */
+    /** Where points lie, and the nearest points of the boundary. */
     places locate_nearest(view<const double> points, const env &e = {}) const
     {
         const std::size_t n = count(points, info().dim);
@@ -419,14 +419,14 @@ public:
     }
 };
 
-/** What keeps a polygon from being a boundary: icc_boundary_defects(). */
+/** A defect that keeps a polygon from being a boundary: icc_boundary_defects(). */
 struct defect {
     std::int32_t kind; /**< `ICC_DEFECT_*` */
     std::uint32_t a;   /**< a vertex or an edge, as `kind` says */
-    std::uint32_t b;   /**< the other, as `kind` says */
+    std::uint32_t b;   /**< another, as `kind` says */
 };
 
-/** All defects of a closed polygon. */
+/** Lists all defects of a closed polygon. */
 inline std::vector<defect> defects(view<const double> polygon, const env &e = {})
 {
     std::vector<std::int32_t> kinds;
@@ -461,9 +461,9 @@ inline std::size_t repair_mask(view<const std::size_t> shape, view<std::uint8_t>
 
 /** Coordinates of points in a chart: icc_chart_encode(). */
 struct coordinates {
-    std::vector<std::uint32_t> facet; /**< where the curve of each point starts, */
-    std::vector<double> bary;         /**< `dim` barycentric coordinates there, */
-    std::vector<double> t;            /**< and the share of its length */
+    std::vector<std::uint32_t> facet; /**< facet where the curve of each point starts */
+    std::vector<double> bary;         /**< `dim` barycentric coordinates on that facet */
+    std::vector<double> t;            /**< share of the curve's length */
     std::vector<icc_status> status;   /**< ::ICC_OK for points that have coordinates; not read by decode() */
 };
 
@@ -472,40 +472,40 @@ class chart : public handle<icc_chart, icc_chart_free> {
 public:
     using handle::handle;
 
-    /** Of a domain: icc_chart_create(). */
+    /** Makes a chart of a domain: icc_chart_create(). */
     explicit chart(const domain &of, const icc_chart_options &options = sized<icc_chart_options>(),
                    const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_chart_create(out, of.get(), &options, rest...);
           }) {}
 
-    /** Of what save() has made. */
+    /** Reads back the bytes of save(). */
     explicit chart(view<const std::byte> saved, const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_chart_load(out, saved.size(), saved.data(), rest...);
           }) {}
 
-    /** The same by its name. */
+    /** Reads back the bytes of save(). */
     static chart load(view<const std::byte> saved, const env &e = {}) { return chart(saved, e); }
 
     std::vector<std::byte> save() const { return bytes(icc_chart_save); } /**< with the domain */
     icc_chart_info info() const { return tell(icc_chart_get_info); }      /**< certificate, maximum, .. */
-    icc_chart_timings timings() const { return tell(icc_chart_get_timings); } /**< of making it */
-    bool certified() const { return info().certified == 1; }              /**< else info() says why */
-    /** What only charts of one method have; nothing for charts of others. */
+    icc_chart_timings timings() const { return tell(icc_chart_get_timings); } /**< seconds for each step */
+    bool certified() const { return info().certified == 1; }              /**< if not, info() says why */
+    /** What only charts of method gradient have; empty for other charts. */
     std::optional<icc_gradient_info> gradient_info() const { return own(icc_chart_get_gradient_info); }
-    /** Likewise. */
+    /** Likewise for method field. */
     std::optional<icc_field_info> field_info() const { return own(icc_chart_get_field_info); }
-    /** Likewise, in the plane on a mesh that the library makes. */
+    /** Likewise for method foliation in the plane, on a mesh that libicc makes. */
     std::optional<icc_foliation_info> foliation_info() const { return own(icc_chart_get_foliation_info); }
-    /** Likewise, for method foliation on a domain's mesh. */
+    /** Likewise for method foliation on a domain's own mesh. */
     std::optional<icc_shelling_info> shelling_info() const { return own(icc_chart_get_shelling_info); }
-    /** Likewise. */
+    /** Likewise for method disc. */
     std::optional<icc_disc_info> disc_info() const { return own(icc_chart_get_disc_info); }
-    /** The domain, for calls of the C interface; borrowed. */
+    /** The domain, for the C interface; borrowed. */
     const icc_domain *get_domain() const noexcept { return icc_chart_domain(get()); }
 
-    /** What the coordinates miss, estimated from `n_points` points; 0: 4096. */
+    /** Estimates what the coordinates miss from `n_points` points; 0: 4096. */
     icc_chart_report report(std::size_t n_points = 0, const env &e = {}) const
     {
         auto result = sized<icc_chart_report>();
@@ -513,7 +513,7 @@ public:
         return result;
     }
 
-    /** Coordinates of points. */
+    /** Computes the coordinates of points. */
     coordinates encode(view<const double> points, const env &e = {}) const
     {
         const std::size_t n = count(points, info().dim);
@@ -526,7 +526,7 @@ public:
         return c;
     }
 
-    /** The inverse, into caller-supplied memory; statuses may be left out. Returns how many have no point. */
+    /** The inverse, into your memory. Statuses may be left out. Returns how many coordinates have no point. */
     std::size_t decode(const coordinates &c, view<double> points, view<icc_status> statuses = {},
                        const env &e = {}) const
     {
@@ -544,7 +544,7 @@ public:
         return n_failed;
     }
 
-    /** The same into a vector; NaN where there is no point. */
+    /** The inverse as a vector; NaN where there is no point. */
     std::vector<double> decode(const coordinates &c, const env &e = {}) const
     {
         std::vector<double> points(c.bary.size());
@@ -569,7 +569,7 @@ public:
     }
 
 private:
-    /** What `read` fills in; nothing where the method does not have it. */
+    /** Returns what `read` fills in; empty if the method does not have it. */
     template <class Info> std::optional<Info> own(icc_status (*read)(const icc_chart *, Info *)) const
     {
         auto info = sized<Info>();
@@ -583,11 +583,11 @@ private:
 
 /** A tie of a map between domains with features: map::ties(). */
 struct tie {
-    std::array<std::uint32_t, 2> vertices{}; /**< where it begins and ends */
-    std::vector<double> source;              /**< its bends there, 2 coordinates each */
-    std::vector<double> target;              /**< and in the target */
+    std::array<std::uint32_t, 2> vertices{}; /**< its first and last vertex */
+    std::vector<double> source;              /**< its bends in the source, 2 coordinates each */
+    std::vector<double> target;              /**< its bends in the target, 2 coordinates each */
 
-    /** As icc_map_options takes it, in an array; points into this. */
+    /** The same tie for icc_map_options::ties. It points into this object. */
     icc_tie raw() const noexcept
     {
         icc_tie t = sized<icc_tie>();
@@ -601,7 +601,7 @@ struct tie {
     }
 };
 
-/** The mesh of a map of kind mesh: icc_map_get_mesh(). */
+/** The mesh of a mesh map: icc_map_get_mesh(). */
 struct map_mesh {
     std::vector<double> vertices;         /**< `dim` coordinates each */
     std::vector<double> images;           /**< of the vertices, `dim` coordinates each */
@@ -614,9 +614,9 @@ struct carried_mesh {
     icc_certificate certificate; /**< whether it is still a mesh */
 };
 
-/** A picture in memory whose rows follow each other: `Sample` is `std::uint8_t`, `std::uint16_t`, `float` or
- *  `double`; `alpha`: the last channel is opacity. How a source is interpolated, and what is missing in it, is to
- *  be set in the result. */
+/** A picture in memory without gaps between its rows. `Sample` is `std::uint8_t`, `std::uint16_t`, `float` or
+ *  `double`. With `alpha` the last channel is opacity. Set the interpolation and missing samples of a source
+ *  in the result. */
 template <class Sample>
 icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t height, std::int32_t channels,
                     bool alpha = false)
@@ -636,12 +636,12 @@ icc_picture picture(view<Sample> samples, std::int32_t width, std::int32_t heigh
     return result;
 }
 
-/** Two domains that do not correspond, and which points of them go together. */
+/** Two domains that do not correspond, and the pairs of points that belong together. */
 class match : public handle<icc_match, icc_match_free> {
 public:
     using handle::handle;
 
-    /** By landmarks, rows of a point of the source and one of the target, or none: icc_match_create(). */
+    /** Matches two domains: icc_match_create(). A landmark is a point of the source, then one of the target. */
     match(const domain &source, const domain &target, view<const double> landmarks = {},
           const icc_match_options &options = sized<icc_match_options>(), const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
@@ -650,23 +650,23 @@ public:
                                       rest...);
           }) {}
 
-    /** Of what save() has made. */
+    /** Reads back the bytes of save(). */
     explicit match(view<const std::byte> saved, const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_match_load(out, saved.size(), saved.data(), rest...);
           }) {}
 
-    /** The same by its name. */
+    /** Reads back the bytes of save(). */
     static match load(view<const std::byte> saved, const env &e = {}) { return match(saved, e); }
 
     std::vector<std::byte> save() const { return bytes(icc_match_save); } /**< with both domains */
 
     icc_match_info info() const { return tell(icc_match_get_info); } /**< cost, turn, common vertices, .. */
-    /** The domains with common vertices, for calls of the C interface; borrowed. */
+    /** The source with common vertices, for the C interface; borrowed. */
     const icc_domain *get_source() const noexcept { return icc_match_source(get()); }
-    /** Likewise. */
+    /** The target, likewise. */
     const icc_domain *get_target() const noexcept { return icc_match_target(get()); }
-    /** Vertices of the domains that were given, for each common one; UINT32_MAX: it was added. */
+    /** For each common vertex its number in the given domains; UINT32_MAX: it was added. */
     std::pair<std::vector<std::uint32_t>, std::vector<std::uint32_t>> origins() const
     {
         const std::size_t n = info().n_vertices;
@@ -678,14 +678,14 @@ public:
         return result;
     }
 
-    /** Points of the source's boundary on the target's; `off`, if it is not empty, gets how far they were from the
-     *  common boundary: icc_match_apply(). */
+    /** Takes points of the source's boundary to the target's: icc_match_apply(). `off`, if it is not empty, gets
+     *  their distances from the common boundary. */
     std::vector<double> apply(view<const double> points, view<double> off = {}, const env &e = {}) const
     {
         return follow(icc_match_apply, points, off, e);
     }
 
-    /** Target to source, as apply(). */
+    /** Target to source; otherwise like apply(). */
     std::vector<double> apply_inverse(view<const double> points, view<double> off = {}, const env &e = {}) const
     {
         return follow(icc_match_apply_inverse, points, off, e);
@@ -711,35 +711,35 @@ class map : public handle<icc_map, icc_map_free> {
 public:
     using handle::handle;
 
-    /** From domain to domain: icc_map_create(). */
+    /** Makes a map between two domains: icc_map_create(). */
     map(const domain &source, const domain &target,
         const icc_map_options &options = sized<icc_map_options>(), const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_map_create(out, source.get(), target.get(), &options, rest...);
           }) {}
 
-    /** From chart to chart: icc_map_create_from_charts(). */
+    /** Makes a map from two charts: icc_map_create_from_charts(). */
     map(const chart &source, const chart &target,
         const icc_map_options &options = sized<icc_map_options>(), const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_map_create_from_charts(out, source.get(), target.get(), &options, rest...);
           }) {}
 
-    /** Of what save() has made. */
+    /** Reads back the bytes of save(). */
     explicit map(view<const std::byte> saved, const env &e = {})
         : handle(e, [&](auto out, auto... rest) {
               return icc_map_load(out, saved.size(), saved.data(), rest...);
           }) {}
 
-    /** The same by its name. */
+    /** Reads back the bytes of save(). */
     static map load(view<const std::byte> saved, const env &e = {}) { return map(saved, e); }
 
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
     icc_map_report report() const { return tell(icc_map_get_report); }  /**< how it was made */
-    bool certified() const { return info().certified == 1; }            /**< else info() says why */
+    bool certified() const { return info().certified == 1; }            /**< if not, info() says why */
 
-    /** Which way round one another features go: icc_map_get_tie(). None without features. */
+    /** The ties, which tell on which side features pass one another: icc_map_get_tie(). None without features. */
     std::vector<tie> ties() const
     {
         std::vector<tie> result(info().n_ties);
@@ -757,12 +757,12 @@ public:
         return result;
     }
 
-    /** The charts, for calls of the C interface; borrowed. NULL after retarget(). */
+    /** The source's chart, for the C interface; borrowed. NULL after retarget(). */
     const icc_chart *get_source_chart() const noexcept { return icc_map_source_chart(get()); }
-    const icc_chart *get_target_chart() const noexcept { return icc_map_target_chart(get()); } /**< too */
+    const icc_chart *get_target_chart() const noexcept { return icc_map_target_chart(get()); } /**< the target's chart, likewise */
 
-    /** A fairer map from one of kind mesh: icc_map_improve(). The report may be NULL, else its `size` is
-     *  set. */
+    /** Makes a map of lower distortion from a mesh map: icc_map_improve(). The report may be NULL, else its
+     *  `size` is set. */
     map improve(const icc_improve_options &options = sized<icc_improve_options>(),
                 icc_improve_report *report = nullptr, const env &e = {}) const
     {
@@ -771,7 +771,7 @@ public:
         });
     }
 
-    /** The map to a target that has moved: icc_map_retarget(). */
+    /** Makes the map to a target that has moved: icc_map_retarget(). */
     map retarget(const domain &target, const icc_retarget_options &options = sized<icc_retarget_options>(),
                  const env &e = {}) const
     {
@@ -780,7 +780,7 @@ public:
         });
     }
 
-    /** A copy of the mesh of a map of kind mesh. */
+    /** Copies the mesh of a mesh map. */
     map_mesh mesh() const
     {
         auto own = sized<icc_mesh>();
@@ -801,28 +801,28 @@ public:
         return carry_mesh(icc_map_certify, vertices, simplices, e);
     }
 
-    /** The same, and repairs it: icc_map_repair(). */
+    /** Maps a mesh so that no simplex inverts: icc_map_repair(). */
     carried_mesh repair(view<const double> vertices, view<const std::uint32_t> simplices,
                         const env &e = {}) const
     {
         return carry_mesh(icc_map_repair, vertices, simplices, e);
     }
 
-    /** Source to target, into caller-supplied memory, which may be that of the points. Points without an
-     *  image get NaN and do not throw; returns how many. */
+    /** Source to target, into your memory, which may be that of the points. Points without an image get NaN
+     *  and do not throw. Returns their number. */
     std::size_t apply(view<const double> points, view<double> images, const env &e = {}) const
     {
         return carry(icc_map_apply, points, images, {}, e);
     }
 
-    /** The same with a status for each point. */
+    /** Likewise, with a status for each point. */
     std::size_t apply(view<const double> points, view<double> images, view<icc_status> statuses,
                       const env &e = {}) const
     {
         return carry(icc_map_apply, points, images, statuses, e);
     }
 
-    /** The same into a vector. */
+    /** Likewise, as a vector. */
     std::vector<double> apply(view<const double> points, const env &e = {}) const
     {
         std::vector<double> images(points.size());
@@ -830,7 +830,7 @@ public:
         return images;
     }
 
-    /** The same point by point. */
+    /** Likewise, for points of your own type. */
     template <std::size_t N>
     std::vector<std::array<double, N>> apply(const std::vector<std::array<double, N>> &points,
                                              const env &e = {}) const
@@ -840,20 +840,20 @@ public:
         return images;
     }
 
-    /** Target to source, as apply(). */
+    /** Target to source; otherwise like apply(). */
     std::size_t apply_inverse(view<const double> points, view<double> images, const env &e = {}) const
     {
         return carry(icc_map_apply_inverse, points, images, {}, e);
     }
 
-    /** The same with a status for each point. */
+    /** Likewise, with a status for each point. */
     std::size_t apply_inverse(view<const double> points, view<double> images,
                               view<icc_status> statuses, const env &e = {}) const
     {
         return carry(icc_map_apply_inverse, points, images, statuses, e);
     }
 
-    /** The same into a vector. */
+    /** Likewise, as a vector. */
     std::vector<double> apply_inverse(view<const double> points, const env &e = {}) const
     {
         std::vector<double> images(points.size());
@@ -861,7 +861,7 @@ public:
         return images;
     }
 
-    /** The same point by point. */
+    /** Likewise, for points of your own type. */
     template <std::size_t N>
     std::vector<std::array<double, N>>
     apply_inverse(const std::vector<std::array<double, N>> &points, const env &e = {}) const
@@ -872,7 +872,7 @@ public:
     }
 
     /** The derivative at points of the source, `dim` x `dim` numbers each, row by row: icc_map_jacobian().
-     *  Statuses may be left out. Returns how many points have none. */
+     *  Statuses may be left out. Returns the number of points without a derivative. */
     std::size_t jacobian(view<const double> points, view<double> jacobians,
                          view<icc_status> statuses = {}, const env &e = {}) const
     {
@@ -880,7 +880,7 @@ public:
         return run(icc_map_jacobian, points, jacobians, points.size() * width, statuses, e);
     }
 
-    /** The same into a vector. */
+    /** Likewise, as a vector. */
     std::vector<double> jacobian(view<const double> points, const env &e = {}) const
     {
         std::vector<double> jacobians(points.size() * static_cast<std::size_t>(info().dim));
@@ -888,7 +888,7 @@ public:
         return jacobians;
     }
 
-    /** Warps a picture: icc_map_warp(). Returns how many pixels have no image. */
+    /** Warps a picture: icc_map_warp(). Returns the number of pixels without an image. */
     std::size_t warp(const icc_picture &source, const icc_picture &target, const env &e = {}) const
     {
         std::size_t n_failed = 0;

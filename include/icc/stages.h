@@ -1,11 +1,14 @@
 /**
  * @file icc/stages.h
- * @brief The stages of Integral Curve Coordinates, each by itself: grid, maximum, tree, function,
- * and the triangulation of sparse points.
+ * @brief The stages of Integral Curve Coordinates one by one: grid, maximum, tree, function, and
+ * the triangulation of sparse points.
  *
- * For studying or teaching the method, or for using one stage alone. The rules of icc/icc.h apply.
+ * Use these functions to study or teach the method, or to use one stage alone. The rules of
+ * icc/icc.h apply.
+ *
  * Source: L. Huynh, Bijective Deformations in R^n via Integral Curve Coordinates, thesis, George
  * Mason University, 2013, chapters 4 and 6; L. Huynh and Y. Gingold, paper of the same name.
+ * "Thesis" and "paper" below mean these two.
  *
  * SPDX-License-Identifier: MIT
  */
@@ -20,8 +23,8 @@ extern "C" {
 
 /* -------------------------------------------------------------------- grid */
 
-/** A regular grid of vertices, each inside or outside a shape. Vertex (i_0, i_1, ..) has the index
- *  i_0 + shape[0] * (i_1 + shape[1] * (..)) and the position origin + spacing * i. */
+/** A regular grid of vertices, each inside or outside a shape. Vertex (i_0, i_1, ..) has the
+ *  index i_0 + shape[0] * (i_1 + shape[1] * (..)) and the position origin + spacing * i. */
 typedef struct icc_grid icc_grid;
 
 /** What icc_grid_get_info() reports. */
@@ -30,25 +33,26 @@ typedef struct icc_grid_info {
     int32_t dim;                /**< dimension, 1..::ICC_MAX_DIM */
     size_t shape[ICC_MAX_DIM];  /**< vertices along each axis */
     double origin[ICC_MAX_DIM]; /**< position of vertex 0 */
-    double spacing;             /**< distance of neighbours, the same along every axis */
+    double spacing;             /**< distance between neighbours, the same along every axis */
     size_t n_vertices;          /**< product of `shape` */
     size_t n_inside;            /**< vertices inside */
-    size_t n_stray;             /**< vertices that lie inside the boundary, but count as outside:
-                                     pieces other than the largest (see icc_grid_create()), and
-                                     those removed by icc_grid_restrict() */
-    int32_t cells;              /**< grid cells along the longest side of the domain; 0 for a grid
-                                     from a mask of vertices */
+    /** vertices inside the boundary that count as outside: pieces other than the largest, see
+     *  icc_grid_create(), and vertices removed by icc_grid_restrict() */
+    size_t n_stray;
+    /** grid cells along the longest side of the domain; 0 for a grid from a mask of vertices */
+    int32_t cells;
 } icc_grid_info;
 
 /**
- * Covers a domain with a grid, at least two vertices wider than the domain on every side.
+ * Covers a domain with a grid that is at least two vertices wider than the domain on every side.
  *
  * A vertex is inside if it lies strictly inside the boundary. Where a domain is thinner than the
- * grid, the vertices inside may fall into several pieces; beyond 2-D only the largest is kept, and
- * the vertices of the others are counted (icc_grid_info::n_stray).
+ * grid, the vertices inside may fall into several pieces. Beyond 2-D only the largest piece is
+ * kept. The vertices of the other pieces count as outside: icc_grid_info::n_stray.
  *
- * The grid of a mask (icc_domain_create_mask()) includes the boundary's vertices: each cell of the
- * mask is cut into an even number of parts along each axis, 2 or as many more as `cells` requires.
+ * If the domain comes from a mask (icc_domain_create_mask()), the grid includes the boundary's
+ * vertices. Each cell of the mask is cut into an even number of parts along each axis: 2, or as
+ * many more as `cells` requires.
  *
  * @param[out] out the grid; owned by the caller
  * @param domain   the domain
@@ -56,19 +60,21 @@ typedef struct icc_grid_info {
  *                 least that many; 0: two for each cell of the mask
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (no vertex inside, or more than 2^28 vertices), ...
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_RESOLUTION if no vertex is inside, or there would be more than 2^28 vertices
+ * - ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY or ::ICC_ERR_CANCELLED
  */
 ICC_API icc_status icc_grid_create(icc_grid **out, const icc_domain *domain, int32_t cells,
                                    const icc_env *env, icc_error *err);
 
 /**
- * Makes a grid from a mask of its vertices (not of cells, as icc_domain_create_mask() takes):
- * origin 0, spacing 1.
+ * Makes a grid from a mask of its vertices, with origin 0 and spacing 1. (icc_domain_create_mask()
+ * takes a mask of cells instead.)
  *
  * @param[out] out the grid; owned by the caller
  * @param dim      1..::ICC_MAX_DIM
- * @param shape    vertices along each axis, dim numbers; the first axis runs fastest
- * @param inside   one byte per vertex: 0 outside, anything else inside
+ * @param shape    vertices along each axis, dim numbers; the first axis is fastest
+ * @param inside   one byte per vertex: 0 is outside, anything else inside
  * @param env      may be NULL
  * @param err      may be NULL
  */
@@ -76,16 +82,18 @@ ICC_API icc_status icc_grid_create_mask(icc_grid **out, int32_t dim, const size_
                                         const uint8_t *inside, const icc_env *env, icc_error *err);
 
 /**
- * Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is
- * cut into 2^dim, and a new vertex is inside if both ends of the edge that it halves are. Walls one
- * vertex thick stay one vertex thick; for a grid that follows its domain more closely, make one
- * with twice icc_grid_info::cells.
+ * Makes a grid of half the spacing with the same inside. Each simplex of the Kuhn triangulation is
+ * cut into 2^dim. A new vertex halves an edge, and is inside if both ends of the edge are inside.
+ * Walls that are one vertex thick stay one vertex thick. For a grid that follows its domain more
+ * closely, make one with twice icc_grid_info::cells instead.
  *
  * @param[out] out the grid; owned by the caller
  * @param grid     the grid
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK, ::ICC_ERR_RESOLUTION (more than 2^28 vertices), ...
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_RESOLUTION if there would be more than 2^28 vertices
+ * - ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY or ::ICC_ERR_CANCELLED
  */
 ICC_API icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const icc_env *env,
                                    icc_error *err);
@@ -95,8 +103,7 @@ ICC_API icc_status icc_grid_refine(icc_grid **out, const icc_grid *grid, const i
  *
  * @param[out] out the grid; owned by the caller
  * @param grid     the grid
- * @param keep     one byte per vertex: 0 moves it to the outside, which icc_grid_info::n_stray
- *                 counts
+ * @param keep     one byte per vertex: 0 moves it to the outside, counted by icc_grid_info::n_stray
  * @param env      may be NULL
  * @param err      may be NULL
  */
@@ -106,52 +113,56 @@ ICC_API icc_status icc_grid_restrict(icc_grid **out, const icc_grid *grid, const
 /** Frees a grid. */
 ICC_API void icc_grid_free(icc_grid *grid);
 
-/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+/** Fills in `info`, whose `size` you have set. Returns ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_grid_get_info(const icc_grid *grid, icc_grid_info *info);
 
 /** One byte per vertex, 1 inside and 0 outside; borrowed. */
 ICC_API const uint8_t *icc_grid_inside(const icc_grid *grid);
 
 /**
- * Finds the vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several,
- * it takes the one nearest to their mean, then the one with the smallest index.
+ * Finds the maximum: the vertex farthest from the outside in the grassfire transform (Algorithm 1).
+ * Of several such vertices it takes the one nearest to their mean, then the smallest index.
  *
- * @param grid           the grid
- * @param[out] vertex    the maximum
- * @param[out] rounds    how many rounds the fire burnt before it reached the vertex (0 next to the
- *                       outside), or NULL
- * @param env            may be NULL
- * @param err            may be NULL
+ * @param grid        the grid
+ * @param[out] vertex the maximum
+ * @param[out] rounds number of rounds that the fire burnt before it reached the vertex, 0 for a
+ *                    vertex next to the outside; or NULL
+ * @param env         may be NULL
+ * @param err         may be NULL
  *
  * Cost: O(vertices) time and memory.
  */
 ICC_API icc_status icc_grid_find_maximum(const icc_grid *grid, uint32_t *vertex, uint32_t *rounds,
                                          const icc_env *env, icc_error *err);
 
-/** Finds the inside vertex nearest to a point (of several, the smallest index). O(vertices). */
+/** Finds the vertex inside that is nearest to a point; of several, the smallest index.
+ *  O(vertices). */
 ICC_API icc_status icc_grid_find_nearest(const icc_grid *grid, const double *point,
                                          uint32_t *vertex);
 
 /* -------------------------------------------------------------------- tree */
 
-/** A breadth-first tree over a grid; a cousin tree where the shape allows it. */
+/** A breadth-first tree over a grid. In a *cousin tree*, which libicc builds where the shape
+ *  allows it, any two neighbouring vertices are parent and child or cousins. *Cousins* have
+ *  parents that are neighbours too. */
 typedef struct icc_tree icc_tree;
 
 /** Options of icc_tree_create(). */
 typedef struct icc_tree_options {
-    size_t size;               /**< set by the caller: `sizeof(icc_tree_options)` */
-    int32_t form;              /**< `ICC_TREE_*`; 0: thesis */
-    const int32_t *axis_order; /**< the order in which a generation expands along the axes, a
-                                    permutation of 0..dim-1; NULL: 0, 1, .. */
+    size_t size;  /**< set by the caller: `sizeof(icc_tree_options)` */
+    int32_t form; /**< `ICC_TREE_*`; 0: thesis */
+    /** the order in which a generation expands along the axes, a permutation of 0..dim-1; NULL:
+     *  0, 1, 2 and so on */
+    const int32_t *axis_order;
 } icc_tree_options;
 
-/** What icc_tree_get_report() found. */
+/** What icc_tree_get_report() reports. */
 typedef struct icc_tree_report {
     size_t size;                /**< set by the caller: `sizeof(icc_tree_report)` */
     size_t n_inside;            /**< vertices inside that the tree reaches */
     size_t n_outside;           /**< vertices outside that belong to the tree */
     size_t n_unreachable;       /**< vertices inside that it does not reach */
-    size_t n_pairs;             /**< neighbouring vertices, both inside and reached */
+    size_t n_pairs;             /**< pairs of neighbouring vertices, both inside and reached */
     size_t n_cousin_violations; /**< pairs that are neither parent and child nor cousins */
     uint32_t violation[2];      /**< the first such pair in index order, or UINT32_MAX */
 } icc_tree_report;
@@ -159,17 +170,18 @@ typedef struct icc_tree_report {
 /**
  * Grows the tree of Algorithm 2 from a vertex inside.
  *
- * In both forms the vertices outside that neighbour the inside have a generation: one more than the
- * smallest among their neighbours inside. In the thesis' form they and the vertices that they
- * expand into belong to the tree and have a parent. In the paper's form their parent is UINT32_MAX,
- * which stands for all their neighbours inside. A grid made by icc_grid_create() is wide enough for
- * both layers; a mask may end at its last vertex, and then lacks the layers beyond.
+ * Vertices outside that neighbour the inside also have a generation: one more than the smallest
+ * among their neighbours inside. The two forms treat them differently. In the thesis' form they
+ * have a parent and belong to the tree, as do the vertices that they expand into. In the paper's
+ * form their parent is UINT32_MAX, which stands for all their neighbours inside. A grid made by
+ * icc_grid_create() is wide enough for both layers. A mask may end at its last vertex and then
+ * lacks the layers beyond.
  *
- * Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
- * 3-D and beyond. The library assumes nothing: see icc_tree_get_report() to check, and
- * icc_tree_grow() for an order that can be used instead.
+ * The paper's Theorem 2 says that the result is a cousin tree. It held in every 2-D case tried, but
+ * is false in 3-D and beyond. The library does not rely on it. icc_tree_get_report() checks it, and
+ * icc_tree_grow() finds an order that can be used instead.
  *
- * @param[out] out the tree; owned by the caller; keeps the grid alive
+ * @param[out] out the tree; owned by the caller. It keeps the grid alive
  * @param grid     the grid
  * @param root     the maximum: a vertex inside
  * @param options  may be NULL
@@ -205,13 +217,13 @@ typedef struct icc_function_options {
     size_t size;         /**< set by the caller: `sizeof(icc_function_options)` */
     int32_t function;    /**< `ICC_FUNCTION_*`; 0: decay */
     int32_t constraints; /**< `ICC_CONSTRAINTS_*`; 0: needed */
-    int32_t solver;      /**< `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped,
-                              harmonic and constrained bi-Laplace are always factorised; Laplace is
-                              solved iteratively where a factorisation would lose small values, as
-                              in long thin rings */
-    double min_fall;     /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
-    double leaf_min;     /**< constrained bi-Laplace: least value at vertices without children, in
-                              (0, 0.01]; 0: 1e-9 */
+    /** `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped, harmonic and
+     *  constrained bi-Laplace are always factorised. Laplace is solved iteratively where a
+     *  factorisation would lose small values, as in long thin rings */
+    int32_t solver;
+    double min_fall; /**< least relative fall from parent to child, in (0, 0.01]; 0: 1e-6 */
+    /** constrained bi-Laplace: least value at vertices without children, in (0, 0.01]; 0: 1e-9 */
+    double leaf_min;
 } icc_function_options;
 
 /** What icc_function_get_info() reports. Members that do not apply to the function are 0. */
@@ -220,51 +232,57 @@ typedef struct icc_function_info {
     int32_t function;    /**< `ICC_FUNCTION_*` */
     int32_t constrained; /**< 1: the tree's inequalities were imposed */
     int32_t solver;      /**< `ICC_SOLVER_*` */
-    int32_t beside;      /**< 1: `highest` is not the root, where curves should end. Only seen for
-                              bilaplace and clamped without inequalities; icc_chart_create() then
-                              moves the root */
-    size_t n_unknowns;   /**< vertices inside that the tree reaches, except the root */
-    size_t n_violated;   /**< tree edges where the function without constraints breaks the
-                              inequality; where this function does, if it was not constrained */
-    size_t n_active;     /**< inequalities that hold with equality */
-    double residual;     /**< KKT residual: the largest |min(slack, multiplier)| of an inequality,
-                              or |row of the equation| if there are none; f is 1 at the root */
-    double least_log;    /**< the smallest of icc_function_logs() inside; 0 if there are none */
-    double excess;       /**< by what share of its value at the root the function is greater at
-                              `highest`; 0 if that is the root */
-    uint32_t highest;    /**< the vertex inside with the greatest value */
+    /** 1: the function is greatest at `highest` and not at the root, where curves should end.
+     *  Only seen for bilaplace and clamped without inequalities. icc_chart_create() then moves
+     *  the root */
+    int32_t beside;
+    size_t n_unknowns; /**< vertices inside that the tree reaches, except the root */
+    /** tree edges where the function without constraints breaks the inequality; if constraints
+     *  were not imposed, where this function does */
+    size_t n_violated;
+    size_t n_active; /**< inequalities that hold with equality */
+    /** KKT residual: the largest |min(slack, multiplier)| of an inequality, or |row of the
+     *  equation| if there are no inequalities. The function is 1 at the root */
+    double residual;
+    double least_log; /**< smallest value of icc_function_logs() inside; 0 if there are none */
+    /** how much greater the function is at `highest`, as a share of its value at the root; 0 if
+     *  that is the root */
+    double excess;
+    uint32_t highest; /**< the vertex inside with the greatest value */
 } icc_function_info;
 
 /** What icc_function_get_solver_report() reports: how the function was computed. Members that do
  *  not apply are 0. */
 typedef struct icc_solver_report {
-    size_t size;            /**< set by the caller: `sizeof(icc_solver_report)` */
-    size_t n_iterations;    /**< iterations of the active set or the interior point method; 0
-                                 without constraints */
-    size_t n_inner;         /**< iterations of conjugate gradients, in total */
-    double work;            /**< multiplications of the largest factorisation */
-    double residual_before; /**< icc_function_info::residual before the final sweep from the root to
-                                 the leaves */
-    double seconds_setup;   /**< time to number the unknowns and build the matrices */
-    double seconds_order;   /**< time for orderings and symbolic factorisations */
-    double seconds_factor;  /**< time for factorisations */
-    double seconds_solve;   /**< time for triangular solves and conjugate gradients */
-    double seconds_verify;  /**< time to count critical points, sweep and find the residuals */
+    size_t size; /**< set by the caller: `sizeof(icc_solver_report)` */
+    /** iterations of the active set or interior point method; 0 without constraints */
+    size_t n_iterations;
+    size_t n_inner; /**< iterations of conjugate gradients, in total */
+    double work;    /**< multiplications of the largest factorisation */
+    /** icc_function_info::residual before the final sweep from the root to the leaves */
+    double residual_before;
+    double seconds_setup;  /**< time to number the unknowns and build the matrices */
+    double seconds_order;  /**< time for orderings and symbolic factorisations */
+    double seconds_factor; /**< time for factorisations */
+    double seconds_solve;  /**< time for triangular solves and conjugate gradients */
+    double seconds_verify; /**< time to count critical points, sweep and find the residuals */
 } icc_solver_report;
 
-/** Critical points of a function on the vertices inside, by the links of the Kuhn triangulation. */
+/** What icc_function_get_report() reports: critical points of a function on the vertices inside.
+ *  They are found from the links of the vertices in the Kuhn triangulation. */
 typedef struct icc_function_report {
-    size_t size;       /**< set by the caller: `sizeof(icc_function_report)` */
-    size_t n_maxima;   /**< vertices with no higher neighbour */
-    size_t n_minima;   /**< vertices with no lower neighbour */
-    size_t n_saddles;  /**< other vertices where the higher or the lower neighbours do not form a
-                            contractible set. Exact up to 3-D; beyond, this is decided by strong
-                            collapses, and a vertex where neither set collapses counts. */
-    uint32_t critical; /**< the first critical vertex in index order other than the root, or
-                            UINT32_MAX */
+    size_t size;     /**< set by the caller: `sizeof(icc_function_report)` */
+    size_t n_maxima; /**< vertices with no higher neighbour */
+    size_t n_minima; /**< vertices with no lower neighbour */
+    /** other vertices where the higher or the lower neighbours do not form a contractible set.
+     *  Exact up to 3-D. Beyond 3-D a vertex counts as a saddle if neither set can be reduced to
+     *  a point by strong collapses */
+    size_t n_saddles;
+    /** the first critical vertex in index order except the root, or UINT32_MAX */
+    uint32_t critical;
 } icc_function_report;
 
-/** Kinds of edges in icc_function_get_edges(). */
+/** Kinds of edges that icc_function_get_edges() lists. */
 enum {
     ICC_EDGE_COMPRESSION = 1, /**< the gradients on both sides point to the edge */
     ICC_EDGE_EXPANSION = 2    /**< the gradients on both sides point away from it */
@@ -273,57 +291,59 @@ enum {
 /**
  * Makes a function: a value for every vertex of a tree.
  *
- * decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1), and -1, -2, .. for
- * the generations where that would underflow, from about 13,850 on.
+ * - *decay*: 10 at the root, times 0.95 with each generation (thesis, equation 4.1). From about
+ *   generation 13,850 on that would underflow, and the values are -1, -2 and so on.
+ * - *distance*: minus the generation.
+ * - *laplace*: 1 at the root, 0 at the vertices outside that neighbour the inside, and the mean of
+ *   its neighbours at every other vertex. It has the least Dirichlet energy. Beyond those zeros its
+ *   value is minus that of two steps back.
+ * - *harmonic*: like laplace, but 0 where the grid's edges cross the boundary of the domain that
+ *   the grid was made from. The cut edges have weights of their own (F. Gibou, R. P. Fedkiw, L.-T.
+ *   Cheng, M. Kang, 2002). Values at the vertices outside continue from there.
+ * - *bilaplace*: least sum of squared Laplacians over the vertices inside. This is f = c L^-2
+ *   e_root (simply supported, Navier).
+ * - *clamped*: least sum of squared Laplacians over the vertices inside and those outside next to
+ *   them.
  *
- * distance: minus the generation. Decay and distance depend on the generation alone.
+ * Decay and distance depend on the generation alone. Laplace is 0 on a staircase of vertices, which
+ * leaves part of the area uncovered at any resolution. With harmonic that part shrinks as the grid
+ * gets finer. On the grid of a mask, whose boundary consists of vertices, both are the same.
  *
- * laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other
- * vertex the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those
- * zeros, minus the value two steps back.)
+ * Laplace, harmonic and bilaplace are positive inside, however far from the root. Clamped changes
+ * its sign unless it is constrained. With constraints, the function has the least energy among
+ * those that fall by `min_fall` along every tree edge inside. Bilaplace and clamped are then also
+ * at least `leaf_min` at the leaves.
  *
- * bilaplace: the function with the least sum of squared Laplacians over the vertices inside, which
- * is f = c L^-2 e_root (simply supported, Navier).
+ * Bilaplace and clamped are shapes of a plate that is loaded at the root. An off-centre load does
+ * not make a plate highest right under it. So without constraints the maximum may be another
+ * vertex: icc_function_info::highest and icc_function_info::beside. A tree grown from there has a
+ * different function. icc_chart_create() moves the root until the two agree.
  *
- * harmonic: as laplace, but 0 where the grid's edges cross the boundary of the domain that the grid
- * was made from, by weights for the edges that it cuts (F. Gibou, R. P. Fedkiw, L.-T. Cheng,
- * M. Kang, 2002); values at the vertices outside go on from there. The staircase of laplace's zeros
- * leaves as much of the area uncovered at any resolution; with these the share falls with the grid.
- * In a mask's grid, whose boundary consists of vertices, both are the same.
+ * The library assumes nothing about critical points: icc_function_get_report() counts them. On a
+ * tree that is not a cousin tree, as in 3-D, the inequalities do not rule out critical points
+ * besides the maximum.
  *
- * clamped: the same, over the adjacent vertices outside, too.
- *
- * Laplace, harmonic and bilaplace are positive inside, however far from the root; clamped changes
- * its sign unless it is constrained. With constraints: the function of least energy among those
- * that fall by `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least
- * `leaf_min` at the leaves.
- *
- * Bilaplace and clamped are shapes of a plate that is loaded at the root, and an off-centre load
- * does not make a plate highest right under the load: without constraints the maximum may be
- * another vertex, see icc_function_info::highest and icc_function_info::beside. (A tree grown from
- * there has a different function; icc_chart_create() moves the root until the two agree.)
- *
- * Nothing is assumed about critical points: see icc_function_get_report(). Inequalities on a tree
- * that is not a cousin tree, as in 3-D, do not rule out critical points besides the maximum.
- *
- * @param[out] out the function; owned by the caller; keeps the tree alive
+ * @param[out] out the function; owned by the caller. It keeps the tree alive
  * @param tree     the tree
  * @param options  may be NULL
  * @param env      may be NULL
  * @param err      may be NULL
- * @return ::ICC_OK; ::ICC_ERR_SOLVER when a solver did not converge, which has only been seen with
- *         inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as
- *         `leaf_min` and `min_fall` do of deep trees) or `leaf_min` is 1e-2, and for harmonic where
- *         laplace would be solved iteratively; ::ICC_ERR_RESOLUTION when the root is the only
- *         vertex inside (laplace, bilaplace, clamped, harmonic); ::ICC_ERR_UNSUPPORTED for harmonic
- *         on a grid that was not made from a domain, or refined;
- *         ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_RESOLUTION if the root is the only vertex inside (laplace, bilaplace, clamped,
+ *   harmonic)
+ * - ::ICC_ERR_UNSUPPORTED for harmonic on a refined grid, or on one that was not made from a domain
+ * - ::ICC_ERR_SOLVER if a solver did not converge, see below
+ * - ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED or ::ICC_ERR_VERSION
+ *
+ * ::ICC_ERR_SOLVER has been seen in two cases only. One is constrained bilaplace or clamped, if the
+ * inequalities ask for more than 1 at the root, as they do on deep trees, or if `leaf_min` is 1e-2.
+ * The other is harmonic, where laplace would be solved iteratively.
  */
 ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
                                        const icc_function_options *options, const icc_env *env,
                                        icc_error *err);
 
-/** The function of a chart of method gradient or field, or NULL for other charts; borrowed, as are
+/** The function of a chart of method gradient or field, or NULL for other charts; borrowed, like
  *  the tree and the grid that belong to it. */
 ICC_API const icc_function *icc_chart_function(const icc_chart *chart);
 
@@ -339,44 +359,47 @@ ICC_API uint32_t icc_tree_root(const icc_tree *tree);
 /** Frees a function. */
 ICC_API void icc_function_free(icc_function *function);
 
-/** Fills in `info`, whose `size` the caller has set. ::ICC_OK or ::ICC_ERR_ARGUMENT. */
+/** Fills in `info`, whose `size` you have set. Returns ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_function_get_info(const icc_function *function, icc_function_info *info);
 
-/** The same for `report`. */
+/** Fills in `report`, whose `size` you have set. Returns ::ICC_OK or ::ICC_ERR_ARGUMENT. */
 ICC_API icc_status icc_function_get_solver_report(const icc_function *function,
                                                   icc_solver_report *report);
 
-/** One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function
- *  of a gradient chart extends to some vertices outside.) Laplace and bilaplace decay exponentially
- *  in long limbs: values below 2^-1022 are 0 here, see icc_function_logs(). */
+/** One value per grid vertex; NaN where the tree does not reach; borrowed. Beyond 2-D the
+ *  function of a gradient chart extends to some vertices outside. Laplace and bilaplace decay
+ *  exponentially in long limbs. Values below 2^-1022 are 0 here, but icc_function_logs() has
+ *  them. */
 ICC_API const double *icc_function_values(const icc_function *function);
 
-/** The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL
- *  outside, NaN where the tree does not reach; borrowed. NULL for decay and distance, and when some
- *  value inside is not positive. Those of a chart's function are made when they are first asked
- *  for, by any thread, 8 bytes a vertex: NULL, too, when there is no memory for them then. */
+/**
+ * The natural logarithm of every value, accurate even where the values underflow. It is -HUGE_VAL
+ * outside and NaN where the tree does not reach; borrowed. NULL for decay and distance, and if some
+ * value inside is not positive.
+ *
+ * The logarithms of a chart's function are computed on first use, by any thread, with 8 bytes a
+ * vertex. The result is also NULL if there is no memory for them then.
+ */
 ICC_API const double *icc_function_logs(const icc_function *function);
 
-/**
- * Counts critical points. Vertices outside or without a value count as lower than all others, equal
- * values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
- * 4-D, 5-D and 6-D.
- */
+/** Counts critical points. Vertices outside or without a value count as lower than all others.
+ *  Equal values are ordered by vertex index. Cost: about 10 ns a vertex in 2-D and 3-D, up to 10
+ *  us in 6-D. */
 ICC_API icc_status icc_function_get_report(const icc_function *function,
                                            icc_function_report *report, const icc_env *env,
                                            icc_error *err);
 
 /**
- * Lists compression and expansion edges (2-D): edges between two triangles with a value at every
- * corner, at least one of whose corners is inside (thesis, sections 5 and 6.4).
+ * Lists compression and expansion edges in 2-D (thesis, sections 5 and 6.4). It looks at edges
+ * between two triangles that have a value at every corner, with at least one corner inside.
  *
- * @param function        the function
- * @param capacity     how many edges the arrays have room for
- * @param[out] edges   `capacity` pairs of vertices
- * @param[out] kinds   `capacity` kinds, `ICC_EDGE_*`
- * @param[out] n_edges how many there are in all, also beyond `capacity`
- * @param[out] n_tested how many edges were looked at, or NULL
- * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_UNSUPPORTED (not 2-D)
+ * @param function      the function
+ * @param capacity      number of edges that the arrays have room for
+ * @param[out] edges    `capacity` pairs of vertices
+ * @param[out] kinds    `capacity` kinds, `ICC_EDGE_*`
+ * @param[out] n_edges  number of edges found, which may exceed `capacity`
+ * @param[out] n_tested number of edges examined, or NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, or ::ICC_ERR_UNSUPPORTED if it is not 2-D
  */
 ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
                                           uint32_t *edges, int32_t *kinds, size_t *n_edges,
@@ -388,65 +411,69 @@ ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t c
 enum {
     ICC_GROW_AS_GIVEN = 1, /**< the given order is regular */
     ICC_GROW_GROWN = 2,    /**< some vertices had to wait for others */
-    ICC_GROW_THINNED = 3   /**< growth got stuck; instead the vertices were removed one by one, and
-                                that order reversed */
+    /** growth got stuck; instead the vertices were removed one by one, and that order was
+     *  reversed */
+    ICC_GROW_THINNED = 3
 };
 
-/** What icc_tree_grow() found. */
+/** What icc_tree_grow() reports. */
 typedef struct icc_grow_report {
-    size_t size;        /**< set by the caller: `sizeof(icc_grow_report)` */
-    int32_t method;     /**< `ICC_GROW_*` */
-    uint32_t vertex;    /**< the first vertex in the given order that growth could not place, or
-                             UINT32_MAX */
+    size_t size;    /**< set by the caller: `sizeof(icc_grow_report)` */
+    int32_t method; /**< `ICC_GROW_*` */
+    /** the first vertex in the given order that growth could not place, or UINT32_MAX */
+    uint32_t vertex;
     size_t n_vertices;  /**< vertices inside that the tree reaches */
     size_t n_deferred;  /**< vertices that had to wait while growing */
     size_t n_unplaced;  /**< vertices left when growth got stuck */
-    size_t n_remaining; /**< vertices left, but for the root, when thinning got stuck, too */
-    size_t n_reversed;  /**< edges of the Kuhn triangulation along which the order is not the given
-                             one */
+    size_t n_remaining; /**< vertices left, except the root, if thinning got stuck too */
+    size_t n_reversed;  /**< edges of the Kuhn triangulation whose two ends changed order */
     size_t n_tests;     /**< links that were tested: less than 2^(dim+3) a vertex */
 } icc_grow_report;
 
 /**
- * Orders the vertices inside so that the root is the only critical one.
+ * Orders the vertices inside so that the root is the only critical one. A function that falls with
+ * the rank then has one critical point, the maximum, in any dimension.
  *
- * In 2-D the tree's own order had this property in every case tried; beyond, it often does not (see
- * icc_tree_create()). Here a set grows from the root: in the given order it takes each vertex whose
- * neighbours in the set are a contractible part of its link; other vertices wait until theirs are.
- * (Links are those of the Kuhn triangulation, decided as for icc_function_report::n_saddles.) If
- * growth gets stuck, the set of all vertices is thinned down to the root instead. A function that
- * falls with the rank has one critical point, the maximum, in any dimension. For some shapes both
- * fail, such as Bing's house with two rooms: a finer grid may help. Nothing helps if the vertices
- * inside do not form a ball, as may happen where parts of a surface come close to each other;
- * growth then leaves out the few vertices where it would close a ring.
+ * In 2-D the tree's own order had this property in every case tried. Beyond 2-D it often does not,
+ * see icc_tree_create(). Here a set grows from the root, in the given order. It takes each vertex
+ * whose neighbours in the set form a contractible part of its link. Other vertices wait until
+ * theirs do. (The links are those of the Kuhn triangulation, and are tested as for
+ * icc_function_report::n_saddles.) If growth gets stuck, the set of all vertices is thinned down to
+ * the root instead.
  *
- * @param tree       the tree
- * @param values     the preferred order, as one value per grid vertex, the largest first; equal
- *                   values in the order of the tree. NULL: the order of the tree.
- * @param[out] rank  room for one number per grid vertex: 0 for the root, then 1, 2, ..; UINT32_MAX
- *                   for vertices outside or not reached. After ::ICC_ERR_TOPOLOGY the vertices that
- *                   growth has placed have their ranks, the others UINT32_MAX: remove these with
- *                   icc_grid_restrict(), and the order has one critical vertex. Undefined after any
- *                   other failure.
+ * Both fail for some shapes, such as Bing's house with two rooms. A finer grid may help. Nothing
+ * helps if the vertices inside do not form a ball, which may happen where parts of a surface come
+ * close to each other. Growth then leaves out the few vertices where it would close a ring.
+ *
+ * @param tree        the tree
+ * @param values      the preferred order, as one value per grid vertex, the largest first; equal
+ *                    values in the order of the tree. NULL: the order of the tree
+ * @param[out] rank   room for one number per grid vertex: 0 for the root, then 1, 2 and so on.
+ *                    UINT32_MAX for vertices outside or not reached. Undefined after a failure
+ *                    other than ::ICC_ERR_TOPOLOGY
  * @param[out] report what was done, or NULL; also after ::ICC_ERR_TOPOLOGY
- * @param env        may be NULL
- * @param err        may be NULL; `index` is the vertex where growth got stuck
- * @return ::ICC_OK, ::ICC_ERR_TOPOLOGY (stuck), ::ICC_ERR_ARGUMENT (a value inside is NaN), ...
+ * @param env         may be NULL
+ * @param err         may be NULL; `index` is the vertex where growth got stuck
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_TOPOLOGY if both got stuck. The vertices that growth has placed have their ranks, the
+ *   others UINT32_MAX. Remove these with icc_grid_restrict(), and the order has one critical vertex
+ * - ::ICC_ERR_ARGUMENT, for example if a value inside is NaN
+ * - ::ICC_ERR_MEMORY or ::ICC_ERR_CANCELLED
  *
- * Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.13 to 0.3 us in
- * 3-D, 0.5 us in 4-D, 2 us in 5-D. 6 bytes a grid vertex, and 8 a vertex inside for `values`.
+ * Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.3 us in 3-D.
+ * Memory: 6 bytes a grid vertex, and 8 a vertex inside for `values`.
  */
 ICC_API icc_status icc_tree_grow(const icc_tree *tree, const double *values, uint32_t *rank,
                                  icc_grow_report *report, const icc_env *env, icc_error *err);
 
 /**
- * Counts the critical vertices of any order of the vertices inside that the tree reaches, as
- * icc_function_get_report() does for functions: by testing every link, wherever the order comes
- * from.
+ * Counts the critical vertices of any order of the vertices inside, as icc_function_get_report()
+ * does for functions. It tests every link, wherever the order comes from. Only vertices that the
+ * tree reaches count.
  *
  * @param tree        the tree
  * @param rank        one number per grid vertex, smaller for higher vertices; equal numbers count
- *                    as in icc_function_get_report(). Numbers of other vertices are ignored.
+ *                    as in icc_function_get_report(). Numbers of other vertices are ignored
  * @param[out] report its `size` is set by the caller
  * @param env         may be NULL
  * @param err         may be NULL
@@ -458,22 +485,22 @@ ICC_API icc_status icc_tree_get_rank_report(const icc_tree *tree, const uint32_t
 /* ----------------------------------------------------------- triangulation */
 
 /**
- * Constrained Delaunay triangulation of a simple polygon with points inside (2-D).
+ * Computes the constrained Delaunay triangulation of a simple polygon with points inside (2-D).
  *
- * All decisions are exact. Triangles are counter-clockwise (with y upwards). A polygon of b
- * vertices with p points inside has b + 2 p - 2 triangles, always; no vertex is added.
+ * All decisions are exact. Triangles are counter-clockwise (y upwards). No vertex is added, so a
+ * polygon of b vertices with p points inside always has b + 2 p - 2 triangles.
  *
- * @param n_boundary     vertices of the polygon, either orientation; they come first
- * @param n_points       all vertices, those of the polygon included
+ * @param n_boundary     number of vertices of the polygon, in either orientation; they come first
+ * @param n_points       number of all vertices, including those of the polygon
  * @param points         n_points * 2 coordinates
  * @param[out] triangles room for 3 * (2 * n_points - n_boundary - 2) vertex indices
  * @param env            may be NULL
  * @param err            may be NULL; `index` is a point that is not strictly inside the polygon, or
  *                       that repeats another
- * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY,
- *         ...
+ * @return ::ICC_OK, ::ICC_ERR_BOUNDARY, ::ICC_ERR_OUTSIDE, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY or
+ *         ::ICC_ERR_CANCELLED
  *
- * Cost: O(n log n) in practice, about 1 us a vertex; 100 bytes a vertex.
+ * Cost: O(n log n) in practice, about 1 us and 100 bytes a vertex.
  */
 ICC_API icc_status icc_triangulate(size_t n_boundary, size_t n_points, const double *points,
                                    uint32_t *triangles, const icc_env *env, icc_error *err);
