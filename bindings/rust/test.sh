@@ -38,8 +38,9 @@ warp() {
          END { exit !(n == 262440 && NR == 2 && seen[0] > seen[255] && seen[255] > 0) }' "$work/$1.bytes"
 }
 
-tell "layout"
+tell "layout and comments"
 sh check_layout.sh "$prefix"
+python3 comments.py "$prefix/include" --check
 
 if [ -e "$libdir/libicc.so" ]; then
     tell "dynamic"

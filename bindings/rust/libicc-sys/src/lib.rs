@@ -1,11 +1,12 @@
-//! Raw bindings of libicc: the C interface as it is, nothing safe about it. The crate `libicc` wraps it.
+//! Raw bindings of libicc: the C interface as it is, all of it unsafe. The crate `libicc` wraps it.
 //!
-//! Sections follow the headers `icc/base.h`, `icc/map.h`, `icc/chart.h`, `icc/stages.h` and `icc/kernel.h`, whose rules hold:
-//! objects are immutable, creators write to `*out`, `env` and `err` may be null. `Default` of a struct is all
-//! zeros, with `size` set. `bindings/rust/check_layout.sh` compares every struct, constant and signature with
-//! the headers.
+//! Sections follow the headers `icc/base.h`, `icc/map.h`, `icc/chart.h`, `icc/stages.h` and `icc/kernel.h`, and the
+//! comments are those of the headers: `bindings/rust/comments.py` copies them. The rules of `icc/icc.h` apply.
+//! Objects are immutable, creators write to `*out`, and `env` and `err` may be null. `Default` of a struct sets
+//! `size` and zeroes everything else. `bindings/rust/check_layout.sh` compares every struct, constant and signature
+//! with the headers.
 //!
-//! (Not related to ICC colour profiles.)
+//! (It has nothing to do with ICC colour profiles.)
 #![allow(non_camel_case_types)]
 
 use std::os::raw::{c_char, c_void};
@@ -53,13 +54,13 @@ macro_rules! sized {
 pub type icc_status = i32;
 
 // Status codes. Their numbers never change.
-/// the call did what it says
+/// the call has run; points may have statuses of their own
 pub const ICC_OK: i32 = 0;
 /// an argument is missing or out of range
 pub const ICC_ERR_ARGUMENT: i32 = 1;
 /// an allocation failed
 pub const ICC_ERR_MEMORY: i32 = 2;
-/// a struct has a member that this library does not know
+/// a struct or saved object is from another version
 pub const ICC_ERR_VERSION: i32 = 3;
 /// the boundary is not that of a simple, solid shape
 pub const ICC_ERR_BOUNDARY: i32 = 4;
@@ -77,7 +78,7 @@ pub const ICC_ERR_TRACE: i32 = 9;
 pub const ICC_ERR_CERTIFICATE: i32 = 10;
 /// the progress callback asked to stop
 pub const ICC_ERR_CANCELLED: i32 = 11;
-/// this combination is not available
+/// this combination is not supported
 pub const ICC_ERR_UNSUPPORTED: i32 = 12;
 /// input data is malformed
 pub const ICC_ERR_FORMAT: i32 = 13;
@@ -124,11 +125,13 @@ pub const ICC_ITEM_FEATURE: i32 = 15;
 /// ties of a map
 pub const ICC_ITEM_TIE: i32 = 16;
 
-/// What went wrong, filled in by the call that failed.
+/// What went wrong: filled in by the call that failed.
 ///
-/// Owned by the caller, who sets `size` to `sizeof(icc_error)` before the call;
-/// members beyond `size` are not touched. Every function that takes one accepts
-/// NULL. A call that succeeds leaves the struct alone.
+/// You own the struct and set `size` to `sizeof(icc_error)` before the call. Members beyond `size` are not
+/// touched. A size of 0, as in `icc_error err = {0}`, stands for the members of version 0.1, so a message is
+/// written there as well. (Any other struct without its size is refused with `ICC_ERR_ARGUMENT` and a message
+/// that names the struct.) Every function that takes an error accepts NULL. A call that succeeds does not
+/// touch it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_error {
@@ -138,79 +141,81 @@ pub struct icc_error {
     pub status: icc_status,
     /// 0: neither; 1: the source; 2: the target
     pub side: i32,
-    /// which item is at fault, from 0, or -1
+    /// the item at fault, from 0, or -1
     pub index: i64,
-    /// what it is: `ICC_ITEM_*`
+    /// what `index` counts: `ICC_ITEM_*`
     pub item: i32,
-    /// one line of English, always terminated
+    /// one line of English, always terminated; begins with "source: " or "target: " if there is a side
     pub message: [c_char; 252],
 }
 sized!(icc_error);
 
-/// One unit of work handed to `icc_env.parallel_for`. You may run it in any floating-point environment, and it leaves the
-/// environment as it was.
+/// One unit of work passed to `icc_env.parallel_for`. You may run it in any floating-point environment, and
+/// it leaves the environment as it was.
 pub type icc_task = Option<unsafe extern "C" fn(argument: *mut c_void, index: usize)>;
 
 /// How a call allocates, reports and runs in parallel.
 ///
-/// Zero-initialise, set `size`, then whatever is wanted; NULL in place of the
-/// struct means all defaults. The struct is read during the call and not kept;
-/// objects keep `user`, `alloc` and `dealloc`, which must stay valid for as long
-/// as the object lives.
+/// Zero-initialise it, set `size`, then whatever you need. NULL instead of the struct means all defaults. The
+/// struct is read during the call only. But objects keep `user`, `alloc` and `dealloc`, which must stay valid
+/// as long as the object lives. They also serve later calls that use the object, because some of its data is
+/// made on first use.
 ///
-/// Results are bit-identical for every number of threads and for every
-/// implementation of `parallel_for`.
+/// Results are bit-identical for every number of threads and for every implementation of `parallel_for`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_env {
     /// set by the caller: `sizeof(icc_env)`
     pub size: usize,
-    /// handed to every callback below
+    /// passed to every callback below
     pub user: *mut c_void,
-    /// Memory for any type, or NULL if there is none. Set both or neither; must be
-    /// thread-safe when tasks run in parallel, or several threads use the objects that are made
-    /// with it. Default: malloc and free.
+    /// Returns memory for any type, or NULL if there is none. Set both `alloc` and `dealloc`, or neither.
+    /// They must be thread-safe if tasks run in parallel or if threads share an object made with them,
+    /// because some memory is allocated on first use. Default: malloc and free.
     pub alloc: Option<unsafe extern "C" fn(user: *mut c_void, size: usize) -> *mut c_void>,
-    /// Gives back what `alloc` returned; never called with NULL.
+    /// Frees what `alloc` returned; never called with NULL.
     pub dealloc: Option<unsafe extern "C" fn(user: *mut c_void, memory: *mut c_void)>,
     /// Takes one line of diagnostics, without a line end. Default: none.
     pub log: Option<unsafe extern "C" fn(user: *mut c_void, message: *const c_char)>,
-    /// Called on the calling thread now and then during long work, with what is being done and
-    /// the share of the whole call that is done: in \[0,1\], never less than before, and 1 in the
-    /// last report of a call that succeeds. Shares are guesses; they go by what the parts of a
-    /// call usually cost. Non-zero cancels: the call gives up as soon as it can and returns
-    /// `ICC_ERR_CANCELLED`. A call that is done at once may report nothing. Default: none.
+    /// Called on the calling thread from time to time during long work, with the current stage and the share
+    /// of the whole call that is done. The share lies in \[0,1\] and never falls. It is 1 in the last report
+    /// of a call that succeeds. Shares are estimates, from what the parts of a call usually cost. Return
+    /// non-zero to cancel: the call stops as soon as it can and returns `ICC_ERR_CANCELLED`. A quick call may
+    /// report nothing. Default: none.
     ///
-    /// `stage` is one of these names (more may come), and may come back later in the call:
+    /// `stage` is one of these names, and may recur later in the call. More names may be added.
+    ///
     /// - "check": boundaries, masks, meshes and results are checked and measured
-    /// - "repair": what is not one-to-one yet is mended
+    /// - "repair": simplices that are not yet one-to-one are repaired
     /// - "mesh": a domain is triangulated
     /// - "grid": a grid is laid over a domain
-    /// - "tree": the vertices of a grid are put in order
-    /// - "order": the simplices of a mesh are put in order
+    /// - "tree": the vertices of a grid are ordered
+    /// - "order": the simplices of a mesh are ordered
     /// - "solve": equations are solved
-    /// - "trace": points are carried along curves, or looked up
-    /// - "improve": a map is made fairer
-    /// - "warp": pictures or poses are carried along
-    /// - "sample": samples are spread
+    /// - "trace": points are traced along curves, or looked up
+    /// - "improve": the distortion of a map is lowered
+    /// - "warp": pictures are warped, or points posed
+    /// - "sample": samples are spread over a shape
     /// - "weights": kernel coordinates are computed
+    /// - "match": outlines are compared
     /// - "load": an object is read back
     pub progress: Option<unsafe extern "C" fn(user: *mut c_void, stage: *const c_char, share: f64) -> i32>,
-    /// Runs task(argument, i) for every i in \[0, n_tasks), in any order and on any
-    /// threads, and returns when all are done. Replaces the library's own threads.
+    /// Runs task(argument, i) for every i in \[0, n_tasks), in any order and on any threads, and returns when
+    /// all are done. Replaces the library's own threads. Certificates do not rely on it. A task that it
+    /// leaves out is done by the calling thread after it has returned, and a task that it runs twice is done
+    /// once. Default: none.
     pub parallel_for: Option<
         unsafe extern "C" fn(user: *mut c_void, n_tasks: usize, task: icc_task, argument: *mut c_void),
     >,
-    /// Threads that a call may use, the calling one included; 0 and 1 mean one. Further
-    /// threads live only during the call. If one cannot be started, the others do its work; a library
-    /// built with ICC_WITH_THREADS off starts none.
+    /// Threads that a call may use, including the calling one; 0 and 1 mean one. The others live only during
+    /// the call. If one cannot be started, the others do its work. A library built with ICC_WITH_THREADS off
+    /// starts none.
     pub threads: i32,
-    /// Bytes that loading an object may take beyond 64 for each byte that it is read from; 0 means
-    /// 256,000,000. Charts of methods gradient and field, and domains made of masks, are rebuilt
-    /// from a few bytes and may need more: loading refuses them with `ICC_ERR_FORMAT` and a
-    /// message that names this member, before it asks for the memory. Time is limited
-    /// with it: to some ten seconds for the default, and in proportion. UINT64_MAX lifts both
-    /// limits, for bytes that are trusted.
+    /// Bytes of memory that loading an object may take, in addition to 64 for each byte of its data; 0 means
+    /// 256,000,000. Charts of methods gradient and field, and domains made from masks, are rebuilt from a few
+    /// bytes and may need more. Loading then refuses them with `ICC_ERR_FORMAT` and a message that names this
+    /// member, before it allocates the memory. Time is limited in proportion, to about ten seconds for the
+    /// default. UINT64_MAX lifts both limits, for data that you trust.
     pub load_limit: u64,
 }
 sized!(icc_env);
@@ -222,7 +227,7 @@ extern "C" {
     /// The version as 10000 major + 100 minor + patch.
     pub fn icc_version_number() -> i32;
 
-    /// The name of a status, such as "`ICC_ERR_MEMORY`", or "unknown status". Static.
+    /// The name of a status, such as "ICC_ERR_MEMORY", or "unknown status". Static.
     pub fn icc_status_name(status: icc_status) -> *const c_char;
 }
 
@@ -233,16 +238,17 @@ opaque!(
     icc_domain
 );
 
-// Where a point lies.
+// Where a point lies: `icc_domain_locate()`.
 /// in the interior
 pub const ICC_INSIDE: i32 = 1;
-/// on the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the largest
-/// coordinate along each axis, whichever is more
+/// On the boundary, within a tolerance. The tolerance is 1e-14 of the bounding box's longest side, or `dim` *
+/// 2^-52 of the largest coordinate along each axis, whichever is more. So a point of a facet that you compute
+/// in doubles from the facet's vertices counts as on the boundary.
 pub const ICC_BOUNDARY: i32 = 2;
-/// elsewhere
+/// outside, or in a hole
 pub const ICC_OUTSIDE: i32 = 3;
 
-/// What `icc_domain_get_info()` tells.
+/// What `icc_domain_get_info()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_domain_info {
@@ -250,60 +256,59 @@ pub struct icc_domain_info {
     pub size: usize,
     /// dimension
     pub dim: i32,
-    /// +1 when the facets are listed as seen from outside: 2-D the ring
-    /// counter-clockwise, with y upwards; 3-D each face
-    /// counter-clockwise; any n: the determinants of the facets,
-    /// seen from within, positive; 1-D the lower end first. Else -1
+    /// +1 if the facets are listed as seen from outside, else -1. Seen from outside means: in 1-D the lower
+    /// end comes first; in 2-D the ring runs counter-clockwise (y upwards); in 3-D each face runs
+    /// counter-clockwise. In any dimension, the determinants of the facets are positive as seen from an inner
+    /// point
     pub orientation: i32,
     /// vertices of the boundary and of all features
     pub n_vertices: usize,
     /// facets of the boundary
     pub n_facets: usize,
-    /// bounding box
+    /// bounding box, lower corner
     pub lower: [f64; ICC_MAX_DIM],
-    /// bounding box
+    /// bounding box, upper corner
     pub upper: [f64; ICC_MAX_DIM],
-    /// length, area (2-D), volume (3-D) and so on, without holes; may
-    /// overflow to HUGE_VAL for coordinates near 1e300
+    /// length, area (2-D) or volume (3-D), without holes. It may overflow to HUGE_VAL if coordinates are near
+    /// 1e300
     pub measure: f64,
-    /// features inside: see `icc_domain_create_features()`
+    /// features inside: `icc_domain_create_features()`
     pub n_features: usize,
-    /// vertices of the mesh of its inside, with those of the boundary; 0: it has none
+    /// vertices of the mesh of the inside, including those on the boundary; 0: no mesh
     pub n_mesh_vertices: usize,
-    /// simplices of that
+    /// simplices of that mesh
     pub n_mesh_simplices: usize,
 }
 sized!(icc_domain_info);
 
-/// How `icc_domain_fill()` chooses inner vertices.
+/// Options of `icc_domain_fill()`: how it chooses inner vertices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_fill_options {
-    /// `sizeof(icc_fill_options)`
+    /// set by the caller: `sizeof(icc_fill_options)`
     pub size: usize,
-    /// circumradius over shortest edge from which tetrahedra are refined, at least 1.2; 0: 1.6;
-    /// infinite: no vertices but those it takes
+    /// tetrahedra are refined until the circumradius is at most this many shortest edges; at least 1.2. 0:
+    /// the default. Infinite: no vertices except those that filling needs
     pub ratio: f64,
-    /// refinement ends at so many inner vertices; 0: no limit
+    /// refinement ends at this number of inner vertices; 0: no limit
     pub max_points: u64,
 }
 sized!(icc_fill_options);
 
-// What `icc_feature.kind` says.
+// Kinds of features: `icc_feature.kind`.
 /// a simple polygon whose inside is not part of the domain
 pub const ICC_FEATURE_HOLE: i32 = 1;
-/// a polyline that does not meet itself, of 2 or more vertices; with two of
-/// them, a bone
+/// a polyline of 2 or more vertices that does not meet itself; with two vertices, a bone
 pub const ICC_FEATURE_LINE: i32 = 2;
 /// one vertex
 pub const ICC_FEATURE_POINT: i32 = 3;
 
-/// Something inside a domain of the plane that a map takes to the feature of the same number in the
-/// other domain, vertex by vertex and edges linearly.
+/// A hole, line or point inside a domain of the plane. A map takes it to the feature of the same number in
+/// the other domain: vertex to vertex, and edge to edge linearly.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_feature {
-    /// set by the caller: `sizeof(icc_feature)`, the same in all of an array
+    /// set by the caller: `sizeof(icc_feature)`, the same for all elements of an array
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
@@ -311,19 +316,21 @@ pub struct icc_feature {
     pub n_vertices: usize,
     /// 2 n_vertices coordinates
     pub vertices: *const f64,
-    /// of a point with a size: above 0; else 0
+    /// point: its size, if above 0, see `icc_domain_create_features()`. Otherwise 0
     pub radius: f64,
-    /// of a surface inside a domain in space; 0 as yet
+    /// reserved: 0
     pub n_facets: usize,
-    /// 3 n_facets vertex indices; NULL as yet
+    /// reserved: NULL
     pub facets: *const u32,
 }
 sized!(icc_feature);
 
-/// A mesh of triangles in 2-D, of tetrahedra in 3-D, of simplices beyond: a caller's, which is only
-/// read, or room for one of the library's. *  To be given a mesh, call `icc_domain_get_mesh()` or
-/// `icc_map_get_mesh()` twice: with `vertices` and `cells` NULL for dim and the numbers, then with
-/// arrays of that size. Either may stay NULL.
+/// A mesh of triangles in 2-D, tetrahedra in 3-D, or simplices beyond. It is either yours, and libicc only
+/// reads it, or it has room for a mesh that libicc writes.
+///
+/// To get a mesh, call `icc_domain_get_mesh()` or `icc_map_get_mesh()` twice. The first time, set `vertices`
+/// and `cells` to NULL; the call sets the dimension and the counts. The second time, pass arrays of that
+/// size. Either array may stay NULL.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_mesh {
@@ -331,22 +338,21 @@ pub struct icc_mesh {
     pub size: usize,
     /// dimension
     pub dim: i32,
-    /// vertices, fewer than 2^26; where a mesh is written, how many `vertices` has room for
+    /// number of vertices, fewer than 2^26; when libicc writes the mesh, the capacity of `vertices`
     pub n_vertices: usize,
     /// n_vertices * dim coordinates
     pub vertices: *mut f64,
-    /// cells, fewer than 2^26; where a mesh is written, how many `cells` has room for
+    /// number of cells, fewer than 2^26; when libicc writes the mesh, the capacity of `cells`
     pub n_cells: usize,
-    /// vertex indices of all cells, one cell after the other: n_cells * (dim + 1). A cell may list
-    /// its vertices in any order
+    /// n_cells * (dim + 1) vertex indices, cell after cell. A cell may list its vertices in any order
     pub cells: *mut u32,
-    /// NULL: every cell has dim + 1 vertices. Else n_cells + 1 numbers: where in `cells` each cell
-    /// begins, and where the last one ends, as VTK has it
+    /// NULL if every cell has dim + 1 vertices. Otherwise n_cells + 1 numbers as in VTK: where each cell
+    /// begins in `cells`, and where the last one ends
     pub offsets: *const usize,
-    /// VTK's types of the n_cells cells, or NULL. Only simplices are supported as yet: 5 in 2-D, 10
-    /// in 3-D; others are `ICC_ERR_UNSUPPORTED`
+    /// VTK's types of the n_cells cells, or NULL. Only simplices are supported: 5 in 2-D and 10 in 3-D. Other
+    /// types give `ICC_ERR_UNSUPPORTED`
     pub types: *const u8,
-    /// numbers of n_cells regions; NULL. Nothing reads them as yet: else `ICC_ERR_UNSUPPORTED`
+    /// reserved: NULL. Anything else gives `ICC_ERR_UNSUPPORTED`
     pub regions: *const i32,
 }
 sized!(icc_mesh);
@@ -359,24 +365,24 @@ pub struct icc_feature_info {
     pub size: usize,
     /// `ICC_FEATURE_*`
     pub kind: i32,
-    /// of a hole: +1 when it is listed counter-clockwise, with y upwards, -1 clockwise; else 0
+    /// hole: +1 if it is listed counter-clockwise (y upwards), -1 if clockwise; else 0
     pub orientation: i32,
-    /// its vertices have this number among those of the domain and the following ones
+    /// number of its first vertex in the domain; the others follow
     pub first_vertex: usize,
-    /// how many there are
+    /// number of its vertices
     pub n_vertices: usize,
-    /// of a hole: the facet from its first vertex to the next; as many follow as it has vertices.
+    /// hole: number of the facet from its first vertex to the next. The hole has as many facets as vertices.
     /// Else 0
     pub first_facet: usize,
 }
 sized!(icc_feature_info);
 
-// Defects that `icc_boundary_defects()` lists. `a` and `b` are vertex or facet indices.
+// Defects that `icc_boundary_defects()` lists. Here a and b are indices of vertices or facets.
 /// vertex a has a coordinate that is not finite; b = a
 pub const ICC_DEFECT_NOT_FINITE: i32 = 1;
 /// vertices a \< b coincide
 pub const ICC_DEFECT_REPEATED: i32 = 2;
-/// at vertex a the boundary runs back over itself; b = a
+/// at vertex a the boundary turns back over itself; b = a
 pub const ICC_DEFECT_SPIKE: i32 = 3;
 /// facets a \< b cross
 pub const ICC_DEFECT_CROSSING: i32 = 4;
@@ -392,45 +398,52 @@ opaque!(
     icc_chart
 );
 
-// How coordinates are made. Gradient and field work in 2-D and beyond, foliation in 2-D and on domains with a
-// mesh, disc in 2-D.
-/// Integral Curve Coordinates as Huynh and Gingold published them: a regular grid, a cousin
-/// tree, a function on it, piecewise linear gradient lines; in any dimension, on the simplices of
-/// the Kuhn triangulation and their faces. Not one-to-one: lines merge, so that an open share of
-/// the area collapses (in 3-D and beyond, most of it), and thin parts of a shape between grid
-/// vertices are not reached. `icc_chart_get_report()` tells how much. Beyond 2-D the function may have
-/// several maxima, too, and lines that end at them: `icc_gradient_info.n_maxima`. Never certified.
+// How coordinates are made. Methods gradient and field work in 2-D and beyond. Method foliation works in 2-D
+// and on domains with a mesh, method disc in 2-D.
+/// Integral Curve Coordinates as Huynh and Gingold published them. They use a regular grid, a cousin tree, a
+/// function on it, and piecewise linear gradient lines. They work in any dimension, on the simplices of the
+/// Kuhn triangulation and their faces.
+///
+/// These coordinates are not one-to-one, and never certified. Lines merge, so an open part of the area
+/// collapses; in 3-D and beyond it is most of it. Thin parts of a shape between grid vertices are not
+/// reached. `icc_chart_get_report()` estimates how much is lost. Beyond 2-D the function may also have
+/// several maxima where lines end: `icc_gradient_info.n_maxima`.
 pub const ICC_METHOD_GRADIENT: i32 = 1;
-/// Integral Curve Coordinates along leaves that cannot merge: level lines of an angle-valued,
-/// discretely harmonic function on a triangle mesh of the domain. A homeomorphism of the closed
-/// domain in exact arithmetic whenever its certificate holds, which is checked with integers
-/// and exact signs for every chart; otherwise there is no chart (`ICC_ERR_CERTIFICATE`). The
-/// coordinates are continuous, piecewise smooth, and in doubles come back to about 1e-15 of the
-/// domain's size. A mesh *sampled* from the map can still have inverted triangles.
+/// Integral Curve Coordinates along leaves, which are curves that cannot merge. In 2-D they are level lines
+/// of an angle-valued, discretely harmonic function on a triangle mesh of the domain. libicc checks a
+/// certificate for every chart, with integers and exact signs. If it holds, the chart is a homeomorphism of
+/// the closed domain in exact arithmetic: one-to-one and continuous both ways. If it fails there is no chart
+/// (`ICC_ERR_CERTIFICATE`). The coordinates are continuous and piecewise smooth. In doubles, a round trip
+/// returns to about 1e-15 of the domain's size. A mesh *sampled* from the map can still have inverted
+/// triangles.
 ///
-/// On a domain with a mesh, `icc_domain_create_mesh()`, in any dimension: leaves that are straight in
-/// every simplex and pass the simplices in an order, a shelling; all end at an inner vertex of the
-/// mesh, or at the middle of a simplex if there is none. The certificate looks at that order, and
-/// promises the same (beyond 3-D the orientation of simplices is certain, but not exact). Not every
-/// mesh has such an order: `ICC_ERR_TOPOLOGY`. A flat simplex makes for long leaves near it.
+/// On a domain with a mesh (`icc_domain_create_mesh()`) it works in any dimension. Leaves are then straight
+/// in every simplex and pass through the simplices in an order, a shelling. They all end at an inner vertex,
+/// or at the middle of a simplex if there is none. The certificate checks that order and promises the same.
+/// (Beyond 3-D the orientation of simplices is certain, but not computed exactly.) Some meshes have no such
+/// order: `ICC_ERR_TOPOLOGY`. Leaves near a flat simplex are long.
 pub const ICC_METHOD_FOLIATION: i32 = 2;
-/// Integral Curve Coordinates along a field that the curves cannot merge in, on a regular grid in any
-/// dimension: a vector for every grid vertex that points uphill in all simplices around it, for
-/// the discretely harmonic function, and linear interpolation between them. The curves are
-/// followed exactly but for rounding. Certified when there is such a vector everywhere, the
-/// boundary is crossed inward all over, which is checked vertex by vertex, and no grid vertex inside was
-/// given up; if not, there is a chart all the same, and `icc_field_info.n_infeasible`, n_not_inward
-/// and n_stray report how much is amiss.
+/// Integral Curve Coordinates along a vector field in which curves cannot merge, on a regular grid in any
+/// dimension. Every grid vertex has a vector that points uphill in all simplices around it, for the
+/// discretely harmonic function. Between the vertices the field is linear. Curves are followed exactly,
+/// except for rounding.
 ///
-/// A map of two certified charts is certified when doubles are enough for it, too, which
-/// `icc_map_report.n_lost` and n_flat report: curves come together on their way, and what one chart tells
-/// apart may be one and the same to the other, as when a ball goes to a pancake.
+/// The chart is certified if three conditions hold. Every vertex has such a vector. The field crosses the
+/// whole boundary inward, which is checked vertex by vertex. No grid vertex inside was given up. Otherwise
+/// there is a chart without a certificate, and `icc_field_info.n_infeasible`, n_not_inward and n_stray count
+/// what is wrong.
+///
+/// Two certified charts do not always make a certified map, because doubles may lack the digits:
+/// `icc_map_report.n_lost` and n_flat. Curves converge on their way. So points that one chart tells apart may
+/// coincide in the other, for example if a ball is mapped to a pancake.
 pub const ICC_METHOD_FIELD: i32 = 3;
-/// Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. A homeomorphism under
-/// the same certificate; the curves are the preimages of radii.
+/// Polar coordinates of the harmonic map to a disc (Tutte), piecewise linear. It is a homeomorphism under the
+/// same certificate as foliation. The curves are the preimages of radii. A slit as narrow as about 1e-15 of
+/// the shape's size can be too narrow to mesh; the error says so.
 pub const ICC_METHOD_DISC: i32 = 4;
 
-// Why a chart or a map is not certified: of several reasons, the first.
+// Why a chart or a map is not certified. If there are several reasons, the first is given. The members named
+// here count how much is wrong.
 /// it is certified
 pub const ICC_REASON_NONE: i32 = 0;
 /// the curves of method gradient merge
@@ -446,7 +459,7 @@ pub const ICC_REASON_LOST: i32 = 5;
 /// maps of method field: `icc_map_report.n_flat`
 pub const ICC_REASON_FLAT: i32 = 6;
 
-// The function whose gradient lines are followed.
+// The function whose gradient lines are followed: `icc_function_create()` explains each of them.
 /// thesis (4.1): 10 at the maximum, times 0.95 from parent to child
 pub const ICC_FUNCTION_DECAY: i32 = 1;
 /// minus the distance in the tree (L1 distance)
@@ -457,32 +470,29 @@ pub const ICC_FUNCTION_LAPLACE: i32 = 3;
 pub const ICC_FUNCTION_BILAPLACE: i32 = 4;
 /// discretely biharmonic, clamped: changes its sign unless constrained
 pub const ICC_FUNCTION_CLAMPED: i32 = 5;
-/// as Laplace, but 0 on the boundary itself
+/// like Laplace, but 0 where the grid's edges cross the boundary: it follows the shape, not a staircase
 pub const ICC_FUNCTION_HARMONIC: i32 = 6;
 
-// Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside (Laplace and bi-Laplace;
-// decay and distance fulfil it anyway).
-/// only when the function without has other critical points than one
-/// maximum at the root (and, in 2-D, the saddles of holes, which no
-/// function can avoid); in charts, only when that is so after the
-/// root has moved, too, as for `ICC_CONSTRAINTS_NONE`. If they are
-/// imposed it does not move
+// Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside. This concerns
+// Laplace, harmonic and bi-Laplace functions. Decay and distance satisfy it anyway.
+/// Only if the function without constraints has critical points besides one maximum at the root. (In 2-D, the
+/// saddles of holes do not count, because no function can avoid them.) Charts first move the root as for
+/// `ICC_CONSTRAINTS_NONE`, and impose constraints only if that does not help. If they are imposed, the root
+/// stays at its first place
 pub const ICC_CONSTRAINTS_NEEDED: i32 = 1;
-/// never. Charts of bi-Laplace functions have the maximum where the
-/// function puts it, which may be beside the place asked for:
-/// `icc_gradient_info::moved`
+/// never. A chart of a bi-Laplace function then has its maximum where the function is greatest, which may be
+/// beside the requested place: `icc_gradient_info.moved`
 pub const ICC_CONSTRAINTS_NONE: i32 = 2;
-/// always: the maximum stays where it is asked for
+/// always: the maximum stays at the requested place
 pub const ICC_CONSTRAINTS_ALL: i32 = 3;
 
-// How the linear systems of Laplace and bi-Laplace are solved.
-/// sparse factorisation: each value to about 1e-12 of itself
+// How the linear systems of Laplace and bi-Laplace functions are solved.
+/// sparse factorisation: each value has a relative error of about 1e-12
 pub const ICC_SOLVER_DIRECT: i32 = 1;
-/// conjugate gradients with a multigrid preconditioner: for large
-/// grids, above all in 3-D
+/// conjugate gradients with a multigrid preconditioner: for large grids, mainly in 3-D
 pub const ICC_SOLVER_ITERATIVE: i32 = 2;
 
-// The two published forms of Algorithm 2.
+// The two published forms of Algorithm 2: `icc_tree_create()`.
 /// vertices just outside the boundary belong to the tree
 pub const ICC_TREE_THESIS: i32 = 1;
 /// vertices just outside are children of all their neighbours inside
@@ -494,20 +504,20 @@ pub const ICC_TREE_PAPER: i32 = 2;
 pub struct icc_chart_options {
     /// set by the caller: `sizeof(icc_chart_options)`
     pub size: usize,
-    /// `ICC_METHOD_*`; 0: the best that there is: foliation in 2-D and on domains with
-    /// a mesh, else field
+    /// `ICC_METHOD_*`; 0: the best available, which is foliation in 2-D and on domains with a mesh, else
+    /// field
     pub method: i32,
     /// gradient: `ICC_FUNCTION_*`; 0: decay
     pub function: i32,
     /// gradient: `ICC_TREE_*`; 0: thesis
     pub tree: i32,
-    /// grid or mesh cells along the longest side, 2..16384; 0: 50, as in the
-    /// papers; gradient on a mask: see `icc_grid_create()`
+    /// grid or mesh cells along the longest side, 2..16384; 0: 50, as in the papers. For gradient on a mask
+    /// see `icc_grid_create()`
     pub cells: i32,
-    /// where the maximum shall be: the nearest vertex inside is taken. NULL:
-    /// the grassfire's (gradient, field), the deepest vertex (foliation; of a
-    /// mesh of the caller's, the deepest inside). Disc has its own, the point that goes to the centre: NULL only.
-    /// Bi-Laplace functions without constraints may move it: `icc_gradient_info::moved`
+    /// Requested maximum: the nearest vertex inside is taken. NULL: chosen by the method. Gradient and field
+    /// take the grassfire's maximum. Foliation takes the deepest vertex, or on your own mesh the deepest
+    /// inner vertex. Disc allows NULL only, because its maximum is the point that the harmonic map takes to
+    /// the centre. Bi-Laplace functions without constraints may move the maximum: `icc_gradient_info.moved`
     pub maximum: *const f64,
     /// gradient: `ICC_CONSTRAINTS_*`; 0: needed
     pub constraints: i32,
@@ -515,14 +525,13 @@ pub struct icc_chart_options {
     pub solver: i32,
     /// gradient: least relative fall along tree edges, in (0, 0.01\]; 0: 1e-6
     pub min_fall: f64,
-    /// gradient, constrained bi-Laplace: least value at the leaves, in
-    /// (0, 0.01\]; 0: 1e-9
+    /// gradient, constrained bi-Laplace: least value at the leaves of the tree, in (0, 0.01\]; 0: 1e-9
     pub leaf_min: f64,
 }
 sized!(icc_chart_options);
 
-/// What `icc_chart_get_info()` fills in, for every method. What only one method has is in a struct of its own:
-/// `icc_gradient_info`, `icc_field_info`, `icc_foliation_info`, `icc_shelling_info`, `icc_disc_info`.
+/// What `icc_chart_get_info()` reports for every method. Members that only one method has are in
+/// `icc_gradient_info`, `icc_field_info`, `icc_foliation_info`, `icc_shelling_info` and `icc_disc_info`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_chart_info {
@@ -532,21 +541,21 @@ pub struct icc_chart_info {
     pub dim: i32,
     /// `ICC_METHOD_*`
     pub method: i32,
-    /// 1: proved to be one-to-one, exactly (field: in doubles); 0: not, see `reason`
+    /// 1: proved to be one-to-one, exactly (field: in doubles). 0: not, see `reason`
     pub certified: i32,
     /// `ICC_REASON_*`: why it is not certified; 0 if it is
     pub reason: i32,
-    /// cells along the longest side that were used; method field in thin shapes: twice those asked for, where
-    /// those do not do, and one more where that saves the certificate; 0 on a domain's mesh
+    /// cells along the longest side that were used. Method field may take more than requested in thin shapes.
+    /// 0 on a domain's mesh
     pub cells: i32,
-    /// the point that every curve ends at
+    /// the point where every curve ends
     pub maximum: [f64; ICC_MAX_DIM],
-    /// distance of grid or lattice neighbours; 0 on a domain's mesh
+    /// distance between neighbours in the grid or lattice; 0 on a domain's mesh
     pub spacing: f64,
 }
 sized!(icc_chart_info);
 
-/// What only charts of method gradient have.
+/// What `icc_chart_get_gradient_info()` reports about charts of method gradient.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_gradient_info {
@@ -564,27 +573,29 @@ pub struct icc_gradient_info {
     pub n_tree: usize,
     /// grid vertices inside that the tree does not reach
     pub n_unreachable: usize,
-    /// neighbours inside that are neither parent and child nor cousins
+    /// pairs of neighbours inside that are neither parent and child nor cousins
     pub n_cousin_violations: usize,
-    /// of the function, inside
+    /// maxima of the function inside
     pub n_maxima: usize,
-    /// of the function, inside
+    /// minima of the function inside
     pub n_minima: usize,
-    /// of the function, inside
+    /// saddles of the function inside
     pub n_saddles: usize,
-    /// 2-D: edges between two triangles that curves run through
+    /// 2-D: edges between two triangles that curves pass through
     pub n_edges: usize,
     /// 2-D: edges where curves merge on the way up
     pub n_compression: usize,
     /// 2-D: edges where curves merge on the way down
     pub n_expansion: usize,
-    /// bi-Laplace functions without constraints: how far `icc_chart_info.maximum` lies from the vertex that was
-    /// asked for (or the grassfire's), because the function is greatest beside it; else 0
+    /// bi-Laplace functions without constraints: distance of `icc_chart_info.maximum` from the requested
+    /// vertex, or from the grassfire's. The maximum moves because the function is greatest beside that
+    /// vertex. Else 0
     pub moved: f64,
 }
 sized!(icc_gradient_info);
 
-/// What only charts of method field have. The function is `ICC_FUNCTION_LAPLACE`, the tree's form `ICC_TREE_THESIS`.
+/// What `icc_chart_get_field_info()` reports about charts of method field. Their function is
+/// `ICC_FUNCTION_LAPLACE`, their tree has the form `ICC_TREE_THESIS`.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_field_info {
@@ -594,30 +605,31 @@ pub struct icc_field_info {
     pub n_grid: usize,
     /// grid vertices inside the domain
     pub n_inside: usize,
-    /// grid vertices inside that were given up, because without them the others form a ball
+    /// grid vertices inside that were given up so that the remaining ones form a ball
     pub n_stray: usize,
     /// grid vertices in the tree
     pub n_tree: usize,
     /// grid vertices inside that the tree does not reach
     pub n_unreachable: usize,
-    /// neighbours inside that are neither parent and child nor cousins
+    /// pairs of neighbours inside that are neither parent and child nor cousins
     pub n_cousin_violations: usize,
-    /// of the function, inside
+    /// maxima of the function inside
     pub n_maxima: usize,
-    /// of the function, inside
+    /// minima of the function inside
     pub n_minima: usize,
-    /// of the function, inside
+    /// saddles of the function inside
     pub n_saddles: usize,
     /// grid vertices where no vector points uphill in all simplices
     pub n_infeasible: usize,
-    /// pairs of a facet and a grid vertex of a simplex that it runs through
+    /// pairs of a boundary facet and a grid vertex, where the facet runs through a simplex of that vertex
     pub n_contacts: usize,
-    /// those of them where the vector does not point inward
+    /// contacts where the vector does not point inward
     pub n_not_inward: usize,
 }
 sized!(icc_field_info);
 
-/// What only charts of method foliation have in 2-D, on a mesh that the library makes.
+/// What `icc_chart_get_foliation_info()` reports about charts of method foliation in 2-D, on a mesh that
+/// libicc makes.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_foliation_info {
@@ -625,48 +637,47 @@ pub struct icc_foliation_info {
     pub size: usize,
     /// vertices of the mesh
     pub n_mesh_vertices: usize,
-    /// of them on the boundary
+    /// mesh vertices on the boundary
     pub n_mesh_boundary: usize,
     /// triangles of the mesh
     pub n_mesh_simplices: usize,
-    /// mesh edges whose ends have the same label: ordered by index
+    /// mesh edges whose two ends have the same label; they are ordered by index
     pub n_ties: usize,
     /// share of the boundary flux that is harmonic
     pub harmonic_share: f64,
 }
 sized!(icc_foliation_info);
 
-/// What only charts of method foliation have on a domain's mesh, `icc_domain_create_mesh()`.
+/// What `icc_chart_get_shelling_info()` reports about charts of method foliation on a domain's own mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_shelling_info {
     /// set by the caller: `sizeof(icc_shelling_info)`
     pub size: usize,
-    /// vertices of the mesh, and one more where none lies inside
+    /// vertices of the mesh, plus one if none lies inside
     pub n_mesh_vertices: usize,
-    /// of them on the boundary
+    /// mesh vertices on the boundary
     pub n_mesh_boundary: usize,
     /// simplices of the mesh
     pub n_mesh_simplices: usize,
     /// share of the boundary flux that is harmonic
     pub harmonic_share: f64,
-    /// 1: the order of the simplices was found from the boundary inwards, 0: from the centre outwards
+    /// 1: the order of the simplices was found from the boundary inwards; 0: from the centre outwards
     pub order_peeled: i32,
-    /// how many of those that are tried were complete at first; the best is used
+    /// number of tried orders that were complete at first; the best of them is used
     pub n_orders: i32,
-    /// how much reversed flux weighed in it
+    /// weight of reversed flux in the order that is used
     pub order_beta: f64,
-    /// facets that the harmonic flux runs through the other way
+    /// facets that the harmonic flux crosses against the order
     pub n_reversed: usize,
-    /// how far the flux along the leaves is from the harmonic one: sum of the squared differences, weighted; 0 at
-    /// best
+    /// weighted sum of squared differences between the flux along the leaves and the harmonic flux; 0 is best
     pub flux_energy: f64,
-    /// largest share of a simplex's flux that gets lost by rounding
+    /// largest share of a simplex's flux that is lost by rounding
     pub flux_divergence: f64,
 }
 sized!(icc_shelling_info);
 
-/// What only charts of method disc have.
+/// What `icc_chart_get_disc_info()` reports about charts of method disc.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_disc_info {
@@ -674,31 +685,31 @@ pub struct icc_disc_info {
     pub size: usize,
     /// vertices of the mesh
     pub n_mesh_vertices: usize,
-    /// of them on the boundary
+    /// mesh vertices on the boundary
     pub n_mesh_boundary: usize,
     /// triangles of the mesh
     pub n_mesh_simplices: usize,
 }
 sized!(icc_disc_info);
 
-/// How long each step of making a chart took, in seconds: what `icc_chart_get_timings()` fills in. A step that the
-/// chart's method does not have is 0. A loaded chart has those of loading it.
+/// What `icc_chart_get_timings()` reports: seconds for each step of making a chart. Steps that the method
+/// does not have are 0. A loaded chart has the times of loading it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_chart_timings {
     /// set by the caller: `sizeof(icc_chart_timings)`
     pub size: usize,
-    /// gradient, field: the grid, and the maximum
+    /// gradient, field: the grid and the maximum
     pub grid: f64,
-    /// gradient, field: the tree, and checking it
+    /// gradient, field: the tree and its check
     pub tree: f64,
-    /// gradient, field: the function, and checking it
+    /// gradient, field: the function and its check
     pub function: f64,
     /// foliation, disc: the mesh; on a domain's mesh, preparing the leaves
     pub mesh: f64,
     /// foliation on a domain's mesh: choosing the maximum
     pub centre: f64,
-    /// field: the vectors, and checking them; foliation, disc: the equations
+    /// field: the vectors and their check; foliation, disc: the equations
     pub solve: f64,
     /// foliation on a domain's mesh: the order of the simplices
     pub order: f64,
@@ -707,46 +718,47 @@ pub struct icc_chart_timings {
 }
 sized!(icc_chart_timings);
 
-/// Shares that `icc_chart_get_report()` estimates from evenly spread points. All lie in \[0,1\]. Area and length
-/// are those of 2-D; beyond, read volume and area, and so on. For a certified chart all are 0 without
-/// looking, and so are the counts.
+/// What `icc_chart_get_report()` estimates from evenly spread points. All shares lie in \[0,1\]. "Area" and
+/// "length" are for 2-D; beyond, read volume and area, and so on. For a certified chart all shares and counts
+/// are 0, without sampling.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_chart_report {
     /// set by the caller: `sizeof(icc_chart_report)`
     pub size: usize,
-    /// points of the area that were used
+    /// points inside that were used
     pub n_points: usize,
-    /// points of the boundary that were used
+    /// points on the boundary that were used
     pub n_boundary: usize,
-    /// area from which no curve reaches both the boundary and the maximum
+    /// share of the area from which no curve reaches both the boundary and the maximum
     pub unreachable: f64,
-    /// area that no curve from the boundary enters (expansion edges)
+    /// share of the area that no curve from the boundary enters (expansion edges)
     pub uncovered: f64,
-    /// coordinates (boundary length times share of the way) whose point
-    /// lies on a line where curves have merged (compression edges)
+    /// share of the coordinates, boundary length times t, whose point lies on a line where curves have merged
+    /// (compression edges)
     pub collapsed: f64,
-    /// boundary length where the gradient does not point inward
+    /// share of the boundary length where the gradient does not point inward
     pub not_inward: f64,
 }
 sized!(icc_chart_report);
 
 opaque!(
-    /// Two domains that do not correspond, and which points of them go together.
+    /// Two domains that do not correspond, and the pairs of points that belong together.
     icc_match
 );
 
-// How `icc_match_create()` takes rotations.
-/// of pairings that are nearly as good, the one that turns the shape least
+// How `icc_match_create()` treats rotations.
+/// prefer small rotations: of nearly equal pairings take the one that turns the shape least. People expect
+/// this of letters, squares and maps
 pub const ICC_TURNING_UPRIGHT: i32 = 1;
-/// any rotation is as good as any other
+/// no preference: any rotation is as good as any other
 pub const ICC_TURNING_FREE: i32 = 2;
 
-// How `icc_match_create()` pairs what lies between landmarks.
-/// by shape
+// How `icc_match_create()` pairs the parts of two outlines between landmarks.
+/// by shape: similar parts are paired
 pub const ICC_BETWEEN_ELASTIC: i32 = 1;
-/// by arc length, for outlines without features as discs, which are ambiguous by shape; without
-/// landmarks it starts where the outlines, laid on one another unturned, are nearest
+/// by arc length, for outlines without distinct parts, such as discs. By shape these would be ambiguous.
+/// Without landmarks the pairing starts where the two outlines are nearest when laid on one another unturned
 pub const ICC_BETWEEN_ARC: i32 = 2;
 
 /// Options of `icc_match_create()`.
@@ -755,17 +767,26 @@ pub const ICC_BETWEEN_ARC: i32 = 2;
 pub struct icc_match_options {
     /// set by the caller: `sizeof(icc_match_options)`
     pub size: usize,
-    /// without landmarks: `ICC_TURNING_UPRIGHT` or `ICC_TURNING_FREE`; 0: upright
+    /// without landmarks: `ICC_TURNING_*`; 0: upright
     pub turning: i32,
-    /// `ICC_BETWEEN_ELASTIC` or `ICC_BETWEEN_ARC`; 0: elastic
+    /// `ICC_BETWEEN_*`; 0: elastic
     pub between: i32,
-    /// without landmarks, a pairing with less `icc_match_info.sure` is refused; 0: 1.06; 1: none is
+    /// without landmarks: pairings whose `icc_match_info.sure` is less are refused. 0: 1.06. 1: none is
+    /// refused
     pub least_sure: f64,
-    /// share of the perimeter within which vertices become one pair; at most 0.01
+    /// in the plane: a share of the perimeter, at most 0.01. If a vertex of each outline lies within this
+    /// distance of the partner that was added for the other one, the two vertices become one pair. The two
+    /// added points are dropped, unless an edge next to them would become three times longer or shorter. 0:
+    /// join only vertices within 0.3 of the shorter edge at them
     pub drop: f64,
-    /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
+    /// in space: how far the common surfaces may be off the given ones, as a share of the diagonal of each
+    /// one's bounding box. At most 0.1; 0: 1e-3. A negative value means not at all: the result then has four
+    /// to six times as many vertices as both surfaces together and many thin triangles. Even then, vertices
+    /// that rounding brings together are joined, up to 1e-3
     pub tolerance: f64,
-    /// in space, 1: the source keeps all its vertices and edges
+    /// in space, 1: the source keeps all its vertices and edges. Its edges and triangles get more vertices
+    /// where the target would otherwise be too far off. 0: it need not keep them. In the plane the source
+    /// always keeps its vertices
     pub keep_source: i32,
 }
 sized!(icc_match_options);
@@ -778,33 +799,40 @@ pub struct icc_match_info {
     pub size: usize,
     /// dimension
     pub dim: i32,
-    /// 1: the target's mirror image fits at least 1.06 times better: y may point down in one of the two
+    /// 1: the target's mirror image fits clearly better, by the same measure as `sure`. Perhaps y points down
+    /// in one of the two. This is only a hint, because a map cannot mirror. Without landmarks only
     pub mirrored: i32,
     /// common vertices of the two domains
     pub n_vertices: usize,
-    /// landmarks; they are among these
+    /// common vertices that are landmarks
     pub n_landmarks: usize,
-    /// how many are vertices of both
+    /// common vertices that are vertices of both given domains
     pub n_joined: usize,
-    /// of the pairing: 0 for similar shapes, at most 4
+    /// cost of the outer rings' pairing, from 0 for similar shapes to 4. HUGE_VAL by arc length and in space
     pub cost: f64,
-    /// of the best one that differs from it
+    /// cost of the best pairing that differs from this one by more than 5 % of the perimeter. HUGE_VAL if
+    /// none was found or if there were landmarks
     pub second: f64,
-    /// (second + 0.05) / (cost + 0.05)
+    /// (second + 0.05) / (cost + 0.05): confidence in the pairing. 1 means that another pairing is as good.
+    /// It is a comparison, not a probability
     pub sure: f64,
-    /// the source is turned by so many degrees, counter-clockwise
+    /// degrees by which the source is turned, counter-clockwise, to lie as the target does
     pub turn: f64,
-    /// stretch of the edge that shrinks most, in shares of the perimeters,
+    /// how much the outer ring shrinks where it shrinks most: the edge's share of the target's perimeter over
+    /// its share of the source's. In space, the same for triangles and areas
     pub least_slope: f64,
-    /// and of the one that grows most
+    /// the same where the outer ring grows most
     pub most_slope: f64,
-    /// in space: how the common triangles are stretched; 4 for an isometry
+    /// in space: distortion of the common triangles, both surfaces scaled to the same area. It is the mean,
+    /// by area of the source, of (s^2 + t^2) (1 + 1 / (s t)^2) for the singular values s and t. 4 means that
+    /// no length changes
     pub energy: f64,
-    /// in space: the farthest that the common surfaces are off those that were given
+    /// in space: largest distance between the common and the given surfaces. It is measured both ways, from
+    /// vertices and from middles of edges and triangles, in the unit of `icc_match_options.tolerance`
     pub off: f64,
-    /// in space: of the common triangles, in degrees
+    /// in space: smallest angle of the common triangles on either surface, in degrees
     pub least_angle: f64,
-    /// in space: common vertices before surfaces were made coarse
+    /// in space: common vertices before the surfaces were simplified
     pub n_overlay: usize,
 }
 sized!(icc_match_info);
@@ -815,31 +843,35 @@ opaque!(
 );
 
 // How a map works.
-/// point by point through the two charts, as the papers do; any dimension
+/// A *curve map* takes each point through the two charts, as the papers do. It works in any dimension.
 pub const ICC_MAP_CURVES: i32 = 1;
-/// An internal piecewise linear map. In 2-D: a triangle mesh of the source with an image for every
-/// vertex, started from the charts, repaired until every triangle is positive, made fair, and
-/// certified: every triangle exactly positive before and after, both boundaries exactly simple. In 3-D,
-/// between surfaces, filled unless they bring a mesh: the source's mesh with images that start from the charts,
-/// repaired, made fair and certified likewise; the target's mesh serves its chart only. The
-/// fastest queries. On the boundary it agrees with the cages up to rounding (samples of a side lie
-/// on it to one unit in the last place).
+/// A *mesh map* is piecewise linear on an internal mesh. It is always certified and has the fastest queries:
+/// less than 0.1 us a point in 2-D, 1 to 5 us in 3-D. On the boundary it agrees with the given facets up to
+/// rounding. Samples of a side lie on it to one unit in the last place.
+///
+/// In 2-D the mesh is made of triangles that fill the source. Every vertex has an image, chosen for low
+/// distortion. Every triangle is exactly positive before and after, and both boundaries are exactly simple.
+///
+/// In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The map uses the
+/// source's mesh, with images that are chosen and certified as in 2-D. The target's mesh only serves its
+/// chart. Where necessary, inner edges of the source's mesh between boundary vertices are cut.
 pub const ICC_MAP_MESH: i32 = 2;
 
-/// A path between two vertices of a domain with features, and where a map takes it: the map's image
-/// of the one can be moved to the other with its ends held and without crossing a feature.
+/// A path between two vertices of a domain with features, and its path in the target. Ties tell a map on
+/// which side one feature passes another. The map takes the first path to one that can be moved to the second
+/// with its ends held and without crossing a feature.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_tie {
-    /// set by the caller: `sizeof(icc_tie)`, the same in all of an array
+    /// set by the caller: `sizeof(icc_tie)`, the same for all elements of an array
     pub size: usize,
-    /// where it begins and ends: vertices of the domain (see `icc_domain_create_features()`)
+    /// first and last vertex: numbers of the domain, see `icc_domain_create_features()`
     pub vertex: [u32; 2],
-    /// its bends in the source
+    /// number of its bends in the source
     pub n_source: usize,
     /// 2 n_source coordinates
     pub source: *const f64,
-    /// its bends in the target, which may be more or fewer
+    /// number of its bends in the target, which may differ
     pub n_target: usize,
     /// 2 n_target coordinates
     pub target: *const f64,
@@ -852,28 +884,29 @@ sized!(icc_tie);
 pub struct icc_map_options {
     /// set by the caller: `sizeof(icc_map_options)`
     pub size: usize,
-    /// `ICC_MAP_*`; 0: mesh for foliation and disc in 2-D, unless both domains have caller-supplied
-    /// meshes, and for foliation in 3-D; else curves
+    /// `ICC_MAP_*`: this kind, or `ICC_ERR_CERTIFICATE` if no such map is found. 0: the best that is found,
+    /// see `icc_map_info.kind`. That is a mesh map for foliation and disc in 2-D, unless both domains bring
+    /// meshes, and for foliation in 3-D. It is a curve map in all other cases, or if no mesh map is found
     pub kind: i32,
-    /// mesh: at most so many improvement steps on each level of refinement; 0: as long as they pay
-    /// off; -1: no improvement
+    /// mesh map: at most this many improvement steps on each level of refinement. 0: as long as they pay off.
+    /// -1: no improvement
     pub iterations: i32,
-    /// for both charts, or NULL; its `maximum` is the source's. For kind mesh in 2-D method 0 means
-    /// disc (foliation when a maximum is given), and cells 0 means 20. In 3-D method 0 means
-    /// foliation, but field for masks.
+    /// For both charts, or NULL. Its `maximum` is the source's. For a mesh map in 2-D, method 0 means disc
+    /// (foliation if a maximum is given), and cells 0 means 20. In 3-D, method 0 means foliation, or field
+    /// for masks.
     pub chart: *const icc_chart_options,
-    /// the target's maximum, or NULL: as the method chooses
+    /// the target's maximum; NULL: chosen by the method
     pub target_maximum: *const f64,
-    /// with features: as many as there are features; or 0
+    /// with features: as many as there are features, or 0
     pub n_ties: usize,
-    /// which way round one another the features go: paths that join all of them and the outer ring
-    /// to a tree, inside both domains and without crossing; or NULL: as seems least twisted
+    /// with features: paths that join all features and the outer ring to a tree. They lie inside both domains
+    /// and do not cross. NULL: libicc chooses the way that looks least twisted
     pub ties: *const icc_tie,
 }
 sized!(icc_map_options);
 
-/// What `icc_map_get_info()` reports: what the map is. It is saved with the map. Members that do not
-/// apply to the kind are 0.
+/// What `icc_map_get_info()` reports about a map. It is saved with the map. Members that do not apply to the
+/// kind are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_map_info {
@@ -883,41 +916,43 @@ pub struct icc_map_info {
     pub dim: i32,
     /// `ICC_MAP_*`: never 0
     pub kind: i32,
-    /// 1: proved to be one-to-one, exactly (field: in doubles, see `icc_map_report.n_lost`); 0:
-    /// not, see `reason`
+    /// 1: proved to be one-to-one, exactly (field: in doubles, see `icc_map_report.n_lost`). 0: not, see
+    /// `reason`
     pub certified: i32,
     /// `ICC_REASON_*`: why it is not certified; 0 if it is
     pub reason: i32,
-    /// 1: because the source's chart is not, 2: the target's; else 0
+    /// whose chart is the reason: 1 the source's, 2 the target's; else 0
     pub reason_side: i32,
-    /// with features, 1: the map can be moved, while it stays one-to-one, to what its ties, or the
-    /// cuts chosen for it, said; and after `icc_map_retarget()` to what became of the map before
-    /// while every vertex of the target went straight to its new place. 0: not so, or rounding or
-    /// the way of the vertices leaves it open
+    /// with features, 1: the map is isotopic to the expected one, so it can be moved there while it stays
+    /// one-to-one. After `icc_map_create()` the expected map is the one that the ties describe, or else the
+    /// cuts that libicc chose. After `icc_map_retarget()` it is the previous map, carried along while every
+    /// vertex of the target moves straight to its new place. 0: not so, or undecided because of rounding or
+    /// of the way of the vertices
     pub class_kept: i32,
-    /// mesh: vertices
+    /// mesh map: vertices
     pub n_vertices: usize,
-    /// mesh: triangles, or in 3-D tetrahedra
+    /// mesh map: triangles, or tetrahedra in 3-D
     pub n_simplices: usize,
-    /// mesh: mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, the target scaled to the source's
-    /// area or volume; 4 for an isometry, in 3-D 6
+    /// mesh map: its distortion, the mean symmetric Dirichlet energy |J|^2 + |J^-1|^2 with the target scaled
+    /// to the source's area or volume. The least possible value, 4 in 2-D and 6 in 3-D, means that no length
+    /// changes
     pub energy: f64,
-    /// features inside: holes,
+    /// features: holes
     pub n_holes: usize,
-    /// lines
+    /// features: lines
     pub n_lines: usize,
-    /// and points
+    /// features: points
     pub n_points: usize,
-    /// with features: as many ties, see `icc_map_get_tie()`
+    /// with features: number of ties, see `icc_map_get_tie()`
     pub n_ties: usize,
-    /// lengths of these in the target over those of the straight lines between their ends: what is
-    /// much more than 1 is twisted
+    /// length of the ties in the target, divided by that of the straight lines between their ends. The map is
+    /// twisted if it is much more than 1
     pub detour: f64,
 }
 sized!(icc_map_info);
 
-/// What `icc_map_get_report()` reports: how the map was made. Members that do not apply to the kind are
-/// 0, and seconds are 0 where the map was loaded.
+/// What `icc_map_get_report()` reports about how a map was made. Members that do not apply to the kind are 0.
+/// Seconds of the parts are 0 if the map was loaded.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_map_report {
@@ -925,37 +960,35 @@ pub struct icc_map_report {
     pub size: usize,
     /// time to make the map, including the charts; or to load it
     pub seconds: f64,
-    /// mesh: of that, time to make all simplices positive
+    /// mesh map: part of that, time to make all simplices positive
     pub seconds_repair: f64,
-    /// of that, time to improve it
+    /// mesh map: part of that, time to improve the map
     pub seconds_improve: f64,
-    /// of that, time to certify it; kind curves of method field likewise
+    /// part of that, time to certify a mesh map or a curve map of method field
     pub seconds_certify: f64,
-    /// mesh: `icc_map_info.energy` before the improvement
+    /// mesh map: `icc_map_info.energy` before the improvement
     pub energy_start: f64,
-    /// mesh: simplices that were not positive at first
+    /// mesh map: simplices that were not positive at first
     pub n_inverted: usize,
-    /// in 3-D, kind curves although kind mesh was tried: the fewest tetrahedra that a way of it has
-    /// left inverted
+    /// curve map, if a mesh map was tried first: simplices that stayed inverted; in 3-D by the best of
+    /// several ways
     pub n_unrepaired: usize,
-    /// mesh: steps of improvement
+    /// mesh map: improvement steps
     pub n_iterations: usize,
-    /// mesh: refinements
+    /// mesh map: refinements
     pub n_levels: i32,
-    /// with features: ways to cut them apart that were tried and led to a map; 1 with ties
+    /// with features: number of tried ways to cut them apart that led to a map; 1 with ties
     pub n_trees: i32,
-    /// field: evenly spread points, half of them in the target, that were mapped there and back; 0
-    /// unless both charts are certified
+    /// field: evenly spread points that were mapped there and back, half of them in the target. 0 unless both
+    /// charts are certified
     pub n_samples: usize,
-    /// field: of these, points that come back more than 1e-9 of the bounding box's diagonal away,
-    /// or whose derivative does not match that of the way back. None if certified
+    /// field: samples that come back more than 1e-9 of the bounding box's diagonal away, or whose derivative
+    /// does not match that of the way back. 0 if certified
     pub n_lost: usize,
-    /// field: of these, points around which volume shrinks to less than 1e-6 of its mean. At most
-    /// 0.2 % if certified
+    /// field: samples around which volume shrinks to less than 1e-6 of its mean. At most 0.2 % if certified
     pub n_flat: usize,
-    /// mesh: simplices that rounding makes flat or reversed, on either side, when
-    /// `icc_map_get_mesh()` hands them out; 0 unless a shape is about 1e9 times as far from the
-    /// origin as it is large
+    /// mesh map: simplices that become flat or reversed, on either side, when `icc_map_get_mesh()` rounds
+    /// them. 0 unless a shape is about 1e9 times as far from the origin as it is large
     pub n_spoilt: usize,
 }
 sized!(icc_map_report);
@@ -966,13 +999,14 @@ sized!(icc_map_report);
 pub struct icc_tie_info {
     /// set by the caller: `sizeof(icc_tie_info)`
     pub size: usize,
-    /// as in `icc_tie`
+    /// first and last vertex, as in `icc_tie`
     pub vertex: [u32; 2],
-    /// its bends in the source: none as yet
+    /// number of its bends in the source: always 0, because it is an edge of a triangulation of the source's
+    /// vertices
     pub n_source: usize,
-    /// and in the target
+    /// number of its bends in the target
     pub n_target: usize,
-    /// of the tie in the source, and in the target
+    /// length of the tie in the source, and in the target
     pub length: [f64; 2],
 }
 sized!(icc_tie_info);
@@ -983,33 +1017,32 @@ sized!(icc_tie_info);
 pub struct icc_improve_options {
     /// set by the caller: `sizeof(icc_improve_options)`
     pub size: usize,
-    /// steps at most on each level; 0: 60
+    /// at most this many steps on each level; 0: as long as they pay off
     pub iterations: i32,
-    /// refinements at most; 0: 4; -1: none
+    /// at most this many refinements; 0: as long as they pay off; -1: none
     pub levels: i32,
-    /// a level ends with a step that gains less than this share of the energy; 0:
-    /// 1e-4
+    /// the last level ends when a step gains less than this share of the energy; 0: the default
     pub tolerance: f64,
 }
 sized!(icc_improve_options);
 
-/// What `icc_map_improve()` did.
+/// What `icc_map_improve()` has done.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_improve_report {
     /// set by the caller: `sizeof(icc_improve_report)`
     pub size: usize,
-    /// as `icc_map_info.energy`, before
+    /// `icc_map_info.energy` before
     pub energy_start: f64,
-    /// and after; never more
+    /// `icc_map_info.energy` after; never more
     pub energy: f64,
-    /// steps
+    /// improvement steps
     pub n_iterations: usize,
-    /// triangles or tetrahedra in the end
+    /// triangles or tetrahedra at the end
     pub n_simplices: usize,
     /// refinements
     pub n_levels: i32,
-    /// 1: the progress callback ended it early
+    /// 1: the progress callback stopped it early
     pub cancelled: i32,
 }
 sized!(icc_improve_report);
@@ -1020,44 +1053,44 @@ sized!(icc_improve_report);
 pub struct icc_retarget_options {
     /// set by the caller: `sizeof(icc_retarget_options)`
     pub size: usize,
-    /// at most so many improvement steps; 0: what a frame has time for; -1: none
+    /// at most this many improvement steps; 0: as many as suit an interactive frame; -1: none
     pub iterations: i32,
 }
 sized!(icc_retarget_options);
 
-/// What `icc_map_certify()` found out about the image of a caller's mesh.
+/// What `icc_map_certify()` found out about the image of your mesh.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_certificate {
     /// set by the caller: `sizeof(icc_certificate)`
     pub size: usize,
-    /// 1: every simplex keeps its orientation and both boundaries are simple,
-    /// so the mesh and its image are one-to-one
+    /// 1: every simplex keeps its orientation and both boundaries are simple, so the mesh and its image are
+    /// one-to-one
     pub certified: i32,
-    /// 1: no part of the boundary meets itself or another part, and the mesh lies
-    /// on one side of it; the same is true of the images
+    /// 1: no part of the boundary meets itself or another part, and the mesh lies on one side of it. The same
+    /// is true of the image
     pub boundary_simple: i32,
-    /// simplices whose image has the other orientation
+    /// simplices whose image has the opposite orientation
     pub n_inverted: usize,
-    /// simplices whose image, or which themselves, have no volume
+    /// simplices that have no volume or whose image has none
     pub n_flat: usize,
     /// vertices that have no image
     pub n_no_image: usize,
     /// the first simplex at fault, or -1
     pub first: i64,
-    /// why it is not certified, one line of English; empty if it is
+    /// why it is not certified, in one line of English; empty if it is certified
     pub message: [c_char; 256],
 }
 sized!(icc_certificate);
 
-/// The pixel's own samples, for classes and labels; no means.
+/// the nearest pixel's own samples, never averaged: for classes and labels
 pub const ICC_INTERPOLATION_NEAREST: i32 = 1;
-/// Bilinear.
+/// bilinear
 pub const ICC_INTERPOLATION_LINEAR: i32 = 2;
-/// Bicubic, exact for quadratic functions; may overshoot.
+/// bicubic, exact for quadratic functions; may overshoot
 pub const ICC_INTERPOLATION_CUBIC: i32 = 3;
 
-/// A picture in memory: rows from top to bottom, samples of a pixel side by side.
+/// A picture in memory. Rows run from top to bottom, and the samples of a pixel lie side by side.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_picture {
@@ -1067,23 +1100,23 @@ pub struct icc_picture {
     pub width: i32,
     /// rows
     pub height: i32,
-    /// samples of a pixel, 1..64
+    /// samples per pixel, 1..64
     pub channels: i32,
-    /// of a sample, in the machine's order: 1 or 2, unsigned, all values used;
-    /// 4 or 8: floats
+    /// bytes per sample, in the machine's order. 1 or 2: unsigned integers that use all values. 4 or 8:
+    /// floats
     pub bytes: i32,
-    /// 1: the last of two to four channels of 1 or 2 bytes is opacity, and the
-    /// others are not multiplied by it; 0: there is none
+    /// 1: the last of two to four channels of 1 or 2 bytes is opacity, and the other channels are not
+    /// multiplied by it. 0: no opacity
     pub alpha: i32,
-    /// bytes from a row to the next
+    /// bytes from one row to the next
     pub stride: usize,
-    /// the first row; any alignment. Only read in a source.
+    /// the first row, with any alignment; a source is only read
     pub pixels: *mut c_void,
-    /// of a source: `ICC_INTERPOLATION_*`; 0: linear
+    /// source: `ICC_INTERPOLATION_*`; 0: linear
     pub interpolation: i32,
-    /// of a source: 1: samples that are `nodata` are missing; without alpha
+    /// source, 1: samples equal to `nodata` are missing. Not with alpha
     pub has_nodata: i32,
-    /// may be NaN
+    /// source: the value of missing samples; may be NaN
     pub nodata: f64,
 }
 sized!(icc_picture);
@@ -1091,48 +1124,58 @@ sized!(icc_picture);
 extern "C" {
     /// Makes a domain from its boundary. Either orientation is accepted and remembered.
     ///
-    /// 2-D: a simple polygon. `facets` may be NULL: facet i then joins vertex i and vertex i + 1, the
-    /// last one back to vertex 0. Otherwise the facets, two vertex indices each, must form one closed
-    /// ring through all vertices, in any order but all in the same direction. Collinear vertices are
-    /// fine. Checked exactly: no edge of length zero, no repeated vertex, no edges that cross, touch or
-    /// run back over each other.
+    /// *2-D*: a simple polygon, which does not touch itself. If `facets` is NULL, facet i joins the vertices
+    /// i and i + 1, and the last facet leads back to vertex 0. Otherwise each facet is two vertex indices.
+    /// The facets must form one closed ring through all vertices, in any order but all in the same direction.
+    /// Vertices on a straight line are fine. libicc checks exactly that
     ///
-    /// 3-D: a closed surface of triangles, three vertex indices each, in any order. Checked exactly: no
-    /// face with area 0; each edge belongs to two faces, which run along it in opposite directions; the
-    /// faces at each vertex form one cycle; one component, so no inner voids; genus 0; the surface does
-    /// not meet itself, which is to say that two faces have nothing in common but the vertices and edges
-    /// that they share. Coplanar faces are fine.
+    /// - no edge has length zero,
+    /// - no vertex is repeated,
+    /// - no edges cross, touch or run back over each other.
     ///
-    /// 4-D to 6-D: a closed boundary of simplices, dim vertex indices each. Checked: each ridge (dim - 1
-    /// vertices) belongs to two facets, which run along it in opposite directions; the facets at each
-    /// vertex hang together; one component; and, exactly in 4-D and to rounding (1e-13) beyond, no flat
-    /// facet; to rounding, a volume other than 0. Self-intersection is NOT checked beyond 3-D, nor is
-    /// the topology of the boundary.
+    /// *3-D*: a closed surface of triangles, three vertex indices each, in any order. Coplanar faces are
+    /// fine. libicc checks exactly that
     ///
-    /// 1-D: an interval: two facets of one vertex each.
+    /// - no face has area 0,
+    /// - each edge belongs to two faces, which run along it in opposite directions,
+    /// - the faces at each vertex form one cycle,
+    /// - the surface is one piece, so there are no inner voids, and has no handles (genus 0),
+    /// - the surface does not meet itself: two faces share only their common vertices and edges.
     ///
-    /// All checks are made on the coordinates as given. Inside the library the shape is shifted and
-    /// scaled by exact operations, so any position and size will do (an offset of 1e9, coordinates of
-    /// 1e300). A coordinate other than 0 that is smaller than 2^-200 of the largest one is refused.
-    /// Except in 2-D, vertices that belong to no facet are kept and otherwise ignored.
+    /// *4-D to 6-D*: a closed boundary of simplices, dim vertex indices each. libicc checks that
+    ///
+    /// - each ridge (dim - 1 vertices) belongs to two facets, which run along it in opposite directions,
+    /// - the facets at each vertex are connected, and the boundary is one piece,
+    /// - no facet is flat (exact in 4-D, up to rounding of 1e-13 beyond),
+    /// - the volume is not 0, up to rounding.
+    ///
+    /// Beyond 3-D it does NOT check whether the boundary meets itself, nor its topology.
+    ///
+    /// *1-D*: an interval, which has two facets of one vertex each.
+    ///
+    /// All checks use the coordinates as given. The shape may lie anywhere and have any size, such as an
+    /// offset of 1e9 or coordinates of 1e300. Internally it is shifted and scaled by exact operations. A
+    /// coordinate is refused if it is not 0 and at most 2^-200 times the largest one. Except in 2-D, vertices
+    /// that belong to no facet are kept but ignored.
     ///
     /// - `out` (out): the domain; owned by the caller, see `icc_domain_free()`
     /// - `dim`: 1..`ICC_MAX_DIM`
     /// - `n_vertices`: at least dim + 1
     /// - `vertices`: n_vertices * dim coordinates
-    /// - `n_facets`: number of facets; ignored when `facets` is NULL
+    /// - `n_facets`: number of facets; ignored if `facets` is NULL
     /// - `facets`: n_facets * dim vertex indices; NULL in 2-D only
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the vertex or facet at fault; where two are, the
-    ///   message names both
+    /// - `err`: may be NULL; `index` is the vertex or facet at fault. If there are two, the message names
+    ///   both
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_BOUNDARY` (what is wrong with the
-    /// shape), `ICC_ERR_TOPOLOGY` (several components, an inner void, handles),
-    /// `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: O(n log n) time, O(n) memory for ordinary shapes; in 3-D 1 to 3 us and 70 bytes a triangle
-    /// (110 while it is made). All pairs of triangles whose boxes meet are looked at: n^2 / 2 pairs, 0.04
-    /// us each, where n triangles meet at one vertex or are long, thin and close.
+    /// - `ICC_ERR_BOUNDARY` if the shape is not valid
+    /// - `ICC_ERR_TOPOLOGY` if it has several pieces, an inner void or handles
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(n log n) time and O(n) memory for ordinary shapes, about 50 ns a vertex in 2-D and 1 us a
+    /// triangle in 3-D.
     pub fn icc_domain_create(
         out: *mut *mut icc_domain,
         dim: i32,
@@ -1144,34 +1187,44 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a domain of the plane with features inside: holes, lines and points, whose images a map
-    /// prescribes.
+    /// Makes a domain of the plane with features inside: holes, lines and points. You choose where a map
+    /// takes them.
     ///
-    /// The vertices of the domain are those of the outer ring, then those of the features in their
-    /// order; its facets are the edges of the outer ring, then those of the holes, which bound it as
-    /// well. Features must lie strictly inside the outer ring and outside all holes, and may not meet
-    /// themselves or one another. All of this is checked exactly, with the coordinates as given. Rings
-    /// may run either way. A hole that touches the outer ring in a point is refused, since the domain
-    /// would be pinched there: merge the rings. So is a point on the boundary: make it a vertex of the
-    /// ring.
+    /// The vertices of the domain are those of the outer ring, followed by those of the features in their
+    /// order. Its facets are the edges of the outer ring, followed by the edges of the holes.
     ///
-    /// To `icc_domain_locate()` what lies in a hole is outside; lines and points are inside, as what is
-    /// around them. Only maps of kind mesh work on such a domain. What else takes domains refuses it
-    /// with `ICC_ERR_UNSUPPORTED`. Without features the result is that of `icc_domain_create()`.
+    /// Features must lie strictly inside the outer ring and outside all holes. They must not meet themselves
+    /// or one another. libicc checks all of this exactly, with the coordinates as given. Rings may run either
+    /// way. Two cases are refused that you can solve yourself:
+    ///
+    /// - A hole touches the outer ring in a point. The domain would be pinched there, so merge the two rings.
+    /// - A point lies on the boundary. Make it a vertex of the ring.
+    ///
+    /// A point with a radius is a handle with a size. The circle around it moves along and may grow or
+    /// shrink, but does not turn. The domain represents the circle by a line of 16 vertices, a regular
+    /// polygon that lacks one edge. These lines become further features. They follow all given features, in
+    /// the order of their points. In the other domain the same points must have a radius.
+    ///
+    /// For `icc_domain_locate()`, points in a hole are outside, and points on a line or at a point feature
+    /// are inside. Only mesh maps (`ICC_MAP_MESH`) work on a domain with features. Other functions that take
+    /// a domain refuse it with `ICC_ERR_UNSUPPORTED`. Without features the result is that of
+    /// `icc_domain_create()`.
     ///
     /// - `out` (out): the domain; owned by the caller, see `icc_domain_free()`
     /// - `n_outer`: vertices of the outer ring, at least 3
     /// - `outer`: 2 n_outer coordinates
-    /// - `n_features`: how many features there are
+    /// - `n_features`: number of features
     /// - `features`: n_features of them; they are copied
     /// - `env`: may be NULL
-    /// - `err`: may be NULL. For a defect of the outer ring `index` is its vertex or edge; else it is
-    ///   the feature at fault (`ICC_ITEM_FEATURE`), and the message names the vertex, and the other
-    ///   feature where there are two
+    /// - `err`: may be NULL. If the outer ring is at fault, `index` is its vertex or edge. Otherwise `index`
+    ///   is the feature (`ICC_ITEM_FEATURE`), and the message names its vertex and any other feature
+    ///   involved. Circles are numbered from n_features
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_OUTSIDE` (a feature is not strictly inside the outer ring, or lies in
-    /// a hole); `ICC_ERR_BOUNDARY` (a ring or line meets itself, two features meet, two points are the
-    /// same); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`, `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_OUTSIDE` if a feature is not strictly inside the outer ring, or lies in a hole
+    /// - `ICC_ERR_BOUNDARY` if a ring or line meets itself, two features meet, or two points coincide
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
     /// Cost: O(n log n) time and O(n) memory for n vertices in all.
     pub fn icc_domain_create_features(
@@ -1184,30 +1237,39 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a domain from the cells of a mask, such as the voxels of a picture: cell (i_0, i_1, ..) covers
-    /// \[i_0, i_0 + 1\] x \[i_1, i_1 + 1\] x .. in coordinates 0, 1, ..
+    /// Makes a domain from a mask of cells, such as pixels or voxels. Cell (i_0, i_1, ..) covers \[i_0, i_0 +
+    /// 1\] x \[i_1, i_1 + 1\] x .. in coordinates 0, 1, 2 and so on. (`icc_grid_create_mask()` takes a mask
+    /// of grid vertices instead.)
     ///
-    /// The mask must be a solid without holes: one piece, where cells are joined by faces; no cells that
-    /// touch only along an edge or a corner, nor gaps that do; the outside one piece; Euler characteristic 1.
-    /// In 2-D and 3-D this makes it a disc or a ball. In higher dimensions holes of different
-    /// dimensions may cancel out and pass: `icc_tree_grow()` on its grid fails on them.
+    /// The mask must be solid and without holes:
     ///
-    /// Each cell is cut in two along each axis, and each face of the pieces on the boundary into (dim - 1)!
-    /// simplices (Kuhn's), as the grid that `icc_grid_create()` makes is. `icc_domain_get_boundary()` hands
-    /// them out, with the vertices in the caller's order of axes, the first axis fastest; in 2-D as a
-    /// counter-clockwise polygon. The image of a mask is a domain with the same facets and moved vertices.
+    /// - The cells form one piece, joined by faces. So does the outside.
+    /// - No two cells touch only along an edge or a corner. The same holds for gaps.
+    /// - The Euler characteristic is 1.
+    ///
+    /// In 2-D and 3-D this makes the mask a disc or a ball. In higher dimensions, holes of different
+    /// dimensions may cancel out and pass; then `icc_tree_grow()` fails on the grid of the mask.
+    ///
+    /// Each cell is cut in two along each axis. Each boundary face of the pieces is cut into (dim - 1)!
+    /// simplices, as in Kuhn's triangulation. The grid that `icc_grid_create()` makes is cut in the same way.
+    /// `icc_domain_get_boundary()` returns these facets and their vertices. The vertices are sorted with the
+    /// first axis fastest, except that a 2-D domain is a counter-clockwise polygon. The target of a map from
+    /// a mask is a domain with the same facets and moved vertices.
     ///
     /// - `out` (out): the domain; owned by the caller
     /// - `dim`: 1..`ICC_MAX_DIM`
     /// - `shape`: cells along each axis, dim numbers
-    /// - `cells`: one byte per cell, the first axis runs fastest: 0 outside, anything else inside
+    /// - `cells`: one byte per cell, the first axis fastest: 0 is outside, anything else inside
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names a cell at fault
+    /// - `err`: may be NULL; `index` is a cell at fault
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_TOPOLOGY` (what is wrong with the mask), `ICC_ERR_RESOLUTION` (its grid
-    /// would have more than 2^28 vertices, or too many facets), `ICC_ERR_ARGUMENT`, ...
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: O(cells * 4^dim) time at most, 0.15 us a cell in 3-D, besides that of `icc_domain_create()`.
+    /// - `ICC_ERR_TOPOLOGY` if the mask is not as described
+    /// - `ICC_ERR_RESOLUTION` if its grid would have more than 2^28 vertices, or too many facets
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: at most O(cells * 4^dim) time, 0.15 us a cell in 3-D, in addition to `icc_domain_create()`.
     pub fn icc_domain_create_mask(
         out: *mut *mut icc_domain,
         dim: i32,
@@ -1218,35 +1280,41 @@ extern "C" {
     ) -> icc_status;
 
     /// Makes a domain from a conforming mesh of its inside: triangles in 2-D, tetrahedra in 3-D, simplices
-    /// beyond. On such a domain `ICC_METHOD_FOLIATION` works in every dimension, with leaves that are straight
-    /// in every simplex; everything else works as on a domain made of the boundary alone.
+    /// beyond. On such a domain `ICC_METHOD_FOLIATION` works in every dimension. Everything else works as on
+    /// a domain made from its boundary alone.
     ///
-    /// The vertices of the domain are those of the mesh that lie on its boundary, in the order of the mesh.
-    /// Two domains whose meshes differ inside correspond, as `icc_map_create()` asks, if these and the facets are
-    /// the same. The facets may be given in an order of the caller's, such as that of the surface that the mesh
-    /// was made for; if not, they are sorted by their vertices (the smallest index first, and so on) and
-    /// listed as seen from outside.
+    /// The vertices of the domain are the boundary vertices of the mesh, in the order of the mesh. Two
+    /// domains correspond, as `icc_map_create()` requires, if they have the same number of boundary vertices
+    /// and the same facets. Their meshes may differ inside.
     ///
-    /// Checked exactly up to 3-D, to rounding beyond: what `icc_domain_create()` checks of the boundary; no
-    /// simplex without volume; a facet belongs to at most two simplices, which lie on opposite sides of it;
-    /// the mesh hangs together; its Euler characteristic is 1. So the simplices fill the domain and do not
-    /// overlap. In which order a simplex lists its vertices does not matter. Vertices that no simplex has are
-    /// ignored.
+    /// You may pass the facets yourself, for example in the order of the surface that was meshed. Otherwise
+    /// libicc sorts them by their vertices, the smallest index first, and orients them as seen from outside.
+    ///
+    /// libicc checks the following, exactly up to 3-D and up to rounding beyond:
+    ///
+    /// - The boundary passes the checks of `icc_domain_create()`.
+    /// - Every simplex has a volume.
+    /// - A facet belongs to at most two simplices, which lie on opposite sides of it.
+    /// - The mesh is connected, and its Euler characteristic is 1.
+    ///
+    /// So the simplices fill the domain and do not overlap. Vertices that belong to no simplex are ignored.
     ///
     /// - `out` (out): the domain; owned by the caller
     /// - `mesh`: the mesh, of dimension 2..`ICC_MAX_DIM`
-    /// - `n_facets`: facets of the boundary; ignored when `facets` is NULL
-    /// - `facets`: n_facets * dim vertex indices: the boundary of the mesh, in the caller's order and all
-    ///   seen from the same side; or NULL
+    /// - `n_facets`: number of facets of the boundary; ignored if `facets` is NULL
+    /// - `facets`: n_facets * dim vertex indices of the mesh's boundary, all seen from the same side; or NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the simplex, the vertex or one of the `facets` at fault. When
-    ///   it is the boundary that is refused, vertices and facets are those of the domain
+    /// - `err`: may be NULL; `index` is the simplex, vertex or given facet at fault. If the boundary is
+    ///   refused, vertices and facets are those of the domain
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_BOUNDARY` (a simplex is flat or lists a vertex twice or one that is not there,
-    /// a facet has three simplices or two on one side, `facets` are not the mesh's); `ICC_ERR_TOPOLOGY`
-    /// (several pieces, holes); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: O(n) time and memory besides those of `icc_domain_create()`: 0.5 us a tetrahedron.
+    /// - `ICC_ERR_BOUNDARY` if a simplex is flat or lists a vertex twice or one that does not exist; if three
+    ///   simplices share a facet, or two lie on one side of it; or if `facets` are not the boundary
+    /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces or holes
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(n) time and memory in addition to `icc_domain_create()`, 0.5 us a tetrahedron.
     pub fn icc_domain_create_mesh(
         out: *mut *mut icc_domain,
         mesh: *const icc_mesh,
@@ -1256,19 +1324,29 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Fills a closed surface in 3-D with tetrahedra: makes the domain that `icc_domain_create_mesh()`
-    /// makes of a mesh of its inside. Its vertices and facets are those of the surface, bit by bit;
-    /// vertices are added inside only. Vertices that no facet has are left out.
+    /// Fills a closed surface in 3-D with tetrahedra. The result is a domain with a mesh, as
+    /// `icc_domain_create_mesh()` makes it. Its vertices and facets are those of the surface, bit for bit.
+    /// New vertices are added inside only. Vertices that belong to no facet are left out.
     ///
-    /// - `out` (out): the domain; owned by the caller
+    /// Every decision about the mesh is exact, and the result passes the checks of
+    /// `icc_domain_create_mesh()`. It has the same bits on every machine. There is no guarantee that every
+    /// surface can be filled. There is none for angles either: tetrahedra next to the surface may be very
+    /// flat. docs/theory/solid-maps.md says what is tried.
+    ///
+    /// - `out` (out): the filled domain, owned by the caller
     /// - `surface`: a domain in 3-D without a mesh
     /// - `options`: may be NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the facet or vertex at fault
+    /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_UNSUPPORTED` unless `surface` is in 3-D and has no mesh;
-    /// `ICC_ERR_RESOLUTION` if a facet cannot be told from what is next to it; `ICC_ERR_ARGUMENT`,
-    /// `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_UNSUPPORTED` if `surface` is not in 3-D or has a mesh
+    /// - `ICC_ERR_RESOLUTION` if a facet cannot be told apart from its surroundings; `icc_error.index` names
+    ///   it
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: about 10 us and 200 bytes per tetrahedron; several times as long if filling fails.
     pub fn icc_domain_fill(
         out: *mut *mut icc_domain,
         surface: *const icc_domain,
@@ -1277,19 +1355,20 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Fills cells of a mask where others, or gaps, touch only along an edge or a corner, which
-    /// `icc_domain_create_mask()` refuses: one after the other, each time the one that leaves the fewest such
-    /// places around it. Whatever cannot be mended so, and all else that may be wrong, is left as it is.
+    /// Repairs a mask in which cells, or gaps, touch only along an edge or a corner.
+    /// `icc_domain_create_mask()` refuses such masks. The function fills cells one at a time, each time the
+    /// one that leaves the fewest such contacts around it. Contacts that filling cannot remove stay, and so
+    /// does every other defect.
     ///
     /// - `dim`: 1..`ICC_MAX_DIM`
     /// - `shape`: cells along each axis
-    /// - `cells` (in and out): as for `icc_domain_create_mask()`; those that are filled become 1
-    /// - `n_filled` (out): how many, or NULL
+    /// - `cells` (in and out): as for `icc_domain_create_mask()`; filled cells become 1
+    /// - `n_filled` (out): number of filled cells, or NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_RESOLUTION`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`;
-    /// the cells are as they were unless it is `ICC_OK`
+    /// Returns `ICC_OK`; on `ICC_ERR_RESOLUTION`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    /// the cells are unchanged
     pub fn icc_mask_repair(
         dim: i32,
         shape: *const usize,
@@ -1302,14 +1381,15 @@ extern "C" {
     /// Frees a domain.
     pub fn icc_domain_free(domain: *mut icc_domain);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_domain_get_info(domain: *const icc_domain, info: *mut icc_domain_info) -> icc_status;
 
-    /// Reports a feature of a domain; `icc_domain_get_boundary()` has the coordinates.
+    /// Reports a feature of a domain. Its coordinates are among those that `icc_domain_get_boundary()`
+    /// copies.
     ///
     /// - `domain`: the domain
     /// - `feature`: its number, less than `icc_domain_info.n_features`
-    /// - `info` (in and out): `size` has been set; the rest is filled in
+    /// - `info` (in and out): set its `size`; the rest is filled in
     ///
     /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
     pub fn icc_domain_get_feature(
@@ -1318,8 +1398,8 @@ extern "C" {
         info: *mut icc_feature_info,
     ) -> icc_status;
 
-    /// Copies the boundary as it was given: of a domain with features, the vertices of the outer ring
-    /// and of all features, and the facets of the outer ring and of the holes.
+    /// Copies the boundary as it was given. If the domain has features, the vertices include those of all
+    /// features, and the facets include those of the holes.
     ///
     /// - `domain`: the domain
     /// - `vertices` (out): room for n_vertices * dim doubles, or NULL
@@ -1330,30 +1410,36 @@ extern "C" {
         facets: *mut u32,
     ) -> icc_status;
 
-    /// Copies the mesh of the inside: `icc_domain_create_mesh()`, `icc_domain_fill()`.
+    /// Copies the mesh of the inside, if the domain comes from `icc_domain_create_mesh()` or
+    /// `icc_domain_fill()`. Boundary vertices come first, in the order of `icc_domain_get_boundary()`; inner
+    /// vertices follow. Each cell has a positive determinant.
     ///
     /// - `domain`: a domain with a mesh: `icc_domain_info.n_mesh_vertices` is not 0
-    /// - `mesh` (in, out): what it has room for is filled: the vertices of the boundary first, in its order.
-    ///   Then its dimension and its numbers are set
+    /// - `mesh` (in and out): the arrays that you provide are filled; then the dimension and the counts are
+    ///   set
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_ARGUMENT` if there is too little room; `ICC_ERR_UNSUPPORTED` without a mesh
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if `domain` or `mesh` is NULL, or the arrays are too small
+    /// - `ICC_ERR_UNSUPPORTED` if the domain has no mesh
     pub fn icc_domain_get_mesh(domain: *const icc_domain, mesh: *mut icc_mesh) -> icc_status;
 
-    /// Says where points lie, exactly up to the tolerance of `ICC_BOUNDARY`, and finds the nearest
-    /// boundary point. Beyond 3-D it is not exact: points within about 1e-13 of the bounding box's longest
-    /// side of the boundary may be misplaced; and where a boundary meets itself, inside is what an odd
-    /// number of layers separates from infinity.
+    /// Reports where points lie, and the nearest point of the boundary to each.
+    ///
+    /// Up to 3-D the answer is exact, up to the tolerance of `ICC_BOUNDARY`. Beyond 3-D, points within about
+    /// 1e-13 of the bounding box's longest side from the boundary may be misplaced. If a boundary beyond 3-D
+    /// meets itself, a point is inside if an odd number of layers separates it from infinity.
     ///
     /// - `domain`: the domain
     /// - `n`: number of points
     /// - `points`: n * dim coordinates; a point that is not finite is outside
     /// - `where` (out): n values `ICC_INSIDE`, `ICC_BOUNDARY` or `ICC_OUTSIDE`
     /// - `facet` (out): n indices of the nearest facet, or NULL
-    /// - `bary` (out): n * dim barycentric coordinates of the nearest point on it, or NULL
+    /// - `bary` (out): n * dim barycentric coordinates of the nearest point on that facet, or NULL
     /// - `env`: may be NULL
     ///
-    /// Cost: O(log n) a point for ordinary shapes: in 3-D with 27,000 faces 0.5 to 2 us to place a point,
-    /// 5 to 10 us to find the nearest facet.
+    /// Cost: O(log n) a point for ordinary shapes; in 3-D with 27,000 faces 1 us, or 5 to 10 us with the
+    /// nearest facet.
     pub fn icc_domain_locate(
         domain: *const icc_domain,
         n: usize,
@@ -1364,18 +1450,19 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Lists everything that keeps a closed polygon from being the boundary of a domain.
+    /// Lists the defects that keep a closed polygon from being the boundary of a domain. They are sorted by
+    /// a, then by b. Vertices that are not finite are listed and otherwise ignored.
     ///
     /// - `n_vertices`: vertices of the ring
     /// - `vertices`: n_vertices * 2 coordinates; facet i joins vertices i and i + 1
-    /// - `capacity`: how many defects the two arrays have room for
+    /// - `capacity`: number of defects that the two arrays have room for
     /// - `kinds` (out): `capacity` kinds, `ICC_DEFECT_*`
-    /// - `items` (out): `capacity` pairs (a, b); see there
-    /// - `n_defects` (out): how many there are in all, also beyond `capacity`
+    /// - `items` (out): `capacity` pairs (a, b), see `ICC_DEFECT_*`
+    /// - `n_defects` (out): number of defects, which may exceed `capacity`. The search ends at 10,000 + 4
+    ///   n_vertices defects
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Sorted by a, then b. Vertices that are not finite are listed and otherwise left out.
     /// Cost: O((n + k) log n) for k pairs of facets whose boxes overlap.
     pub fn icc_boundary_defects(
         n_vertices: usize,
@@ -1388,28 +1475,31 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes coordinates of a domain.
+    /// Makes a chart: coordinates of the inside of a domain.
     ///
-    /// - `out` (out): the chart; owned by the caller, see `icc_chart_free()`. It keeps the domain alive.
+    /// - `out` (out): the chart; owned by the caller, see `icc_chart_free()`. It keeps the domain alive
     /// - `domain`: the domain
     /// - `options`: may be NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_RESOLUTION` when no grid vertex lies inside the domain or the grid would
-    /// have more than 2^28 vertices; `ICC_ERR_OUTSIDE` when `maximum` is outside;
-    /// `ICC_ERR_CERTIFICATE` when the chart could not be proved one-to-one, with the reason;
-    /// `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_UNSUPPORTED`, `ICC_ERR_VERSION`,
-    /// `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost with n vertices and N cells along the longest side: gradient O(N^2 + n N) time and memory at
-    /// most in 2-D, about 1 ms at N = 50, and O(N^dim) beyond: in 3-D at N = 64 from 0.1 s, and 15 us a point
-    /// and way. Field the same: in 3-D at N = 64 0.05 to 0.5 s, 20 us a point and way; at most 40 bytes a grid
-    /// vertex, and 70 and 150 for each of `icc_field_info.n_contacts` while it is made. Foliation and disc mesh
-    /// the domain with at most 2 n + 4 N^2 vertices (far fewer in practice) and factorise its Laplacian:
-    /// about 1 ms at N = 50 and n \< 100, 0.06 s at n = 15,000; 500 bytes a vertex. Foliation on a domain with a
-    /// mesh: in 3-D about 25 us a tetrahedron, 40 us from 80,000 on, of which the certificate takes 2 %, then 1 to 2 us
-    /// a point and way at 20,000 tetrahedra, 3 to 4 us at 80,000; 130 bytes a tetrahedron, 1.4 kB while it is made.
+    /// - `ICC_ERR_RESOLUTION` if no grid vertex lies inside the domain, or the grid would have more than 2^28
+    ///   vertices
+    /// - `ICC_ERR_OUTSIDE` if `maximum` is outside
+    /// - `ICC_ERR_CERTIFICATE` if the chart could not be proved one-to-one; `err` has the reason
+    /// - `ICC_ERR_TOPOLOGY` if the domain's mesh has no order for method foliation
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_UNSUPPORTED`, `ICC_ERR_VERSION` or
+    ///   `ICC_ERR_CANCELLED`
+    ///
+    /// Cost with n boundary vertices and N cells along the longest side:
+    ///
+    /// - gradient and field in 2-D: O(N^2 + n N) time and memory, about 1 ms at N = 50
+    /// - gradient and field beyond 2-D: O(N^dim), in 3-D at N = 64 some tenths of a second
+    /// - foliation and disc in 2-D: a sparse factorisation of at most 2 n + 4 N^2 vertices, about 1 ms at N =
+    ///   50
+    /// - foliation on a domain's mesh in 3-D: about 10 us a tetrahedron
     pub fn icc_chart_create(
         out: *mut *mut icc_chart,
         domain: *const icc_domain,
@@ -1421,27 +1511,27 @@ extern "C" {
     /// Frees a chart.
     pub fn icc_chart_free(chart: *mut icc_chart);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_chart_get_info(chart: *const icc_chart, info: *mut icc_chart_info) -> icc_status;
 
-    /// Fills in what only charts of method gradient have; `size` as there. `ICC_OK`, `ICC_ERR_UNSUPPORTED` for charts
-    /// that are made otherwise, or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, or
+    /// `ICC_ERR_UNSUPPORTED` if the chart is not of method gradient.
     pub fn icc_chart_get_gradient_info(chart: *const icc_chart, info: *mut icc_gradient_info) -> icc_status;
 
-    /// The same for method field.
+    /// Like `icc_chart_get_gradient_info()`, for method field.
     pub fn icc_chart_get_field_info(chart: *const icc_chart, info: *mut icc_field_info) -> icc_status;
 
-    /// The same for method foliation in 2-D, unless the domain brings a mesh.
+    /// Like `icc_chart_get_gradient_info()`, for method foliation in 2-D unless the domain brings a mesh.
     pub fn icc_chart_get_foliation_info(chart: *const icc_chart, info: *mut icc_foliation_info)
         -> icc_status;
 
-    /// The same for method foliation on a domain's mesh.
+    /// Like `icc_chart_get_gradient_info()`, for method foliation on a domain's own mesh.
     pub fn icc_chart_get_shelling_info(chart: *const icc_chart, info: *mut icc_shelling_info) -> icc_status;
 
-    /// The same for method disc.
+    /// Like `icc_chart_get_gradient_info()`, for method disc.
     pub fn icc_chart_get_disc_info(chart: *const icc_chart, info: *mut icc_disc_info) -> icc_status;
 
-    /// Fills in `timings`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `timings`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_chart_get_timings(chart: *const icc_chart, timings: *mut icc_chart_timings) -> icc_status;
 
     /// The domain that the chart was made on; borrowed.
@@ -1450,7 +1540,7 @@ extern "C" {
     /// Estimates what the coordinates miss. Deterministic.
     ///
     /// - `chart`: the chart
-    /// - `n_points`: points to use, for the area and for the boundary each; 0: 4096
+    /// - `n_points`: number of points inside, and as many on the boundary; 0: 4096
     /// - `measures` (out): its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
@@ -1462,25 +1552,32 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Cartesian -> integral curve coordinates.
+    /// Computes the coordinates of points in a chart. Returns `ICC_OK` even if every point failed: check
+    /// `status` or `n_failed`.
     ///
-    /// A point on the boundary has t = 0. The maximum has t = 1, facet 0 and the facet's midpoint.
-    /// A point that has no coordinates gets NaN in `bary` and `t`, UINT32_MAX in `facet` and its own
-    /// status; the others are not affected.
+    /// A point on the boundary has t = 0. The maximum has t = 1, facet 0 and the facet's midpoint. A point
+    /// without coordinates gets NaN in `bary` and `t`, UINT32_MAX in `facet` and its own status. Other points
+    /// are not affected.
     ///
     /// - `chart`: the chart
     /// - `n`: number of points
     /// - `points`: n * dim coordinates
     /// - `facet` (out): n indices of the boundary facet where the curve starts
-    /// - `bary` (out): n * dim barycentric coordinates there: not negative, sum 1
+    /// - `bary` (out): n * dim barycentric coordinates on that facet: not negative, with sum 1
     /// - `t` (out): n shares of the curve's arc length from the boundary, in \[0,1\]
-    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_OUTSIDE`, `ICC_ERR_TRACE` (the curve does not
-    ///   reach the boundary and the maximum), `ICC_ERR_ARGUMENT` (not finite); or NULL
-    /// - `n_failed` (out): how many points have no coordinates, or NULL
+    /// - `status` (out): n statuses, or NULL. `ICC_OK`; `ICC_ERR_OUTSIDE`; `ICC_ERR_TRACE` if the curve does
+    ///   not reach both the boundary and the maximum; `ICC_ERR_ARGUMENT` if the point is not finite
+    /// - `n_failed` (out): number of points without coordinates, or NULL
     /// - `env`: may be NULL
     ///
-    /// Returns `ICC_OK` when the call ran, however many points failed; `ICC_ERR_ARGUMENT`,
-    /// `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED` (the outputs are then undefined)
+    /// Returns `ICC_OK` if the call has run, however many points failed, or
+    ///
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`; the outputs are then
+    ///   undefined
+    ///
+    /// Cost: some microseconds a point for charts; for the first call in each direction on a plane mesh, also
+    /// time and memory proportional to the mesh. That memory comes from the object's own `icc_env.alloc`,
+    /// whatever `env` is. If there is none the call fails, and the next call tries again.
     pub fn icc_chart_encode(
         chart: *const icc_chart,
         n: usize,
@@ -1493,17 +1590,18 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Integral curve coordinates -> Cartesian; the inverse of `icc_chart_encode()`.
+    /// Computes the points that have given coordinates. This is the inverse of `icc_chart_encode()`, and like
+    /// it returns `ICC_OK` even if every point failed.
     ///
     /// - `chart`: the chart
     /// - `n`: number of points
     /// - `facet`: n facet indices
-    /// - `bary`: n * dim barycentric coordinates, not negative, sum 1 (up to 1e-9)
-    /// - `t`: n shares in \[0,1\]; t = 0 gives the boundary point, t = 1 the maximum
-    /// - `points` (out): n * dim coordinates; NaN where there is no point
-    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_TRACE` (the curve does not reach the maximum, or
-    ///   has left the domain there), `ICC_ERR_ARGUMENT`; or NULL
-    /// - `n_failed` (out): how many coordinates have no point, or NULL
+    /// - `bary`: n * dim barycentric coordinates: not negative, with sum 1 up to 1e-9
+    /// - `t`: n shares in \[0,1\]; 0 is the boundary point, 1 the maximum
+    /// - `points` (out): n * dim coordinates; NaN if there is no point
+    /// - `status` (out): n statuses, or NULL. `ICC_OK`; `ICC_ERR_TRACE` if the curve does not reach the
+    ///   maximum or has left the domain there; `ICC_ERR_ARGUMENT`
+    /// - `n_failed` (out): number of coordinates without a point, or NULL
     /// - `env`: may be NULL
     ///
     /// Returns as `icc_chart_encode()`
@@ -1519,17 +1617,17 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// The whole curve through a point, from the boundary to the maximum, as a polyline.
+    /// Computes the whole curve through a point, from the boundary to the maximum, as a polyline.
     ///
     /// - `chart`: the chart
     /// - `point`: dim coordinates
-    /// - `capacity`: how many points `curve` has room for
-    /// - `curve` (out): capacity * dim coordinates; may be NULL when capacity is 0
-    /// - `n_curve` (out): how many points the curve has, also beyond `capacity`
+    /// - `capacity`: number of points that `curve` has room for
+    /// - `curve` (out): capacity * dim coordinates; may be NULL if capacity is 0
+    /// - `n_curve` (out): number of points of the curve, which may exceed `capacity`
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_OUTSIDE`, `ICC_ERR_TRACE`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`,
+    /// Returns `ICC_OK`, `ICC_ERR_OUTSIDE`, `ICC_ERR_TRACE`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or
     /// `ICC_ERR_VERSION`
     pub fn icc_chart_trace(
         chart: *const icc_chart,
@@ -1541,15 +1639,16 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Writes a chart to memory, its domain included, so that other processes and machines can use it. The format
-    /// is described in docs/reference/formats.md: versioned, the same on every machine, with a checksum.
+    /// Writes a chart and its domain to memory, for other processes and machines. Call it twice: with
+    /// capacity 0 for the number of bytes, then with a buffer of that size. The format
+    /// (docs/reference/formats.md) is versioned, the same on every machine, and has a checksum.
     ///
     /// - `chart`: the chart
-    /// - `capacity`: bytes that `data` has room for
-    /// - `data` (out): NULL when capacity is 0
-    /// - `n_bytes` (out): bytes that are needed, also beyond `capacity`: nothing useful is written then
+    /// - `capacity`: number of bytes that `data` has room for
+    /// - `data` (out): NULL if capacity is 0
+    /// - `n_bytes` (out): number of bytes needed. If it exceeds `capacity`, nothing useful is written
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`
+    /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
     pub fn icc_chart_save(
         chart: *const icc_chart,
         capacity: usize,
@@ -1557,25 +1656,29 @@ extern "C" {
         n_bytes: *mut usize,
     ) -> icc_status;
 
-    /// Reads a chart back: it answers as the one that was saved does, bit for bit, with any number of threads. Its
-    /// info is the same but for the seconds.
+    /// Reads a chart back. It gives the same results as the saved one, bit for bit, for any number of
+    /// threads. Its info is the same.
     ///
-    /// Charts on a mesh (foliation, disc) are read with all their numbers, and certified anew: bytes that do not
-    /// pass are refused, whoever made them. Charts on a grid (gradient, field) are made again from what they
-    /// were made of, and compared with a checksum of the numbers of the first.
+    /// Charts on a mesh (foliation, disc) are stored in full and certified anew, so bytes that do not pass
+    /// are refused wherever they come from. Charts on a grid (gradient, field) are rebuilt from their inputs
+    /// and compared with a checksum of the original's numbers. Any bytes are safe to pass.
     ///
     /// - `out` (out): the chart; owned by the caller
-    /// - `n_bytes`: bytes of `data`
+    /// - `n_bytes`: number of bytes of `data`
     /// - `data`: any bytes
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_FORMAT` for anything that `icc_chart_save()` did not write; `ICC_ERR_VERSION` for
-    /// what a later version wrote, and for a chart on a grid that comes out otherwise here than where it was
-    /// saved; `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_ARGUMENT`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; that of
-    /// `icc_chart_create()` for charts on a grid, up to `icc_env.load_limit`.
+    /// - `ICC_ERR_FORMAT` for bytes that `icc_chart_save()` did not write, or that need more than
+    ///   `icc_env.load_limit` allows
+    /// - `ICC_ERR_VERSION` for bytes that a later version wrote, and for a chart on a grid that gives other
+    ///   values here than where it was saved
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED` or `ICC_ERR_ARGUMENT`
+    ///
+    /// Cost: O(n log n) time and O(n) memory in the number of bytes for charts on a mesh; for charts on a
+    /// grid, that of `icc_chart_create()` with the stored options.
     pub fn icc_chart_load(
         out: *mut *mut icc_chart,
         n_bytes: usize,
@@ -1584,10 +1687,75 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Pairs the boundaries of two domains that need not have the same number of vertices, the same first vertex
-    /// or the same sense, and makes two domains of the same shapes with common vertices, ready for
-    /// `icc_map_create()`. A heuristic without landmarks: `ICC_ERR_AMBIGUOUS` where another pairing is nearly as
-    /// good. `landmarks`: n_landmarks * 2 dim coordinates, a point of the source, then one of the target.
+    /// Pairs the boundaries of two domains that do not correspond, and gives them common vertices. The two
+    /// new domains have the given shapes and are ready for `icc_map_create()`. The given ones may differ in
+    /// number of vertices, in first vertex and in direction.
+    ///
+    /// *Outlines.* Without landmarks libicc compares all starting points by how the outlines turn at several
+    /// scales. It then tries rotations and follows the best pairing. This is a heuristic. It guarantees that
+    /// the pairing is monotone and passes through all landmarks, but not that it is the one you mean.
+    ///
+    /// Every vertex of the two domains is in the result, bit for bit and in its order. The vertices that one
+    /// outline lacks are added on its edges, rounded. The result begins with the source's vertex 0 and runs
+    /// in the source's direction. It passes the checks of `icc_domain_create()`. If two outlines have the
+    /// same number of vertices and are clearly in step, they are paired vertex by vertex, except by arc
+    /// length. So the result of a match passes through another match unchanged.
+    ///
+    /// *Features.* Each hole, line and point is paired with one of its kind. The outer rings' pairing
+    /// predicts where each should lie in the target, by mean value coordinates. The assignment minimises the
+    /// sum of squared distances to these places. Holes and lines are then paired along themselves: holes from
+    /// where they lie nearest, lines from end to end. The result has the source's features, in its order and
+    /// directions, and their partners in the target.
+    ///
+    /// *Surfaces.* In space the two surfaces get common triangles. Both are drawn on the sphere, one-to-one,
+    /// and cut by one another there. Both are then simplified together up to `icc_match_options.tolerance`,
+    /// except where a surface would meet itself. Exact signs prove that the drawings are one-to-one and are
+    /// cut into the same pieces, before positions are rounded. libicc checks on each result that neither
+    /// surface meets itself, and measures `icc_match_info.off`.
+    ///
+    /// It does not guarantee that similar parts are paired. Without landmarks this works for surfaces that
+    /// are nearly the same up to a motion, or that bend moderately. It does not work for bodies with limbs in
+    /// other poses, as `icc_match_info.energy` shows. With landmarks, each at a vertex, the parts between the
+    /// same landmarks are paired. Landmarks become common vertices, wherever they lie. Vertices that remain
+    /// keep their bits. Facets are listed as seen from outside.
+    ///
+    /// *`icc_match_options.keep_source`.* In space, the source's surface then stays as it is. Common vertices
+    /// begin with those of the source that have facets, in their order. Others are added on its edges and
+    /// inside its facets, rounded. No common facet is part of two facets of the source. The target is as
+    /// close as without this option. Thin triangles of the source stay thin.
+    ///
+    /// - `out` (out): the match; owned by the caller, see `icc_match_free()`
+    /// - `source`: a domain of the plane, possibly with features, or a surface in space without a mesh
+    /// - `target`: likewise, of the same dimension. It has as many holes, lines, points, and points with a
+    ///   radius
+    /// - `n_landmarks`: number of pairs of points that are known, at most 1000; in space 128
+    /// - `landmarks`: n_landmarks * 2 dim coordinates: a point of the source, followed by its partner in the
+    ///   target. Or NULL if there are none. In the plane a point on the boundary is taken as it is. Any other
+    ///   point stands for the nearest vertex within 0.5 % of the shape's diameter, or else for the nearest
+    ///   boundary point. Here the boundary includes point features, holes and lines, so such a landmark also
+    ///   says which features belong together. In space a point stands for the nearest vertex
+    /// - `options`: may be NULL
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `index` is the landmark at fault, or as stated below
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_AMBIGUOUS` if another pairing is nearly as good: give a landmark, or ask for arc length.
+    ///   Also if two features could change places: `index` is one of the source's, and a landmark on it
+    ///   decides
+    /// - `ICC_ERR_ARGUMENT` if a landmark is more than 2 % of the diameter off an outline, coincides with
+    ///   another one, comes in a different order on the two outlines, or pairs features of different kinds
+    /// - `ICC_ERR_UNSUPPORTED` for another dimension, or a domain with a mesh
+    /// - `ICC_ERR_BOUNDARY` if the numbers of features differ; or if common vertices cannot be told apart in
+    ///   doubles, where `index` is one of them
+    /// - `ICC_ERR_RESOLUTION` if the triangles of a surface differ too much in size to be drawn on the sphere
+    ///   in doubles. Also if landmarks differ so much in position that paths between them take too many
+    ///   vertices
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: in 2-D some tenths of a second, plus O(m^3) at worst for m features of a kind; in space about 1
+    /// s for 4,700 vertices. Deterministic. The map between the two new domains takes longer to make than one
+    /// between outlines that correspond.
     pub fn icc_match_create(
         out: *mut *mut icc_match,
         source: *const icc_domain,
@@ -1608,16 +1776,44 @@ extern "C" {
     /// The target with the common vertices; borrowed.
     pub fn icc_match_target(r#match: *const icc_match) -> *const icc_domain;
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_match_get_info(r#match: *const icc_match, info: *mut icc_match_info) -> icc_status;
 
-    /// Reports where the common vertices come from: n_vertices numbers each, `u32::MAX` for one that was added.
+    /// Reports where the common vertices come from.
+    ///
+    /// - `match`: the match
+    /// - `source` (out): for each common vertex (`icc_match_info.n_vertices`) its number in the given source,
+    ///   or UINT32_MAX if it was added; or NULL
+    /// - `target` (out): likewise for the given target
+    ///
+    /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
     pub fn icc_match_get_origins(r#match: *const icc_match, source: *mut u32, target: *mut u32)
         -> icc_status;
 
-    /// Takes points of the source to the target: each to the nearest place on the rings, lines and points of
-    /// `icc_match_source()`, and from there to the same place of the target. Common vertices go to their partners
-    /// bit by bit.
+    /// Takes points of the source's boundary to the target's boundary.
+    ///
+    /// A point first moves to the nearest place on the boundary of `icc_match_source()`: on the outer ring, a
+    /// hole, a line or a point; in space on the surface. From there it goes to the same place of
+    /// `icc_match_target()`. All common vertices go to their partners bit for bit, including those of lines,
+    /// points and landmarks. Between them each edge or facet is mapped one-to-one. Points of a given surface
+    /// are at most `icc_match_info.off` away from the common one.
+    ///
+    /// To transfer data that is known at the corners of the given facets, such as texture coordinates, call
+    /// `icc_domain_locate()` on the given domain. For each vertex of `icc_match_source()`, or any other
+    /// point, it returns the facet and the weights of its corners.
+    ///
+    /// - `match`: the match
+    /// - `n`: number of points
+    /// - `points`: n * dim coordinates
+    /// - `images` (out): n * dim coordinates; NaN for a point that is not finite. May be the same array as
+    ///   `points`
+    /// - `off` (out): distance of each point from that nearest place; NaN for a point that is not finite. May
+    ///   be NULL
+    /// - `env`: may be NULL
+    ///
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: that of `icc_domain_locate()` with the nearest facet.
     pub fn icc_match_apply(
         r#match: *const icc_match,
         n: usize,
@@ -1627,7 +1823,7 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Target -> source; otherwise as `icc_match_apply()`.
+    /// Takes points of the target's boundary to the source's; otherwise like `icc_match_apply()`.
     pub fn icc_match_apply_inverse(
         r#match: *const icc_match,
         n: usize,
@@ -1637,7 +1833,7 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Writes a match as bytes, as `icc_chart_save()` does a chart: with both domains.
+    /// Writes a match and both its domains to memory, as `icc_chart_save()` does a chart.
     pub fn icc_match_save(
         r#match: *const icc_match,
         capacity: usize,
@@ -1645,8 +1841,9 @@ extern "C" {
         n_bytes: *mut usize,
     ) -> icc_status;
 
-    /// Reads a match back, as `icc_chart_load()` does a chart: its domains are checked as they were when they were
-    /// made, and have to correspond.
+    /// Reads a match back, as `icc_chart_load()` does a chart. Its domains are checked as they were when they
+    /// were made, and must correspond. The contents of `icc_match_info` and `icc_match_get_origins()` are
+    /// taken from the bytes unchecked.
     pub fn icc_match_load(
         out: *mut *mut icc_match,
         n_bytes: usize,
@@ -1655,26 +1852,37 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes the map between two domains whose boundaries correspond: facet i goes to facet i, with the
-    /// same barycentric coordinates. Builds both charts together: foliation and disc cut both boundaries
-    /// alike, and foliation pairs the maxima (the target's is where the disc maps take the source's), as
-    /// field does (by the affine map that fits the boundary best, the nearer the better). On domains with meshes
-    /// foliation takes a vertex of the source that is deep inside both domains, before and after a harmonic map,
-    /// and the vertex of the target nearest to its image.
+    /// Makes the map between two domains whose boundaries correspond. Facet i goes to facet i, with the same
+    /// barycentric coordinates.
+    ///
+    /// If the boundary moves by an affine map, up to rounding, a mesh map moves the inside by the same affine
+    /// map, up to rounding. Vertices still go exactly to their partners. This does not hold with `iterations`
+    /// -1, or with features whose ties ask for another isotopy class.
+    ///
+    /// Both charts are built together, and their maxima are paired.
+    ///
+    /// In 3-D, surfaces without a mesh are filled by `icc_domain_fill()` without options, unless the method
+    /// is gradient or field. Method field needs no mesh. A mesh map is found for most pairs in 3-D, but not
+    /// for all. docs/theory/solid-maps.md says what is tried.
     ///
     /// - `out` (out): the map; owned by the caller, see `icc_map_free()`
-    /// - `source`: domain before
-    /// - `target`: domain after: same dimension, same number of vertices, same facets, and in 2-D the
-    ///   same orientation, else `ICC_ERR_BOUNDARY`
+    /// - `source`: the domain before
+    /// - `target`: the domain after. It has the same dimension, number of vertices and facets, and features
+    ///   of the same kinds with as many vertices. In 2-D its rings, including the holes, have the same
+    ///   orientation
     /// - `options`: may be NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `side` tells source (1) from target (2)
+    /// - `err`: may be NULL; `side` is 1 for the source, 2 for the target
     ///
-    /// Returns as `icc_chart_create()`, or `ICC_ERR_BOUNDARY`
+    /// Returns as `icc_chart_create()`, or
     ///
-    /// Cost of kind mesh: that of two charts, then Newton steps on the mesh: from 4 ms for cages of some tens
-    /// of vertices to 0.3 s for 15,000, and never more than a stated amount of work. Deterministic: work is
-    /// counted, clocks are not read.
+    /// - `ICC_ERR_BOUNDARY` if the domains do not correspond
+    /// - `ICC_ERR_RESOLUTION` if a surface cannot be filled; `err` names the side and the facet
+    /// - `ICC_ERR_CERTIFICATE` if the options ask for a mesh map and none was found
+    ///
+    /// Cost of a mesh map: two charts and a limited amount of improvement; in 2-D 4 ms for a few dozen
+    /// vertices, 0.3 s for 15,000. If the limit ended the improvement, `icc_map_improve()` continues it.
+    /// Deterministic: work is counted, and no clock is read.
     pub fn icc_map_create(
         out: *mut *mut icc_map,
         source: *const icc_domain,
@@ -1684,8 +1892,19 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes the map between two polygons whose vertices correspond: `icc_domain_create()` of both, then
-    /// `icc_map_create()` without options. `before` and `after` have 2 n coordinates.
+    /// Makes the map between two polygons whose vertices correspond. It calls `icc_domain_create()` for both,
+    /// then `icc_map_create()` without options.
+    ///
+    /// - `out` (out): the map; owned by the caller, see `icc_map_free()`
+    /// - `n`: number of vertices of each polygon, at least 3
+    /// - `before`: 2 n coordinates x, y
+    /// - `after`: 2 n coordinates x, y, in the same direction
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `side` is 1 for `before` and 2 for `after`; `index` is the vertex at fault
+    ///
+    /// Returns as `icc_domain_create()` and `icc_map_create()`
+    ///
+    /// Cost: that of these calls.
     pub fn icc_map_create_polygons(
         out: *mut *mut icc_map,
         n: usize,
@@ -1695,9 +1914,9 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a map from two charts, which must use the same method and domains that correspond as
-    /// `icc_map_create()` asks. Kind mesh takes the source chart's mesh. Of the options `kind` and
-    /// `iterations` are used. The map keeps the charts alive.
+    /// Makes a map from two charts of the same method. Their domains must correspond as `icc_map_create()`
+    /// requires. A mesh map uses the source chart's mesh. Of the options only `kind` and `iterations` are
+    /// used. The map keeps the charts alive.
     pub fn icc_map_create_from_charts(
         out: *mut *mut icc_map,
         source: *const icc_chart,
@@ -1707,17 +1926,29 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a fairer map from one of kind mesh; the given map is not changed. The energy never rises and
-    /// every intermediate map is certified, so stopping early loses nothing: when the progress callback asks
-    /// to stop, the call succeeds with what it has and says so in the report. In 3-D refinements change the
-    /// mesh inside by flips and by cutting edges; the surface stays as it is.
+    /// Makes a map of lower distortion from a mesh map. The given map does not change.
+    ///
+    /// The energy never rises, and every intermediate map is certified. So you may stop early: if the
+    /// progress callback asks to stop, the call succeeds with the map reached by then. The report says so.
+    ///
+    /// Steps and refinements end when they do not pay off. If all options are 0, the work and the number of
+    /// triangles are also limited in proportion to the given map; another call continues from there. If any
+    /// option is set, neither is limited.
+    ///
+    /// In 3-D a refinement cuts edges in the middle, and replaces tetrahedra by others that fill the same
+    /// space, before and after. So the map's mesh (`icc_map_get_mesh()`) is no longer the source's own mesh.
+    /// Its surface stays as it is, and every tetrahedron is exactly positive before and after.
     ///
     /// - `out` (out): the map; owned by the caller
-    /// - `map`: a map of kind mesh, else `ICC_ERR_UNSUPPORTED`
+    /// - `map`: a mesh map, else `ICC_ERR_UNSUPPORTED`
     /// - `options`: may be NULL
     /// - `report` (out): may be NULL; its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
+    ///
+    /// Returns as `icc_map_create()`
+    ///
+    /// Cost: about 1 us for each step and triangle, 1.5 us for each step and tetrahedron.
     pub fn icc_map_improve(
         out: *mut *mut icc_map,
         map: *const icc_map,
@@ -1727,18 +1958,34 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The map to a target that has moved: the source stays, the mesh and where its inside went are taken
-    /// over from `map`, repaired, and improved by a few steps. For dragging a cage, where each frame goes on
-    /// from the one before; the mesh is not refined further.
+    /// Makes the map to a target that has moved. Use it to drag a cage or a surface, where each frame
+    /// continues from the one before. The source stays. The new map starts from the mesh and the images of
+    /// `map`, moves them along and improves them by a few steps. It does not refine the mesh further. Frames
+    /// with the same mesh and allocator share data about it.
     ///
-    /// - `out` (out): the map; owned by the caller. It has no charts: `icc_map_source_chart()` gives NULL.
-    /// - `map`: a map of kind mesh in 2-D, else `ICC_ERR_UNSUPPORTED`
-    /// - `target`: the new target, which must correspond as `icc_map_create()` asks
+    /// Without features, any target in the plane is reached, however far away. The mesh may change on the
+    /// way.
+    ///
+    /// Features move straight to their new places. The map passes them on the same sides as before
+    /// (`icc_map_info.class_kept`), and the mesh changes as needed. If features would meet on the way, the
+    /// call fails with `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a very
+    /// different size or is far away, the features first move along with the whole shape.
+    ///
+    /// In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew by
+    /// `icc_map_create()`, which fills a target without a mesh; `icc_env.log` then says so. There is no
+    /// guarantee that a target is reached, but every map that is returned is certified.
+    ///
+    /// - `out` (out): the map; owned by the caller. It has no charts: `icc_map_source_chart()` returns NULL
+    /// - `map`: a mesh map, else `ICC_ERR_UNSUPPORTED`. It does not change
+    /// - `target`: the new target, which must correspond as `icc_map_create()` requires. In 3-D it may be a
+    ///   surface or have a mesh, which is used only if the map is made anew
     /// - `options`: may be NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL
+    /// - `err`: may be NULL; in 3-D it names a surface vertex where the way is blocked
     ///
-    /// Returns as `icc_map_create()`; `ICC_ERR_CERTIFICATE` when the target cannot be reached
+    /// Returns as `icc_map_create()`, and `ICC_ERR_CERTIFICATE` if the target cannot be reached
+    ///
+    /// Cost: at most a tenth of `icc_map_create()` if the target is reached at once, see docs/performance.md.
     pub fn icc_map_retarget(
         out: *mut *mut icc_map,
         map: *const icc_map,
@@ -1748,29 +1995,39 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The mesh of a map of kind mesh, in the caller's coordinates (rounded once; the certificate is about
-    /// the numbers inside).
+    /// Copies the mesh of a mesh map, in your coordinates. They are rounded once, whereas the certificate is
+    /// about the unrounded numbers inside. `icc_map_report.n_spoilt` counts the simplices that rounding makes
+    /// flat or reversed.
     ///
     /// - `map`: the map
-    /// - `mesh` (in, out): what it has room for is filled, in the source: triangles are counter-clockwise,
-    ///   tetrahedra have positive determinants. Then its dimension and its numbers are set
-    /// - `images` (out): room for n_vertices * dim coordinates in the target, or NULL
+    /// - `mesh` (in and out): the mesh on the source: the arrays that you provide are filled, then the
+    ///   dimension and the counts are set. Triangles run counter-clockwise, tetrahedra have positive
+    ///   determinants
+    /// - `images` (out): room for `icc_map_info.n_vertices` * dim coordinates in the target, or NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not of kind mesh)
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if `map` or `mesh` is NULL, or the arrays are too small
+    /// - `ICC_ERR_UNSUPPORTED` if it is not a mesh map
     pub fn icc_map_get_mesh(map: *const icc_map, mesh: *mut icc_mesh, images: *mut f64) -> icc_status;
 
-    /// Maps the vertices of a caller's mesh of triangles (2-D) or tetrahedra (3-D) and checks, exactly, whether the
-    /// image is a mesh too. A mesh sampled from a one-to-one map need not be: its simplices are straight where
-    /// the map is not.
+    /// Maps the vertices of your mesh of triangles (2-D) or tetrahedra (3-D), and checks exactly whether the
+    /// image is a valid mesh too. Even a one-to-one map can fail this test, because the simplices are
+    /// straight where the map bends.
+    ///
+    /// The mesh may have holes, voids and handles, and several pieces. Each facet belongs to one simplex or
+    /// two. No vertex or edge belongs to two parts of the boundary.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
-    /// - `mesh`: of the dimension of the map; its vertices are in the source
-    /// - `images` (out): n_vertices * dim coordinates, or NULL
+    /// - `mesh`: a mesh of the map's dimension, with its vertices in the source
+    /// - `images` (out): the images of its vertices: n_vertices * dim coordinates, or NULL
     /// - `certificate` (out): its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK` when the check ran, whatever it found; `ICC_ERR_ARGUMENT`, ...
+    /// Returns `ICC_OK` once the check has run, whatever it found, or
+    ///
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_UNSUPPORTED` or `ICC_ERR_CANCELLED`
     pub fn icc_map_certify(
         map: *const icc_map,
         mesh: *const icc_mesh,
@@ -1780,24 +2037,26 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Carries a caller's mesh of triangles (2-D) or tetrahedra (3-D) along so that no simplex inverts: maps the
-    /// vertices, then moves the images of inner ones until every simplex keeps its orientation. Inner vertices
-    /// that have no image get one. Simplices and the images of boundary vertices stay, so it cannot always
-    /// succeed (a simplex with all its corners on the boundary is as the map makes it); the certificate tells.
-    /// Where it does not, the images are the best that there are. A mesh that could not be certified itself, or a
-    /// vertex of whose boundary has no image, is not repaired.
+    /// Maps your mesh of triangles (2-D) or tetrahedra (3-D) so that no simplex inverts. It maps the
+    /// vertices, then moves the images of inner vertices until every simplex keeps its orientation. Inner
+    /// vertices without an image get one.
+    ///
+    /// The simplices and the images of boundary vertices do not change. So repair cannot always succeed: a
+    /// simplex with all its corners on the boundary stays as the map makes it. Check `certificate`. On
+    /// failure the images are the best that were found. A mesh is not repaired if it is not valid itself, or
+    /// if a boundary vertex has no image.
     ///
     /// - `map`: a map in 2-D or 3-D, else `ICC_ERR_UNSUPPORTED`
-    /// - `mesh`: of the dimension of the map; its vertices are in the source
-    /// - `images` (out): n_vertices * dim coordinates
-    /// - `certificate` (out): of the images returned; its `size` is set by the caller
+    /// - `mesh`: a mesh of the map's dimension, with its vertices in the source
+    /// - `images` (out): the images of its vertices: n_vertices * dim coordinates
+    /// - `certificate` (out): about the returned images; its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
     /// Returns as `icc_map_certify()`
     ///
-    /// Cost: proportional to what is inverted; where patches do not suffice, some hundred passes over the mesh.
-    /// Deterministic: iterations are capped, clocks are not read.
+    /// Cost: proportional to the number of inverted simplices; at worst a fixed number of passes over the
+    /// mesh. Deterministic: iterations are limited, and no clock is read.
     pub fn icc_map_repair(
         map: *const icc_map,
         mesh: *const icc_mesh,
@@ -1810,19 +2069,29 @@ extern "C" {
     /// Frees a map.
     pub fn icc_map_free(map: *mut icc_map);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_map_get_info(map: *const icc_map, info: *mut icc_map_info) -> icc_status;
 
-    /// The same for `report`. If the mesh's coordinates have to be rounded, counting n_spoilt takes a pass
-    /// over the mesh.
+    /// Fills in `report`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`. Counting
+    /// n_spoilt takes a pass over the mesh if its coordinates have to be rounded.
     pub fn icc_map_get_report(map: *const icc_map, report: *mut icc_map_report) -> icc_status;
 
-    /// Reports a tie of a map of domains with features, less than `icc_map_info.n_ties`: all of them, as
-    /// `icc_map_options.ties`, make another map that can be moved to this one while it stays one-to-one.
+    /// Reports a tie of a map between domains with features. All ties together tell on which side each
+    /// feature passes the others. Passed as `icc_map_options.ties` they make a map that is isotopic to this
+    /// one: it can be moved to this one while it stays one-to-one. If `icc_map_info.detour` is large, they
+    /// may be too entangled for double precision and are then refused with `ICC_ERR_RESOLUTION`.
+    ///
+    /// The ties follow from the map alone. In the source they are a shortest tree of straight lines between
+    /// vertices, which may differ from the ties that the map was made with. In the target they are drawn with
+    /// few bends and do not cross.
+    ///
+    /// - `map`: the map
+    /// - `tie`: its number, less than `icc_map_info.n_ties`
+    /// - `info` (out): `size` is set by the caller
     /// - `source` (out): 2 * n_source coordinates of bends, or NULL
     /// - `target` (out): 2 * n_target coordinates of bends, or NULL
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_ARGUMENT` (`map` or `info` is NULL, or there is no such tie).
+    /// Returns `ICC_OK`, or `ICC_ERR_ARGUMENT` if `map` or `info` is NULL or there is no such tie
     pub fn icc_map_get_tie(
         map: *const icc_map,
         tie: usize,
@@ -1831,21 +2100,24 @@ extern "C" {
         target: *mut f64,
     ) -> icc_status;
 
-    /// The chart of the source; borrowed. NULL for maps made by `icc_map_retarget()`.
+    /// The chart of the source; borrowed. NULL for a map made by `icc_map_retarget()`.
     pub fn icc_map_source_chart(map: *const icc_map) -> *const icc_chart;
 
-    /// The chart of the target; borrowed. NULL for maps made by `icc_map_retarget()`.
+    /// The chart of the target; borrowed. NULL for a map made by `icc_map_retarget()`.
     pub fn icc_map_target_chart(map: *const icc_map) -> *const icc_chart;
 
-    /// Source -> target.
+    /// Maps points from the source to the target. Returns `ICC_OK` even if every point failed: check `status`
+    /// or `n_failed`. A certified curve map of method field reports `ICC_ERR_TRACE` for a point that would
+    /// not come back to within 1e-6 of the bounding box's diagonal.
     ///
     /// - `map`: the map
     /// - `n`: number of points
     /// - `points`: n * dim coordinates in the source
-    /// - `images` (out): n * dim coordinates; NaN for a point that has no image. May be `points`.
-    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_OUTSIDE`, `ICC_ERR_TRACE`, `ICC_ERR_ARGUMENT`; or
+    /// - `images` (out): n * dim coordinates; NaN for a point without an image. May be the same array as
+    ///   `points`
+    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_OUTSIDE`, `ICC_ERR_TRACE` or `ICC_ERR_ARGUMENT`; or
     ///   NULL
-    /// - `n_failed` (out): how many points have no image, or NULL
+    /// - `n_failed` (out): number of points without an image, or NULL
     /// - `env`: may be NULL
     ///
     /// Returns as `icc_chart_encode()`
@@ -1859,7 +2131,7 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Target -> source; otherwise as `icc_map_apply()`.
+    /// Maps points from the target to the source; otherwise like `icc_map_apply()`.
     pub fn icc_map_apply_inverse(
         map: *const icc_map,
         n: usize,
@@ -1870,17 +2142,19 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// The derivative of the map at points of the source, exact for the piecewise map up to rounding;
-    /// one-sided where it has a kink.
+    /// Computes the derivative of the map at points of the source. It is exact for the piecewise map, up to
+    /// rounding. At a kink it is one-sided. If the map is certified, the determinant is positive. Method
+    /// field reports no derivative where rounding would make it otherwise, or where the point does not come
+    /// back. Returns `ICC_OK` even if every point failed.
     ///
     /// - `map`: the map
     /// - `n`: number of points
-    /// - `points`: n * dim coordinates in the source's interior; on the boundary and at the
-    ///   maximum there is no derivative (`ICC_ERR_TRACE`)
-    /// - `jacobians` (out): n * dim * dim: row i, column j is the derivative of image coordinate i by
-    ///   point coordinate j; NaN where there is none
+    /// - `points`: n * dim coordinates in the source's interior. On the boundary and at the maximum there is
+    ///   no derivative (`ICC_ERR_TRACE`)
+    /// - `jacobians` (out): n * dim * dim numbers: row i, column j is the derivative of image coordinate i by
+    ///   point coordinate j. NaN where there is none
     /// - `status` (out): n statuses, or NULL
-    /// - `n_failed` (out): how many points have none, or NULL
+    /// - `n_failed` (out): number of points without a derivative, or NULL
     /// - `env`: may be NULL
     ///
     /// Returns as `icc_chart_encode()`
@@ -1894,7 +2168,7 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// Writes a map to memory, with its domains and charts; otherwise as `icc_chart_save()`.
+    /// Writes a map with its domains and charts to memory, in two calls as `icc_chart_save()` does.
     pub fn icc_map_save(
         map: *const icc_map,
         capacity: usize,
@@ -1902,8 +2176,8 @@ extern "C" {
         n_bytes: *mut usize,
     ) -> icc_status;
 
-    /// Reads a map back, as `icc_chart_load()` does a chart. The mesh of a map of kind mesh is read with all its
-    /// numbers, and certified anew.
+    /// Reads a map back, as `icc_chart_load()` does a chart. The mesh of a mesh map is stored in full and
+    /// certified anew.
     pub fn icc_map_load(
         out: *mut *mut icc_map,
         n_bytes: usize,
@@ -1912,27 +2186,32 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Carries a picture along: every pixel of the target whose centre lies in the target domain or on its
-    /// boundary gets the colour of the place in the source that goes there; all others are left alone. Pixel
-    /// (i, j), column i of row j, covers \[i, i+1\] x \[j, j+1\] in the coordinates of the domains.
+    /// Warps a picture. Every target pixel whose centre lies in the target domain or on its boundary gets the
+    /// colour of the place in the source that is mapped there. All other pixels stay as they are. Pixel (i,
+    /// j), in column i and row j, covers \[i, i+1\] x \[j, j+1\] in the coordinates of the domains.
     ///
-    /// Colours between pixels are bilinear, and weighted by opacity. Where the map shrinks the picture they
-    /// are means of up to 16 x 16 samples, so that it does not alias. Beyond its rim the source goes on with
-    /// the colour of the rim. A map that is the identity copies exactly.
+    /// Colours between pixels are interpolated bilinearly, weighted by opacity. Where the map shrinks the
+    /// picture, up to 16 x 16 samples are averaged to avoid aliasing. Beyond its edge the source continues
+    /// with the colour of the edge. The identity copies pixels exactly.
     ///
-    /// - `map`: the map, 2-D; kind mesh is the fast one
-    /// - `source`: read
-    /// - `target`: the same channels, bytes and alpha as the source, any width and height. Its pixels
-    ///   must not overlap the source's.
-    /// - `n_failed` (out): pixels inside that have no image, which are left alone, or NULL; always 0 for kind
-    ///   mesh
+    /// Pictures of floats, with more than four channels, with missing samples or with another interpolation
+    /// are computed pixel by pixel, each channel separately. A target pixel is missing (it gets `nodata`) if
+    /// the source's pixel at its place is missing. Next to missing samples, the known ones are interpolated
+    /// linearly. Averages are taken over known samples only.
+    ///
+    /// - `map`: a map in 2-D; mesh maps are the fastest
+    /// - `source`: the picture to read
+    /// - `target`: the picture to write, of any width and height, with the source's channels, bytes and
+    ///   alpha. Its pixels must not overlap the source's
+    /// - `n_failed` (out): number of pixels inside without an image, which are left as they are; or NULL.
+    ///   Always 0 for mesh maps
     /// - `env`: may be NULL; results are the same for every number of threads
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`, `ICC_ERR_CANCELLED` (some
-    /// pixels have been written)
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`, or `ICC_ERR_CANCELLED`
+    /// (then some pixels have been written)
     ///
-    /// Cost of kind mesh: nanoseconds a pixel.
+    /// Cost with a mesh map: nanoseconds a pixel, or tenths of a microsecond if computed pixel by pixel.
     pub fn icc_map_warp(
         map: *const icc_map,
         source: *const icc_picture,
@@ -1946,12 +2225,12 @@ extern "C" {
 // icc/stages.h
 
 opaque!(
-    /// A regular grid of vertices, each inside or outside of a shape. Vertex (i_0, i_1, ..) has the
-    /// index i_0 + shape\[0\] * (i_1 + shape\[1\] * (..)) and the position origin + spacing * i.
+    /// A regular grid of vertices, each inside or outside a shape. Vertex (i_0, i_1, ..) has the index i_0 +
+    /// shape\[0\] * (i_1 + shape\[1\] * (..)) and the position origin + spacing * i.
     icc_grid
 );
 
-/// What `icc_grid_get_info()` tells.
+/// What `icc_grid_get_info()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_grid_info {
@@ -1963,24 +2242,24 @@ pub struct icc_grid_info {
     pub shape: [usize; ICC_MAX_DIM],
     /// position of vertex 0
     pub origin: [f64; ICC_MAX_DIM],
-    /// distance of neighbours, the same along every axis
+    /// distance between neighbours, the same along every axis
     pub spacing: f64,
     /// product of `shape`
     pub n_vertices: usize,
     /// vertices inside
     pub n_inside: usize,
-    /// vertices that lie inside the boundary, but were taken outside: pieces
-    /// beside the largest (see `icc_grid_create()`), and what
-    /// `icc_grid_restrict()` took
+    /// vertices inside the boundary that count as outside: pieces other than the largest, see
+    /// `icc_grid_create()`, and vertices removed by `icc_grid_restrict()`
     pub n_stray: usize,
-    /// grid cells along the longest side of the domain; 0 for a grid from
-    /// a mask of vertices
+    /// grid cells along the longest side of the domain; 0 for a grid from a mask of vertices
     pub cells: i32,
 }
 sized!(icc_grid_info);
 
 opaque!(
-    /// A breadth-first tree over a grid; a cousin tree where the shape allows it.
+    /// A breadth-first tree over a grid. In a *cousin tree*, which libicc builds where the shape allows it,
+    /// any two neighbouring vertices are parent and child or cousins. *Cousins* have parents that are
+    /// neighbours too.
     icc_tree
 );
 
@@ -1992,13 +2271,13 @@ pub struct icc_tree_options {
     pub size: usize,
     /// `ICC_TREE_*`; 0: thesis
     pub form: i32,
-    /// the order in which a generation expands along the axes, a
-    /// permutation of 0..dim-1; NULL: 0, 1, ..
+    /// the order in which a generation expands along the axes, a permutation of 0..dim-1; NULL: 0, 1, 2 and
+    /// so on
     pub axis_order: *const i32,
 }
 sized!(icc_tree_options);
 
-/// What `icc_tree_get_report()` found.
+/// What `icc_tree_get_report()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_tree_report {
@@ -2010,7 +2289,7 @@ pub struct icc_tree_report {
     pub n_outside: usize,
     /// vertices inside that it does not reach
     pub n_unreachable: usize,
-    /// neighbouring vertices, both inside and reached
+    /// pairs of neighbouring vertices, both inside and reached
     pub n_pairs: usize,
     /// pairs that are neither parent and child nor cousins
     pub n_cousin_violations: usize,
@@ -2034,14 +2313,13 @@ pub struct icc_function_options {
     pub function: i32,
     /// `ICC_CONSTRAINTS_*`; 0: needed
     pub constraints: i32,
-    /// `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped and
-    /// constrained bi-Laplace are always factorised; Laplace is iterated
-    /// where a factorisation loses small values, as in long thin rings
+    /// `ICC_SOLVER_*`; 0: by the predicted work of a factorisation. Clamped, harmonic and constrained
+    /// bi-Laplace are always factorised. Laplace is solved iteratively where a factorisation would lose small
+    /// values, as in long thin rings
     pub solver: i32,
     /// least relative fall from parent to child, in (0, 0.01\]; 0: 1e-6
     pub min_fall: f64,
-    /// constrained bi-Laplace: least value at vertices without children, in
-    /// (0, 0.01\]; 0: 1e-9
+    /// constrained bi-Laplace: least value at vertices without children, in (0, 0.01\]; 0: 1e-9
     pub leaf_min: f64,
 }
 sized!(icc_function_options);
@@ -2058,37 +2336,37 @@ pub struct icc_function_info {
     pub constrained: i32,
     /// `ICC_SOLVER_*`
     pub solver: i32,
-    /// 1: `highest` is not the root, where curves should end. Only seen for bilaplace and clamped
-    /// without inequalities; `icc_chart_create()` then moves the root
+    /// 1: the function is greatest at `highest` and not at the root, where curves should end. Only seen for
+    /// bilaplace and clamped without inequalities. `icc_chart_create()` then moves the root
     pub beside: i32,
     /// vertices inside that the tree reaches, except the root
     pub n_unknowns: usize,
-    /// tree edges where the function without constraints breaks the inequality; where this function
-    /// does, if it was not constrained
+    /// tree edges where the function without constraints breaks the inequality; if constraints were not
+    /// imposed, where this function does
     pub n_violated: usize,
     /// inequalities that hold with equality
     pub n_active: usize,
-    /// KKT residual: the largest |min(slack, multiplier)| of an inequality, or |row of the
-    /// equation| if there are none; f is 1 at the root
+    /// KKT residual: the largest |min(slack, multiplier)| of an inequality, or |row of the equation| if there
+    /// are no inequalities. The function is 1 at the root
     pub residual: f64,
-    /// the smallest of `icc_function_logs()` inside; 0 if there are none
+    /// smallest value of `icc_function_logs()` inside; 0 if there are none
     pub least_log: f64,
-    /// by what share of its value at the root the function is greater at `highest`; 0 if that is
-    /// the root
+    /// how much greater the function is at `highest`, as a share of its value at the root; 0 if that is the
+    /// root
     pub excess: f64,
     /// the vertex inside with the greatest value
     pub highest: u32,
 }
 sized!(icc_function_info);
 
-/// What `icc_function_get_solver_report()` reports: how the function was computed. Members that do not
-/// apply are 0.
+/// What `icc_function_get_solver_report()` reports: how the function was computed. Members that do not apply
+/// are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_solver_report {
     /// set by the caller: `sizeof(icc_solver_report)`
     pub size: usize,
-    /// iterations of the active set or the interior point method; 0 without constraints
+    /// iterations of the active set or interior point method; 0 without constraints
     pub n_iterations: usize,
     /// iterations of conjugate gradients, in total
     pub n_inner: usize,
@@ -2109,7 +2387,8 @@ pub struct icc_solver_report {
 }
 sized!(icc_solver_report);
 
-/// Critical points of a function on the vertices inside, by the links of the Kuhn triangulation.
+/// What `icc_function_get_report()` reports: critical points of a function on the vertices inside. They are
+/// found from the links of the vertices in the Kuhn triangulation.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_function_report {
@@ -2119,32 +2398,30 @@ pub struct icc_function_report {
     pub n_maxima: usize,
     /// vertices with no lower neighbour
     pub n_minima: usize,
-    /// other vertices where the higher or the lower neighbours do not form a
-    /// contractible set. Exact up to 3-D; beyond, this is decided by strong
-    /// collapses, and a vertex where neither set collapses counts.
+    /// other vertices where the higher or the lower neighbours do not form a contractible set. Exact up to
+    /// 3-D. Beyond 3-D a vertex counts as a saddle if neither set can be reduced to a point by strong
+    /// collapses
     pub n_saddles: usize,
-    /// the first critical vertex in index order other than the root, or
-    /// UINT32_MAX
+    /// the first critical vertex in index order except the root, or UINT32_MAX
     pub critical: u32,
 }
 sized!(icc_function_report);
 
-// Kinds of edges in `icc_function_get_edges()`.
+// Kinds of edges that `icc_function_get_edges()` lists.
 /// the gradients on both sides point to the edge
 pub const ICC_EDGE_COMPRESSION: i32 = 1;
 /// the gradients on both sides point away from it
 pub const ICC_EDGE_EXPANSION: i32 = 2;
 
 // How `icc_tree_grow()` found an order.
-/// the order wished for is regular
+/// the given order is regular
 pub const ICC_GROW_AS_GIVEN: i32 = 1;
 /// some vertices had to wait for others
 pub const ICC_GROW_GROWN: i32 = 2;
-/// growth got stuck; the vertices were removed one by one instead, and the
-/// order read backwards
+/// growth got stuck; instead the vertices were removed one by one, and that order was reversed
 pub const ICC_GROW_THINNED: i32 = 3;
 
-/// What `icc_tree_grow()` found.
+/// What `icc_tree_grow()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_grow_report {
@@ -2152,8 +2429,7 @@ pub struct icc_grow_report {
     pub size: usize,
     /// `ICC_GROW_*`
     pub method: i32,
-    /// the first vertex in the order wished for that growth could not place, or
-    /// UINT32_MAX
+    /// the first vertex in the given order that growth could not place, or UINT32_MAX
     pub vertex: u32,
     /// vertices inside that the tree reaches
     pub n_vertices: usize,
@@ -2161,33 +2437,37 @@ pub struct icc_grow_report {
     pub n_deferred: usize,
     /// vertices left when growth got stuck
     pub n_unplaced: usize,
-    /// vertices left, but for the root, when thinning got stuck, too
+    /// vertices left, except the root, if thinning got stuck too
     pub n_remaining: usize,
-    /// edges of the Kuhn triangulation along which the order is not as wished
+    /// edges of the Kuhn triangulation whose two ends changed order
     pub n_reversed: usize,
-    /// links that were looked at: less than 2^(dim+3) a vertex
+    /// links that were tested: less than 2^(dim+3) a vertex
     pub n_tests: usize,
 }
 sized!(icc_grow_report);
 
 extern "C" {
-    /// Covers a domain with a grid, at least two vertices wider than the domain on every side.
+    /// Covers a domain with a grid that is at least two vertices wider than the domain on every side.
     ///
-    /// A vertex is inside when it lies strictly inside the boundary. Where a domain is thinner than the grid,
-    /// the vertices inside may fall into pieces; beyond 2-D only the largest of them is kept, and the
-    /// others are counted (`icc_grid_info.n_stray`).
+    /// A vertex is inside if it lies strictly inside the boundary. Where a domain is thinner than the grid,
+    /// the vertices inside may fall into several pieces. Beyond 2-D only the largest piece is kept. The
+    /// vertices of the other pieces count as outside: `icc_grid_info.n_stray`.
     ///
-    /// The grid of a mask (`icc_domain_create_mask()`) has the boundary's vertices among its own: each cell of
-    /// the mask is cut in an even number of parts along each axis, 2 or as many more as `cells` asks for.
+    /// If the domain comes from a mask (`icc_domain_create_mask()`), the grid includes the boundary's
+    /// vertices. Each cell of the mask is cut into an even number of parts along each axis: 2, or as many
+    /// more as `cells` requires.
     ///
     /// - `out` (out): the grid; owned by the caller
     /// - `domain`: the domain
-    /// - `cells`: cells along the longest side of the bounding box, 2..16384; 0: 50. For masks: at
-    ///   least so many; 0: two for each cell of the mask
+    /// - `cells`: cells along the longest side of the bounding box, 2..16384; 0: 50. For masks: at least that
+    ///   many; 0: two for each cell of the mask
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_RESOLUTION` (no vertex inside, or more than 2^28 vertices), ...
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_RESOLUTION` if no vertex is inside, or there would be more than 2^28 vertices
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
     pub fn icc_grid_create(
         out: *mut *mut icc_grid,
         domain: *const icc_domain,
@@ -2196,12 +2476,13 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a grid from a mask of its vertices: origin 0, spacing 1.
+    /// Makes a grid from a mask of its vertices, with origin 0 and spacing 1. (`icc_domain_create_mask()`
+    /// takes a mask of cells instead.)
     ///
     /// - `out` (out): the grid; owned by the caller
     /// - `dim`: 1..`ICC_MAX_DIM`
-    /// - `shape`: vertices along each axis, dim numbers; the first axis runs fastest
-    /// - `inside`: one byte per vertex: 0 outside, anything else inside
+    /// - `shape`: vertices along each axis, dim numbers; the first axis is fastest
+    /// - `inside`: one byte per vertex: 0 is outside, anything else inside
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     pub fn icc_grid_create_mask(
@@ -2213,17 +2494,20 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes a grid of half the spacing with the same inside: each simplex of the Kuhn triangulation is cut
-    /// into 2^dim, and a new vertex is inside when both ends of the edge that it halves are. Walls one
-    /// vertex thick stay so; for a grid that follows its domain more closely, make one with twice
-    /// `icc_grid_info.cells`.
+    /// Makes a grid of half the spacing with the same inside. Each simplex of the Kuhn triangulation is cut
+    /// into 2^dim. A new vertex halves an edge, and is inside if both ends of the edge are inside. Walls that
+    /// are one vertex thick stay one vertex thick. For a grid that follows its domain more closely, make one
+    /// with twice `icc_grid_info.cells` instead.
     ///
     /// - `out` (out): the grid; owned by the caller
     /// - `grid`: the grid
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_RESOLUTION` (more than 2^28 vertices), ...
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_RESOLUTION` if there would be more than 2^28 vertices
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
     pub fn icc_grid_refine(
         out: *mut *mut icc_grid,
         grid: *const icc_grid,
@@ -2231,11 +2515,11 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Copies a grid and takes some vertices outside.
+    /// Copies a grid and moves some vertices to the outside.
     ///
     /// - `out` (out): the grid; owned by the caller
     /// - `grid`: the grid
-    /// - `keep`: one byte per vertex: 0 takes it outside, which `icc_grid_info.n_stray` counts
+    /// - `keep`: one byte per vertex: 0 moves it to the outside, counted by `icc_grid_info.n_stray`
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     pub fn icc_grid_restrict(
@@ -2249,19 +2533,19 @@ extern "C" {
     /// Frees a grid.
     pub fn icc_grid_free(grid: *mut icc_grid);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_grid_get_info(grid: *const icc_grid, info: *mut icc_grid_info) -> icc_status;
 
     /// One byte per vertex, 1 inside and 0 outside; borrowed.
     pub fn icc_grid_inside(grid: *const icc_grid) -> *const u8;
 
-    /// The vertex farthest from the outside in the grassfire transform (Algorithm 1). Of several, the one
-    /// nearest to their mean is taken, then the one with the smallest index.
+    /// Finds the maximum: the vertex farthest from the outside in the grassfire transform (Algorithm 1). Of
+    /// several such vertices it takes the one nearest to their mean, then the smallest index.
     ///
     /// - `grid`: the grid
     /// - `vertex` (out): the maximum
-    /// - `rounds` (out): how often the fire burnt before it reached the vertex (0 next to the
-    ///   outside), or NULL
+    /// - `rounds` (out): number of rounds that the fire burnt before it reached the vertex, 0 for a vertex
+    ///   next to the outside; or NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
@@ -2274,22 +2558,22 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The inside vertex nearest to a point (the smallest index of several). O(vertices).
+    /// Finds the vertex inside that is nearest to a point; of several, the smallest index. O(vertices).
     pub fn icc_grid_find_nearest(grid: *const icc_grid, point: *const f64, vertex: *mut u32) -> icc_status;
 
     /// Grows the tree of Algorithm 2 from a vertex inside.
     ///
-    /// In both forms the vertices outside that neighbour the inside have a generation: one more than the
-    /// smallest among their neighbours inside. In the thesis' form they and the vertices that they expand
-    /// into belong to the tree and have a parent; in the paper's form their parent is UINT32_MAX, standing
-    /// for all their neighbours inside. A grid made by `icc_grid_create()` is wide enough for both layers; a
-    /// mask may end at its last vertex, and layers beyond it are then absent.
+    /// Vertices outside that neighbour the inside also have a generation: one more than the smallest among
+    /// their neighbours inside. The two forms treat them differently. In the thesis' form they have a parent
+    /// and belong to the tree, as do the vertices that they expand into. In the paper's form their parent is
+    /// UINT32_MAX, which stands for all their neighbours inside. A grid made by `icc_grid_create()` is wide
+    /// enough for both layers. A mask may end at its last vertex and then lacks the layers beyond.
     ///
-    /// Theorem 2 of the paper (the result is a cousin tree) held in every 2-D case tried; it is false in
-    /// 3-D and beyond. Nothing is assumed here: see `icc_tree_get_report()`, and `icc_tree_grow()` for an order
-    /// that serves the purpose there.
+    /// The paper's Theorem 2 says that the result is a cousin tree. It held in every 2-D case tried, but is
+    /// false in 3-D and beyond. The library does not rely on it. `icc_tree_get_report()` checks it, and
+    /// `icc_tree_grow()` finds an order that can be used instead.
     ///
-    /// - `out` (out): the tree; owned by the caller; keeps the grid alive
+    /// - `out` (out): the tree; owned by the caller. It keeps the grid alive
     /// - `grid`: the grid
     /// - `root`: the maximum: a vertex inside
     /// - `options`: may be NULL
@@ -2312,7 +2596,7 @@ extern "C" {
     /// The parent of each vertex: UINT32_MAX for the root and for vertices without one; borrowed.
     pub fn icc_tree_parents(tree: *const icc_tree) -> *const u32;
 
-    /// The generation of each vertex: 0 for the root, -1 for vertices that are not reached; borrowed.
+    /// The generation of each vertex: 0 for the root, -1 for unreached vertices; borrowed.
     pub fn icc_tree_generations(tree: *const icc_tree) -> *const i32;
 
     /// Checks the cousin rule (Definition 2) on every pair of neighbours inside. O(vertices * dim).
@@ -2323,39 +2607,55 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Gives values to the vertices of a tree.
+    /// Makes a function: a value for every vertex of a tree.
     ///
-    /// decay: 10 at the root, times 0.95 with each generation (thesis, equation 4.1), and -1, -2, .. for the
-    /// generations where that would underflow, from about 13,850 on. distance: minus the generation. Both
-    /// depend on the generation alone.
+    /// - *decay*: 10 at the root, times 0.95 with each generation (thesis, equation 4.1). From about
+    ///   generation 13,850 on that would underflow, and the values are -1, -2 and so on.
+    /// - *distance*: minus the generation.
+    /// - *laplace*: 1 at the root, 0 at the vertices outside that neighbour the inside, and the mean of its
+    ///   neighbours at every other vertex. It has the least Dirichlet energy. Beyond those zeros its value is
+    ///   minus that of two steps back.
+    /// - *harmonic*: like laplace, but 0 where the grid's edges cross the boundary of the domain that the
+    ///   grid was made from. The cut edges have weights of their own (F. Gibou, R. P. Fedkiw, L.-T. Cheng, M.
+    ///   Kang, 2002). Values at the vertices outside continue from there.
+    /// - *bilaplace*: least sum of squared Laplacians over the vertices inside. This is f = c L^-2 e_root
+    ///   (simply supported, Navier).
+    /// - *clamped*: least sum of squared Laplacians over the vertices inside and those outside next to them.
     ///
-    /// laplace: 1 at the root, 0 at the vertices outside that neighbour the inside, and at every other vertex
-    /// the mean of its neighbours: the function with the least Dirichlet energy. (Beyond those zeros, minus
-    /// the value two steps back.) bilaplace: that with the least sum of squared Laplacians over the vertices
-    /// inside, which is f = c L^-2 e_root (simply supported, Navier); clamped: over the vertices next to them
-    /// outside, too. Laplace and bilaplace are positive inside, however far from the root; clamped changes its
-    /// sign unless it is constrained. With constraints, the least energy among the functions that fall by
-    /// `min_fall` along every tree edge inside and, for bilaplace and clamped, are at least `leaf_min` at the leaves.
+    /// Decay and distance depend on the generation alone. Laplace is 0 on a staircase of vertices, which
+    /// leaves part of the area uncovered at any resolution. With harmonic that part shrinks as the grid gets
+    /// finer. On the grid of a mask, whose boundary consists of vertices, both are the same.
     ///
-    /// Bilaplace and clamped are shapes of a plate that is loaded at the root, and a plate is highest beside
-    /// a load that is not in its middle: without constraints the maximum may be another vertex, see
-    /// `icc_function_info::highest` and `icc_function_info::beside`. (On a tree that grows from there the function is
-    /// another one; `icc_chart_create()` moves the root until the two agree.)
+    /// Laplace, harmonic and bilaplace are positive inside, however far from the root. Clamped changes its
+    /// sign unless it is constrained. With constraints, the function has the least energy among those that
+    /// fall by `min_fall` along every tree edge inside. Bilaplace and clamped are then also at least
+    /// `leaf_min` at the leaves.
     ///
-    /// Nothing is assumed about critical points: see `icc_function_get_report()`. Inequalities on a tree that is not a
-    /// cousin tree, as in 3-D, do not rule out others than the maximum.
+    /// Bilaplace and clamped are shapes of a plate that is loaded at the root. An off-centre load does not
+    /// make a plate highest right under it. So without constraints the maximum may be another vertex:
+    /// `icc_function_info.highest` and `icc_function_info.beside`. A tree grown from there has a different
+    /// function. `icc_chart_create()` moves the root until the two agree.
     ///
-    /// - `out` (out): the field; owned by the caller; keeps the tree alive
+    /// The library assumes nothing about critical points: `icc_function_get_report()` counts them. On a tree
+    /// that is not a cousin tree, as in 3-D, the inequalities do not rule out critical points besides the
+    /// maximum.
+    ///
+    /// - `out` (out): the function; owned by the caller. It keeps the tree alive
     /// - `tree`: the tree
     /// - `options`: may be NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_SOLVER` when a solver did not converge, which has only been seen with
-    /// inequalities on bilaplace and clamped, where they ask for more than 1 at the root (as `leaf_min` and `min_fall` do of
-    /// deep trees) or `leaf_min` is 1e-2; `ICC_ERR_RESOLUTION` when the root is
-    /// the only vertex inside (laplace, bilaplace, clamped); `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`,
-    /// `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_RESOLUTION` if the root is the only vertex inside (laplace, bilaplace, clamped, harmonic)
+    /// - `ICC_ERR_UNSUPPORTED` for harmonic on a refined grid, or on one that was not made from a domain
+    /// - `ICC_ERR_SOLVER` if a solver did not converge, see below
+    /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED` or `ICC_ERR_VERSION`
+    ///
+    /// `ICC_ERR_SOLVER` has been seen in two cases only. One is constrained bilaplace or clamped, if the
+    /// inequalities ask for more than 1 at the root, as they do on deep trees, or if `leaf_min` is 1e-2. The
+    /// other is harmonic, where laplace would be solved iteratively.
     pub fn icc_function_create(
         out: *mut *mut icc_function,
         tree: *const icc_tree,
@@ -2364,10 +2664,11 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The function of a gradient chart, or NULL for other charts; borrowed, as is what hangs on it.
+    /// The function of a chart of method gradient or field, or NULL for other charts; borrowed, like the tree
+    /// and the grid that belong to it.
     pub fn icc_chart_function(chart: *const icc_chart) -> *const icc_function;
 
-    /// The tree that a field was made on; borrowed.
+    /// The tree that a function was made on; borrowed.
     pub fn icc_function_tree(field: *const icc_function) -> *const icc_tree;
 
     /// The grid that a tree was grown on; borrowed.
@@ -2376,31 +2677,33 @@ extern "C" {
     /// The vertex that a tree was grown from; UINT32_MAX for NULL.
     pub fn icc_tree_root(tree: *const icc_tree) -> u32;
 
-    /// Frees a field.
+    /// Frees a function.
     pub fn icc_function_free(field: *mut icc_function);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_function_get_info(field: *const icc_function, info: *mut icc_function_info) -> icc_status;
 
-    /// The same for `report`.
+    /// Fills in `report`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_function_get_solver_report(
         function: *const icc_function,
         report: *mut icc_solver_report,
     ) -> icc_status;
 
-    /// One value per grid vertex; NaN where the tree does not reach; borrowed. (Beyond 2-D the function of a
-    /// gradient chart goes on to some vertices outside.) Laplace and bilaplace decay exponentially in long
-    /// limbs: values below 2^-1022 are 0 here, see `icc_function_logs()`.
+    /// One value per grid vertex; NaN where the tree does not reach; borrowed. Beyond 2-D the function of a
+    /// gradient chart extends to some vertices outside. Laplace and bilaplace decay exponentially in long
+    /// limbs. Values below 2^-1022 are 0 here, but `icc_function_logs()` has them.
     pub fn icc_function_values(field: *const icc_function) -> *const f64;
 
-    /// The natural logarithm of every value, accurate also where the values underflow; -HUGE_VAL outside, NaN
-    /// where the tree does not reach; borrowed. NULL for decay and distance, and when some value
-    /// inside is not positive.
+    /// The natural logarithm of every value, accurate even where the values underflow. It is -HUGE_VAL
+    /// outside and NaN where the tree does not reach; borrowed. NULL for decay and distance, and if some
+    /// value inside is not positive.
+    ///
+    /// The logarithms of a chart's function are computed on first use, by any thread, with 8 bytes a vertex.
+    /// The result is also NULL if there is no memory for them then.
     pub fn icc_function_logs(field: *const icc_function) -> *const f64;
 
-    /// Counts critical points. Vertices outside or without a value count as lower than all others, equal
-    /// values are ordered by vertex index. About 10 ns a vertex in 2-D and 3-D; up to 1, 4 and 10 us in
-    /// 4-D, 5-D and 6-D.
+    /// Counts critical points. Vertices outside or without a value count as lower than all others. Equal
+    /// values are ordered by vertex index. Cost: about 10 ns a vertex in 2-D and 3-D, up to 10 us in 6-D.
     pub fn icc_function_get_report(
         field: *const icc_function,
         report: *mut icc_function_report,
@@ -2408,17 +2711,17 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Lists compression and expansion edges (2-D): edges between two triangles with a value at every
-    /// corner, at least one of whose corners is inside (thesis, sections 5 and 6.4).
+    /// Lists compression and expansion edges in 2-D (thesis, sections 5 and 6.4). It looks at edges between
+    /// two triangles that have a value at every corner, with at least one corner inside.
     ///
-    /// - `field`: the field
-    /// - `capacity`: how many edges the arrays have room for
+    /// - `function`: the function
+    /// - `capacity`: number of edges that the arrays have room for
     /// - `edges` (out): `capacity` pairs of vertices
     /// - `kinds` (out): `capacity` kinds, `ICC_EDGE_*`
-    /// - `n_edges` (out): how many there are in all, also beyond `capacity`
-    /// - `n_tested` (out): how many edges were looked at, or NULL
+    /// - `n_edges` (out): number of edges found, which may exceed `capacity`
+    /// - `n_tested` (out): number of edges examined, or NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_UNSUPPORTED` (not 2-D)
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, or `ICC_ERR_UNSUPPORTED` if it is not 2-D
     pub fn icc_function_get_edges(
         field: *const icc_function,
         capacity: usize,
@@ -2428,34 +2731,37 @@ extern "C" {
         n_tested: *mut usize,
     ) -> icc_status;
 
-    /// Orders the vertices inside so that the root is the only critical one.
+    /// Orders the vertices inside so that the root is the only critical one. A function that falls with the
+    /// rank then has one critical point, the maximum, in any dimension.
     ///
-    /// In 2-D the tree's own order has been so in every case tried; beyond, it is often not (see
-    /// `icc_tree_create()`). Here a set grows from the root and takes, in the order wished for, each vertex
-    /// whose neighbours in the set are a contractible part of its link; others wait until they are. (Links
-    /// are those of the Kuhn triangulation, decided as for `icc_function_report.n_saddles`.) If growth gets
-    /// stuck, the set of all vertices is thinned down to the root instead. A function that falls with the
-    /// rank has one critical point, the maximum, in any dimension. There are shapes where both fail, such as
-    /// Bing's house with two rooms: a finer grid may help. Nothing helps a shape that is not a ball, as the
-    /// vertices inside a surface may be where parts of it come near each other; growth then leaves the few
-    /// vertices where it would close a ring.
+    /// In 2-D the tree's own order had this property in every case tried. Beyond 2-D it often does not, see
+    /// `icc_tree_create()`. Here a set grows from the root, in the given order. It takes each vertex whose
+    /// neighbours in the set form a contractible part of its link. Other vertices wait until theirs do. (The
+    /// links are those of the Kuhn triangulation, and are tested as for `icc_function_report.n_saddles`.) If
+    /// growth gets stuck, the set of all vertices is thinned down to the root instead.
+    ///
+    /// Both fail for some shapes, such as Bing's house with two rooms. A finer grid may help. Nothing helps
+    /// if the vertices inside do not form a ball, which may happen where parts of a surface come close to
+    /// each other. Growth then leaves out the few vertices where it would close a ring.
     ///
     /// - `tree`: the tree
-    /// - `values`: the order wished for, one value per grid vertex, the largest first; equal ones
-    ///   in the order of the tree. NULL: the order of the tree.
-    /// - `rank` (out): room for one number per grid vertex: 0 for the root, then 1, 2, ..; UINT32_MAX
-    ///   for vertices outside or not reached. After `ICC_ERR_TOPOLOGY` the vertices that
-    ///   growth has placed have their ranks, the others UINT32_MAX: without these, as
-    ///   `icc_grid_restrict()` makes the grid, the order has one critical vertex. After
-    ///   another failure undefined.
+    /// - `values`: the preferred order, as one value per grid vertex, the largest first; equal values in the
+    ///   order of the tree. NULL: the order of the tree
+    /// - `rank` (out): room for one number per grid vertex: 0 for the root, then 1, 2 and so on. UINT32_MAX
+    ///   for vertices outside or not reached. Undefined after a failure other than `ICC_ERR_TOPOLOGY`
     /// - `report` (out): what was done, or NULL; also after `ICC_ERR_TOPOLOGY`
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the vertex where growth got stuck
+    /// - `err`: may be NULL; `index` is the vertex where growth got stuck
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_TOPOLOGY` (stuck), `ICC_ERR_ARGUMENT` (a value inside is NaN), ...
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.13 to 0.3 us in 3-D,
-    /// 0.5 us in 4-D, 2 us in 5-D. 6 bytes a grid vertex, and 8 a vertex inside for `values`.
+    /// - `ICC_ERR_TOPOLOGY` if both got stuck. The vertices that growth has placed have their ranks, the
+    ///   others UINT32_MAX. Remove these with `icc_grid_restrict()`, and the order has one critical vertex
+    /// - `ICC_ERR_ARGUMENT`, for example if a value inside is NaN
+    /// - `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: less than 2^(dim+3) tests a vertex, in practice about one: 0.1 us in 2-D, 0.3 us in 3-D. Memory:
+    /// 6 bytes a grid vertex, and 8 a vertex inside for `values`.
     pub fn icc_tree_grow(
         tree: *const icc_tree,
         values: *const f64,
@@ -2465,12 +2771,13 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Counts the critical vertices of any order of the vertices inside that the tree reaches, as
-    /// `icc_function_get_report()` does for functions: by looking at every link, whatever the order comes from.
+    /// Counts the critical vertices of any order of the vertices inside, as `icc_function_get_report()` does
+    /// for functions. It tests every link, wherever the order comes from. Only vertices that the tree reaches
+    /// count.
     ///
     /// - `tree`: the tree
-    /// - `rank`: one number per grid vertex, smaller for higher vertices; equal ones count as
-    ///   `icc_function_get_report()` says. Those of other vertices do not matter.
+    /// - `rank`: one number per grid vertex, smaller for higher vertices; equal numbers count as in
+    ///   `icc_function_get_report()`. Numbers of other vertices are ignored
     /// - `report` (out): its `size` is set by the caller
     /// - `env`: may be NULL
     /// - `err`: may be NULL
@@ -2482,22 +2789,23 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Constrained Delaunay triangulation of a simple polygon with points inside (2-D).
+    /// Computes the constrained Delaunay triangulation of a simple polygon with points inside (2-D).
     ///
-    /// All decisions are exact. Triangles are counter-clockwise (with y upwards). A polygon of b vertices
-    /// with p points inside has b + 2 p - 2 triangles, always; no vertex is added.
+    /// All decisions are exact. Triangles are counter-clockwise (y upwards). No vertex is added, so a polygon
+    /// of b vertices with p points inside always has b + 2 p - 2 triangles.
     ///
-    /// - `n_boundary`: vertices of the polygon, either orientation; they come first
-    /// - `n_points`: all vertices, those of the polygon included
+    /// - `n_boundary`: number of vertices of the polygon, in either orientation; they come first
+    /// - `n_points`: number of all vertices, including those of the polygon
     /// - `points`: n_points * 2 coordinates
     /// - `triangles` (out): room for 3 * (2 * n_points - n_boundary - 2) vertex indices
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names a point that is not strictly inside the polygon,
-    ///   or that repeats another
+    /// - `err`: may be NULL; `index` is a point that is not strictly inside the polygon, or that repeats
+    ///   another
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_BOUNDARY`, `ICC_ERR_OUTSIDE`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, ...
+    /// Returns `ICC_OK`, `ICC_ERR_BOUNDARY`, `ICC_ERR_OUTSIDE`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY` or
+    /// `ICC_ERR_CANCELLED`
     ///
-    /// Cost: O(n log n) in practice, about 1 us a vertex; 100 bytes a vertex.
+    /// Cost: O(n log n) in practice, about 1 us and 100 bytes a vertex.
     pub fn icc_triangulate(
         n_boundary: usize,
         n_points: usize,
@@ -2511,7 +2819,7 @@ extern "C" {
 // icc/kernel.h
 
 opaque!(
-    /// What is to be deformed: filled regions and curves.
+    /// The shape to be deformed: filled regions and curves.
     icc_shape
 );
 
@@ -2521,11 +2829,11 @@ opaque!(
 );
 
 // How samples are spread.
-/// a regular grid from the lower corner of the regions' box, the first axis fastest
+/// a regular grid that starts at the lower corner of the regions' box, the first axis fastest
 pub const ICC_SAMPLING_GRID: i32 = 1;
-/// blue noise: random, yet evenly spaced; on the boundaries and curves, too
+/// blue noise: random but evenly spaced, also on boundaries and curves
 pub const ICC_SAMPLING_BLUE: i32 = 2;
-/// the caller's points: `icc_sampling_create_from_points()` only
+/// your own points: `icc_sampling_create_from_points()` only
 pub const ICC_SAMPLING_POINTS: i32 = 3;
 
 /// Options of `icc_sampling_create()`.
@@ -2538,20 +2846,21 @@ pub struct icc_sampling_options {
     pub kind: i32,
     /// blue: steps of relaxation (inverse mean shift); 0: 60; -1: none
     pub steps: i32,
-    /// T, the distance of neighbours; 0: 1/100 of the longest side
+    /// T, the distance between neighbours. 0: 1/100 of the longest side, in 3-D 1/20. In 3-D half the spacing
+    /// costs 60 times as much
     pub spacing: f64,
-    /// grid: how far from the regions it goes, in spacings; 0: not beyond them
+    /// grid: how far it extends beyond the regions, in spacings; 0: not at all
     pub margin: f64,
-    /// blue: of the random numbers; equal seeds give equal samplings
+    /// blue: seed of the random numbers; equal seeds give equal samplings
     pub seed: u64,
-    /// points that shall be samples
+    /// number of points that must be samples
     pub n_fixed: usize,
-    /// n_fixed * dim coordinates, or NULL. Blue only.
+    /// blue: n_fixed * dim coordinates, or NULL
     pub fixed: *const f64,
 }
 sized!(icc_sampling_options);
 
-/// What `icc_sampling_get_info()` tells.
+/// What `icc_sampling_get_info()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_sampling_info {
@@ -2561,67 +2870,67 @@ pub struct icc_sampling_info {
     pub dim: i32,
     /// `ICC_SAMPLING_*`
     pub kind: i32,
-    /// samples
+    /// number of samples
     pub n_samples: usize,
-    /// of them on boundaries and curves; with blue noise the first ones
+    /// samples on boundaries and curves; with blue noise these come first
     pub n_edge: usize,
-    /// T as asked for; of the caller's points the mean distance of nearest neighbours
+    /// T as requested; for your own points the mean distance of nearest neighbours
     pub spacing: f64,
-    /// the least distance of two samples, over T
+    /// smallest distance between two samples, divided by T
     pub nearest: f64,
-    /// suggested width of the kernel: from the samples' spectrum (figure 6.10); 3 T / pi
-    /// for a grid (3.28) and the caller's points
+    /// suggested width of the kernel, from the samples' spectrum (figure 6.10). For a grid (3.28) and for
+    /// your own points it is 3 T / pi
     pub sigma: f64,
 }
 sized!(icc_sampling_info);
 
 opaque!(
-    /// Handles, and the weight of each at every place of a shape.
+    /// Handles, and the weight of each handle everywhere in a shape.
     icc_weights
 );
 
-// The kernel that is summed up.
-/// Wendland's C2 function of radius 3 sigma: smooth, and positive definite at
-/// any width
+// The kernel that interpolates weights between samples.
+/// Wendland's C2 function of radius 3 sigma: smooth, and positive definite for any width
 pub const ICC_KERNEL_WENDLAND: i32 = 1;
-/// the thesis': exp(-d^2 / (2 sigma^2)), cut off at `cutoff` sigma, where it
-/// jumps; not always positive definite
+/// the thesis's kernel exp(-d^2 / (2 sigma^2)), cut off at `cutoff` sigma, where it jumps. Not always
+/// positive definite
 pub const ICC_KERNEL_GAUSS: i32 = 2;
 
-// Where the weights start from.
+// The weights that the optimisation starts from.
 /// diffusion of an impulse at each handle (4.11, 4.12)
 pub const ICC_INITIAL_HEAT: i32 = 1;
-/// diffusion, with weights that are linear along the edges held (4.7, 4.13)
+/// diffusion that keeps weights linear along the edges (4.7, 4.13)
 pub const ICC_INITIAL_EDGES: i32 = 2;
-/// inverse squared distance to the handles (4.10), p a tenth of their extent
+/// inverse squared distance to the handles (4.10), where p is a tenth of their extent
 pub const ICC_INITIAL_INVERSE: i32 = 3;
-/// the caller's
+/// your own: `icc_weights_options.initial_weights`
 pub const ICC_INITIAL_GIVEN: i32 = 4;
 
-// What is optimised at each sample, under the conditions that weights sum to 1 and reproduce the sample.
-/// least change of the initial weights, none negative (4.1)
+// What is minimised at each sample. In all cases the weights sum to 1 and reproduce the sample.
+/// least squared change of the initial weights, none negative (4.1)
 pub const ICC_WEIGHTS_QP: i32 = 1;
-/// least change, of any sign (4.2 to 4.6)
+/// least squared change, of any sign (4.2 to 4.6)
 pub const ICC_WEIGHTS_EQUALITY: i32 = 2;
-/// least sum of absolute changes (4.8); of several solutions the one with the
-/// least sum of squared changes
+/// least sum of absolute changes (4.8). Of several solutions, the one with the least sum of squared changes
 pub const ICC_WEIGHTS_L1: i32 = 3;
 
-/// A segment along which weights are linear: what lies on it stays straight (5.6). It has nodes at both ends and
-/// between them, one spacing apart or a little less; nodes beside it follow it, the nearer the more. Spread the
-/// samples with those places fixed for the best spacing.
+/// A segment that stays straight, because weights are linear along it (5.6). It has nodes at both ends and
+/// between them, at most one spacing apart. Nodes beside the line follow it, nearer ones more closely. For
+/// the best spacing, make the sampling with these places as fixed points.
 ///
-/// An end may be a handle, or an end of an earlier line. Lines should not cross: where they come near each other, or a
-/// handle, the earlier one and the handle prevail.
+/// An end may be a handle, or an end of an earlier line. Lines should not cross. Where a line comes near a
+/// handle or an earlier line, the handle or the earlier line prevails. The weights of a parallel line follow
+/// from those of the other line and can be negative. Nodes beside a parallel line keep their weights, so
+/// between its nodes it is straight only to a few hundredths.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_line {
-    /// an end of it, in the shape; at least half a spacing away from the other
+    /// one end, in the shape, at least half a spacing away from the other
     pub from: [f64; 3],
-    /// the other
+    /// the other end
     pub to: [f64; 3],
-    /// 0, or k to stay parallel to line k - 1, an earlier one (5.11), which it must be to
-    /// 1e-9 of its length; `to` must then be neither a handle nor on an earlier line
+    /// 0, or k to stay parallel to the earlier line k - 1 (5.11). The two must be parallel to within 1e-9 of
+    /// their length, and `to` must be neither a handle nor on an earlier line
     pub parallel: i32,
 }
 zeroed!(icc_line);
@@ -2638,32 +2947,32 @@ pub struct icc_weights_options {
     pub initial: i32,
     /// `ICC_WEIGHTS_*`; 0: QP
     pub method: i32,
-    /// of diffusion; 0: 5
+    /// steps of diffusion; 0: 5
     pub steps: i32,
-    /// an affine function beside the kernels, which makes sums and reproduction
-    /// exact between the samples: 0 or 1 with, -1 without (the thesis)
+    /// 0 or 1: add an affine function to the kernels, so that sums and reproduction are exact between the
+    /// samples. -1: do not, as in the thesis
     pub affine_tail: i32,
-    /// diffusion between samples that see each other inside the shape: 0 or 1; -1
-    /// through walls, too (the thesis)
+    /// 0 or 1: weights diffuse only between samples that see each other inside the shape. -1: also through
+    /// walls, as in the thesis
     pub within_shape: i32,
     /// width of the kernel; 0: `icc_sampling_info.sigma`
     pub sigma: f64,
-    /// Gauss: in sigma; 0: 5
+    /// Gauss: radius in units of sigma; 0: 5
     pub cutoff: f64,
-    /// edges between handles
+    /// number of edges between handles
     pub n_edges: usize,
     /// n_edges * 2 handle indices, or NULL
     pub edges: *const u32,
-    /// lines to keep straight
+    /// number of lines to keep straight
     pub n_lines: usize,
-    /// or NULL
+    /// n_lines lines, or NULL
     pub lines: *const icc_line,
-    /// n_samples * n_handles, sample after sample; for initial given
+    /// for `ICC_INITIAL_GIVEN`: n_samples * n_handles weights, sample after sample
     pub initial_weights: *const f64,
 }
 sized!(icc_weights_options);
 
-/// What `icc_weights_get_info()` tells.
+/// What `icc_weights_get_info()` reports.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_weights_info {
@@ -2677,36 +2986,34 @@ pub struct icc_weights_info {
     pub initial: i32,
     /// `ICC_WEIGHTS_*`
     pub method: i32,
-    /// handles
+    /// number of handles
     pub n_handles: usize,
-    /// places that carry weights: the handles first, then those on lines, then the
-    /// samples, but for those within half a spacing of a handle or a line's node
+    /// places that carry weights: the handles, then places on lines, then the samples. Samples within half a
+    /// spacing of a handle or of a line's node are left out
     pub n_nodes: usize,
-    /// QP: nodes where no weights that are not negative reproduce the point (outside
-    /// the handles' convex hull): QP is relaxed there, the sums still hold
+    /// QP: nodes outside the handles' convex hull, which no non-negative weights reproduce. There QP is
+    /// relaxed, but weights still sum to 1
     pub n_infeasible: usize,
-    /// kernel values of the matrix, diagonal included, one triangle
+    /// kernel values in the matrix: one triangle with the diagonal
     pub n_entries: usize,
     /// width of the kernel
     pub sigma: f64,
-    /// how far the matrix is from losing positive definiteness: its least pivot over
-    /// the greatest
+    /// smallest pivot of the matrix over the greatest: near 0 it almost loses positive definiteness
     pub definiteness: f64,
-    /// of `icc_weights_stiffen()`, if that made these weights: how far they are from its program's
-    /// optimality conditions, as the step that is still possible down the energy's projected
-    /// gradient, over the one at the start; else 0
+    /// Weights from `icc_weights_stiffen()`: how far they are from the optimum. It is the step that is still
+    /// possible down the energy's projected gradient, divided by the one at the start. Else 0
     pub residual: f64,
 }
 sized!(icc_weights_info);
 
-/// How long each step of making weights took, in seconds: what `icc_weights_get_timings()` fills in. Weights that were
-/// made from others have the steps that were done again; the other members are those of the weights before.
+/// What `icc_weights_get_timings()` reports: seconds for each step of making weights. For weights that were
+/// made from others, steps that were not repeated keep the earlier times.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_weights_timings {
     /// set by the caller: `sizeof(icc_weights_timings)`
     pub size: usize,
-    /// placing the nodes, and the factorisation
+    /// placing the nodes, and factorising the matrix
     pub factor: f64,
     /// the initial weights
     pub initial: f64,
@@ -2715,61 +3022,69 @@ pub struct icc_weights_timings {
 }
 sized!(icc_weights_timings);
 
-/// How well weights do what they should, at points of the caller's choice.
+/// What `icc_weights_get_report()` reports: the quality of weights, measured at your points.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_weights_report {
     /// set by the caller: `sizeof(icc_weights_report)`
     pub size: usize,
-    /// see `icc_weights_info.n_infeasible`
+    /// `icc_weights_info.n_infeasible`
     pub n_infeasible: usize,
     /// points where a weight is below -1e-9
     pub n_negative: usize,
-    /// the greatest deviation of the sum of weights from 1
+    /// largest deviation of the sum of weights from 1
     pub unity: f64,
-    /// the greatest distance of a point from what its weights make of the handles
+    /// largest distance between a point and the weighted mean of the handles
     pub reproduction: f64,
-    /// the mean of these
+    /// mean of these distances
     pub reproduction_mean: f64,
-    /// the greatest deviation from 1 and 0 at the handles
+    /// largest deviation from 1 and 0 at the handles
     pub lagrange: f64,
-    /// the greatest deviation from linear weights along the edges
+    /// largest deviation from linear weights along the edges
     pub linearity: f64,
-    /// the least weight
+    /// smallest weight
     pub least_weight: f64,
-    /// see `icc_weights_info.definiteness`
+    /// `icc_weights_info.definiteness`
     pub definiteness: f64,
 }
 sized!(icc_weights_report);
 
 opaque!(
-    /// Points with their weights, and the derivatives if asked for: for posing again and again.
+    /// Points with their weights, and derivatives if requested. Use it to pose the same points repeatedly.
     icc_binding
 );
 
 extern "C" {
     /// Makes a shape from regions and curves, which may be mixed.
     ///
-    /// Regions are domains. Their boundaries must not meet, which is checked exactly. One may lie within another: the
-    /// boundaries are walls between them, and a point belongs to the innermost region around it, a point on a boundary
-    /// to what that encloses. So a star in a square is a star and its surroundings. Curves are segments between
-    /// vertices; they may lie anywhere, and are no walls. Weights spread over a boundary outward only, from what it
-    /// encloses to what is around it: so they do not take the way through the surroundings from one limb to another.
+    /// *Regions* are domains. Their boundaries must not meet, which is checked exactly. One region may lie
+    /// within another. A point belongs to the innermost region around it, and a point on a boundary belongs
+    /// to the region that the boundary encloses. For example, a star in a square makes two regions: the star
+    /// and its surroundings.
     ///
-    /// - `out` (out): the shape; owned by the caller. It keeps the regions alive.
+    /// Boundaries are walls. Weights spread across a wall only outward, from the enclosed region to its
+    /// surroundings. So they take no short cut through the surroundings from one limb to another.
+    ///
+    /// *Curves* are segments between vertices. They may lie anywhere and are not walls. A sheet in space is
+    /// given by the edges of its triangles, each about as long as the spacing of the samples.
+    ///
+    /// - `out` (out): the shape; owned by the caller. It keeps the regions alive
     /// - `dim`: 2 or 3
-    /// - `n_regions`: regions; 0 for curves alone
+    /// - `n_regions`: number of regions; 0 for curves alone
     /// - `regions`: n_regions domains of dimension `dim`
-    /// - `n_vertices`: vertices of the curves
+    /// - `n_vertices`: number of vertices of the curves
     /// - `vertices`: n_vertices * dim coordinates
-    /// - `n_segments`: segments of the curves
+    /// - `n_segments`: number of segments of the curves
     /// - `segments`: n_segments * 2 vertex indices
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the region, vertex or segment at fault
+    /// - `err`: may be NULL; `index` is the region, vertex or segment at fault
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT` (no region and no segment, a vertex that is not finite or not there, a
-    /// segment without length), `ICC_ERR_MEMORY`, `ICC_ERR_BOUNDARY` (boundaries meet),
-    /// `ICC_ERR_VERSION`, `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if there is no region and no segment, a vertex is not finite or does not exist,
+    ///   or a segment has no length
+    /// - `ICC_ERR_BOUNDARY` if boundaries meet
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     pub fn icc_shape_create(
         out: *mut *mut icc_shape,
         dim: i32,
@@ -2786,24 +3101,28 @@ extern "C" {
     /// Frees a shape.
     pub fn icc_shape_free(shape: *mut icc_shape);
 
-    /// Spreads samples over a shape. No sample comes to lie on the wrong side of a wall.
+    /// Spreads samples over a shape. No sample ends up on the wrong side of a wall.
     ///
-    /// Blue noise: boundaries and curves get samples about T apart, at their ends, forks and corners first, and keep
-    /// them. The rest starts from a shaken lattice and is relaxed (6.4), no nearer to a boundary than 0.4 T. Fixed
-    /// points stay where they are; samples on boundaries make room for them.
+    /// With blue noise, boundaries and curves first get fixed samples about T apart, starting with their
+    /// ends, forks and corners. The other samples start from a jittered lattice and are relaxed (6.4), but
+    /// stay at least 0.4 T away from boundaries. Fixed points stay where they are, and samples on boundaries
+    /// make room for them.
     ///
-    /// - `out` (out): the sampling; owned by the caller. It keeps the shape alive.
+    /// - `out` (out): the sampling; owned by the caller. It keeps the shape alive
     /// - `shape`: the shape
     /// - `options`: may be NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_RESOLUTION` (no sample lies inside some region, named, or there would be more
-    /// than 2^24), `ICC_ERR_OUTSIDE` (a fixed point is in no region), `ICC_ERR_ARGUMENT` (a grid for curves
-    /// alone, a fixed point that is not finite, ...), `ICC_ERR_MEMORY`, `ICC_ERR_VERSION`,
-    /// `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost: O(steps * n) time and O(n) memory: 10,000 samples take less than a second.
+    /// - `ICC_ERR_RESOLUTION` if no sample lies inside some region, which `err` names, or there would be more
+    ///   than 2^24 samples
+    /// - `ICC_ERR_OUTSIDE` if a fixed point is in no region
+    /// - `ICC_ERR_ARGUMENT`, for example for a grid on curves alone or a fixed point that is not finite
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: O(steps * n) time and O(n) memory; 10,000 samples take less than a second.
     pub fn icc_sampling_create(
         out: *mut *mut icc_sampling,
         shape: *const icc_shape,
@@ -2812,11 +3131,14 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// A sampling from the caller's points, which keep their order. The suggested width follows from their mean
-    /// spacing.
+    /// Makes a sampling from your own points, which keep their order. The suggested width follows from their
+    /// mean spacing.
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_OUTSIDE` (a point lies in no region and on no curve; `index` names it),
-    /// `ICC_ERR_ARGUMENT` (not finite, or two points are the same), `ICC_ERR_MEMORY`
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_OUTSIDE` if a point, given by `index`, lies in no region and on no curve
+    /// - `ICC_ERR_ARGUMENT` if a point is not finite or two points coincide
+    /// - `ICC_ERR_MEMORY`
     pub fn icc_sampling_create_from_points(
         out: *mut *mut icc_sampling,
         shape: *const icc_shape,
@@ -2829,19 +3151,21 @@ extern "C" {
     /// Frees a sampling.
     pub fn icc_sampling_free(sampling: *mut icc_sampling);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_sampling_get_info(sampling: *const icc_sampling, info: *mut icc_sampling_info) -> icc_status;
 
-    /// Copies the samples: room for n_samples * dim doubles. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Copies the samples; `points` has room for n_samples * dim doubles. Returns `ICC_OK` or
+    /// `ICC_ERR_ARGUMENT`.
     pub fn icc_sampling_get_points(sampling: *const icc_sampling, points: *mut f64) -> icc_status;
 
-    /// Writes a sampling to memory, its shape included. The format is described in docs/reference/formats.md: versioned, the
-    /// same on every machine, with a checksum.
+    /// Writes a sampling and its shape to memory. Call it twice: with capacity 0 for the number of bytes,
+    /// then with a buffer of that size. The format (docs/reference/formats.md) is versioned, the same on
+    /// every machine, and has a checksum.
     ///
     /// - `sampling`: the sampling
-    /// - `capacity`: bytes that `data` has room for
-    /// - `data` (out): NULL when capacity is 0
-    /// - `n_bytes` (out): bytes that are needed, also beyond `capacity`: nothing useful is written then
+    /// - `capacity`: number of bytes that `data` has room for
+    /// - `data` (out): NULL if capacity is 0
+    /// - `n_bytes` (out): number of bytes needed. If it exceeds `capacity`, nothing useful is written
     pub fn icc_sampling_save(
         sampling: *const icc_sampling,
         capacity: usize,
@@ -2849,8 +3173,8 @@ extern "C" {
         n_bytes: *mut usize,
     ) -> icc_status;
 
-    /// Reads a sampling back, bit for bit. `ICC_ERR_FORMAT` for anything that `icc_sampling_save()` did not write,
-    /// `ICC_ERR_VERSION` for what a later version did; any bytes are safe to try.
+    /// Reads a sampling back, bit for bit. Returns `ICC_ERR_FORMAT` for bytes that `icc_sampling_save()` did
+    /// not write, and `ICC_ERR_VERSION` for bytes that a later version wrote. Any bytes are safe to pass.
     pub fn icc_sampling_load(
         out: *mut *mut icc_sampling,
         n_bytes: usize,
@@ -2861,21 +3185,24 @@ extern "C" {
 
     /// Makes weights for handles.
     ///
-    /// - `out` (out): the weights; owned by the caller. They keep the sampling alive.
+    /// - `out` (out): the weights; owned by the caller. They keep the sampling alive
     /// - `sampling`: the samples
-    /// - `n_handles`: handles, at least dim + 1
-    /// - `handles`: n_handles * dim coordinates, in the shape, not all in one plane (2-D: line)
+    /// - `n_handles`: number of handles, at least dim + 1
+    /// - `handles`: n_handles * dim coordinates in the shape, not all in one plane (2-D: on one line)
     /// - `options`: may be NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` names the handle, edge or line at fault
+    /// - `err`: may be NULL; `index` is the handle, edge or line at fault
     ///
-    /// Returns `ICC_OK`; `ICC_ERR_OUTSIDE` (a handle or line outside the shape); `ICC_ERR_ARGUMENT` (two handles at
-    /// one place, handles that cannot reproduce points, weights that are not finite, ...);
-    /// `ICC_ERR_SOLVER` (sigma is too large for a positive definite matrix); `ICC_ERR_MEMORY`,
-    /// `ICC_ERR_VERSION`, `ICC_ERR_CANCELLED`
+    /// Returns `ICC_OK`, or
     ///
-    /// Cost with n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) for diffusion,
-    /// O(n m) for the weights, and a sparse factorisation, O(n^1.5) in 2-D.
+    /// - `ICC_ERR_OUTSIDE` if a handle or line is outside the shape
+    /// - `ICC_ERR_ARGUMENT`, for example if two handles coincide, the handles cannot reproduce points, or
+    ///   weights are not finite
+    /// - `ICC_ERR_SOLVER` if sigma is too large for a positive definite matrix
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost for n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) and a sparse
+    /// factorisation, O(n^1.5) in 2-D.
     pub fn icc_weights_create(
         out: *mut *mut icc_weights,
         sampling: *const icc_sampling,
@@ -2889,19 +3216,22 @@ extern "C" {
     /// Frees weights.
     pub fn icc_weights_free(weights: *mut icc_weights);
 
-    /// Fills in `info`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
     pub fn icc_weights_get_info(weights: *const icc_weights, info: *mut icc_weights_info) -> icc_status;
 
-    /// Fills in `timings`, whose `size` the caller has set. `ICC_OK` or `ICC_ERR_ARGUMENT`.
-    pub fn icc_weights_get_timings(weights: *const icc_weights, timings: *mut icc_weights_timings) -> icc_status;
+    /// Fills in `timings`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    pub fn icc_weights_get_timings(
+        weights: *const icc_weights,
+        timings: *mut icc_weights_timings,
+    ) -> icc_status;
 
-    /// Copies the nodes.
+    /// Copies the nodes and their weights.
     ///
     /// - `weights`: the weights
     /// - `points` (out): n_nodes * dim coordinates, or NULL
     /// - `initial` (out): n_nodes * n_handles initial weights, or NULL
     /// - `values` (out): n_nodes * n_handles weights, or NULL
-    /// - `status` (out): n_nodes statuses: `ICC_OK`, or `ICC_ERR_SOLVER` where QP was relaxed; or NULL
+    /// - `status` (out): n_nodes statuses, or NULL: `ICC_OK`, or `ICC_ERR_SOLVER` where QP was relaxed
     pub fn icc_weights_get_nodes(
         weights: *const icc_weights,
         points: *mut f64,
@@ -2910,21 +3240,20 @@ extern "C" {
         status: *mut icc_status,
     ) -> icc_status;
 
-    /// Paints: adds amount * brush to the weight of one handle at the nodes around a place, and optimises them
-    /// again from there. The brush falls smoothly from 1 at the centre to 0 at the radius. Handles, nodes on lines and
-    /// nodes on edges that are held stay as they are.
+    /// Paints weights. The brush falls smoothly from 1 at the centre to 0 at the radius. Amount * brush is
+    /// added to the weight of one handle at the nodes around a place, and these nodes are optimised again
+    /// from there. Handles, nodes on lines and nodes on edges keep their weights.
     ///
-    /// - `out` (out): new weights at the same nodes; owned by the caller. The old ones do not change.
+    /// - `out` (out): new weights at the same nodes; owned by the caller. The old ones do not change
     /// - `weights`: the weights to change
-    /// - `handle`: whose weight
+    /// - `handle`: the handle whose weight is painted
     /// - `centre`: dim coordinates
     /// - `radius`: positive
     /// - `amount`: positive or negative
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     ///
-    /// Cost: as many weights are optimised as there are nodes within the radius, and one solution with the
-    /// factor that there is.
+    /// Cost: one optimisation for each node within the radius, and one solve with the existing factor.
     pub fn icc_weights_paint(
         out: *mut *mut icc_weights,
         weights: *const icc_weights,
@@ -2936,8 +3265,8 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The same with given weights: at node nodes\[i\] they start from
-    /// values\[i * n_handles ...\] and are optimised again. No node may be named twice.
+    /// Like `icc_weights_paint()`, with weights of your own: node nodes\[i\] starts from values\[i *
+    /// n_handles ...\] and is optimised again. No node may be named twice.
     pub fn icc_weights_repaint(
         out: *mut *mut icc_weights,
         weights: *const icc_weights,
@@ -2948,8 +3277,8 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// The same nodes and initial weights with another method (`ICC_WEIGHTS_*`): what was painted or stiffened is
-    /// gone, as in the thesis (6.3.1).
+    /// Makes weights with the same nodes and initial weights but another method (`ICC_WEIGHTS_*`). Painting
+    /// and stiffening are lost, as in the thesis (6.3.1).
     pub fn icc_weights_with_method(
         out: *mut *mut icc_weights,
         weights: *const icc_weights,
@@ -2958,22 +3287,36 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes weights vary as little as may be over a part of the shape, so that it moves as if it were rigid
-    /// (5.12 to 5.35, with the sign of 5.35a mended). One quadratic program for the weights at the part's nodes and
-    /// at those around it, within the kernel's reach: least is half the sum of squared derivatives at the part's
-    /// nodes, weighted by `rigidity`, and of a tenth (times the mean rigidity) of those of the change around it. Sums
-    /// and reproduction hold; handles, nodes on edges and on lines, and all nodes further away keep their weights;
-    /// with QP no weight becomes negative at a node where none was. The residual of the optimality conditions is at
-    /// most 1e-8 (`icc_weights_info::residual`), the program's value within 1e-6 of its least.
+    /// Makes a part of the shape move as if it were rigid: weights vary there as little as possible (5.12 to
+    /// 5.35, with the sign of 5.35a corrected).
+    ///
+    /// This is one quadratic program for the weights at the part's nodes and at the nodes around it, within
+    /// the kernel's reach. Its value is half the sum of squared derivatives at the part's nodes, weighted by
+    /// `rigidity`. Derivatives of the change around the part count with a tenth of the mean rigidity.
+    ///
+    /// Weights still sum to 1 and reproduce points. Handles, nodes on edges and lines, and all nodes further
+    /// away keep their weights. With QP, no weight becomes negative at a node where none was. There are no
+    /// other conditions. The residual of the optimality conditions (`icc_weights_info.residual`) is at most
+    /// 1e-8, and the program's value is within 1e-6 of its minimum.
     ///
     /// - `out` (out): new weights; owned by the caller
     /// - `weights`: the weights to change
-    /// - `n`: nodes of the part
+    /// - `n`: number of nodes of the part
     /// - `nodes`: their indices
-    /// - `rigidity`: n positive numbers, how much each matters; NULL: all the same
-    /// - `energy`: half the weighted sum of squared derivatives at the part's nodes, before and after; or NULL
+    /// - `rigidity`: n positive numbers, the importance of each node; NULL: all equal
+    /// - `energy`: half the weighted sum of squared derivatives at the part's nodes, before and after; or
+    ///   NULL
     /// - `env`: may be NULL
     /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if a node does not exist or is named twice, or a rigidity is not positive
+    /// - `ICC_ERR_SOLVER` if it was not solved within the limit of steps
+    /// - `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: some hundred steps, each a product with a matrix of these nodes or two partial solves; memory in
+    /// proportion to the weights of these nodes and to the pairs of nodes within the kernel's reach.
     pub fn icc_weights_stiffen(
         out: *mut *mut icc_weights,
         weights: *const icc_weights,
@@ -2985,16 +3328,18 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Weights at points.
+    /// Evaluates weights at points. Returns `ICC_OK` even if every point failed: check `status` or
+    /// `n_failed`.
     ///
     /// - `weights`: the weights
     /// - `n`: number of points
-    /// - `points`: n * dim coordinates. Any finite point has weights; far from all nodes they are
-    ///   those of the affine tail, or 0 without.
+    /// - `points`: n * dim coordinates. Any finite point has weights. Far from all nodes they are those of
+    ///   the affine tail, or 0 without it
     /// - `values` (out): n * n_handles weights
     /// - `gradients` (out): n * n_handles * dim derivatives, or NULL (3.44)
-    /// - `status` (out): n statuses: `ICC_OK`, `ICC_ERR_ARGUMENT` (not finite; its values are NaN); or NULL
-    /// - `n_failed` (out): how many points have none, or NULL
+    /// - `status` (out): n statuses, or NULL: `ICC_OK`, or `ICC_ERR_ARGUMENT` for a point that is not finite,
+    ///   whose values are NaN
+    /// - `n_failed` (out): number of points without weights, or NULL
     /// - `env`: may be NULL
     pub fn icc_weights_evaluate(
         weights: *const icc_weights,
@@ -3007,17 +3352,24 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// The dual function of a node (3.2): the interpolant that is 1 there and 0 at all other nodes. Weights are the
-    /// sum of these functions, each times the weights at its node. With the affine tail they sum to 1 and reproduce
-    /// points.
+    /// Evaluates the dual function of a node (3.2): the interpolant that is 1 at this node and 0 at all other
+    /// nodes. Weights are the sum of these functions, each times the weights at its node. With the affine
+    /// tail these functions sum to 1 and reproduce points.
     ///
-    /// - `weights`: any weights on the nodes: only nodes, kernel and tail count
-    /// - `node`: which, as in `icc_weights_get_nodes`
+    /// - `weights`: any weights on the nodes: only nodes, kernel and tail matter
+    /// - `node`: its number, as in `icc_weights_get_nodes()`
     /// - `n`: number of points
     /// - `points`: n * dim coordinates
     /// - `values` (out): n numbers
     /// - `env`: may be NULL
     /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if the node does not exist or a point is not finite
+    /// - `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: one solve with the existing factor, and an evaluation for each point.
     pub fn icc_weights_get_dual(
         weights: *const icc_weights,
         node: usize,
@@ -3028,7 +3380,7 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Measures the weights at n points (n * dim coordinates). The report's `size` is set by the caller.
+    /// Measures the weights at n points (n * dim coordinates). Set the `size` of the report first.
     pub fn icc_weights_get_report(
         weights: *const icc_weights,
         n: usize,
@@ -3040,11 +3392,11 @@ extern "C" {
 
     /// Binds points to handles.
     ///
-    /// - `out` (out): the binding; owned by the caller. It does not need the weights any more.
+    /// - `out` (out): the binding; owned by the caller. It no longer needs the weights
     /// - `weights`: the weights
     /// - `n`: number of points
     /// - `points`: n * dim coordinates, finite
-    /// - `derivatives`: 1: poses have Jacobians, at dim * n_handles doubles a point more
+    /// - `derivatives`: 1: poses have Jacobians, which takes dim * n_handles more doubles a point; else 0
     /// - `env`: may be NULL
     /// - `err`: may be NULL
     pub fn icc_binding_create(
@@ -3060,7 +3412,7 @@ extern "C" {
     /// Frees a binding.
     pub fn icc_binding_free(binding: *mut icc_binding);
 
-    /// The binding's numbers: points, handles, dimension; each may be NULL.
+    /// Reports the numbers of points, handles and dimensions; each pointer may be NULL.
     pub fn icc_binding_get_counts(
         binding: *const icc_binding,
         n_points: *mut usize,
@@ -3068,24 +3420,29 @@ extern "C" {
         dim: *mut i32,
     ) -> icc_status;
 
-    /// Copies the handles' positions, n_handles * dim, and the weights, n_points * n_handles; each may be NULL.
+    /// Copies the handles' positions, n_handles * dim, and the weights, n_points * n_handles; each pointer
+    /// may be NULL.
     pub fn icc_binding_get_weights(
         binding: *const icc_binding,
         handles: *mut f64,
         weights: *mut f64,
     ) -> icc_status;
 
-    /// Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37), computed as x + sum of w_j(x) (A_j x + b_j - x): the
-    /// same where weights sum to 1, and the rest pose is exact.
+    /// Poses the points: x -> sum of w_j(x) (A_j x + b_j) (3.37). It is computed as x + sum of w_j(x) (A_j x
+    /// + b_j - x), which is the same where weights sum to 1. So the rest pose is exact.
     ///
     /// - `binding`: the binding
-    /// - `transforms`: n_handles * dim * (dim + 1): per handle the rows of (A | b)
+    /// - `transforms`: n_handles * dim * (dim + 1) numbers: for each handle the rows of (A | b)
     /// - `images` (out): n * dim coordinates
-    /// - `jacobians` (out): n * dim * dim derivatives of the images by the points, or NULL; otherwise the binding
-    ///   must have derivatives
+    /// - `jacobians` (out): n * dim * dim derivatives of the images by the points; NULL if not needed. The
+    ///   binding must have derivatives
     /// - `env`: may be NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT` (a transform is not finite), `ICC_ERR_UNSUPPORTED` (no derivatives), ...
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if a transform is not finite
+    /// - `ICC_ERR_UNSUPPORTED` if the binding has no derivatives
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     pub fn icc_binding_pose(
         binding: *const icc_binding,
         transforms: *const f64,
@@ -3094,7 +3451,7 @@ extern "C" {
         env: *const icc_env,
     ) -> icc_status;
 
-    /// As `icc_sampling_save()`.
+    /// Writes a binding to memory, as `icc_sampling_save()` does a sampling.
     pub fn icc_binding_save(
         binding: *const icc_binding,
         capacity: usize,
@@ -3102,7 +3459,7 @@ extern "C" {
         n_bytes: *mut usize,
     ) -> icc_status;
 
-    /// As `icc_sampling_load()`.
+    /// Reads a binding back, as `icc_sampling_load()` does a sampling.
     pub fn icc_binding_load(
         out: *mut *mut icc_binding,
         n_bytes: usize,
@@ -3111,19 +3468,19 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Rest pose: writes n_handles identities to `transforms` (see `icc_binding_pose()`).
+    /// Writes the rest pose to `transforms`: n_handles identities, see `icc_binding_pose()`.
     pub fn icc_pose_reset(dim: i32, n_handles: usize, transforms: *mut f64) -> icc_status;
 
     /// Moves one handle: adds `offset`, dim numbers, to its transform.
     pub fn icc_pose_move(dim: i32, transform: *mut f64, offset: *const f64) -> icc_status;
 
-    /// Turns a handle about where its transform has taken it.
+    /// Rotates a handle about its posed position, where its transform has taken it.
     ///
     /// - `dim`: 2 or 3
-    /// - `transform`: of the handle, dim * (dim + 1)
+    /// - `transform`: the handle's transform, dim * (dim + 1) numbers
     /// - `handle`: the handle's position at rest, dim coordinates
-    /// - `axis`: 3-D: 3 numbers, not all 0; 2-D: ignored
-    /// - `angle`: in radians, counter-clockwise (y upwards; 3-D: seen from the axis' tip)
+    /// - `axis`: 3-D: 3 numbers, not all 0; ignored in 2-D
+    /// - `angle`: radians, counter-clockwise (2-D: y upwards; 3-D: seen from the axis' tip)
     pub fn icc_pose_turn(
         dim: i32,
         transform: *mut f64,
