@@ -26,6 +26,7 @@
  * - After a target that moves: continuation.h. An affine boundary, or the part of a motion that is
  *   affine: affine.h.
  * - Hessians of one simplex: dirichlet.h, untangling.h, in space on modes.h and singular.h.
+ *   flat_simplex.h serves where doubles find no area or volume.
  *   Untangling moves patches (patches.h).
  *
  * Begin with simplicial_map.h and this file. */

@@ -1,8 +1,10 @@
 /* Piecewise linear maps: signs, energies and Jacobians of their simplices. */
 #include "map/energy/simplicial_map.h"
 
+#include "base/minmax.h"
 #include "base/threads.h"
 #include "map/energy/dirichlet.h"
+#include "map/energy/flat_simplex.h"
 #include "math/predicates.h"
 
 #include <stdatomic.h>
@@ -33,25 +35,72 @@ void iccp_simplicial_round(size_t n, double *coordinates)
             coordinates[i] = 0;
 }
 
-void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element)
+static double stretch_of(const iccp_simplicial_map *map, size_t simplex)
+{
+    const size_t n = map->dim + 1;
+    const uint32_t *v = map->corners + n * simplex;
+    double sum = 0;
+    if (map->growth == NULL)
+        return map->stretch;
+    for (size_t k = 0; k < n; ++k)
+        sum += map->growth[v[k]];
+    return map->stretch * (sum / (double)n);
+}
+
+static void set_points(const iccp_simplicial_map *map, size_t simplex, const double **point)
+{
+    for (size_t k = 0; k <= map->dim; ++k)
+        point[k] = map->points + map->dim * map->corners[(map->dim + 1) * simplex + k];
+}
+
+/* Returns true if rounding, of the corners too, may be all of the area or volume that doubles
+ * found. */
+static bool is_flat(size_t dim, const double *const *corner, const double *element)
+{
+    double most = 0, length = 0;
+    for (size_t k = 0; k <= dim; ++k)
+        for (size_t d = 0; d < dim; ++d) {
+            most = iccp_max(most, fabs(corner[k][d]));
+            length += fabs(corner[k][d] - corner[0][d]);
+        }
+    return dim == 2 ? !(2 * element[0] > ICCP_CROSS_ERROR * most * length)
+                    : !(6 * element[0] > ICCP_ORIENT3D_ERROR * most * length * length);
+}
+
+/* The corners are stretched last, since rounding could turn a flat simplex over. */
+static void set_flat_element(size_t dim, const double *const *point, double stretch,
+                             double *element)
+{
+    iccp_flat_element(dim, point, element);
+    for (size_t d = 0; d < dim; ++d)
+        element[0] *= stretch;
+    for (size_t k = 1; k < ICCP_ELEMENT(dim); ++k)
+        element[k] /= stretch;
+}
+
+/* Returns false if the simplex is flat. */
+static bool set_element(const iccp_simplicial_map *map, size_t simplex, double *element)
 {
     const size_t dim = map->dim;
-    const uint32_t *v = map->corners + (dim + 1) * simplex;
+    const double stretch = stretch_of(map, simplex);
     double stretched[4][3];
-    const double *corner[4];
-    double stretch = map->stretch;
-    if (map->growth != NULL) {
-        double sum = 0;
-        for (size_t k = 0; k <= dim; ++k)
-            sum += map->growth[v[k]];
-        stretch *= sum / (double)(dim + 1);
-    }
+    const double *point[4], *corner[4];
+    set_points(map, simplex, point);
     for (size_t k = 0; k <= dim; ++k) {
         for (size_t d = 0; d < dim; ++d)
-            stretched[k][d] = stretch * map->points[dim * v[k] + d];
+            stretched[k][d] = stretch * point[k][d];
         corner[k] = stretched[k];
     }
     iccp_element_create(dim, corner, element);
+    if (!is_flat(dim, corner, element))
+        return true;
+    set_flat_element(dim, point, stretch, element);
+    return false;
+}
+
+void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element)
+{
+    (void)set_element(map, simplex, element);
 }
 
 bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex)
@@ -137,7 +186,10 @@ void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size
         to[k] = images + map->dim * v[k];
     }
     iccp_element_create(map->dim, from, element);
-    (void)iccp_element_jacobian(map->dim, element, to, jacobian);
+    if (is_flat(map->dim, from, element))
+        iccp_flat_jacobian(map->dim, from, to, jacobian);
+    else
+        (void)iccp_element_jacobian(map->dim, element, to, jacobian);
 }
 
 /* The energy and the measure of each simplex from `first` on. */
@@ -147,16 +199,24 @@ typedef struct terms {
     double energy[BLOCK], measure[BLOCK];
 } terms;
 
+/* Doubles may find no area or volume in a simplex that is exactly positive, before the map or after
+ * it. */
 static icc_status find_terms(void *argument, size_t begin, size_t end)
 {
     terms *t = argument;
+    const iccp_simplicial_map *map = t->map;
     for (size_t k = begin; k < end; ++k) {
-        const double *image[4];
+        const size_t simplex = t->first + k;
+        const double *point[4], *image[4];
         double element[ICCP_MAX_ELEMENT];
-        iccp_simplicial_images(t->map->dim, t->map, t->first + k, image);
-        iccp_simplicial_element(t->map, t->first + k, element);
-        t->energy[k] = iccp_dirichlet_energy(t->map->dim, element, image);
+        iccp_simplicial_images(map->dim, map, simplex, image);
+        const bool is_solid = set_element(map, simplex, element);
+        t->energy[k] = iccp_dirichlet_energy(map->dim, element, image);
         t->measure[k] = element[0];
+        if ((is_solid && t->energy[k] < HUGE_VAL) || !iccp_simplicial_is_positive(map, simplex))
+            continue;
+        set_points(map, simplex, point);
+        t->energy[k] = iccp_flat_energy(map->dim, point, stretch_of(map, simplex), image);
     }
     return ICC_OK;
 }

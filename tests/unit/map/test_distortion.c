@@ -1,5 +1,6 @@
 /* Energies of one triangle and one tetrahedron: their values, gradients and Hessians. */
 #include "map/energy/dirichlet.h"
+#include "map/energy/simplicial_map.h"
 #include "map/energy/singular.h"
 #include "map/energy/untangling.h"
 
@@ -411,6 +412,75 @@ START_TEST(energies_are_those_of_shape)
 }
 END_TEST
 
+/* A simplex that is exactly positive, and in which doubles find no area or volume: its last corner is
+ * rounded from a point of the line or plane through the others. */
+static void set_flat_sample(sample *s, random_source *r)
+{
+    const iccp_simplicial_map map = {.dim = s->dim,
+                                     .corners = (const uint32_t[4]){0, 1, 2, 3},
+                                     .points = s->point,
+                                     .images = s->point};
+    const size_t dim = s->dim;
+    do {
+        double share[3], rest = 1;
+        for (size_t k = 1; k < dim; rest -= share[k++])
+            share[k] = random_between(r, 0.1, 0.4);
+        for (size_t i = 0; i < dim * dim; ++i)
+            s->point[i] = random_between(r, -1, 1);
+        for (size_t d = 0; d < dim; ++d) {
+            double sum = rest * s->point[d];
+            for (size_t k = 1; k < dim; ++k)
+                sum += share[k] * s->point[dim * k + d];
+            s->point[dim * dim + d] = sum;
+        }
+        set_element(s);
+    } while (!iccp_simplicial_is_positive(&map, 0) || s->element[0] > 0);
+}
+
+/* Of powers of two along the axes, which round nothing; flat simplices before and after the map, and
+ * as good ones after it. */
+START_TEST(flat_simplices_have_accurate_energies)
+{
+    static const double FACTOR[3] = {2, 0.5, 4};
+    random_source r = {7};
+    for (size_t dim = 2; dim <= 3; ++dim)
+        for (int k = 0; k < 300; ++k) {
+            sample s = {.dim = dim, .n = dim * (dim + 1)};
+            double wanted = 0, j[9];
+            set_flat_sample(&s, &r);
+            for (size_t i = 0; i < s.n; ++i)
+                s.image[i] = FACTOR[i % dim] * s.point[i];
+            for (size_t d = 0; d < dim; ++d)
+                wanted += FACTOR[d] * FACTOR[d] + 1 / (FACTOR[d] * FACTOR[d]);
+            iccp_simplicial_map map = {.dim = dim,
+                                       .n_points = dim + 1,
+                                       .n_simplices = 1,
+                                       .corners = (const uint32_t[4]){0, 1, 2, 3},
+                                       .points = s.point,
+                                       .images = s.image,
+                                       .stretch = 1};
+            ck_assert_double_eq_tol(iccp_simplicial_energy(&map) / wanted, 1, 1e-14);
+            for (int inverse = 0; inverse < 2; ++inverse) {
+                iccp_simplicial_jacobian(&map, inverse, 0, j);
+                for (size_t i = 0; i < dim * dim; ++i) {
+                    const double f = inverse ? 1 / FACTOR[i / dim] : FACTOR[i / dim];
+                    ck_assert_double_eq_tol(j[i], i % (dim + 1) == 0 ? f : 0, 1e-14);
+                }
+            }
+            map.images = s.point;
+            map.stretch = random_between(&r, 0.5, 2);
+            wanted = (double)dim * (map.stretch * map.stretch + 1 / (map.stretch * map.stretch));
+            ck_assert_double_eq_tol(iccp_simplicial_energy(&map) / wanted, 1, 1e-13);
+            iccp_simplicial_element(&map, 0, s.element);
+            ck_assert(s.element[0] > 0);
+            sample good = random_sample(&r, dim, 1);
+            map.images = good.image;
+            const double there = iccp_simplicial_energy(&map);
+            ck_assert(there > 1e24 && there < HUGE_VAL);
+        }
+}
+END_TEST
+
 /* Images on a hyperplane, on a line, in a point; turned over; and as good as these. */
 START_TEST(degenerate_images)
 {
@@ -522,6 +592,7 @@ int main(void)
     tcase_add_test(tests, eigenvalues);
     tcase_add_test(tests, energies_of_stretches);
     tcase_add_test(tests, energies_are_those_of_shape);
+    tcase_add_test(tests, flat_simplices_have_accurate_energies);
     tcase_add_test(tests, degenerate_images);
     tcase_add_test(tests, untangling_is_finite);
     tcase_add_test(tests, singular_values_and_vectors);

@@ -8,6 +8,8 @@
 #include "../../../share.h"
 #include "../../../suite.h"
 
+#include "math/predicates.h"
+
 #include <icc/icc.h>
 
 /* Two domains with different insides; the vertices of the boundary are the same. */
@@ -155,6 +157,93 @@ START_TEST(kinds)
 }
 END_TEST
 
+/* Corners 0 to 3 nearly lie in one plane, 4 and 5 on either side of it. Corner 3 is rounded from a
+ * point of the plane. Returns whether doubles find a negative volume in the tetrahedron of the first
+ * four, which is positive. */
+static bool draw_flat_quad(double *x, random_source *r)
+{
+    double edge[9];
+    for (size_t i = 0; i < 9; ++i)
+        x[i] = random_between(r, -1, 1) + (i % 4 == 0 ? 3 : 0);
+    for (size_t k = 0; k < 3; ++k) {
+        x[9 + k] = x[k] + x[6 + k] - (0.9 * x[3 + k] + 0.1 * x[6 + k]);
+        x[12 + k] = (x[k] + x[3 + k] + x[6 + k] + x[9 + k]) / 4;
+        x[15 + k] = x[12 + k];
+    }
+    for (size_t i = 0; i < 9; ++i)
+        edge[i] = x[3 + i] - x[i % 3];
+    const double normal[3] = {edge[1] * edge[5] - edge[2] * edge[4],
+                              edge[2] * edge[3] - edge[0] * edge[5],
+                              edge[0] * edge[4] - edge[1] * edge[3]};
+    for (size_t k = 0; k < 3; ++k) {
+        x[12 + k] += normal[k] / 8;
+        x[15 + k] -= normal[k] / 8;
+    }
+    return iccp_orient3d(x, x + 3, x + 6, x + 9) > 0 &&
+           normal[0] * edge[6] + normal[1] * edge[7] + normal[2] * edge[8] < 0;
+}
+
+/* An octahedron about that tetrahedron, with four more. */
+static icc_status create_octahedron(icc_domain **out, const double *x)
+{
+    static const uint32_t CORNERS[5][4] = {
+        {0, 1, 2, 3}, {0, 1, 3, 4}, {1, 2, 3, 4}, {0, 2, 1, 5}, {0, 3, 2, 5}};
+    static const uint32_t FACETS[8][3] = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                                          {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+    return flat_create_mesh(out, 3, 6, x, 5, CORNERS[0], 8, FACETS[0], NULL, NULL);
+}
+
+static void check_improved(const icc_map *map)
+{
+    icc_improve_report report = {.size = sizeof report};
+    icc_map *better;
+    ck_assert_int_eq(icc_map_improve(&better, map, NULL, &report, NULL, NULL), ICC_OK);
+    ck_assert_double_eq(report.energy_start, info_of_map(map).energy);
+    ck_assert(report.energy >= 6 - 1e-12 && report.energy <= report.energy_start);
+    icc_map_free(better);
+}
+
+/* From flat tetrahedra to others, to flat ones and back: energies are those of shapes, whatever
+ * doubles find. */
+START_TEST(flat_tetrahedra_have_energies)
+{
+    random_source r = {3};
+    size_t n_drawn = 0;
+    for (int k = 0; k < 2000; ++k) {
+        double x[18], y[18];
+        icc_domain *d[3];
+        if (!draw_flat_quad(x, &r))
+            continue;
+        for (size_t i = 0; i < 18; ++i)
+            y[i] = x[i] * (i % 3 == 0 ? 2 : 1);
+        if (create_octahedron(&d[0], x) != ICC_OK)
+            continue;
+        ++n_drawn;
+        ck_assert_int_eq(create_octahedron(&d[1], y), ICC_OK);
+        for (size_t i = 0; i < 3; ++i) /* lifts the upper edge from the lower one */
+            y[3 + i] = y[3 + i] + (x[12 + i] - x[15 + i]) / 8;
+        ck_assert_int_eq(create_octahedron(&d[2], y), ICC_OK);
+        for (int from = 0; from < 3; ++from)
+            for (int to = 0; to < 3; ++to) {
+                icc_map *map;
+                ck_assert_int_eq(icc_map_create(&map, d[from], d[to], NULL, NULL, NULL), ICC_OK);
+                const icc_map_info info = info_of_map(map);
+                ck_assert_int_eq(info.kind, ICC_MAP_MESH);
+                ck_assert(info.energy >= 6 - 1e-12 && info.energy < HUGE_VAL);
+                if (from < 2 && to < 2)
+                    ck_assert_double_le(info.energy, from == to ? 6 + 1e-12 : 7.4);
+                else if (from != to)
+                    ck_assert_double_ge(info.energy, 1e10);
+                check_improved(map);
+                icc_map_free(map);
+            }
+        for (int i = 0; i < 3; ++i)
+            icc_domain_free(d[i]);
+    }
+    ck_assert_uint_gt(n_drawn, 10);
+}
+END_TEST
+
 /* The surface of a domain, without its mesh. */
 static icc_domain *surface_of(const icc_domain *filled)
 {
@@ -279,6 +368,7 @@ int main(void)
     tcase_add_test(tcase, mesh_is_the_map);
     tcase_add_test(tcase, falls_back_on_curves);
     tcase_add_test(tcase, kinds);
+    tcase_add_test(tcase, flat_tetrahedra_have_energies);
     tcase_add_test(tcase, surfaces_are_filled);
     tcase_add_test(tcase, what_cannot_be_filled);
     tcase_add_test(tcase, every_allocation_may_fail);
