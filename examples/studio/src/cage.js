@@ -15,6 +15,8 @@ import { watchPointer } from './pointer.js';
 import { SAMPLES } from './samples.js';
 import { moved, movedAll, nearestEdge, outlineOf, same, withCorner, withPart, withoutVertex } from './shape.js';
 
+/** What the page opens with: a corner that has been dragged so far that mean value coordinates fold. */
+const OPENING = { sample: 'squares', corners: { 2: [300, 470] } };
 const FAINT = { light: [0.91, 0.91, 0.89, 0.72], dark: [0.07, 0.075, 0.08, 0.72] };
 
 export class CageMode {
@@ -62,10 +64,16 @@ export class CageMode {
   get shapes() { return this.#now; }
   get image() { return this.#image; }
 
-  sample(key) {
+  sample(key, corners = {}) {
     const [, paint, cage] = SAMPLES[key];
     this.#name = key;
-    this.open(paint(), outlineOf(cage));
+    this.open(paint(), outlineOf(cage), outlineOf(cage.map((p, i) => corners[i] ?? p)));
+  }
+
+  /** What a visitor sees first. */
+  first() {
+    this.sample(OPENING.sample, OPENING.corners);
+    this.after.wait('Drag a white dot');
   }
 
   /** Shows a picture with a cage, and where that is now; without a cage, one round most of it. */

@@ -29,6 +29,7 @@ export class HandleMode {
     Object.assign(this, { pose: new Panel('Pose'), rest: new Panel('Weights') });
     [this.#remote, this.#say, this.#changed, this.#modes] = [remote, say, changed, modes];
     this.pose.element.classList.add('first');
+    this.pose.wait('Drag a yellow dot; turn it by the right button');
     this.overlays = {
       pose: new Overlay(this.pose, {
         grab: (h) => this.#grab(h), drag: (h, by) => this.#change(h, { by }), turn: (h, angle) => this.#change(h, { angle }),

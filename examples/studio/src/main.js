@@ -105,7 +105,7 @@ async function start() {
     const page = new Page(remote);
     const state = await readLink(location.hash);
     const cage = page.show('cage');
-    if (state?.source) await cage.restore(state); else cage.sample('butterfly');
+    if (state?.source) await cage.restore(state); else cage.first();
     if (Object.hasOwn(MODES, state?.mode ?? '')) page.show(state.mode, state.rig === 'cage' ? 'cage' : undefined);
     globalThis.studio = { page, remote, cage, modes: page.modes };
   } catch (error) {

@@ -5,6 +5,7 @@ import { CLOSED, centreOf, edgesOf } from './shape.js';
 const TARGET = 13;             // pixels from a handle within which a touch is one on it: 26 across
 const DOT = 5, SMALL = 3.2;
 const MOST_EDGES = 60;         // vertices of a part, beyond which edges have no handles
+const NUMBER = 17;             // pixels of the number of an edge
 const ROOM = 56;               // pixels that an edge needs for one
 const same = ([x, y], [u, v]) => x === u && y === v;
 const TURN = 0.01;             // radians that a pixel turns
@@ -26,8 +27,9 @@ export class Overlay {
     this.#acts = acts;
     this.#marks = draw('g', { class: 'marks' });
     this.lines = draw('g', { class: 'lines' });
+    this.numbers = draw('g', { class: 'numbers' });
     this.grips = draw('g', { class: 'grips' });
-    panel.svg.append(this.lines, this.#marks, this.grips);
+    panel.svg.append(this.lines, this.#marks, this.grips, this.numbers);
     panel.resized = () => this.#place();
     const { svg } = panel;
     svg.addEventListener('pointerdown', (e) => this.#down(e));
@@ -97,10 +99,7 @@ export class Overlay {
       const d = points.length < 2 ? '' : `M${points.map((p) => p.join()).join('L')}${CLOSED[kind] ? 'Z' : ''}`;
       for (const path of this.#paths[k]) path.setAttribute('d', d);
     });
-    const outline = this.#shape[0].points, n = outline.length;
-    const bad = [...this.#bad].filter((i) => i < n);
-    if (bad.length > 0 || this.bad?.getAttribute('d'))
-      this.bad.setAttribute('d', bad.map((i) => `M${outline[i].join()}L${outline[(i + 1) % n].join()}`).join(''));
+    this.#placeBad(u);
     for (const handle of this.#handles) {
       const part = this.#shape[handle.part], old = all ? undefined : this.#placed[handle.part];
       const still = old && (old === part || handle.vertices?.every((i) => same(old.points[i], part.points[i])));
@@ -108,6 +107,18 @@ export class Overlay {
     }
     this.#placed = this.#shape;
     this.#unit = u;
+  }
+
+  /** Edges that are in each other's way: red, with their numbers. */
+  #placeBad(u) {
+    const outline = this.#shape[0].points, n = outline.length;
+    const edges = [...this.#bad].filter((i) => i < n).map((i) => ({ name: String(i + 1), ends: [outline[i], outline[(i + 1) % n]] }));
+    if (edges.length === 0 && !this.bad.getAttribute('d')) return;
+    this.bad.setAttribute('d', edges.map(({ ends: [a, b] }) => `M${a.join()}L${b.join()}`).join(''));
+    this.numbers.replaceChildren(...edges.map(({ name, ends }) => {
+      const [x, y] = centreOf(ends);
+      return draw('text', { class: 'number', x, y, 'font-size': NUMBER * u }, name);
+    }));
   }
 
   #placeOne(handle, u) {

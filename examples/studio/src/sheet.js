@@ -8,10 +8,17 @@ export class Sheet {
     this.svg = draw('svg', { class: 'overlay', role, 'aria-label': title });
     this.note = make('span', { class: 'note' });
     this.caption = make('figcaption', {}, make('strong', {}, title), this.note);
-    const stage = make('div', { class: 'stage' }, this.canvas, this.svg);
+    this.hint = make('p', { class: 'waits' });
+    const stage = make('div', { class: 'stage' }, this.canvas, this.svg, this.hint);
     this.element = make('figure', { class: 'panel' }, this.caption, stage);
     this.box = [0, 0, 1, 1];
     new ResizeObserver(() => { redraw(); this.resized?.(); }).observe(stage);
+  }
+
+  /** Says on the picture what it waits for, until the first touch. */
+  wait(text) {
+    this.hint.textContent = text;
+    this.svg.addEventListener('pointerdown', () => { this.hint.textContent = ''; }, { once: true });
   }
 
   /** What of the plane is seen. */

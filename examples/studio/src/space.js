@@ -15,7 +15,8 @@ class View3 {
   constructor(title, look, changed) {
     this.canvas = make('canvas', { tabindex: 0, role: 'img', 'aria-label': `${title}: drag or use the arrow keys to look from another side` });
     this.badge = make('output', { class: 'badge' });
-    const stage = make('div', { class: 'stage' }, this.canvas);
+    this.hint = make('p', { class: 'waits' }, title === 'After' ? 'Drag to look from another side' : '');
+    const stage = make('div', { class: 'stage' }, this.canvas, this.hint);
     this.element = make('figure', { class: 'panel' }, make('figcaption', {}, make('strong', {}, title), make('span', { class: 'note' }), this.badge), stage);
     this.renderer = new Renderer3(this.canvas);
     new ResizeObserver(changed).observe(stage);
@@ -24,7 +25,7 @@ class View3 {
       look.tilt = Math.max(-1.5, Math.min(1.5, look.tilt + dy));
       changed();
     };
-    this.canvas.addEventListener('pointerdown', (e) => this.canvas.setPointerCapture(e.pointerId));
+    this.canvas.addEventListener('pointerdown', (e) => { this.hint.textContent = ''; this.canvas.setPointerCapture(e.pointerId); });
     this.canvas.addEventListener('pointermove', (e) => { if (e.buttons) turn(-e.movementX * TURN, e.movementY * TURN); });
     this.canvas.addEventListener('wheel', (e) => { e.preventDefault(); look.distance *= e.deltaY > 0 ? 1.08 : 0.93; changed(); }, { passive: false });
     this.canvas.addEventListener('keydown', (e) => {

@@ -39,6 +39,7 @@ export class StageMode {
     this.source = new Sheet('Before', { redraw: () => this.render() });
     this.target = new Sheet('After', { redraw: () => this.render() });
     this.source.element.classList.add('first');
+    this.source.wait('Choose a step on the right');
     this.overlays = [this.source, this.target].map((sheet) => new Overlay(sheet, {}));
     this.text = make('p', { class: 'lesson', 'aria-live': 'polite' });
     this.facts = make('dl');

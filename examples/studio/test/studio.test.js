@@ -25,6 +25,18 @@ async function sample(name) {
 
 test('one file of at most a megabyte', () => assert.ok(fs.statSync(STUDIO).size <= 1 << 20));
 
+test('it opens in the middle of a drag: certified beside a fold, and says what it waits for', async () => {
+  const waits = () => page.$eval(`${AFTER}.waits`, (e) => e.textContent);
+  const state = await cage();
+  assert.ok(state.other > 0);
+  assert.equal(state.folded, 0);
+  assert.match(state.certificate, /Certified one-to-one/);
+  assert.equal(await waits(), 'Drag a white dot');
+  await shot('first');
+  await drag(page, corner(4), [20, 0], 3);
+  assert.equal(await waits(), '');
+});
+
 test('a corner is dragged by mouse: certified in every frame, nothing folds, mean value coordinates do', async () => {
   await sample('butterfly');
   await drag(page, corner(4), [-90, 90], 12);
@@ -60,6 +72,9 @@ test('a cage that crosses itself is refused: the edges are named, the last good 
   assert.equal(state.uncertified, 0);
   const crossing = await page.$eval(`${AFTER}.crossing`, (path) => path.getAttribute('d'));
   assert.match(crossing, /^M/);
+  const numbers = await page.$$eval(`${AFTER}.number`, (all) => all.map((e) => e.textContent));
+  const [, one, other] = /Edges (\d+) and (\d+)/.exec(state.certificate);
+  assert.ok(numbers.includes(one) && numbers.includes(other), `${numbers}`);
   await shot('refused');
   await page.click('#reset');
   await settle(page);
