@@ -49,7 +49,7 @@ release=libicc-$version
 prepare() {
     [ "$(cat "$made/commit" 2>/dev/null)" != "$commit" ] || return 0
     [ -z "$(git status --porcelain)" ] || echo "dist: changes that are not committed stay out" >&2
-    rm -rf "$dist" "$tree" "$made"/*/build
+    rm -rf "$dist" "$tree" "$made"/*/build "$made"/*/libicc.so.0
     mkdir -p "$tree" "$dist"
     git archive HEAD | tar -C "$tree" -x
     echo "$commit" >"$made/commit"
