@@ -1,8 +1,9 @@
 #!/bin/sh
 # Tries what is in dist/, as somebody does who has only the file: the command in a system that holds nothing else, the
-# wheel and the source distribution in bare virtual environments, the crates and the npm package from other projects, and
+# wheel and the source distribution in virtual environments, the crates and the npm package from other projects, and
 # the program for Windows by Wine. All of them bend the same fish or map the same point.
-# usage: sh cmake/dist_check.sh [PART...]     parts as in cmake/dist.sh; without any: what is there
+# usage: sh cmake/dist_check.sh [CHECK...]     source, linux-x86_64, linux-arm64, windows, wheel, sdist, crates, npm;
+#                                              without any: what is there
 # tests/debian.sh, which makes the Debian packages, has tried them.
 set -eu
 cd "$(dirname "$0")/.."
@@ -92,16 +93,21 @@ END
     env -i HOME="$PWD" PATH=/nowhere "$PWD/venv/bin/python" try.py
 }
 
-# Python without a compiler in reach; pip gets NumPy.
-check_python() {
-    need python3-venv cmake gcc libc6-dev make python3-setuptools python3-wheel
+# Without a compiler in reach. NumPy is Debian's, so that no network is needed.
+check_wheel() {
+    need python3-venv python3-numpy
     fresh wheel
     /usr/bin/python3 -m venv venv
-    env -i HOME="$PWD" PATH="$PWD/venv/bin" venv/bin/pip -q install "$dist/$release"-py3-none-*_x86_64.whl
+    ln -s /usr/lib/python3/dist-packages/numpy venv/lib/python3*/site-packages
+    PATH=$PWD/venv/bin venv/bin/pip -q install --no-index --no-deps "$dist/$release"-py3-none-*_x86_64.whl
     try_python
+}
+
+check_sdist() {
+    need python3-venv python3-numpy python3-setuptools python3-wheel cmake gcc libc6-dev make
     fresh sdist
     /usr/bin/python3 -m venv --system-site-packages venv
-    venv/bin/pip -q install --no-build-isolation --no-deps "$dist/$release.tar.gz"
+    venv/bin/pip -q install --no-build-isolation --no-index --no-deps "$dist/$release.tar.gz"
     try_python
 }
 
@@ -174,14 +180,14 @@ if [ $# -eq 0 ]; then
     [ ! -e "$dist/$release-linux-x86_64.tar.gz" ] || set -- "$@" linux-x86_64
     [ ! -e "$dist/$release-linux-arm64.tar.gz" ] || set -- "$@" linux-arm64
     [ ! -e "$dist/$release-windows-x86_64.zip" ] || set -- "$@" windows
-    [ ! -e "$dist/$release.tar.gz" ] || set -- "$@" python
+    [ ! -e "$dist/$release.tar.gz" ] || set -- "$@" wheel sdist
     [ ! -e "$dist/libicc-sys-$version.crate" ] || set -- "$@" crates
     [ ! -e "$dist/$release.tgz" ] || set -- "$@" npm
 fi
 rm -f "$work/bent.png" "$work/there.txt"
 for part in "$@"; do
     case $part in
-        source | linux-x86_64 | linux-arm64 | windows | python | crates | npm) ;;
+        source | linux-x86_64 | linux-arm64 | windows | wheel | sdist | crates | npm) ;;
         *) echo "dist_check.sh knows no part $part" >&2 && exit 2 ;;
     esac
     step check "$part" "check_$(echo "$part" | tr - _)"
