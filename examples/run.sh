@@ -46,7 +46,7 @@ drawn() {
 }
 
 bend_a_fish() (
-    libicc demo "$out/fish" >"$out/demo.txt"
+    "$build/tools/libicc" demo "$out/fish" >"$out/demo.txt"
     cd "$out/fish"
     shown libicc check --source before.txt --target after.txt
     shown libicc warp --source before.txt --target after.txt --background 78b9d7 fish.png bent.png
@@ -120,7 +120,6 @@ if [ "${1:-}" = --all ]; then
 fi
 
 echo
-echo "Open $out/fish/bent.png beside fish.png, then figure/figure.png and county/county.png."
-echo "Change a number in $out/fish/after.txt and run: (cd $out/fish; \
-../../../release/tools/libicc warp -s before.txt -t after.txt --background 78b9d7 fish.png bent.png)"
-echo "More to try with the fish is in $out/demo.txt; docs/README.md says which page does what."
+echo "Open these pictures in $out: fish/bent.png beside fish/fish.png, figure/figure.png, county/county.png."
+echo "Change a number in $out/fish/after.txt, then run the first command of $out/demo.txt."
+echo "That file has more to try with the fish; docs/README.md says which page does what."
