@@ -58,4 +58,14 @@ if [ -e debian/changelog ] && ! head -n 1 debian/changelog | grep -q "($version-
     echo "debian/changelog: the first entry is not of version $version"
     status=1
 fi
+
+# Pictures that have an author of their own are named one by one.
+if [ -e debian/copyright ]; then
+    for file in $(sed -n 's/^ \([a-z]*\/.*\.png\)$/\1/p' debian/copyright); do
+        if ! [ -e "$file" ]; then
+            echo "debian/copyright: there is no $file"
+            status=1
+        fi
+    done
+fi
 exit $status
