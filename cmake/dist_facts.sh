@@ -61,11 +61,10 @@ fi
 
 # Pictures that have an author of their own are named one by one.
 if [ -e debian/copyright ]; then
-    for file in $(sed -n 's/^ \([a-z]*\/.*\.png\)$/\1/p' debian/copyright); do
-        if ! [ -e "$file" ]; then
-            echo "debian/copyright: there is no $file"
-            status=1
-        fi
-    done
+    sed -n 's/^ \([a-z]*\/.*\.png\)$/\1/p' debian/copyright | while read -r file; do
+        [ -e "$file" ] || echo "debian/copyright: there is no $file"
+    done >"$work/missing"
+    cat "$work/missing"
+    [ ! -s "$work/missing" ] || status=1
 fi
 exit $status
