@@ -8,13 +8,13 @@ use crate::weights::Weights;
 use std::ptr;
 
 object!(
-    /// Points with their weights, for repeated poses. It does not need the weights any more.
+    /// Points with their weights, for repeated poses. It no longer needs the [`Weights`](crate::kernel::Weights).
     Binding,
     icc_binding,
     icc_binding_free
 );
 
-/// How many points and handles a binding has.
+/// Numbers of points and handles of a binding, and its dimension.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Counts {
     /// points
@@ -67,7 +67,7 @@ impl Binding {
         Ok(weights)
     }
 
-    /// Where the points go: n * dim coordinates.
+    /// Poses the points: n * dim coordinates.
     pub fn pose(&self, pose: &Pose, env: &mut Env<'_>) -> Result<Vec<f64>> {
         let counts = self.counts();
         let mut images = vec![0.0; counts.n_points * counts.dim];
@@ -75,7 +75,7 @@ impl Binding {
         Ok(images)
     }
 
-    /// Where the points go, and n * dim * dim derivatives of the images by the points.
+    /// Poses the points, and returns n * dim * dim derivatives of the images by the points as well.
     ///
     /// # Errors
     /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) when the binding was made without derivatives.
@@ -87,7 +87,7 @@ impl Binding {
         Ok((images, jacobians))
     }
 
-    /// The same with caller-supplied transforms, per handle the dim rows of (A | b), written to slices.
+    /// Poses the points by your own transforms, per handle the dim rows of (A | b), and writes to slices.
     pub fn pose_into(
         &self,
         transforms: &[f64],
@@ -120,8 +120,8 @@ impl Binding {
     /// Reads a binding back, bit for bit; any bytes are safe to pass.
     ///
     /// # Errors
-    /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) for what a later
-    /// version wrote.
+    /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) if a later
+    /// version wrote the bytes.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Binding> {
         Binding::make(env, |out, env, err| {
             // SAFETY: as many bytes.
@@ -130,7 +130,7 @@ impl Binding {
     }
 }
 
-/// How the handles move: an affine transform each.
+/// A pose: an affine transform for each handle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     dim: usize,
@@ -144,7 +144,7 @@ impl Pose {
         Pose::of_handles(binding.counts().dim, binding.handles()?)
     }
 
-    /// Handles at caller-supplied positions, n * dim coordinates, at rest.
+    /// Handles at your own positions, n * dim coordinates, at rest.
     pub fn of_handles(dim: usize, handles: Vec<f64>) -> Result<Pose> {
         let n = count(&handles, dim, "handles")?;
         if dim != 2 && dim != 3 {
@@ -176,8 +176,8 @@ impl Pose {
         check(unsafe { sys::icc_pose_move(dim, transform, offset.as_ptr()) })
     }
 
-    /// Rotates a handle about the place it has moved to, by an angle in radians, counter-clockwise with y upwards
-    /// (2-D), or seen from the tip of the axis (3-D).
+    /// Rotates a handle about its present position, by an angle in radians. The direction is counter-clockwise with y
+    /// upwards (2-D), or seen from the tip of the axis (3-D).
     pub fn turn(&mut self, handle: usize, axis: Option<[f64; 3]>, angle: f64) -> Result<()> {
         let dim = self.dim;
         let transform = self.transform(handle)?.as_mut_ptr();

@@ -39,7 +39,7 @@ object!(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum Method {
-    /// Integral Curve Coordinates as published: a grid, a cousin tree, a function; not one-to-one
+    /// Integral Curve Coordinates as published, by a grid, a cousin tree and a function; not one-to-one
     Gradient = sys::ICC_METHOD_GRADIENT,
     /// along leaves that cannot merge; certified
     Foliation = sys::ICC_METHOD_FOLIATION,
@@ -67,11 +67,11 @@ pub enum FunctionKind {
     Harmonic = sys::ICC_FUNCTION_HARMONIC,
 }
 
-/// Whether a function is made to fall along the tree.
+/// Whether a function is forced to fall along the tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum Constraints {
-    /// when it has other critical points than one maximum
+    /// if the function has critical points besides one maximum
     Needed = sys::ICC_CONSTRAINTS_NEEDED,
     /// never
     None = sys::ICC_CONSTRAINTS_NONE,
@@ -99,7 +99,7 @@ pub enum TreeForm {
     Paper = sys::ICC_TREE_PAPER,
 }
 
-/// Options of [`Chart::new`]. `None` and 0 are the library's choice.
+/// Options of [`Chart::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ChartOptions<'a> {
     /// how coordinates are made
@@ -123,7 +123,7 @@ pub struct ChartOptions<'a> {
 }
 
 impl ChartOptions<'_> {
-    /// As C takes them, for a domain of dimension `dim`. Valid as long as `maximum`.
+    /// The options in C, for a domain of dimension `dim`. They borrow `maximum`.
     pub(crate) fn raw(&self, dim: usize) -> Result<sys::icc_chart_options> {
         if let Some(maximum) = self.maximum {
             exactly(maximum, dim, "maximum")?;
@@ -146,13 +146,13 @@ impl ChartOptions<'_> {
 /// Integral curve coordinates of n points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Codes {
-    /// where the curves start: `u32::MAX` and NaN for points that have no coordinates
+    /// where the curves start; `u32::MAX` and NaN for points without coordinates
     pub start: BoundaryPoints,
     /// shares of the curves' arc length from the boundary, in \[0,1\]
     pub t: Vec<f64>,
     /// the status of each point
     pub status: Vec<Status>,
-    /// how many points have no coordinates
+    /// number of points without coordinates
     pub n_failed: usize,
 }
 
@@ -161,9 +161,9 @@ pub struct Codes {
 pub struct Images {
     /// n * dim coordinates; NaN where there is no point
     pub points: Vec<f64>,
-    /// the status of each
+    /// the status of each point
     pub status: Vec<Status>,
-    /// how many have no point or image
+    /// number of failures
     pub n_failed: usize,
 }
 
@@ -179,8 +179,8 @@ impl Chart {
     /// Makes coordinates of a domain.
     ///
     /// # Errors
-    /// [`Status::CERTIFICATE`] when the chart could not be proved one-to-one, [`Status::RESOLUTION`],
-    /// [`Status::OUTSIDE`] (the maximum), [`Status::UNSUPPORTED`], [`Status::CANCELLED`], ...
+    /// [`Status::CERTIFICATE`] if the chart could not be proved one-to-one, [`Status::OUTSIDE`] if the maximum is
+    /// outside, [`Status::RESOLUTION`], [`Status::UNSUPPORTED`], [`Status::CANCELLED`] and others.
     pub fn new(domain: &Domain, options: &ChartOptions<'_>, env: &mut Env<'_>) -> Result<Chart> {
         let raw = options.raw(domain.dim())?;
         Chart::make(env, |out, env, err| {
@@ -189,7 +189,7 @@ impl Chart {
         })
     }
 
-    /// The chart as bytes, its domain included, for other processes: the same on every machine, with a
+    /// The chart and its domain as bytes, for other processes. They are the same on every machine and have a
     /// checksum.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         to_bytes(|capacity, data, n| {
@@ -202,8 +202,8 @@ impl Chart {
     /// on a mesh are certified anew, those on a grid rebuilt from their inputs.
     ///
     /// # Errors
-    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that gives
-    /// different values here than where it was saved.
+    /// [`Status::FORMAT`]; [`Status::VERSION`] if a later version wrote the bytes, or if a chart on a grid gives other
+    /// values here than where it was saved.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Chart> {
         Chart::make(env, |out, env, err| {
             // SAFETY: as many bytes.
@@ -211,7 +211,7 @@ impl Chart {
         })
     }
 
-    /// What charts of every method have: whether it is certified, where the curves end, ...
+    /// What charts of every method have, such as whether it is certified and where the curves end.
     pub fn info(&self) -> ChartInfo {
         let mut info = ChartInfo::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -219,7 +219,7 @@ impl Chart {
         info
     }
 
-    /// How long each step of making the chart took.
+    /// Seconds for each step of making the chart.
     pub fn timings(&self) -> ChartTimings {
         let mut timings = ChartTimings::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -243,7 +243,7 @@ impl Chart {
         (status == sys::ICC_OK).then_some(info)
     }
 
-    /// What only charts of method foliation in the plane, on a mesh that the library makes, have; `None` for others.
+    /// What only charts of method foliation in the plane have, on a mesh that libicc makes; `None` for others.
     pub fn foliation_info(&self) -> Option<FoliationInfo> {
         let mut info = FoliationInfo::default();
         // SAFETY: `size` is set.
@@ -297,9 +297,9 @@ impl Chart {
         Ok(measures)
     }
 
-    /// Cartesian to integral curve coordinates: n * dim coordinates.
+    /// Computes the coordinates of points, n * dim numbers.
     ///
-    /// Points that have no coordinates do not make the call fail: see [`Codes::status`].
+    /// The call does not fail if single points have no coordinates: check [`Codes::status`].
     pub fn encode(&self, points: &[f64], env: &mut Env<'_>) -> Result<Codes> {
         let dim = self.dim();
         let n = count(points, dim, "points")?;
@@ -321,8 +321,8 @@ impl Chart {
         Ok(codes)
     }
 
-    /// As [`encode`](Self::encode), written to slices of n, n * dim, n and n values. Returns how many points have
-    /// no coordinates.
+    /// Like [`encode`](Self::encode), but writes to slices of n, n * dim, n and n values. Returns the number of points
+    /// without coordinates.
     pub fn encode_into(
         &self,
         points: &[f64],
@@ -357,7 +357,7 @@ impl Chart {
         Ok(n_failed)
     }
 
-    /// Integral curve coordinates to Cartesian: n facets, n * dim barycentric coordinates, n shares.
+    /// Computes points from n facets, n * dim barycentric coordinates and n shares.
     pub fn decode(&self, facet: &[u32], bary: &[f64], t: &[f64], env: &mut Env<'_>) -> Result<Images> {
         let mut images = Images::new(t.len(), self.dim());
         images.n_failed =
@@ -365,7 +365,7 @@ impl Chart {
         Ok(images)
     }
 
-    /// As [`decode`](Self::decode), written to slices of n * dim and n values. Returns how many coordinates have
+    /// Like [`decode`](Self::decode), but writes to slices of n * dim and n values. Returns how many coordinates have
     /// no point.
     pub fn decode_into(
         &self,
@@ -404,7 +404,7 @@ impl Chart {
     /// The whole curve through a point, from the boundary to the maximum: rows of dim coordinates.
     ///
     /// # Errors
-    /// [`Status::OUTSIDE`], [`Status::TRACE`] (the curve does not reach both ends).
+    /// [`Status::OUTSIDE`], or [`Status::TRACE`] if the curve does not reach both ends.
     pub fn trace(&self, point: &[f64], env: &mut Env<'_>) -> Result<Vec<f64>> {
         let dim = self.dim();
         exactly(point, dim, "point")?;

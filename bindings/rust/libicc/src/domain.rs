@@ -33,10 +33,10 @@ pub struct Place(pub i32);
 impl Place {
     /// in the interior
     pub const INSIDE: Place = Place(sys::ICC_INSIDE);
-    /// on the boundary: up to 1e-14 of the bounding box's longest side, or up to `dim` * 2^-52 of the largest
-    /// coordinate along each axis, whichever is more
+    /// on the boundary, within 1e-14 of the bounding box's longest side, or `dim` * 2^-52 of the largest coordinate
+    /// along each axis, whichever is more
     pub const BOUNDARY: Place = Place(sys::ICC_BOUNDARY);
-    /// elsewhere
+    /// outside, or in a hole
     pub const OUTSIDE: Place = Place(sys::ICC_OUTSIDE);
 }
 
@@ -49,7 +49,7 @@ pub struct BoundaryPoints {
     pub bary: Vec<f64>,
 }
 
-/// Something that keeps a polygon from being the boundary of a domain.
+/// A defect that keeps a polygon from being the boundary of a domain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Defect {
     /// `ICC_DEFECT_*` of [`sys`]
@@ -58,17 +58,17 @@ pub struct Defect {
     pub items: [u32; 2],
 }
 
-/// Something inside a domain of the plane: x and y of each vertex. See [`Domain::with_features`].
+/// A hole, line or point inside a domain of the plane: x and y of each vertex. See [`Domain::with_features`].
 #[derive(Clone, Copy, Debug)]
 pub enum Feature<'a> {
     /// A simple polygon that is cut out.
     Hole(&'a [f64]),
-    /// A polyline; of two vertices, a bone.
+    /// A polyline; with two vertices, a bone.
     Line(&'a [f64]),
     /// One vertex.
     Point(&'a [f64; 2]),
-    /// A point with a size: the circle of this radius round it goes along, larger or smaller, but does not turn.
-    /// The domain has it as a line of 16 vertices behind all features that were given.
+    /// A point with a size: the circle of this radius around it moves along and may grow or shrink, but does not turn.
+    /// The domain represents the circle by a line of 16 vertices, which follows all given features.
     Handle(&'a [f64; 2], f64),
 }
 
@@ -105,8 +105,8 @@ impl Domain {
         })
     }
 
-    /// A simple polygon with holes, lines and points inside, which maps of kind mesh take to those of the same
-    /// numbers, vertex by vertex; nothing else works on it.
+    /// A simple polygon with holes, lines and points inside. A mesh map takes each of them to the feature of the same
+    /// number, vertex by vertex. Only mesh maps work on such a domain.
     ///
     /// ```
     /// use libicc::{Domain, Env, Feature, Place};
@@ -159,7 +159,7 @@ impl Domain {
         })
     }
 
-    /// The cells of a mask that are not 0, such as the voxels of a picture; the first axis runs fastest. Cell
+    /// The cells of a mask that are not 0, such as pixels or voxels; the first axis is fastest. Cell
     /// (i, j, ..) covers \[i, i + 1\] x \[j, j + 1\] x ..
     ///
     /// # Errors
@@ -201,7 +201,7 @@ impl Domain {
     ///
     /// # Errors
     /// [`Status::RESOLUTION`](crate::Status::RESOLUTION), with the facet at fault as `index`;
-    /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) in other dimensions and for what has a mesh.
+    /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) in other dimensions, or if it has a mesh.
     pub fn filled(&self, env: &mut Env<'_>) -> Result<Domain> {
         Domain::make(env, |out, env, err| {
             // SAFETY: the surface lives; NULL stands for the default options.
@@ -209,8 +209,8 @@ impl Domain {
         })
     }
 
-    /// The mesh of the inside, if there is one: n_mesh_vertices * dim coordinates, those of the boundary
-    /// first, and n_mesh_simplices * (dim + 1) vertex indices.
+    /// The mesh of the inside, if there is one: n_mesh_vertices * dim coordinates, boundary vertices first, and
+    /// n_mesh_simplices * (dim + 1) vertex indices.
     pub fn mesh(&self) -> Result<(Vec<f64>, Vec<u32>)> {
         let mut own = sys::icc_mesh::default();
         // SAFETY: `size` is set, and nothing but numbers is filled in.
@@ -306,8 +306,8 @@ impl Domain {
     }
 }
 
-/// Fills cells of a mask where others touch only along an edge or a corner, which [`Domain::from_mask`] refuses.
-/// Returns how many; they become 1.
+/// Repairs a mask in which cells touch only along an edge or a corner, which [`Domain::from_mask`] refuses. It fills
+/// cells, which become 1, and returns their number.
 pub fn repair_mask(shape: &[usize], cells: &mut [u8], env: &mut Env<'_>) -> Result<usize> {
     exactly(cells, product(shape)?, "cells")?;
     let mut n_filled = 0;
@@ -327,7 +327,7 @@ pub fn repair_mask(shape: &[usize], cells: &mut [u8], env: &mut Env<'_>) -> Resu
     Ok(n_filled)
 }
 
-/// Every defect that keeps a closed polygon, n * 2 coordinates, from being the boundary of a domain.
+/// Lists the defects that keep a closed polygon, n * 2 coordinates, from being the boundary of a domain.
 ///
 /// ```
 /// use libicc::{boundary_defects, sys, Env};

@@ -44,7 +44,7 @@ impl<'a> Env<'a> {
         Env::default()
     }
 
-    /// How many threads a call may use, the calling one included; 0 and 1 mean one. They live only during the
+    /// Number of threads that a call may use, including the calling one; 0 and 1 mean one. They live only during the
     /// call.
     pub fn threads(mut self, threads: usize) -> Self {
         self.threads = i32::try_from(threads).unwrap_or(i32::MAX);
@@ -57,25 +57,24 @@ impl<'a> Env<'a> {
         self.threads(threads)
     }
 
-    /// How many bytes loading an object may take beyond 64 for each byte that it is read from; 0 means
-    /// 256,000,000. Time is limited in proportion. Charts on fine grids are rebuilt and may need more;
-    /// `u64::MAX` is for trusted bytes.
+    /// Bytes of memory that loading an object may take, in addition to 64 for each byte of its data; 0 means
+    /// 256,000,000. Time is limited in proportion. Charts on fine grids are rebuilt and may need more. `u64::MAX` is
+    /// for bytes that you trust.
     pub fn load_limit(mut self, bytes: u64) -> Self {
         self.load_limit = bytes;
         self
     }
 
     /// Called on the calling thread from time to time during long work, with the name of the stage and the share
-    /// of the whole call that is done, which goes from 0 to 1 and never falls. [`ControlFlow::Break`] cancels
-    /// the call, which then fails with
-    /// [`Status::CANCELLED`](crate::Status::CANCELLED) as soon as it can. A panic cancels it, too, and resumes
-    /// once the library has cleaned up.
+    /// of the whole call that is done, which goes from 0 to 1 and never falls. [`ControlFlow::Break`] cancels the
+    /// call, which then fails with [`Status::CANCELLED`](crate::Status::CANCELLED) as soon as it can. A panic cancels
+    /// it as well, and resumes after the library has cleaned up.
     pub fn progress(mut self, callback: impl FnMut(&str, f64) -> ControlFlow<()> + 'a) -> Self {
         self.progress = Some(Box::new(callback));
         self
     }
 
-    /// Called with lines of diagnostics, on any thread. A panic resumes as one in [`progress`](Self::progress) does.
+    /// Called with lines of diagnostics, on any thread. A panic resumes as in [`progress`](Self::progress).
     pub fn log(mut self, callback: impl Fn(&str) + Sync + 'a) -> Self {
         self.log = Some(Box::new(callback));
         self
@@ -128,8 +127,8 @@ fn finish(status: sys::icc_status, error: &sys::icc_error) -> Result<()> {
     }
 }
 
-/// Whom the callbacks talk to. No panic may unwind through C: the first one is kept until the call is over, which
-/// it cancels.
+/// The receivers of callbacks. No panic may unwind through C, so the first one cancels the call and is kept until the
+/// call is over.
 struct Listener<'c, 'a> {
     progress: Option<&'c mut Progress<'a>>,
     log: Option<&'c Log<'a>>,
@@ -153,7 +152,7 @@ fn guarded<T>(panic: &Mutex<Option<Payload>>, callback: impl FnOnce() -> T) -> O
     }
 }
 
-/// Hands the library's progress on.
+/// Passes the library's progress on.
 unsafe extern "C" fn report(user: *mut c_void, stage: *const c_char, share: f64) -> i32 {
     let listener = user as *mut Listener<'_, '_>;
     // SAFETY: `user` is the listener in `Env::call`; only this function, which the library calls on the calling
@@ -168,7 +167,7 @@ unsafe extern "C" fn report(user: *mut c_void, stage: *const c_char, share: f64)
     i32::from(answer != Some(ControlFlow::Continue(())))
 }
 
-/// Hands a line of diagnostics on, on any thread.
+/// Passes a line of diagnostics on, on any thread.
 unsafe extern "C" fn tell(user: *mut c_void, message: *const c_char) {
     let listener = user as *const Listener<'_, '_>;
     // SAFETY: `user` is the listener in `Env::call`; these two members may be shared.

@@ -11,13 +11,13 @@ use std::fmt;
 pub struct Status(pub i32);
 
 impl Status {
-    /// the call did what it says
+    /// the call has run; points may have statuses of their own
     pub const OK: Status = Status(sys::ICC_OK);
     /// an argument is missing or out of range
     pub const ARGUMENT: Status = Status(sys::ICC_ERR_ARGUMENT);
     /// an allocation failed
     pub const MEMORY: Status = Status(sys::ICC_ERR_MEMORY);
-    /// the library is older than what it was given
+    /// a struct or saved object is from another version
     pub const VERSION: Status = Status(sys::ICC_ERR_VERSION);
     /// the boundary is not that of a simple, solid shape
     pub const BOUNDARY: Status = Status(sys::ICC_ERR_BOUNDARY);
@@ -35,7 +35,7 @@ impl Status {
     pub const CERTIFICATE: Status = Status(sys::ICC_ERR_CERTIFICATE);
     /// the progress callback asked to stop
     pub const CANCELLED: Status = Status(sys::ICC_ERR_CANCELLED);
-    /// this combination is not available
+    /// this combination is not supported
     pub const UNSUPPORTED: Status = Status(sys::ICC_ERR_UNSUPPORTED);
     /// input data is malformed
     pub const FORMAT: Status = Status(sys::ICC_ERR_FORMAT);
@@ -63,9 +63,9 @@ impl fmt::Debug for Status {
 /// Which of two shapes is at fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// the one before
+    /// the source, before the deformation
     Source,
-    /// the one after
+    /// the target, after the deformation
     Target,
 }
 
@@ -137,7 +137,7 @@ const ITEMS: [Item; sys::ICC_ITEM_FEATURE as usize] = [
 pub struct Error {
     /// what kind of failure; never [`Status::OK`]
     pub status: Status,
-    /// which item is at fault, from 0
+    /// the item at fault, from 0
     pub index: Option<usize>,
     /// what that item is
     pub item: Option<Item>,
@@ -181,7 +181,7 @@ impl Error {
     }
 }
 
-/// For files: the library's error is what the input or output error wraps.
+/// For files: the input or output error wraps the library's error.
 impl From<Error> for std::io::Error {
     fn from(error: Error) -> Self {
         std::io::Error::new(std::io::ErrorKind::InvalidData, error)

@@ -17,7 +17,7 @@ object!(
     icc_function_free
 );
 
-/// Options of [`Function::new`]. `None` and 0 are the library's choice.
+/// Options of [`Function::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FunctionOptions {
     /// `None`: decay
@@ -32,7 +32,7 @@ pub struct FunctionOptions {
     pub leaf_min: f64,
 }
 
-/// An edge between two triangles whose gradients both point to it, or both away.
+/// An edge between two triangles whose gradients both point to it or both point away from it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// its ends, grid vertices
@@ -58,7 +58,7 @@ impl Function {
         })
     }
 
-    /// The tree that the field was made on.
+    /// The tree that the function was made on.
     pub fn tree(&self) -> Borrowed<'_, Tree> {
         // SAFETY: the field keeps its tree, of which it always has one.
         unsafe {
@@ -93,8 +93,8 @@ impl Function {
         unsafe { std::slice::from_raw_parts(sys::icc_function_values(self.as_ptr()), self.n_vertices()) }
     }
 
-    /// The logarithm of every value, also where the values underflow. `None` for decay and distance, and when a
-    /// value inside is not positive.
+    /// The logarithm of every value, even where the values underflow. `None` for decay and distance, and if a value
+    /// inside is not positive.
     pub fn logs(&self) -> Option<&[f64]> {
         // SAFETY: borrowed from the field, one number per vertex unless NULL.
         unsafe {

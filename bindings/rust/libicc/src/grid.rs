@@ -9,7 +9,7 @@ use crate::sys;
 pub use crate::sys::icc_grid_info as GridInfo;
 
 object!(
-    /// A regular grid of vertices, each inside or outside of a shape; the first axis runs fastest.
+    /// A regular grid of vertices, each inside or outside a shape; the first axis is fastest.
     ///
     /// ```
     /// use libicc::stages::Grid;
@@ -26,8 +26,8 @@ object!(
 );
 
 impl Grid {
-    /// Covers a domain with a grid: `cells` along the longest side of its box, 0: 50 (for masks two for each of
-    /// theirs).
+    /// Covers a domain with a grid of `cells` cells along the longest side of its box. 0 means 50, or for masks two
+    /// for each cell of the mask.
     ///
     /// # Errors
     /// [`Status::RESOLUTION`](crate::Status::RESOLUTION) when no vertex is inside, or there would be too many.
@@ -57,7 +57,7 @@ impl Grid {
         })
     }
 
-    /// A copy where the vertices with 0 in `keep`, one byte per vertex, are outside.
+    /// Copies the grid and moves vertices with 0 in `keep`, one byte per vertex, to the outside.
     pub fn restrict(&self, keep: &[u8], env: &mut Env<'_>) -> Result<Grid> {
         exactly(keep, self.info().n_vertices, "keep")?;
         Grid::make(env, |out, env, err| {
@@ -80,7 +80,7 @@ impl Grid {
         unsafe { std::slice::from_raw_parts(sys::icc_grid_inside(self.as_ptr()), self.info().n_vertices) }
     }
 
-    /// The vertex farthest from the outside in the grassfire transform, and how often the fire burnt before it
+    /// The vertex farthest from the outside in the grassfire transform, and the number of rounds before the fire
     /// reached it.
     pub fn maximum(&self, env: &mut Env<'_>) -> Result<(u32, u32)> {
         let (mut vertex, mut rounds) = (0, 0);
@@ -91,7 +91,7 @@ impl Grid {
         Ok((vertex, rounds))
     }
 
-    /// The inside vertex nearest to a point of dim coordinates.
+    /// The vertex inside that is nearest to a point of dim coordinates.
     pub fn nearest(&self, point: &[f64]) -> Result<u32> {
         exactly(point, self.info().dim as usize, "point")?;
         let mut vertex = 0;

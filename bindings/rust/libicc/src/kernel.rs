@@ -1,9 +1,9 @@
 //! Kernel coordinates: smooth blending weights for handles, without a mesh.
 //!
 //! [`Shape`] (regions and curves) -> [`Sampling`] (points spread over it) -> [`Weights`] (handles, and a weight of
-//! each at every place) -> [`Binding`] (the same at caller-supplied points) -> [`Pose`].
+//! each at every place) -> [`Binding`] (the weights at your points) -> [`Pose`].
 //!
-//! Nothing here is certified to be one-to-one; [`Weights::report`] measures how well weights do what they should.
+//! These deformations are not certified to be one-to-one. [`Weights::report`] measures the quality of weights.
 //!
 //! ```
 //! use libicc::kernel::{Binding, Weights, WeightsOptions, Pose, Sampling, SamplingOptions, Shape};

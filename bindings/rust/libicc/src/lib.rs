@@ -1,8 +1,8 @@
-//! Moves everything inside a shape along, one-to-one, when its boundary moves.
+//! Moves the inside of a shape along with its boundary, one-to-one.
 //!
 //! [`Domain`] (a boundary and what it encloses) -> [`Chart`] (coordinates of the inside: a boundary point and a share
-//! of the way to the maximum) -> [`Map`] (two charts, and the homeomorphism of their boundaries). [`stages`] has the
-//! steps of the method one by one, [`kernel`] has smooth blending weights for handles.
+//! of the way to the maximum) -> [`Map`] (two charts whose boundaries correspond). [`stages`] has the steps of the
+//! method one by one, and [`kernel`] has smooth blending weights for handles.
 //!
 //! ```
 //! use libicc::{flat, rows, Domain, Env, Map, MapOptions};
@@ -20,15 +20,16 @@
 //! # Ok::<(), libicc::Error>(())
 //! ```
 //!
-//! Points are slices of coordinates, `dim` numbers each: [`flat`] and [`rows`] turn arrays into them and back without
-//! a copy. Results are `Vec`s; calls that end in `_into` write to slices instead. Every call that works takes an
-//! [`Env`]: threads, and callbacks that receive progress and diagnostics and may cancel or panic. Angles are radians.
+//! Points are slices of coordinates, `dim` numbers each. [`flat`] and [`rows`] turn arrays into them and back without
+//! a copy. Results are `Vec`s; calls that end in `_into` write to slices instead. Calls that compute take an [`Env`],
+//! which has the number of threads and callbacks for progress and diagnostics. Callbacks may cancel or panic. Angles
+//! are radians.
 //!
 //! Objects never change. They are `Send` and `Sync`, and keep alive what they were made from. A slice of the wrong
-//! length gives an [`Error`] with [`Status::ARGUMENT`], as wrong arguments do; nothing panics but [`rows`].
+//! length gives an [`Error`] with [`Status::ARGUMENT`], like any wrong argument. Only [`rows`] panics.
 //!
-//! Information structs and reports are those of C, see `libicc-sys` for their members; their `size` is of no interest
-//! here. (Not related to ICC colour profiles.)
+//! Information structs and reports are those of C. `libicc-sys` explains their members. Ignore their `size`. (It has
+//! nothing to do with ICC colour profiles.)
 #![warn(missing_docs, unsafe_op_in_unsafe_fn)]
 
 pub use libicc_sys as sys;

@@ -37,18 +37,18 @@ object!(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum MapKind {
-    /// point by point through two charts; any dimension
+    /// a curve map: point by point through two charts, in any dimension
     Curves = sys::ICC_MAP_CURVES,
-    /// a piecewise linear map, made fair in 2-D: the fastest queries
+    /// a mesh map: piecewise linear, of low distortion, with the fastest queries
     Mesh = sys::ICC_MAP_MESH,
 }
 
-/// Options of [`Map::new`]. `None` and 0 are the library's choice.
+/// Options of [`Map::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MapOptions<'a> {
     /// how the map works
     pub kind: Option<MapKind>,
-    /// mesh: improvement steps on each level; 0: as long as they pay off; -1: none
+    /// mesh map: at most this many improvement steps on each level; 0: as long as they pay off; -1: none
     pub iterations: i32,
     /// for both charts; its maximum is the source's
     pub chart: ChartOptions<'a>,
@@ -58,21 +58,22 @@ pub struct MapOptions<'a> {
     pub ties: &'a [Tie<'a>],
 }
 
-/// A path between two vertices of a domain with features, and where a map takes it.
+/// A path between two vertices of a domain with features, and its path in the target. It tells on which side features
+/// pass one another.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Tie<'a> {
-    /// where it begins and ends
+    /// its first and last vertex
     pub vertices: [u32; 2],
     /// its bends in the source, 2 coordinates each
     pub source: &'a [f64],
-    /// its bends in the target, which may be more or fewer
+    /// its bends in the target, whose number may differ
     pub target: &'a [f64],
 }
 
 /// A tie of a map: see [`Map::ties`].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct OwnedTie {
-    /// where it begins and ends
+    /// its first and last vertex
     pub vertices: [u32; 2],
     /// its bends in the source, 2 coordinates each
     pub source: Vec<f64>,
@@ -81,7 +82,7 @@ pub struct OwnedTie {
 }
 
 impl OwnedTie {
-    /// As [`MapOptions`] takes it.
+    /// The same tie for [`MapOptions`].
     pub fn borrow(&self) -> Tie<'_> {
         Tie { vertices: self.vertices, source: &self.source, target: &self.target }
     }
@@ -101,7 +102,7 @@ impl Tie<'_> {
 }
 
 impl MapOptions<'_> {
-    /// As C takes them; `chart` and `ties` must outlive them.
+    /// The options in C. They borrow `chart` and `ties`.
     fn raw(&self, chart: &sys::icc_chart_options, ties: &[sys::icc_tie]) -> sys::icc_map_options {
         sys::icc_map_options {
             n_ties: ties.len(),
@@ -115,23 +116,23 @@ impl MapOptions<'_> {
     }
 }
 
-/// Options of [`Map::improve`]. 0 is the library's choice.
+/// Options of [`Map::improve`]. 0 means the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ImproveOptions {
-    /// at most so many steps on each level; 0: 60
+    /// at most this many steps on each level; 0: as long as they pay off
     pub iterations: i32,
-    /// at most so many refinements; 0: 16; -1: none
+    /// at most this many refinements; 0: as long as they pay off; -1: none
     pub levels: i32,
-    /// the last level ends when a step gains less than this share of the energy; 0: 1e-4
+    /// the last level ends when a step gains less than this share of the energy; 0: the default
     pub tolerance: f64,
 }
 
-/// The mesh of a map of kind mesh.
+/// The mesh of a mesh map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapMesh {
     /// n_vertices * dim coordinates
     pub vertices: Vec<f64>,
-    /// where they go
+    /// their images, n_vertices * dim coordinates
     pub images: Vec<f64>,
     /// rows of dim + 1 vertex indices, positively oriented
     pub simplices: Vec<u32>,
@@ -177,7 +178,7 @@ impl Map {
         })
     }
 
-    /// Makes a map from two charts of the same method. Of the options `kind` and `iterations` are used.
+    /// Makes a map from two charts of the same method. Of the options only `kind` and `iterations` are used.
     pub fn from_charts(
         source: &Chart,
         target: &Chart,
@@ -192,7 +193,7 @@ impl Map {
         })
     }
 
-    /// Makes a fairer map from one of kind mesh. Cancelling ends it early, with the map reached so far.
+    /// Makes a map of lower distortion from a mesh map. If you cancel, it ends early with the map reached by then.
     pub fn improve(&self, options: &ImproveOptions, env: &mut Env<'_>) -> Result<(Map, ImproveReport)> {
         let raw = sys::icc_improve_options {
             iterations: options.iterations,
@@ -208,11 +209,11 @@ impl Map {
         Ok((map, report))
     }
 
-    /// The map to a target that has moved: the mesh is taken over, repaired, and improved by at most `iterations`
-    /// steps (0: what a frame has time for; -1: none). For dragging, in the plane and in space.
+    /// Makes the map to a target that has moved. It starts from this map and improves it by at most `iterations` steps
+    /// (0: as many as suit an interactive frame; -1: none). Use it for dragging, in the plane and in space.
     ///
     /// # Errors
-    /// [`Status::CERTIFICATE`] when the target cannot be reached.
+    /// [`Status::CERTIFICATE`] if the target cannot be reached.
     pub fn retarget(&self, target: &Domain, iterations: i32, env: &mut Env<'_>) -> Result<Map> {
         let raw = sys::icc_retarget_options { iterations, ..Default::default() };
         Map::make(env, |out, env, err| {
@@ -221,7 +222,7 @@ impl Map {
         })
     }
 
-    /// The map as bytes, its domains and charts included, for other processes: the same on every machine, with a
+    /// The map with its domains and charts as bytes, for other processes. They are the same on every machine and have a
     /// checksum.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         to_bytes(|capacity, data, n| {
@@ -233,8 +234,8 @@ impl Map {
     /// Reads a map back, as [`Chart::from_bytes`] does a chart. A mesh is certified anew.
     ///
     /// # Errors
-    /// [`Status::FORMAT`]; [`Status::VERSION`] for what a later version wrote, and for a chart on a grid that comes
-    /// out otherwise here than where it was saved.
+    /// [`Status::FORMAT`]; [`Status::VERSION`] if a later version wrote the bytes, or if a chart on a grid gives other
+    /// values here than where it was saved.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Map> {
         Map::make(env, |out, env, err| {
             // SAFETY: as many bytes.
@@ -242,7 +243,7 @@ impl Map {
         })
     }
 
-    /// What the map is made of, and whether it is certified.
+    /// Facts about the map, such as whether it is certified.
     pub fn info(&self) -> MapInfo {
         let mut info = MapInfo::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -258,8 +259,8 @@ impl Map {
         report
     }
 
-    /// Which way round one another features go: ties that make, given to [`MapOptions`], another map that can be
-    /// moved to this one while it stays one-to-one. Without features there are none.
+    /// The ties of the map, which tell on which side features pass one another. Passed to [`MapOptions`] they make a
+    /// map that can be moved to this one while it stays one-to-one. Without features there are none.
     pub fn ties(&self) -> Vec<OwnedTie> {
         (0..self.info().n_ties).map(|tie| self.tie(tie)).collect()
     }
@@ -293,10 +294,10 @@ impl Map {
         unsafe { Chart::found(sys::icc_map_target_chart(self.as_ptr())).map(|chart| Borrowed::new(chart)) }
     }
 
-    /// The mesh of a map of kind mesh.
+    /// The mesh of a mesh map.
     ///
     /// # Errors
-    /// [`Status::UNSUPPORTED`] for others.
+    /// [`Status::UNSUPPORTED`] for other maps.
     pub fn mesh(&self) -> Result<MapMesh> {
         let mut own = sys::icc_mesh::default();
         // SAFETY: `size` is set, and nothing but numbers is filled in.
@@ -313,12 +314,13 @@ impl Map {
         Ok(mesh)
     }
 
-    /// Source to target: n * dim coordinates. Points that have no image do not make the call fail.
+    /// Maps points from the source to the target: n * dim coordinates. The call does not fail if single points have no
+    /// image: check [`Images::n_failed`].
     pub fn apply(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
         self.carry(sys::icc_map_apply, points, env)
     }
 
-    /// Target to source.
+    /// Maps points from the target to the source.
     pub fn apply_inverse(&self, points: &[f64], env: &mut Env<'_>) -> Result<Images> {
         self.carry(sys::icc_map_apply_inverse, points, env)
     }
@@ -334,8 +336,8 @@ impl Map {
         Ok(images)
     }
 
-    /// As [`apply`](Self::apply), written to a slice of the same length, and n statuses. Returns how many points
-    /// have no image: NaN there.
+    /// Like [`apply`](Self::apply), but writes to a slice of the same length, and n statuses. Returns the number of
+    /// points without an image, which get NaN.
     pub fn apply_into(
         &self,
         points: &[f64],
@@ -349,7 +351,7 @@ impl Map {
         unsafe { self.transform(sys::icc_map_apply, n, points.as_ptr(), images.as_mut_ptr(), status, env) }
     }
 
-    /// As [`apply_inverse`](Self::apply_inverse), written to slices.
+    /// Like [`apply_inverse`](Self::apply_inverse), but writes to slices.
     pub fn apply_inverse_into(
         &self,
         points: &[f64],
@@ -364,7 +366,7 @@ impl Map {
         unsafe { self.transform(function, n, points.as_ptr(), images.as_mut_ptr(), status, env) }
     }
 
-    /// Replaces points by their images. Returns how many have none: NaN there.
+    /// Replaces points by their images. Returns the number of points without an image, which get NaN.
     pub fn apply_in_place(&self, points: &mut [f64], env: &mut Env<'_>) -> Result<usize> {
         let n = count(points, self.dim(), "points")?;
         let place = points.as_mut_ptr();
@@ -373,7 +375,7 @@ impl Map {
     }
 
     /// # Safety
-    /// `points` and `images` must be good for n points.
+    /// `points` and `images` must be valid for n points.
     unsafe fn transform(
         &self,
         function: Transform,
@@ -406,7 +408,7 @@ impl Map {
         Ok(images)
     }
 
-    /// Maps the vertices of a mesh and checks, exactly, whether the image is a mesh, too. `simplices` has rows of
+    /// Maps the vertices of a mesh and checks exactly whether the image is a valid mesh too. `simplices` has rows of
     /// dim + 1 vertex indices.
     pub fn certify(
         &self,
@@ -417,8 +419,8 @@ impl Map {
         self.carry_mesh(sys::icc_map_certify, vertices, simplices, env)
     }
 
-    /// Carries a mesh along so that no simplex inverts, if that can be: moves the images of inner vertices. The
-    /// certificate is that of the images returned.
+    /// Maps a mesh so that no simplex inverts, if possible, by moving the images of inner vertices. The certificate is
+    /// about the returned images.
     pub fn repair(
         &self,
         vertices: &[f64],
@@ -445,8 +447,8 @@ impl Map {
         Ok((images, certificate))
     }
 
-    /// Carries a picture along: each pixel of the target whose centre lies in the target domain gets its colour,
-    /// others are left alone. Returns how many pixels inside have no image.
+    /// Warps a picture. Each target pixel whose centre lies in the target domain gets the colour of its place in the
+    /// source. Other pixels stay as they are. Returns the number of pixels inside without an image.
     ///
     /// Pixel (i, j), column i of row j, covers \[i, i+1\] x \[j, j+1\] in the coordinates of the domains. Both
     /// pictures need the same channels, bytes and alpha.

@@ -9,13 +9,14 @@ use crate::sys;
 pub use crate::sys::icc_match_info as MatchInfo;
 
 object!(
-    /// The boundaries of two domains, paired: the same shapes with common vertices, ready for [`Map::new`].
+    /// The boundaries of two domains, paired. The two new domains have the same shapes and common vertices, and are
+    /// ready for [`Map::new`].
     ///
     /// ```
     /// use libicc::{Domain, Env, Map, MapOptions, Match, MatchOptions};
     /// let env = &mut Env::new();
     /// let corner = Domain::polygon(&[0.0, 0.0, 4.0, 0.0, 4.0, 1.0, 1.0, 1.0, 1.0, 2.0, 0.0, 2.0], env)?;
-    /// // The same with another first vertex, the other way round, and a vertex more.
+    /// // The same with another first vertex, the other direction and one more vertex.
     /// let other = Domain::polygon(
     ///     &[1.0, 1.0, 2.0, 1.0, 4.0, 1.0, 4.0, 0.0, 0.0, 0.0, 0.0, 2.0, 1.0, 2.0],
     ///     env,
@@ -50,46 +51,46 @@ type Follow = unsafe extern "C" fn(
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum Turning {
-    /// of pairings that are nearly as good, the one that turns the shape least
+    /// prefer small rotations among pairings that are nearly equal
     Upright = sys::ICC_TURNING_UPRIGHT,
-    /// any rotation is as good as any other
+    /// no preference
     Free = sys::ICC_TURNING_FREE,
 }
 
-/// How [`Match::new`] pairs what lies between landmarks.
+/// How [`Match::new`] pairs the parts of two outlines between landmarks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum Between {
-    /// like parts go to like parts
+    /// by shape: similar parts are paired
     Elastic = sys::ICC_BETWEEN_ELASTIC,
-    /// by arc length, for outlines without features
+    /// by arc length, for outlines without distinct parts, such as discs
     Arc = sys::ICC_BETWEEN_ARC,
 }
 
-/// Options of [`Match::new`]. `None` and 0 are the library's choice.
+/// Options of [`Match::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MatchOptions {
-    /// without landmarks
+    /// without landmarks: which rotations are preferred
     pub turning: Option<Turning>,
-    /// what lies between landmarks
+    /// how the parts between landmarks are paired
     pub between: Option<Between>,
-    /// without landmarks, a pairing that is less sure is refused; 0: 1.06; 1: none is
+    /// without landmarks, a pairing whose [`MatchInfo::sure`](crate::MatchInfo) is less is refused; 0: 1.06; 1: none
     pub least_sure: f64,
-    /// vertices that are so close in shares of the perimeter become one pair; at most 0.01; 0: only where they lie
-    /// within 0.3 of the shorter edge at them
+    /// vertices that lie within this share of the perimeter become one pair; at most 0.01; 0: only if they lie within
+    /// 0.3 of the shorter edge at them
     pub drop: f64,
-    /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; < 0: not at all
+    /// in space, how far the common surfaces may be off, as a share of the diagonal; 0: 1e-3; negative: not at all
     pub tolerance: f64,
-    /// in space, the source keeps all its vertices and edges, with more vertices where the target needs them
+    /// in space, the source keeps all its vertices and edges, and gets more vertices where the target needs them
     pub keep_source: bool,
 }
 
 impl Match {
-    /// Pairs the boundaries of two domains of the plane, or of space. `landmarks` has rows of a point of the source and
-    /// one of the target, or none.
+    /// Pairs the boundaries of two domains of the plane or of space. Each row of `landmarks` is a point of the
+    /// source and its partner in the target. It may be empty.
     ///
     /// # Errors
-    /// [`Status::AMBIGUOUS`](crate::Status::AMBIGUOUS) where another pairing is nearly as good;
+    /// [`Status::AMBIGUOUS`](crate::Status::AMBIGUOUS) if another pairing is nearly as good;
     /// [`Status::ARGUMENT`](crate::Status::ARGUMENT) with the landmark at fault as `index`.
     pub fn new(
         source: &Domain,
@@ -125,7 +126,7 @@ impl Match {
         })
     }
 
-    /// How good the pairing is, and how sure.
+    /// The cost of the pairing, and the confidence in it.
     pub fn info(&self) -> MatchInfo {
         let mut info = MatchInfo::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -153,7 +154,7 @@ impl Match {
         unsafe { Borrowed::new(domain) }
     }
 
-    /// For each common vertex, which one of the source and of the target that were given it is; `None`: it was added.
+    /// For each common vertex its number in the given source and in the given target; `None` if it was added.
     pub fn origins(&self) -> (Vec<Option<u32>>, Vec<Option<u32>>) {
         let n = self.info().n_vertices;
         let (mut source, mut target) = (vec![0; n], vec![0; n]);
@@ -163,8 +164,8 @@ impl Match {
         (given(source), given(target))
     }
 
-    /// Takes points of the source's boundary, n * dim coordinates, to the target's: their images, and how far each
-    /// was from the common boundary. Both are NaN for points that are not finite.
+    /// Takes points of the source's boundary, n * dim coordinates, to the target's. Returns their images and their
+    /// distances from the common boundary. Both are NaN for points that are not finite.
     ///
     /// # Errors
     /// [`Status::CANCELLED`](crate::Status::CANCELLED)
@@ -172,7 +173,7 @@ impl Match {
         self.follow(sys::icc_match_apply, points, env)
     }
 
-    /// Target to source; otherwise as [`apply`](Self::apply).
+    /// Target to source; otherwise like [`apply`](Self::apply).
     ///
     /// # Errors
     /// [`Status::CANCELLED`](crate::Status::CANCELLED)
@@ -193,7 +194,7 @@ impl Match {
     /// The match as bytes, with both domains, the same on every machine.
     ///
     /// # Errors
-    /// None that can be expected.
+    /// None is expected.
     pub fn to_bytes(&self) -> Result<Vec<u8>> {
         to_bytes(|capacity, data, n| {
             // SAFETY: there is room for `capacity` bytes.
@@ -204,8 +205,8 @@ impl Match {
     /// Reads a match back; its domains are checked as they were when they were made.
     ///
     /// # Errors
-    /// [`Status::FORMAT`](crate::Status::FORMAT); [`Status::VERSION`](crate::Status::VERSION) for what a later
-    /// version wrote.
+    /// [`Status::FORMAT`](crate::Status::FORMAT); [`Status::VERSION`](crate::Status::VERSION) if a later version
+    /// wrote the bytes.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Match> {
         Match::make(env, |out, env, err| {
             // SAFETY: as many bytes.

@@ -7,7 +7,7 @@ use std::ops::Deref;
 use std::os::raw::c_void;
 use std::ptr;
 
-/// An object that is owned by another one, for as long as that lives.
+/// A borrowed object that belongs to another one, and lives as long as that one.
 #[derive(Debug)]
 pub struct Borrowed<'a, T> {
     object: ManuallyDrop<T>,
@@ -16,7 +16,7 @@ pub struct Borrowed<'a, T> {
 
 impl<T> Borrowed<'_, T> {
     /// # Safety
-    /// What `object` stands for must live as long as the borrow. It is not freed.
+    /// The object must live as long as the borrow. It is not freed.
     pub(crate) unsafe fn new(object: ManuallyDrop<T>) -> Self {
         Borrowed { object, owner: PhantomData }
     }
@@ -49,12 +49,12 @@ macro_rules! object {
         }
 
         impl $name {
-            /// The object as C knows it, for calls of `libicc-sys`. Valid as long as `self`.
+            /// The raw object for calls of `libicc-sys`. Valid as long as `self`.
             pub fn as_ptr(&self) -> *const $crate::sys::$raw {
                 self.0.as_ptr()
             }
 
-            /// Calls a creator. What it has made is freed when the progress callback panicked.
+            /// Calls a creator. Frees its result if the progress callback panicked.
             #[allow(dead_code)]
             pub(crate) fn make(
                 env: &mut $crate::env::Env<'_>,
@@ -96,7 +96,7 @@ macro_rules! saved {
             /// Reads a file that [`save`](Self::save) wrote, as [`from_bytes`](Self::from_bytes) reads bytes.
             ///
             /// # Errors
-            /// Those of reading the file, and [`Error`](crate::Error) inside of one of kind `InvalidData`.
+            /// Those of reading the file; and an error of kind `InvalidData` that holds an [`Error`](crate::Error).
             pub fn load(
                 path: impl AsRef<std::path::Path>,
                 env: &mut $crate::env::Env<'_>,

@@ -22,11 +22,11 @@ pub struct PictureMut<'a> {
 /// How samples lie in memory, if not one byte each in rows without gaps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Layout {
-    /// of a sample, in the machine's order: 1 or 2, unsigned; 4 or 8: floats; 0: 1
+    /// bytes of a sample, in the machine's order: 1 or 2, unsigned; 4 or 8, floats; 0 means 1
     pub bytes: usize,
     /// whether the last of at least two channels is opacity
     pub alpha: bool,
-    /// bytes from a row to the next; 0: no gaps
+    /// bytes from one row to the next; 0: no gaps
     pub stride: usize,
 }
 
@@ -67,7 +67,7 @@ impl<'a> Picture<'a> {
         Ok(Picture { raw: icc_picture { pixels: pixels_at, ..raw }, pixels: PhantomData })
     }
 
-    /// How it is read between the centres of its pixels; without this linearly.
+    /// Sets how it is read between the centres of its pixels; the default is linear.
     pub fn interpolated(mut self, interpolation: Interpolation) -> Self {
         self.raw.interpolation = interpolation as i32;
         self
@@ -86,12 +86,12 @@ impl<'a> Picture<'a> {
 }
 
 impl<'a> PictureMut<'a> {
-    /// As [`Picture::new`].
+    /// Like [`Picture::new`].
     pub fn new(width: usize, height: usize, channels: usize, pixels: &'a mut [u8]) -> Result<Self> {
         Self::with_layout(width, height, channels, Layout::default(), pixels)
     }
 
-    /// As [`Picture::with_layout`].
+    /// Like [`Picture::with_layout`].
     pub fn with_layout(
         width: usize,
         height: usize,
@@ -109,7 +109,7 @@ impl<'a> PictureMut<'a> {
     }
 }
 
-/// All but the pixels, of which there must be enough. The library checks the rest.
+/// Everything except the pixels, of which there must be enough. The library checks the rest.
 fn picture(
     width: usize,
     height: usize,

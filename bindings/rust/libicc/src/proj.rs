@@ -3,9 +3,9 @@ use crate::error::{Error, Result, Status};
 use crate::map::Map;
 
 impl Map {
-    /// The mesh of a map of kind mesh in the plane as a triangulation for PROJ, in JSON. From a file, PROJ applies it
-    /// by `+proj=tinshift +file=FILE`, and so do all that use PROJ: GDAL, QGIS, PostGIS. The names of reference
-    /// systems, such as `EPSG:2056`, are noted in it; nothing is transformed by them.
+    /// The mesh of a mesh map in the plane as a triangulation for PROJ, in JSON. Save it to a file, and PROJ applies it
+    /// by `+proj=tinshift +file=FILE`. So do programs that use PROJ, such as GDAL, QGIS and PostGIS. The names of
+    /// reference systems, such as `EPSG:2056`, are only recorded; they transform nothing.
     ///
     /// # Errors
     /// [`Status::UNSUPPORTED`] for other maps.

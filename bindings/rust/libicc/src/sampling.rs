@@ -1,4 +1,4 @@
-//! What is to be deformed, and points spread over it.
+//! Shapes to be deformed, and points spread over them.
 use crate::domain::Domain;
 use crate::env::Env;
 use crate::error::{check, Result};
@@ -10,7 +10,7 @@ pub use crate::sys::icc_sampling_info as SamplingInfo;
 
 object!(ShapeObject, icc_shape, icc_shape_free);
 
-/// What is to be deformed: filled regions and curves, in 2-D or 3-D.
+/// A shape to be deformed: filled regions and curves, in 2-D or 3-D.
 #[derive(Debug)]
 pub struct Shape {
     object: ShapeObject,
@@ -30,30 +30,30 @@ object!(
 pub enum SamplingKind {
     /// a regular grid
     Grid = sys::ICC_SAMPLING_GRID,
-    /// blue noise: random, yet evenly spaced; on boundaries and curves, too
+    /// blue noise: random but evenly spaced, also on boundaries and curves
     Blue = sys::ICC_SAMPLING_BLUE,
 }
 
-/// Options of [`Sampling::new`]. `None` and 0 are the library's choice.
+/// Options of [`Sampling::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct SamplingOptions<'a> {
     /// `None`: blue
     pub kind: Option<SamplingKind>,
     /// blue: steps of relaxation; 0: 60; -1: none
     pub steps: i32,
-    /// the distance of neighbours; 0: 1/100 of the longest side
+    /// distance between neighbours; 0: 1/100 of the longest side, in 3-D 1/20
     pub spacing: f64,
-    /// grid: how far from the regions it goes, in spacings
+    /// grid: how far it extends beyond the regions, in spacings
     pub margin: f64,
-    /// blue: of the random numbers
+    /// blue: seed of the random numbers
     pub seed: u64,
-    /// blue: points that shall be samples, n * dim coordinates
+    /// blue: points that must be samples, n * dim coordinates
     pub fixed: Option<&'a [f64]>,
 }
 
 impl Shape {
-    /// A shape from regions and curves, which may be mixed: regions of dimension `dim`, curves as segments, rows of
-    /// two indices into `vertices`, n * dim coordinates. It keeps the regions alive.
+    /// Makes a shape from regions of dimension `dim` and curves, which may be mixed. Curves are segments: rows of two
+    /// indices into `vertices`, n * dim coordinates. The shape keeps the regions alive.
     ///
     /// # Errors
     /// [`Status::BOUNDARY`](crate::Status::BOUNDARY) when boundaries meet;
@@ -98,7 +98,7 @@ impl Shape {
         self.dim
     }
 
-    /// The object as C knows it, for calls of `libicc-sys`. Valid as long as `self`.
+    /// The raw object for calls of `libicc-sys`. Valid as long as `self`.
     pub fn as_ptr(&self) -> *const sys::icc_shape {
         self.object.as_ptr()
     }
@@ -130,7 +130,7 @@ impl Sampling {
         })
     }
 
-    /// A sampling from caller-supplied points, n * dim coordinates, which keep their order.
+    /// A sampling from your own points, n * dim coordinates, which keep their order.
     pub fn from_points(shape: &Shape, points: &[f64], env: &mut Env<'_>) -> Result<Sampling> {
         let n = count(points, shape.dim, "points")?;
         Sampling::make(env, |out, env, err| {
@@ -139,7 +139,7 @@ impl Sampling {
         })
     }
 
-    /// Counts, spacing, and a width for the kernel.
+    /// Counts, spacing, and a suggested width for the kernel.
     pub fn info(&self) -> SamplingInfo {
         let mut info = SamplingInfo::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -164,11 +164,11 @@ impl Sampling {
         })
     }
 
-    /// Reads a sampling back, bit for bit; any bytes are safe to try.
+    /// Reads a sampling back, bit for bit; any bytes are safe to pass.
     ///
     /// # Errors
-    /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) for what a later
-    /// version wrote.
+    /// [`Status::FORMAT`](crate::Status::FORMAT), or [`Status::VERSION`](crate::Status::VERSION) if a later
+    /// version wrote the bytes.
     pub fn from_bytes(data: &[u8], env: &mut Env<'_>) -> Result<Sampling> {
         Sampling::make(env, |out, env, err| {
             // SAFETY: as many bytes.

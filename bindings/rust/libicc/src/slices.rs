@@ -12,7 +12,7 @@ pub fn flat<const N: usize>(points: &[[f64; N]]) -> &[f64] {
     unsafe { std::slice::from_raw_parts(points.as_ptr().cast(), points.len() * N) }
 }
 
-/// As [`flat`], to be written to.
+/// Like [`flat`], but mutable.
 pub fn flat_mut<const N: usize>(points: &mut [[f64; N]]) -> &mut [f64] {
     // SAFETY: as in `flat`.
     unsafe { std::slice::from_raw_parts_mut(points.as_mut_ptr().cast(), points.len() * N) }
@@ -25,14 +25,14 @@ pub fn flat_mut<const N: usize>(points: &mut [[f64; N]]) -> &mut [f64] {
 /// ```
 ///
 /// # Panics
-/// When there is not a whole number of points.
+/// If there is not a whole number of points.
 pub fn rows<const N: usize>(coordinates: &[f64]) -> &[[f64; N]] {
     assert!(N > 0 && coordinates.len() % N == 0, "no whole number of points");
     // SAFETY: as in `flat`.
     unsafe { std::slice::from_raw_parts(coordinates.as_ptr().cast(), coordinates.len() / N) }
 }
 
-/// How many rows of `width` numbers there are.
+/// Number of rows of `width` numbers.
 pub(crate) fn count<T>(values: &[T], width: usize, name: &str) -> Result<usize> {
     if width == 0 || values.len() % width != 0 {
         return Err(Error::argument(format!("{}: {} numbers, not rows of {}", name, values.len(), width)));
@@ -59,7 +59,8 @@ pub(crate) fn mesh_of(dim: usize, vertices: &[f64], simplices: &[u32]) -> Result
     })
 }
 
-/// Numbers that the library takes as `int32_t`: what does not fit is out of range there, too.
+/// Converts numbers that the library takes as `int32_t`. A number that does not fit becomes one that the library
+/// refuses.
 pub(crate) fn int(value: usize) -> i32 {
     i32::try_from(value).unwrap_or(i32::MAX)
 }

@@ -1,6 +1,6 @@
 //! The stages of Integral Curve Coordinates one by one: [`Grid`], [`Tree`], [`Function`], and [`triangulate`].
 //!
-//! For those who study or teach the method, or need one stage only.
+//! Use these to study or teach the method, or if you need one stage only.
 //!
 //! ```
 //! use libicc::stages::{Function, FunctionOptions, Grid, Tree, TreeOptions};

@@ -24,20 +24,20 @@ object!(
 pub struct TreeOptions<'a> {
     /// `None`: the thesis'
     pub form: Option<TreeForm>,
-    /// the order in which a generation expands along the axes, a permutation of 0..dim; `None`: 0, 1, ..
+    /// the order in which a generation expands along the axes, a permutation of 0..dim; `None`: 0, 1 and so on
     pub axis_order: Option<&'a [usize]>,
 }
 
 /// An order of the vertices inside: see [`Tree::grow`].
 #[derive(Clone, Debug)]
 pub struct Order {
-    /// one number per grid vertex: 0 for the root, then 1, 2, ..; `u32::MAX` for vertices without a place
+    /// one number per grid vertex: 0 for the root, then 1, 2 and so on; `u32::MAX` for vertices without a place
     pub rank: Vec<u32>,
     /// what was done
     pub report: GrowReport,
 }
 
-/// Why there is no order, and how far it goes. `?` makes the error of it.
+/// Why there is no order, and the part that was found. `?` turns it into an [`Error`](crate::Error).
 #[derive(Clone, Debug)]
 pub struct Stuck {
     /// what went wrong
@@ -120,12 +120,12 @@ impl Tree {
         Ok(report)
     }
 
-    /// Orders the vertices inside so that the root is the only critical one. `values` is the order wished for, one
-    /// per grid vertex, the largest first; `None`: that of the tree.
+    /// Orders the vertices inside so that the root is the only critical one. `values` gives the preferred order, one
+    /// value per grid vertex, the largest first. `None` means the order of the tree.
     ///
     /// # Errors
-    /// [`Status::TOPOLOGY`], whose `index` is the vertex where growth got stuck, comes with the order as far as it
-    /// goes.
+    /// [`Status::TOPOLOGY`] comes with the part of the order that was found. Its `index` is the vertex where growth got
+    /// stuck.
     pub fn grow(&self, values: Option<&[f64]>, env: &mut Env<'_>) -> std::result::Result<Order, Stuck> {
         let n = self.n_vertices();
         if let Some(values) = values {

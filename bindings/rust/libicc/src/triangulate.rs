@@ -6,8 +6,8 @@ use crate::sys;
 
 /// Constrained Delaunay triangulation of a simple polygon with points inside (2-D), all decisions exact.
 ///
-/// `points` has n * 2 coordinates, those of the polygon's `n_boundary` vertices first. Rows of three indices,
-/// counter-clockwise with y upwards.
+/// `points` has n * 2 coordinates, those of the polygon's `n_boundary` vertices first. The result has rows of three
+/// indices, counter-clockwise with y upwards.
 ///
 /// ```
 /// use libicc::{stages::triangulate, Env};

@@ -1,4 +1,4 @@
-//! Weights of handles at every place of a shape.
+//! Weights of handles everywhere in a shape.
 use crate::env::Env;
 use crate::error::{check, Error, Result, Status};
 use crate::object::object;
@@ -12,14 +12,14 @@ pub use crate::sys::icc_weights_timings as WeightsTimings;
 pub use crate::sys::icc_weights_report as WeightsReport;
 
 object!(
-    /// Handles, and the weight of each at every place of a shape. Changes give new weights that share what is the
-    /// same.
+    /// Handles, and the weight of each handle everywhere in a shape. Changes make new weights, which share what has not
+    /// changed.
     Weights,
     icc_weights,
     icc_weights_free
 );
 
-/// The kernel that is summed up.
+/// The kernel that interpolates weights between samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum KernelForm {
@@ -29,12 +29,12 @@ pub enum KernelForm {
     Gauss = sys::ICC_KERNEL_GAUSS,
 }
 
-/// Where the weights start from.
+/// The weights that the optimisation starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum InitialWeights<'a> {
     /// diffusion of an impulse at each handle
     Heat,
-    /// diffusion, with weights that are linear along the edges held
+    /// diffusion that keeps weights linear along the edges
     Edges,
     /// inverse squared distance to the handles
     Inverse,
@@ -42,30 +42,30 @@ pub enum InitialWeights<'a> {
     Given(&'a [f64]),
 }
 
-/// What is optimised at each sample, under the conditions that weights sum to 1 and reproduce the sample.
+/// What is minimised at each sample. In all cases the weights sum to 1 and reproduce the sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum WeightsMethod {
-    /// least change of the initial weights, none negative
+    /// least squared change of the initial weights, none negative
     Qp = sys::ICC_WEIGHTS_QP,
-    /// least change, of any sign
+    /// least squared change, of any sign
     Equality = sys::ICC_WEIGHTS_EQUALITY,
     /// least sum of absolute changes
     L1 = sys::ICC_WEIGHTS_L1,
 }
 
-/// A segment along which weights are linear: what lies on it stays straight.
+/// A segment that stays straight, because weights are linear along it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Line {
-    /// an end of it; in 2-D the last number is ignored
+    /// one end; in 2-D the last number is ignored
     pub from: [f64; 3],
-    /// the other
+    /// the other end
     pub to: [f64; 3],
     /// an earlier line to stay parallel to
     pub parallel: Option<usize>,
 }
 
-/// Options of [`Weights::new`]. `None` and 0 are the library's choice.
+/// Options of [`Weights::new`]. `None` and 0 mean the default.
 #[derive(Clone, Copy, Debug)]
 pub struct WeightsOptions<'a> {
     /// `None`: Wendland
@@ -74,17 +74,17 @@ pub struct WeightsOptions<'a> {
     pub initial: Option<InitialWeights<'a>>,
     /// `None`: QP
     pub method: Option<WeightsMethod>,
-    /// of diffusion; 0: 5
+    /// steps of diffusion; 0: 5
     pub steps: i32,
-    /// an affine function beside the kernels, which makes sums and reproduction exact between the samples
+    /// an affine function is added to the kernels, so that sums and reproduction are exact between the samples
     pub affine_tail: bool,
-    /// diffusion only between samples that see each other inside the shape
+    /// weights diffuse only between samples that see each other inside the shape
     pub within_shape: bool,
     /// width of the kernel; 0: [`SamplingInfo::sigma`](crate::kernel::SamplingInfo)
     pub sigma: f64,
-    /// Gauss: in sigma; 0: 5
+    /// Gauss: radius in units of sigma; 0: 5
     pub cutoff: f64,
-    /// pairs of handles
+    /// edges: pairs of handles
     pub edges: &'a [[u32; 2]],
     /// lines to keep straight
     pub lines: &'a [Line],
@@ -125,11 +125,11 @@ pub struct Nodes {
 pub struct WeightValues {
     /// n * n_handles
     pub weights: Vec<f64>,
-    /// n * n_handles * dim derivatives, if asked for
+    /// n * n_handles * dim derivatives, if requested
     pub gradients: Option<Vec<f64>>,
-    /// what became of each point
+    /// the status of each point
     pub status: Vec<Status>,
-    /// how many points have no weights
+    /// number of points without weights
     pub n_failed: usize,
 }
 
@@ -138,7 +138,7 @@ impl Weights {
     ///
     /// # Errors
     /// With the handle, edge or line at fault as `index`: [`Status::OUTSIDE`], [`Status::ARGUMENT`];
-    /// [`Status::SOLVER`] when sigma is too large.
+    /// [`Status::SOLVER`] if sigma is too large.
     pub fn new(
         sampling: &Sampling,
         handles: &[f64],
@@ -160,7 +160,7 @@ impl Weights {
         })
     }
 
-    /// How the weights were made.
+    /// Facts about the weights.
     pub fn info(&self) -> WeightsInfo {
         let mut info = WeightsInfo::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -168,7 +168,7 @@ impl Weights {
         info
     }
 
-    /// How long each step of making the weights took.
+    /// Seconds for each step of making the weights.
     pub fn timings(&self) -> WeightsTimings {
         let mut timings = WeightsTimings::default();
         // SAFETY: `size` is set. It cannot fail.
@@ -199,8 +199,8 @@ impl Weights {
         Ok(nodes)
     }
 
-    /// Adds `amount` times a smooth brush of the radius to the weight of one handle around a place, and optimises
-    /// there again.
+    /// Paints: adds `amount` times a smooth brush of the given radius to the weight of one handle around a place, and
+    /// optimises there again.
     pub fn paint(
         &self,
         handle: usize,
@@ -217,7 +217,8 @@ impl Weights {
         })
     }
 
-    /// The same with given weights: node nodes\[i\] starts from row i of `weights`, n_handles numbers.
+    /// Like [`paint`](Self::paint), with weights of your own: node nodes\[i\] starts from row i of `weights`, n_handles
+    /// numbers.
     pub fn repaint(&self, nodes: &[u32], weights: &[f64], env: &mut Env<'_>) -> Result<Weights> {
         exactly(weights, product(&[nodes.len(), self.info().n_handles])?, "weights")?;
         Weights::make(env, |out, env, err| {
@@ -227,7 +228,7 @@ impl Weights {
         })
     }
 
-    /// The same nodes and initial weights with another method: what was painted or stiffened is gone.
+    /// Makes weights with the same nodes and initial weights but another method. Painting and stiffening are lost.
     pub fn with_method(&self, method: WeightsMethod, env: &mut Env<'_>) -> Result<Weights> {
         Weights::make(env, |out, env, err| {
             // SAFETY: a valid object.
@@ -235,8 +236,10 @@ impl Weights {
         })
     }
 
-    /// Makes weights vary as little as may be over a part of the shape, given by nodes and how much each matters
-    /// (`None`: all the same). Returns half the weighted sum of squared derivatives there, before and after, too.
+    /// Makes a part of the shape move as if it were rigid: weights vary there as little as possible. The part is
+    /// given by
+    /// nodes and the importance of each (`None`: all equal). Also returns half the weighted sum of squared derivatives
+    /// there, before and after.
     pub fn stiffen(
         &self,
         nodes: &[u32],
@@ -265,7 +268,7 @@ impl Weights {
         Ok((weights, energy))
     }
 
-    /// Weights at points, n * dim coordinates, with derivatives if asked for.
+    /// Weights at points, n * dim coordinates, with derivatives if requested.
     pub fn weights(&self, points: &[f64], gradients: bool, env: &mut Env<'_>) -> Result<WeightValues> {
         let info = self.info();
         let dim = info.dim as usize;
@@ -297,7 +300,8 @@ impl Weights {
         Ok(weights)
     }
 
-    /// The function that is 1 at a node, 0 at all others and interpolated as weights are, at points, n * dim coordinates.
+    /// The dual function of a node at points, n * dim coordinates: it is 1 at the node, 0 at all others, and
+    /// interpolated as weights are.
     pub fn dual(&self, node: usize, points: &[f64], env: &mut Env<'_>) -> Result<Vec<f64>> {
         let n = count(points, self.info().dim as usize, "points")?;
         let mut values = vec![0.0; n];
@@ -321,7 +325,7 @@ impl Weights {
 }
 
 impl WeightsOptions<'_> {
-    /// As C takes them; `lines` must outlive them.
+    /// The options in C. They borrow `lines`.
     fn raw(&self, lines: &[sys::icc_line]) -> sys::icc_weights_options {
         let (initial, given) = match self.initial {
             None => (0, ptr::null()),
