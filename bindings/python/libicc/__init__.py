@@ -5,11 +5,11 @@
     images = mapping(points)                 # one-to-one, certified
     points = mapping.inverse(images)
 
-`Domain` -> `Chart` -> `Map`; `libicc.stages` has the steps of the papers, `libicc.kernel` smooth weights for
-handles. Points are arrays (n, dim) of float64 in your coordinates, angles are radians.
+`Domain` -> `Chart` -> `Map`. `libicc.stages` has the steps of the papers, `libicc.kernel` smooth weights for handles.
+Points are arrays (n, dim) of float64 in your coordinates, and angles are radians.
 
-Objects are immutable and may be shared between threads; calls release the interpreter lock. Charts and maps
-can be pickled, and so sent to other processes and machines. Diagnostics go to the logger "libicc", level INFO.
+Objects are immutable, and threads may share them. Calls release the interpreter lock. Charts and maps can be pickled,
+so you can send them to other processes and machines. Diagnostics go to the logger "libicc", level INFO.
 """
 
 from . import kernel, stages

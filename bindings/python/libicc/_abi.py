@@ -1,6 +1,6 @@
 """The C interface of libicc: its structs and functions as tables, and the library itself.
 
-tests/test_abi.py holds both tables against the headers.
+tests/test_abi.py compares both tables with the headers.
 """
 
 from __future__ import annotations
@@ -216,7 +216,7 @@ def _make_struct(line: str) -> Any:
 
 
 class _Lazy:
-    """Namespace whose members are made from a table when they are first asked for."""
+    """A namespace whose members are made from a table on first use."""
 
     def __init__(self, table: str, make: Callable[[str], Any]):
         self._lines = {}
@@ -235,7 +235,7 @@ class _Lazy:
 
 
 def _open() -> ctypes.CDLL:
-    """The library named by LIBICC_LIBRARY, or beside this file, or the system's."""
+    """Opens the library named by LIBICC_LIBRARY, or the one beside this file, or the system's."""
     file = {"win32": "libicc.dll", "darwin": "libicc.0.dylib"}.get(sys.platform, "libicc.so.0")
     beside = pathlib.Path(__file__).with_name(file)
     named = os.environ.get("LIBICC_LIBRARY") or (str(beside) if beside.exists() else file)

@@ -58,19 +58,19 @@ class Chart(Saved):
     (0, [[2.0, 1.0]])
 
     Args:
-        domain: a Domain, or what `as_domain` takes
+        domain: a Domain, or anything that `as_domain` takes
         method: "foliation", "disc" (2-D), "field" or "gradient"; None: the best available
-        cells: grid or mesh cells along the longest side; None: as many as suit
-        maximum: where the curves are to end, (dim,), or None
-        function: for the method gradient: "decay", "distance", "laplace", "bilaplace", "clamped" or "harmonic"
-        constraints: whether it is made to fall along the tree: "needed", "none" or "all"
+        cells: grid or mesh cells along the longest side; None: 50
+        maximum: point where the curves end, (dim,); None: chosen by the method
+        function: for method gradient: "decay", "distance", "laplace", "bilaplace", "clamped" or "harmonic"
+        constraints: whether the function is forced to fall along the tree: "needed", "none" or "all"
         solver: "direct" or "iterative"
         tree: "thesis" or "paper"
         min_fall, leaf_min: least relative fall and least value, see ``icc_chart_options``
         progress, threads: as for `Domain`
 
     Raises:
-        CertificateError, ResolutionError, OutsideError (the maximum), UnsupportedError, SolverError
+        CertificateError, ResolutionError, OutsideError (the maximum is outside), UnsupportedError, SolverError
     """
 
     _free = "chart_free"
@@ -95,9 +95,9 @@ class Chart(Saved):
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_chart_info``, and of the struct that the method has for itself:
-        ``icc_gradient_info``, ``icc_field_info``, ``icc_foliation_info``, ``icc_shelling_info`` (foliation on a
-        domain's mesh) or ``icc_disc_info``; method, function and tree by their names."""
+        """The members of ``icc_chart_info`` and of the method's own struct: ``icc_gradient_info``, ``icc_field_info``,
+        ``icc_foliation_info``, ``icc_shelling_info`` (foliation on a domain's mesh) or ``icc_disc_info``. Method,
+        function and tree are given by name."""
         info = self._info("chart_get_info", "chart_info")
         result = fields(info, info.dim)
         result.method = name_of(info.method, METHODS)
@@ -112,7 +112,7 @@ class Chart(Saved):
 
     @property
     def timings(self) -> SimpleNamespace:
-        """How long each step of making the chart took, in seconds: the members of ``icc_chart_timings``."""
+        """Seconds for each step of making the chart: the members of ``icc_chart_timings``."""
         return fields(self._info("chart_get_timings", "chart_timings"))
 
     @property
@@ -122,7 +122,7 @@ class Chart(Saved):
 
     def report(self, n_points: int = 0, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> SimpleNamespace:
-        """Estimates what the coordinates miss from `n_points` evenly spread points (0: 4096): the members of
+        """Estimates what the coordinates miss from `n_points` evenly spread points (0: 4096). Returns the members of
         ``icc_chart_report``, shares in [0, 1]."""
         call, measures = Call(progress, threads), new("chart_report")
         call.check(lib.chart_get_report(self, n_points, ctypes.addressof(measures), call.env,
@@ -138,15 +138,15 @@ class Chart(Saved):
 
     def encode(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> Any:
-        """Cartesian -> integral curve coordinates.
+        """Computes the coordinates of points in the chart.
 
         Args:
             points: (n, dim)
-            status: whether to return the status of every point, too
+            status: whether to return the status of every point as well
 
         Returns:
             facet (n,) uint32, bary (n, dim), t (n,), and with ``status`` an int32 array (n,): 0, or the
-            number of an `Error`. A point without coordinates has NaN in bary and t; it raises nothing.
+            number of an `Error`. A point without coordinates has NaN in bary and t, and raises nothing.
         """
         points = points_of(points, self.dim)
         n, dim = points.shape
@@ -166,16 +166,16 @@ class Chart(Saved):
 
     def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: bool = False,
                progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
-        """Integral curve coordinates -> Cartesian; the inverse of `encode`.
+        """Computes the points that have given coordinates: the inverse of `encode`.
 
         Args:
             facet: (n,) indices of boundary facets
             bary: (n, dim) barycentric coordinates there: not negative, sum 1
             t: (n,) shares of the curves' arc length from the boundary, in [0, 1]
-            status: whether to return the status of every point, too
+            status: whether to return the status of every point as well
 
         Returns:
-            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as `encode`
+            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as in `encode`
         """
         dim = self.dim
         facet = np.ascontiguousarray(facet, dtype=np.uint32)
@@ -189,7 +189,7 @@ class Chart(Saved):
         return (points, states) if status else points
 
     def trace(self, point: ArrayLike) -> Floats:
-        """The curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim)."""
+        """Computes the curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim)."""
         dim = self.dim
         point = points_of(point, dim)
         call, n = Call(threads=1), ctypes.c_size_t()

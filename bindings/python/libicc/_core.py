@@ -27,7 +27,7 @@ _LOG = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_char_p)
 
 
 def _listener() -> Optional[Any]:
-    """The logger of diagnostics, if anybody listens: nobody does who has not imported `logging`."""
+    """The logger of diagnostics, if anybody listens. Without `logging` imported, nobody does."""
     logging = sys.modules.get("logging")
     if logging is None:
         return None
@@ -50,7 +50,7 @@ _FEW_POINTS = 2048
 class Call:
     """The `env` and the `err` of one call.
 
-    ``check`` raises what went wrong, and what a progress callback raised in place of that.
+    ``check`` raises the error of the call, or instead the exception that a progress callback raised.
     """
 
     def __init__(self, progress: Optional[Progress] = None, threads: Optional[int] = None,
@@ -93,7 +93,7 @@ def _threads(wanted: Optional[int]) -> int:
 
 def bulk(n: int, progress: Optional[Progress],
          threads: Optional[int]) -> Tuple[Optional[int], Callable[[int], None]]:
-    """What a call for many points takes as `env`, and a function that checks its status."""
+    """The `env` for a call on many points, and a function that checks its status."""
     if progress is None and threads is None and n < _FEW_POINTS:
         return None, check
     call = Call(progress, threads)
@@ -101,7 +101,7 @@ def bulk(n: int, progress: Optional[Progress],
 
 
 def is_geometry(shape: Any) -> bool:
-    """Whether something is one of shapely's geometries, or looks like one."""
+    """Whether an object is a shapely geometry, or looks like one."""
     return any(hasattr(shape, name) for name in ("geom_type", "geoms", "exterior", "coords"))
 
 
@@ -121,8 +121,8 @@ def coordinates(shapes: Any) -> Floats:
 
 
 def _numbers(points: ArrayLike, dim: int) -> Floats:
-    """Points as a contiguous array of float64; copied only if need be. Of shapely geometries the coordinates, heights
-    left out in 2-D."""
+    """Points as a contiguous array of float64, copied only if necessary. For shapely geometries these are the
+    coordinates, in 2-D without heights."""
     if is_geometry(points):
         points = coordinates(parts_of(points))[:, :dim]
     elif isinstance(points, (list, tuple)) and len(points) > 0 and is_geometry(points[0]):
@@ -141,8 +141,8 @@ def points_of(points: ArrayLike, dim: int, name: str = "points") -> Floats:
 
 
 def grid_of(points: ArrayLike, dim: int) -> Tuple[Floats, Tuple[int, ...]]:
-    """Points as `points_of`, and the shape of what they came in, without the axis of coordinates: a grid
-    (height, width, dim) has the shape (height, width)."""
+    """Points as in `points_of`, and the shape of the input without the axis of coordinates: a grid (height, width, dim)
+    has the shape (height, width)."""
     array = _numbers(points, dim)
     shape = array.shape[:-1]
     if array.ndim > 2 and array.shape[-1] == dim:
@@ -175,14 +175,14 @@ def address(array: Optional[Array]) -> Optional[int]:
 
 
 def mesh_of(vertices: Floats, simplices: Indices) -> Any:
-    """The ``icc_mesh`` with these arrays, for reading or for writing; the caller must keep it and them alive in
+    """The ``icc_mesh`` with these arrays, for reading or for writing. The caller must keep it and the arrays alive in
     variables."""
     return new("mesh", dim=vertices.shape[1], n_vertices=len(vertices), vertices=address(vertices),
                n_cells=len(simplices), cells=address(simplices))
 
 
 def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
-    """The members of a struct but for `size` and padding; arrays by dimension as NumPy arrays."""
+    """The members of a struct except `size` and padding. Arrays by dimension become NumPy arrays."""
     members = {}
     for name, kind in struct._fields_:
         value = getattr(struct, name)
@@ -195,7 +195,7 @@ def fields(struct: Any, dim: Optional[int] = None) -> SimpleNamespace:
 
 
 def choose(value: Optional[str], choices: Dict[str, int], name: str) -> int:
-    """The number of a choice that is given by its name; None means the default."""
+    """The number of a choice that is given by name; None means the default."""
     if value is None:
         return 0
     try:
@@ -225,7 +225,7 @@ class Handle:
         raise TypeError(f"{type(self).__name__} cannot be made this way")
 
     def __init_subclass__(cls, **options: Any) -> None:
-        """`help(Map.__init__)` says what `help(Map)` does: arguments are described with the class."""
+        """`help(Map.__init__)` shows the same text as `help(Map)`, because the class describes its arguments."""
         super().__init_subclass__(**options)
         own = cls.__dict__.get("__init__")
         if own is not None and own.__doc__ is None:
@@ -244,13 +244,12 @@ class Handle:
 
     @classmethod
     def _borrow(cls: Type[_T], handle: Optional[int], owner: "Handle") -> Optional[_T]:
-        """What belongs to `owner`, if it has it."""
+        """A borrowed object that belongs to `owner`, or None if there is none."""
         return cls._wrap(handle, owner) if handle else None
 
     @property
     def _as_parameter_(self) -> int:
-        """What ctypes passes on: objects are handed to the library themselves, so that they outlive the
-        call."""
+        """What ctypes passes on. Objects themselves are passed to the library, so that they outlive the call."""
         return self._handle
 
     def __del__(self) -> None:
@@ -258,7 +257,7 @@ class Handle:
             getattr(lib, self._free)(self._handle)
 
     def __copy__(self: _T) -> _T:
-        """The object itself: it never changes."""
+        """The object itself, because it never changes."""
         return self
 
     def __deepcopy__(self: _T, memo: Any) -> _T:
@@ -292,17 +291,17 @@ class Saved(Handle):
     @classmethod
     def from_bytes(cls: Type[_S], data: Any, *, limit: Optional[int] = None,
                    progress: Optional[Progress] = None, threads: Optional[int] = None) -> _S:
-        """The object that `to_bytes` wrote: it gives the same results, bit for bit.
+        """Reads the object that `to_bytes` wrote. It gives the same results, bit for bit.
 
         Args:
-            data: bytes, or anything with a buffer; any bytes are safe to pass
-            limit: bytes of memory that it may take beyond 64 for each of `data`; None: 256,000,000.
-                Time is limited in proportion. Charts on fine grids are rebuilt, and may need more; the error
-                message then names this as `icc_env.load_limit`.
+            data: bytes, or anything with a buffer. Any bytes are safe to pass
+            limit: bytes of memory that loading may take, in addition to 64 for each byte of `data`; None: 256,000,000.
+                Time is limited in proportion. Charts on fine grids are rebuilt and may need more. The error message
+                then names this limit as `icc_env.load_limit`.
 
         Raises:
-            FormatError: for anything else, and where the limit is too low; VersionError: for what a later
-                version wrote
+            FormatError: for any other bytes, and if the limit is too low; VersionError: if a later version wrote the
+                bytes
         """
         if limit is not None and not 0 < limit <= _NO_LIMIT:
             raise ValueError(f"limit is {limit}; it must lie in 1..2**64 - 1")
@@ -324,7 +323,7 @@ class Saved(Handle):
     @classmethod
     def load(cls: Type[_S], path: Union[str, "os.PathLike[str]"], *, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> _S:
-        """The object that `save` wrote to a file; otherwise as `from_bytes`."""
+        """Reads the object that `save` wrote to a file; otherwise like `from_bytes`."""
         with open(path, "rb") as file:
             return cls.from_bytes(file.read(), progress=progress, threads=threads)
 
@@ -333,7 +332,7 @@ class Saved(Handle):
 
 
 def dimension(function: str, struct: str) -> property:
-    """A property that asks once."""
+    """A property that calls the library once."""
 
     def ask(self: Handle) -> int:
         if self._dim is None:

@@ -1,4 +1,4 @@
-"""Domains: shapes, from whatever describes one."""
+"""Domains: shapes, made from anything that describes one."""
 
 from __future__ import annotations
 
@@ -53,27 +53,27 @@ class Domain(Handle):
     True
 
     Args:
-        vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last
-            vertex is the first one again; or a shapely Polygon, LinearRing or MultiPolygon of one part
-            (its holes come before those of ``holes``; heights are left out); or the same as GeoJSON (a dict), or in
-            a GeoSeries or GeoDataFrame with one row. A boolean array is a mask, as for `from_mask`.
-        facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles
-            (3-D) and so on. May be left out in 2-D: a polygon through the vertices in their order.
-        holes: polygons inside a polygon without facets, which are not part of the shape
+        vertices: float array of shape (n, dim). A polygon without facets may be a closed ring, whose last vertex
+            repeats the first. It may also be a shapely Polygon, LinearRing or MultiPolygon of one part, the same as
+            GeoJSON (a dict), or a GeoSeries or GeoDataFrame with one row. Their holes come before those of ``holes``,
+            and heights are left out. A boolean array is a mask, as in `from_mask`.
+        facets: int array of shape (m, dim): vertex indices of the boundary's edges (2-D), triangles (3-D) and so on. In
+        2-D you may leave it out for a polygon through the vertices in order.
+        holes: polygons inside a polygon that are not part of the shape; only without ``facets``
         lines: polylines inside it, (n, 2) each; two vertices make a bone
-        points: points inside it, (n, 2). The features are numbered in this order: holes, lines, points. A
-            `Map` takes each to that of the same number, vertex by vertex; only maps of kind "mesh" can.
-        radii: of points with a size, one for each or the same for all; 0: none. The circle round such a
-            point goes along, larger or smaller, but does not turn: it is a line of 16 vertices behind all
+        points: points inside it, (n, 2). Features are numbered in this order: holes, lines, points. A `Map` of kind
+            "mesh" takes each feature to the one of the same number, vertex by vertex. Other kinds refuse features.
+        radii: sizes of points, one for each or the same for all; 0: no size. The circle around a point with a size
+            moves along and may grow or shrink, but does not turn. It becomes a line of 16 vertices, which follows all
             other features.
-        features: instead of holes, lines and points: pairs of "hole", "line" or "point" and vertices, in the
-            order of their numbers, as another domain's `features` are. So a domain can be built again, circles
-            of radii included, whose lines come behind points.
-        progress, threads: see `libicc.Progress`; threads default to one per processor, results are
-            the same for every number
+        features: instead of holes, lines and points: pairs of a kind ("hole", "line" or "point") and vertices, in the
+            order of their numbers. This is the form of another domain's `features`, so you can build a domain again,
+            including the circles of radii.
+        progress, threads: see `libicc.Progress`. There is one thread per processor by default. Results are the same for
+            every number
 
     Raises:
-        BoundaryError, TopologyError, OutsideError: with the vertex, facet or feature at fault as ``index``
+        BoundaryError, TopologyError, OutsideError: ``index`` is the vertex, facet or feature at fault
     """
 
     _free = "domain_free"
@@ -133,14 +133,14 @@ class Domain(Handle):
     @classmethod
     def from_mask(cls, mask: ArrayLike, *, progress: Optional[Progress] = None,
                   threads: Optional[int] = None) -> "Domain":
-        """The solid of the cells of a mask that are true; cell (i, j, ..) covers
-        [i, i + 1] x [j, j + 1] x .., so axis k of the array is coordinate k."""
+        """Makes a domain from the cells of a mask that are true. Cell (i, j, ..) covers [i, i + 1] x [j, j + 1] x ..,
+        so axis k of the array is coordinate k."""
         return cls._wrap(_of_mask(np.asarray(mask), progress, threads))
 
     @classmethod
     def from_mesh(cls, vertices: ArrayLike, simplices: ArrayLike, facets: Optional[ArrayLike] = None, *,
                   progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Domain":
-        """A domain with a conforming mesh of its inside, on which foliations work in every dimension.
+        """Makes a domain with a conforming mesh of its inside. Method foliation works on it in every dimension.
 
         Args:
             vertices: (n, dim)
@@ -159,11 +159,11 @@ class Domain(Handle):
 
     def filled(self, *, ratio: float = 0.0, max_points: int = 0, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> "Domain":
-        """This surface in 3-D, filled with tetrahedra: the same vertices and facets, and vertices inside.
+        """Fills this surface in 3-D with tetrahedra. Its vertices and facets stay, and vertices are added inside.
 
         Args:
-            ratio: circumradius over shortest edge from which tetrahedra are refined; 0: 1.6
-            max_points: refinement ends at so many inner vertices; 0: no limit
+            ratio: tetrahedra are refined until the circumradius is at most this many shortest edges; 0: the default
+            max_points: refinement ends at this number of inner vertices; 0: no limit
         """
         options = structs.fill_options(ratio=ratio, max_points=max_points)
         options.size = ctypes.sizeof(options)
@@ -172,8 +172,7 @@ class Domain(Handle):
 
     @property
     def mesh(self) -> Tuple[Floats, Indices]:
-        """Copies of the vertices of the mesh of the inside, those of the boundary first, and of its
-        simplices."""
+        """Copies of the vertices of the mesh of the inside, boundary vertices first, and of its simplices."""
         info = self._info("domain_get_info", "domain_info")
         vertices = np.empty((info.n_mesh_vertices, info.dim))
         simplices = np.empty((info.n_mesh_simplices, info.dim + 1), dtype=np.uint32)
@@ -208,7 +207,7 @@ class Domain(Handle):
 
     @property
     def features(self) -> List[Tuple[str, Floats]]:
-        """What lies inside, in order: "hole", "line" or "point", and its vertices."""
+        """The features inside, in order: "hole", "line" or "point", and its vertices."""
         vertices, features = self.vertices, []
         for number in range(self._info("domain_get_info", "domain_info").n_features):
             info = new("feature_info")
@@ -226,10 +225,10 @@ class Domain(Handle):
 
     def locate(self, points: ArrayLike, *, nearest: bool = False, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> Any:
-        """Where points lie: an int32 array of INSIDE, BOUNDARY and OUTSIDE.
+        """Reports where points lie: an int32 array of INSIDE, BOUNDARY and OUTSIDE.
 
-        With ``nearest`` also the nearest facets (n,) and the barycentric coordinates (n, dim) of the
-        nearest boundary points.
+        With ``nearest`` it also returns the nearest facets (n,) and the barycentric coordinates (n, dim) of the nearest
+        boundary points.
         """
         dim = self.dim
         points = points_of(points, dim)
@@ -248,14 +247,14 @@ class Domain(Handle):
 
 
 def as_domain(shape: ShapeLike) -> Domain:
-    """A domain from whatever describes one.
+    """Makes a domain from anything that describes one.
 
     >>> libicc.as_domain(numpy.ones((3, 2), dtype=bool)).info.measure
     6.0
 
-    Takes a Domain; what `Domain` takes: an array of polygon vertices in their order, a polygon of shapely, geopandas or
-    GeoJSON (a dict), a boolean mask; a pair (vertices, facets); a meshio Mesh of triangles in space (a surface), of
-    triangles in the plane or of tetrahedra (a conforming mesh).
+    It takes a Domain; anything that `Domain` takes, such as an array of polygon vertices, a polygon of shapely,
+    geopandas or GeoJSON (a dict), or a boolean mask; a pair (vertices, facets); or a meshio Mesh. A meshio Mesh of
+    triangles in space is a surface. One of triangles in the plane or of tetrahedra is a conforming mesh.
     """
     if isinstance(shape, Domain):
         return shape
@@ -267,7 +266,7 @@ def as_domain(shape: ShapeLike) -> Domain:
 
 
 def as_domains(source: ShapeLike, target: ShapeLike) -> Tuple[Domain, Domain]:
-    """Both of a pair; errors say which one is at fault."""
+    """Makes both domains of a pair. Errors say which one is at fault."""
     with blaming(1):
         first = as_domain(source)
     with blaming(2):
@@ -320,7 +319,7 @@ def _from_geojson(tree: Any) -> Any:
 
 def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
               points: Optional[ArrayLike]) -> List[Tuple[str, Floats]]:
-    """What lies inside: kinds and vertices."""
+    """The features inside: kinds and vertices."""
     features = [("hole", points_of(_outline(hole), 2)) for hole in holes]
     features += [("line", points_of(line, 2)) for line in lines]
     if points is not None and not (isinstance(points, (list, tuple)) and len(points) == 0):
@@ -329,7 +328,7 @@ def _features(holes: Iterable[ArrayLike], lines: Iterable[ArrayLike],
 
 
 def _features_in_order(features: Iterable[Tuple[str, ArrayLike]]) -> List[Tuple[str, Floats]]:
-    """The features that are given as such, with vertices as arrays."""
+    """The features that are given in order, with vertices as arrays."""
     result = []
     for number, (kind, vertices) in enumerate(features):
         if kind not in FEATURES:
@@ -382,7 +381,7 @@ def _from_meshio(mesh: Any) -> Domain:
 
 
 def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
-    """Every defect that keeps a closed polygon (n, 2) from being a boundary: a list of (kind, a, b).
+    """Lists the defects that keep a closed polygon (n, 2) from being a boundary, as (kind, a, b).
 
     >>> libicc.boundary_defects([[0, 0], [2, 2], [2, 0], [0, 2]])
     [('crossing', 0, 2)]
@@ -400,8 +399,8 @@ def boundary_defects(vertices: ArrayLike) -> List[Tuple[str, int, int]]:
 
 
 def repair_mask(mask: ArrayLike) -> Tuple[Bools, int]:
-    """A mask without cells that touch only along an edge or a corner, and how many cells were
-    filled for that.
+    """Repairs a mask in which cells touch only along an edge or a corner. Returns the repaired mask and the number of
+    cells that were filled.
 
     >>> mended, n = libicc.repair_mask([[1, 0], [0, 1]])
     >>> int(mended.sum()), n

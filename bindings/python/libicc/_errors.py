@@ -12,13 +12,13 @@ ITEMS = (None, "vertex", "facet", "simplex", "cell", "grid vertex", "axis", "poi
 
 
 class Error(Exception):
-    """What the library reports about a call that failed.
+    """An error that the library reports about a failed call.
 
     Attributes:
         status: the number of the status (``Error.ARGUMENT`` and so on)
-        index: which item is at fault, from 0, or -1
-        item: what that is: "vertex", "facet", "simplex", "cell", "point", .. or None
-        side: 1 when the source is at fault, 2 for the target, 0 for neither
+        index: the item at fault, from 0, or -1
+        item: what ``index`` counts, such as "vertex", "facet" or "point"; or None
+        side: 1 if the source is at fault, 2 if the target is, else 0
     """
 
     ARGUMENT, MEMORY, VERSION, BOUNDARY, RESOLUTION, TOPOLOGY, OUTSIDE = range(1, 8)
@@ -67,7 +67,7 @@ class TraceError(Error, ArithmeticError):
 
 
 class VersionError(Error):
-    """A later version wrote this, or the library is older than what it was given."""
+    """A struct or saved object is from another version."""
 
 
 class CertificateError(Error, ArithmeticError):
@@ -106,7 +106,7 @@ _ERRORS = {
 
 @contextmanager
 def blaming(side: int) -> Iterator[None]:
-    """Errors raised within are the fault of the source (1) or of the target (2), and their messages say so."""
+    """Marks errors raised inside as the fault of the source (1) or of the target (2). Their messages say so."""
     name = ("source", "target")[side - 1]
     try:
         yield

@@ -1,4 +1,4 @@
-"""Pictures: warping them, and maps as scikit-image understands them."""
+"""Warps pictures, and turns maps into transforms for scikit-image."""
 
 from __future__ import annotations
 
@@ -41,16 +41,16 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
         image: (height, width) or (height, width, channels), uint8, uint16, float32 or float64, up to 64
             channels. Pixel [j, i] covers [i, i + 1] x [j, j + 1] in the coordinates of the map's domains.
         mapping: from places in the picture to places in the result
-        out: a picture to draw onto, with as many channels, of any size: its pixels outside the target
-            stay. None: a copy of `image`.
-        alpha: whether the last channel is opacity; None: if there are 2 or 4 of whole numbers, interpolation is
-            linear, and nothing is missing
+        out: a picture to draw onto, of any size, with as many channels. Its pixels outside the target stay. None: a
+            copy of `image`.
+        alpha: whether the last channel is opacity. None: yes if there are 2 or 4 channels of whole numbers,
+            interpolation is linear and no samples are missing
         interpolation: "nearest", "linear" or "cubic"
-        nodata: the value of samples that are missing, also NaN; None: none are
+        nodata: the value of missing samples, which may be NaN; None: none are missing
         progress, threads: see `libicc.Progress`
 
     Returns:
-        the picture drawn, a new array of the shape of `out`
+        the warped picture, a new array of the shape of `out`
     """
     image = np.asarray(image)
     if image.dtype not in (np.uint8, np.uint16, np.float32, np.float64):
@@ -77,15 +77,15 @@ def warp_image(image: ArrayLike, mapping: Map, out: Optional[ArrayLike] = None, 
 
 
 class PixelTransform:
-    """A 2-D map as ``skimage.transform.warp`` takes one: from places in the result to places in the
-    picture, both as (column, row) with whole numbers at the centres of pixels.
+    """A 2-D map for ``skimage.transform.warp``. It goes from places in the result to places in the picture. Both are
+    (column, row), with whole numbers at the centres of pixels.
 
     >>> frame = libicc.picture_cage((20, 30))
     >>> libicc.PixelTransform(libicc.Map(frame, frame * 2))([[9.5, 19.5]]).round(6)
     array([[4.5, 9.5]])
 
-    ``skimage.transform.warp(image, PixelTransform(mapping))``; whatever is outside the target cage stays where
-    it is, or is left blank with ``outside="blank"``.
+    Use it as ``skimage.transform.warp(image, PixelTransform(mapping))``. Pixels outside the target cage stay where they
+    are. With ``outside="blank"`` they are left blank.
     """
 
     def __init__(self, mapping: Map, outside: str = "keep"):

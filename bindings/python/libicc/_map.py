@@ -42,8 +42,8 @@ KINDS = {"curves": 1, "mesh": 2}
 class Map(Saved):
     """A map from one domain to another that agrees with their boundaries.
 
-    Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`; `inverse`, or
-    `apply_inverse`, goes back.
+    Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`. To go back, use
+    `inverse` or `apply_inverse`.
 
     >>> mapping = libicc.Map([[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [4, 4], [0, 3]])
     >>> mapping
@@ -55,22 +55,22 @@ class Map(Saved):
     array([[1., 1.]])
 
     Args:
-        source, target: Domains, or what `as_domain` takes. An array holds the vertices of an outline in their
-            order; control points go inside one: ``Map(Domain(outline, points=a), Domain(outline, points=b))``
-        kind: "mesh" (2-D, and surfaces in 3-D, which are filled if they have no mesh) or "curves"; None: the best
-            available
-        improve: improvement steps on each level for kind mesh; None: as long as they pay off, 0: none
-        method, cells, maximum, ...: of the charts, see `Chart`; the maximum is the source's
+        source, target: Domains, or anything that `as_domain` takes. An array holds the vertices of an outline in order.
+            Control points go inside an outline: ``Map(Domain(outline, points=a), Domain(outline, points=b))``
+        kind: "mesh" (mesh map: in 2-D, and between surfaces in 3-D, which are filled if they have no mesh) or "curves"
+            (curve map). None: the best available
+        improve: mesh map: at most this many improvement steps on each level; None: as long as they pay off; 0: none
+        method, cells, maximum, ...: options of the charts, see `Chart`. The maximum is the source's
         target_maximum: the target's maximum, (dim,), or None
-        ties: with features, as many as there are of them, or none: (vertices, source, target), two vertices of
-            the domain, and the bends of a path from one to the other, (n, 2), in each of the domains. Together
-            they join the features and the outer ring, and say which way round one another these go
-        match: True for outlines that do not correspond: they get common vertices first, by shape. "arc": by arc
+        ties: paths that tell on which side features pass one another. As many as there are features, or none. Each is
+            (vertices, source, target): two vertices of the domain, and the bends (n, 2) of a path between them in each
+            domain. Together they join all features and the outer ring
+        match: for outlines that do not correspond, which first get common vertices. True: by shape. "arc": by arc
             length. Landmarks (n, 2, 2) or (n, 4): by shape between these. See `Match`
         progress, threads: as for `Domain`
 
     Raises:
-        as `Chart`; BoundaryError if the domains do not correspond. ``side`` says which one is at fault.
+        those of `Chart`; BoundaryError if the domains do not correspond. ``side`` says which one is at fault.
     """
 
     _free = "map_free"
@@ -106,14 +106,14 @@ class Map(Saved):
     @classmethod
     def from_charts(cls, source: Chart, target: Chart, kind: Optional[str] = None, *,
                     progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Map":
-        """The map between two charts that were made with the same method, of a kind as for `Map`."""
+        """Makes the map between two charts of the same method; `kind` as for `Map`."""
         options = new("map_options", kind=choose(kind, KINDS, "kind"))
         return cls._wrap(create(lib.map_create_from_charts, source, target,
                                 ctypes.addressof(options), progress=progress, threads=threads))
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_map_info``; the kind by its name."""
+        """The members of ``icc_map_info``. The kind is given by name."""
         result = fields(self._info("map_get_info", "map_info"))
         result.kind = name_of(result.kind, KINDS)
         return result
@@ -125,9 +125,9 @@ class Map(Saved):
 
     @property
     def ties(self) -> List[Tuple[Tuple[int, int], Floats, Floats]]:
-        """Which way round one another features go: as the argument ``ties``, they make another map that can
-        be moved to this one while it stays one-to-one. Each is its two vertices and its bends in the source
-        and in the target; there are none without features."""
+        """Ties, which tell on which side features pass one another. As the argument ``ties`` they make a map that can
+        be moved to this one while it stays one-to-one. Each has two vertices, its bends in the source and its bends in
+        the target. Without features there are none."""
         return [self._tie(tie) for tie in range(self.info.n_ties)]
 
     def _tie(self, tie: int) -> Tuple[Tuple[int, int], Floats, Floats]:
@@ -171,9 +171,9 @@ class Map(Saved):
 
     def apply(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
               threads: Optional[int] = None) -> Any:
-        """Source -> target: points (n, dim) -> images (n, dim), NaN for points without one. With
-        ``status`` also an int32 array (n,): 0, or the number of an `Error`. Grids (height, width, dim) and the like
-        keep their shape. Images are float64, whatever points come as."""
+        """Maps points (n, dim) of the source to images (n, dim) in the target, NaN for points without an image. With
+        ``status`` it also returns an int32 array (n,): 0, or the number of an `Error`. Other arrangements, such as
+        grids (height, width, dim), keep their shape. Images are always float64."""
         return self._apply(lib.map_apply, points, status, progress, threads)
 
     @overload
@@ -185,7 +185,7 @@ class Map(Saved):
 
     def apply_inverse(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
                       threads: Optional[int] = None) -> Any:
-        """Target -> source; otherwise as `apply`."""
+        """Maps points of the target to the source; otherwise like `apply`."""
         return self._apply(lib.map_apply_inverse, points, status, progress, threads)
 
     #: Calling a map is applying it, and `inverse` is `apply_inverse`.
@@ -194,8 +194,8 @@ class Map(Saved):
 
     def jacobian(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> Floats:
-        """Derivatives (n, dim, dim) at points (n, dim) of the source's inside: entry [k, i, j] is that of
-        image coordinate i by point coordinate j; NaN where there is none. Grids keep their shape, as in `apply`."""
+        """Derivatives (n, dim, dim) at points (n, dim) of the source's inside. Entry [k, i, j] is that of image
+        coordinate i by point coordinate j, NaN where there is none. Grids keep their shape, as in `apply`."""
         points, shape = grid_of(points, self.dim)
         n, dim = points.shape
         result = np.empty((*shape, dim, dim))
@@ -206,13 +206,13 @@ class Map(Saved):
     def improve(self, iterations: int = 0, levels: int = 0, tolerance: float = 0, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Map", SimpleNamespace]:
-        """A fairer map, and a report (kind mesh). If a progress callback asks to stop, it ends early,
-        with the map reached so far. Without arguments the work of a call is limited; another goes on from there.
+        """Makes a map of lower distortion from a mesh map. If a progress callback asks to stop, it ends early with the
+        map reached by then. Without arguments the work of a call is limited, and another call continues from there.
 
         Args:
-            iterations: at most so many steps on each level; 0: 60
-            levels: at most so many refinements; 0: 16; -1: none
-            tolerance: the last level ends when a step gains less than this share of the energy; 0: 1e-4
+            iterations: at most this many steps on each level; 0: as long as they pay off
+            levels: at most this many refinements; 0: as long as they pay off; -1: none
+            tolerance: the last level ends when a step gains less than this share of the energy; 0: the default
 
         Returns:
             the map, and the members of ``icc_improve_report``
@@ -226,8 +226,8 @@ class Map(Saved):
 
     def retarget(self, target: ShapeLike, iterations: int = 0, *, progress: Optional[Progress] = None,
                  threads: Optional[int] = None) -> "Map":
-        """The map to a target that has moved, starting from this one (kind mesh, in 2-D or 3-D), improved by
-        at most `iterations` steps (0: what a frame has time for; -1: none)."""
+        """Makes the map to a target that has moved. It starts from this one, which must be a mesh map, and improves it
+        by at most `iterations` steps. 0: as many as suit an interactive frame. -1: none."""
         with blaming(2):
             domain = as_domain(target)
         options = new("retarget_options", iterations=iterations)
@@ -235,9 +235,9 @@ class Map(Saved):
                                        threads=threads))
 
     def mesh(self) -> Tuple[Floats, Floats, Indices]:
-        """The mesh of a map of kind mesh: vertices (n, dim), images (n, dim), simplices (m, dim + 1). The numbers are
-        rounded; a ``RuntimeWarning`` says if that makes simplices flat or reversed (``report.n_spoilt``), as it can
-        where shapes are about 1e9 times as far from the origin as they are large."""
+        """The mesh of a mesh map: vertices (n, dim), images (n, dim), simplices (m, dim + 1). The numbers are rounded.
+        A ``RuntimeWarning`` says if that makes simplices flat or reversed (``report.n_spoilt``). It can happen if a
+        shape is about 1e9 times as far from the origin as it is large."""
         info = self._info("map_get_info", "map_info")
         n_spoilt = self.report.n_spoilt
         if n_spoilt > 0:
@@ -252,12 +252,12 @@ class Map(Saved):
         return vertices, images, triangles
 
     def to_proj(self, *, source_crs: Optional[Any] = None, target_crs: Optional[Any] = None) -> str:
-        """The mesh of a map of kind mesh in the plane as a triangulation for PROJ, in JSON. From a file, PROJ
-        applies it by ``+proj=tinshift +file=FILE``, and so do all that use PROJ: pyproj, GDAL, QGIS, PostGIS.
+        """The mesh of a mesh map in the plane as a triangulation for PROJ, in JSON. Save it to a file, and PROJ applies
+        it by ``+proj=tinshift +file=FILE``. So do programs that use PROJ, such as pyproj, GDAL, QGIS and PostGIS.
 
         Args:
-            source_crs, target_crs: reference systems that are noted in it, such as "EPSG:2056" or a
-                ``pyproj.CRS``; nothing is transformed by them
+            source_crs, target_crs: reference systems to record in it, such as "EPSG:2056" or a ``pyproj.CRS``. They
+                transform nothing
         """
         if self.dim != 2:
             raise ValueError(f"PROJ's triangulations are of the plane; this map has dimension {self.dim}")
@@ -284,8 +284,8 @@ class Map(Saved):
 
     def certify(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
-        """Maps the vertices of your mesh and checks its simplices exactly:
-        images (n, dim) and the members of ``icc_certificate``. 2-D and 3-D.
+        """Maps the vertices of your mesh in 2-D or 3-D and checks its simplices exactly. Returns the images (n, dim)
+        and the members of ``icc_certificate``.
 
         Args:
             vertices: (n, dim)
@@ -295,17 +295,16 @@ class Map(Saved):
 
     def repair(self, vertices: ArrayLike, simplices: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> Tuple[Floats, SimpleNamespace]:
-        """As `certify`, but moves images of inner vertices until no simplex is inverted, where that
-        is possible."""
+        """Like `certify`, but moves images of inner vertices until no simplex is inverted, if possible."""
         return self._carry(lib.map_repair, vertices, simplices, progress, threads)
 
     def plot(self, *, lines: int = 25, axes: Optional[Sequence[Any]] = None, **style: Any) -> Any:
-        """Draws a map of kind mesh in the plane with matplotlib: the source with a grid on the left, and on the right
-        the target with what becomes of the grid.
+        """Draws a mesh map in the plane with matplotlib: the source with a grid on the left, and the target with the
+        mapped grid on the right.
 
         Args:
-            lines: of the grid, along the longer side
-            axes: two of matplotlib's axes to draw onto; None: new ones
+            lines: number of grid lines along the longer side
+            axes: two matplotlib axes to draw onto; None: new ones
             style: how the grid is drawn, as ``pyplot.plot`` takes it
 
         Returns:

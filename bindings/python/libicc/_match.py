@@ -1,4 +1,4 @@
-"""Outlines, and surfaces, that do not correspond."""
+"""Outlines and surfaces that do not correspond."""
 
 from __future__ import annotations
 
@@ -28,29 +28,29 @@ class Match(Saved):
     >>> found.source, found.info.n_vertices
     (<libicc.Domain: 2-D, 7 vertices, 7 facets>, 7)
 
-    The outlines may have other numbers of vertices, other first vertices and other senses. Without landmarks all
-    starting points are compared by shape: a heuristic; look at the result. Every vertex that was given is in the
-    result, bit by bit; others are added on edges.
+    The outlines may differ in number of vertices, in first vertex and in direction. Without landmarks all starting
+        points are compared by shape. This is a heuristic, so look at the result. Every given vertex is in the result,
+        bit for bit. Others are added on edges.
 
     Args:
-        source, target: Domains of the plane, or what `as_domain` takes; features inside are paired, too. Or surfaces
-            in space, which get common triangles
-        landmarks: (n, 2, 2) or (n, 4): points of the source with their partners of the target; of surfaces (n, 2, 3),
-            of which the nearest vertices are meant
-        turning: without landmarks: "upright" prefers what turns little, "free" does not
-        between: "elastic" by shape, "arc" by arc length; without landmarks it starts where the
-            outlines, laid on one another unturned, are nearest
-        least_sure: what ``info.sure`` has to be; None: 1.06; 1: anything
-        drop: share of the perimeter within which vertices become one
-        tolerance: in space, how far the common surfaces may be off those given, as a share of the diagonal; None:
+        source, target: Domains of the plane, or anything that `as_domain` takes. Their features are paired as well. Or
+            surfaces in space, which get common triangles
+        landmarks: (n, 2, 2) or (n, 4): points of the source with their partners in the target. For surfaces (n, 2, 3):
+            each point stands for the nearest vertex
+        turning: without landmarks: "upright" prefers small rotations, "free" has no preference
+        between: "elastic": by shape. "arc": by arc length. Without landmarks "arc" starts where the two outlines are
+            nearest when laid on one another unturned
+        least_sure: pairings whose ``info.sure`` is less are refused; None: 1.06; 1: none is refused
+        drop: vertices that lie within this share of the perimeter become one
+        tolerance: in space, how far the common surfaces may be off the given ones, as a share of the diagonal; None:
             1e-3; 0: not at all
-        keep_source: in space, the source keeps all its vertices and edges, with more vertices where the target needs
-            them: ``match.source`` begins with the source's vertices
+        keep_source: in space, the source keeps all its vertices and edges, and gets more vertices where the target
+            needs them. ``match.source`` begins with the source's vertices
         progress, threads: as for `Domain`
 
     Raises:
-        AmbiguousError if another pairing is as good; ArgumentError for landmarks that are off the outlines or do
-        not follow one another round both alike
+        AmbiguousError if another pairing is as good; ArgumentError if landmarks are off the outlines or come in a
+        different order on the two
     """
 
     _free = "match_free"
@@ -89,7 +89,7 @@ class Match(Saved):
         return fields(info)
 
     def origins(self) -> Tuple[Ints, Ints]:
-        """For every common vertex its number in the source and in the target that were given; -1: it was added."""
+        """For every common vertex its number in the given source and in the given target; -1: it was added."""
         n = self.info.n_vertices
         given = np.empty((2, n), dtype=np.uint32)
         check(lib.match_get_origins(self, address(given[0]), address(given[1])))
@@ -106,10 +106,11 @@ class Match(Saved):
 
     def apply(self, points: ArrayLike, *, progress: Optional[Progress] = None,
               threads: Optional[int] = None) -> Tuple[Floats, Floats]:
-        """Points of the source's boundary -> points of the target's, and how far each was from the common boundary.
+        """Takes points of the source's boundary to the target's. Returns the images, and the distance of each point
+        from the common boundary.
 
-        Each is taken to the nearest point of `source`'s boundary, and from there to the same place of the same facet of
-        `target`. Common vertices go to their partners bit by bit. NaN for points that are not finite.
+        Each point first moves to the nearest point of `source`'s boundary, then to the same place on the same facet of
+        `target`. Common vertices go to their partners bit for bit. Points that are not finite give NaN.
 
         >>> square, other = [[0, 0], [4, 0], [4, 2], [0, 2]], [[4, 0], [8, 0], [8, 4], [0, 4], [0, 0]]
         >>> images, off = libicc.Match(square, other).apply([[1, 0], [4, 2.5]])
@@ -120,13 +121,13 @@ class Match(Saved):
 
     def apply_inverse(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                       threads: Optional[int] = None) -> Tuple[Floats, Floats]:
-        """Target -> source; otherwise as `apply`."""
+        """Takes points of the target's boundary to the source's; otherwise like `apply`."""
         return self._follow(lib.match_apply_inverse, points, progress, threads)
 
 
 def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None,
           **options: Any) -> Tuple[Floats, Floats, SimpleNamespace]:
-    """The vertices of two outlines that do not correspond, made common, and `Match.info`; options as of `Match`.
+    """Gives two outlines common vertices. Returns the vertices of both and `Match.info`. Options are those of `Match`.
 
     >>> a, b, info = libicc.match([[0, 0], [9, 0], [9, 3], [4, 3], [4, 8], [0, 8]], [[4, 4], [4, 9], [0, 9], [0, 0], [10, 0], [10, 4]])
     >>> a.tolist()[3], b.tolist()[3]
@@ -137,7 +138,7 @@ def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] =
 
 
 def match_for(source: Domain, target: Domain, how: Union[bool, str, ArrayLike]) -> Match:
-    """What `Map` does with its argument ``match``: True or "auto", "arc", or landmarks."""
+    """Handles the argument ``match`` of `Map`: True or "auto", "arc", or landmarks."""
     if isinstance(how, str) and how not in ("auto", "arc"):
         raise ArgumentError(f"match is {how!r}; it may be True, 'auto', 'arc' or landmarks")
     if isinstance(how, (bool, str)):

@@ -1,7 +1,8 @@
-"""More than one process, or than fits into memory: dask arrays of points, files of points, and rasters in chunks.
+"""Maps points and rasters in several processes, or in parts that fit into memory: dask arrays of points, files of
+points, and rasters in chunks.
 
-The map goes once to each worker, as bytes, and answers there as it does here, bit for bit. Needs Dask; files of points
-are .npy or zarr, rasters zarr or what rasterio reads.
+Each worker gets the map once, as bytes, and it gives the same results there, bit for bit. This module needs Dask. Files
+of points are .npy or zarr. Rasters are zarr, or anything that rasterio reads.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def _images(points: Array, mapping: Map, inverse: bool) -> Array:
 
 
 def map_points(mapping: Map, points: Any, *, inverse: bool = False) -> Any:
-    """The images of a dask array (.., dim) of points, as a dask array with the same chunks: nothing is computed yet.
+    """The images of a dask array (.., dim) of points, as a lazy dask array with the same chunks.
 
     >>> import dask.array, libicc
     >>> square, moved = [[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [4, 4], [0, 3]]
@@ -46,7 +47,7 @@ def map_points(mapping: Map, points: Any, *, inverse: bool = False) -> Any:
 
 
 def _map_rows(mapping: Map, source: str, target: str, first: int, last: int, inverse: bool) -> int:
-    """Both files are opened anew for each part, so that no worker keeps what it has read."""
+    """Opens both files anew for each part, so that no worker keeps what it has read."""
     points = np.load(source, mmap_mode="r")[first:last]
     images = open_memmap(target, mode="r+")
     images[first:last] = _images(points, mapping, inverse)
@@ -55,11 +56,11 @@ def _map_rows(mapping: Map, source: str, target: str, first: int, last: int, inv
 
 
 def map_npy(mapping: Map, source: str, target: str, *, inverse: bool = False, chunk: int = DEFAULT_CHUNK) -> int:
-    """Maps the points (n, dim) of a .npy file to those of another, which is made, on a file system that all workers
-    see. Returns how many there are.
+    """Maps the points (n, dim) of a .npy file and writes the images to another, new file. All workers must see its file
+    system. Returns the number of points.
 
     Args:
-        chunk: so many points at a time; a worker needs some 50 bytes for each
+        chunk: number of points at a time; a worker needs about 50 bytes for each
     """
     points = np.load(source, mmap_mode="r")
     if points.ndim != 2 or points.shape[1] != mapping.dim:
@@ -72,7 +73,7 @@ def map_npy(mapping: Map, source: str, target: str, *, inverse: bool = False, ch
 
 
 class Raster(NamedTuple):
-    """A raster in a file, which is opened where it is read."""
+    """A raster in a file. It is opened where it is read."""
 
     path: str
     is_zarr: bool
@@ -83,8 +84,8 @@ class Raster(NamedTuple):
 
     @classmethod
     def open(cls, path: str, grid: Optional[Grid] = None) -> "Raster":
-        """What is in a file: zarr (a folder that ends in .zarr), which has no places of its own and needs a grid, or
-        what rasterio reads."""
+        """Opens a file. It is zarr (a folder whose name ends in .zarr), which has no grid of its own and needs one, or
+        anything that rasterio reads."""
         if path.rstrip("/").endswith(".zarr"):
             import zarr
 
@@ -124,15 +125,15 @@ def _warp_block(mapping: Map, raster: Raster, out: Grid, how: Sampling, block_in
 
 def warp_raster(mapping: Map, raster: Raster, out: Optional[Grid] = None, *, chunk: int = 1024,
                 resampling: str = "linear", fill: Optional[float] = None, max_pixels: int = 1 << 24) -> Any:
-    """A raster in a file, warped, as a dask array (bands, height, width): nothing is computed yet. ``to_zarr`` writes
-    it from all workers, `write_tiff` from one.
+    """Warps a raster in a file. Returns a lazy dask array (bands, height, width). ``to_zarr`` writes it from all
+    workers, `write_tiff` from one.
 
     Args:
-        mapping, out, resampling: as `libicc.raster.warp_raster`
-        chunk: the result has chunks of chunk x chunk pixels; a worker needs some 200 bytes for each, and `max_pixels`
-            of the raster
-        fill: what pixels without an image get; None: the raster's own nodata, or 0
-        max_pixels: so many of the raster are read at a time
+        mapping, out, resampling: as in `libicc.raster.warp_raster`
+        chunk: the result has chunks of chunk x chunk pixels. A worker needs about 200 bytes for each pixel, and room
+            for `max_pixels` of the raster
+        fill: value of pixels without an image; None: the raster's own nodata, or 0
+        max_pixels: number of pixels of the raster that are read at a time
     """
     out = out or raster.grid
     fill = fill if fill is not None else raster.nodata if raster.nodata is not None else 0
@@ -147,8 +148,8 @@ def _chunks(n: int, chunk: int) -> Tuple[int, ...]:
 
 
 def write_tiff(array: Any, path: str, grid: Grid, *, crs: Any = None, nodata: Optional[float] = None) -> None:
-    """Writes a dask array (bands, height, width) as GeoTIFF, in tiles and compressed: from this process, since one
-    has to write, a row of chunks after the other, of which only one is held."""
+    """Writes a dask array (bands, height, width) as GeoTIFF, in tiles and compressed. This process alone writes, one
+    row of chunks after the other. Only one row is in memory."""
     import rasterio
     import rasterio.transform
     import rasterio.windows

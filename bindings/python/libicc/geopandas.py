@@ -1,4 +1,4 @@
-"""GeoPandas: after ``import libicc.geopandas`` every series of geometries has ``.icc``.
+"""GeoPandas: ``import libicc.geopandas`` adds an accessor ``.icc`` to every series of geometries.
 
     moved = frame.geometry.icc.map(mapping, tolerance=0.5)
 """
@@ -24,7 +24,7 @@ _QUARTERS = np.array([0.25, 0.5, 0.75])[:, None]
 
 @register_series_accessor("icc")
 class GeometryAccessor:
-    """What maps do to the geometries of a series."""
+    """Applies maps to the geometries of a series."""
 
     def __init__(self, series: Any):
         if not hasattr(series, "geom_type"):
@@ -32,7 +32,7 @@ class GeometryAccessor:
         self._series = series
 
     def map(self, mapping: Map, *, inverse: bool = False, tolerance: float = 0, outside: str = "raise") -> Any:
-        """The geometries as a map of the plane moves them, with the same index and CRS; heights stay.
+        """Moves the geometries by a map of the plane. They keep their index, CRS and heights.
 
         >>> import geopandas, libicc, libicc.geopandas
         >>> from shapely.geometry import LineString
@@ -42,10 +42,11 @@ class GeometryAccessor:
         1.030776
 
         Args:
-            inverse: from target to source
-            tolerance: edges get more vertices, each at most 4095, until at their quarters they are no farther than this
-                from what the map makes of them; 0: none
-            outside: of geometries that have no image, be it in part: "raise" an `OutsideError`, or "null"
+            inverse: map from the target to the source
+            tolerance: edges get more vertices, at most 4095 each, until their quarter points are within this distance
+                of the true images; 0: no more vertices
+            outside: what happens to geometries that lie partly or wholly outside: "raise" an `OutsideError`, or become
+                "null"
         """
         if outside not in ("raise", "null"):
             raise ValueError(f"outside must be 'raise' or 'null', not {outside!r}")
@@ -83,7 +84,7 @@ def _lines_of(series: Any) -> Tuple[List[Floats], List[int]]:
 
 
 def _carried(lines: List[Floats], carry: Callable[[Floats], Floats], tolerance: float) -> List[Floats]:
-    """The lines moved, all at once, NaN where there is no image. Coordinates beyond the first two stay."""
+    """Moves all lines at once, NaN where there is no image. Coordinates beyond the first two stay."""
     if not lines:
         return []
     width = max(line.shape[1] for line in lines)
@@ -116,7 +117,7 @@ def _split(begins: Array, points: Floats, images: Floats, number: Array, carry: 
 
 
 def _off(a: Floats, b: Floats, checks: Floats) -> Floats:
-    """How far the farthest of the checks (n, 3, 2) is from each segment a b."""
+    """Distance from each segment a b to the farthest of its checks (n, 3, 2)."""
     along = (b - a)[:, None]
     square = (along**2).sum(-1)
     share = ((checks - a[:, None]) * along).sum(-1) / np.where(square > 0, square, 1)

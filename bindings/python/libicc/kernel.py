@@ -44,11 +44,11 @@ class _Line(ctypes.Structure):
 
 
 class Shape(Handle):
-    """What is to be deformed: filled regions and curves, in 2-D or 3-D.
+    """A shape to be deformed: filled regions and curves, in 2-D or 3-D.
 
     Args:
-        regions: Domains, or what `libicc.as_domain` takes; one may lie within another
-        vertices: (n, dim) of curves
+        regions: Domains, or anything that `libicc.as_domain` takes; one may lie within another
+        vertices: (n, dim) vertices of the curves
         segments: (m, 2) vertex indices
     """
 
@@ -77,9 +77,9 @@ class Sampling(Saved):
         shape: a Shape, or one region
         kind: "blue" (default) or "grid"
         spacing: distance of neighbours; None: 1/100 of the longest side, in 3-D 1/20
-        steps: of relaxation (blue); None: as many as suit
+        steps: steps of relaxation (blue); None: 60
         margin: how far a grid extends beyond the regions, in spacings
-        seed: of the random numbers
+        seed: seed of the random numbers
         fixed: points (n, dim) that must be samples (blue)
         progress, threads: as for `libicc.Domain`
     """
@@ -110,7 +110,7 @@ class Sampling(Saved):
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_sampling_info``; the kind by its name."""
+        """The members of ``icc_sampling_info``. The kind is given by name."""
         result = fields(self._info("sampling_get_info", "sampling_info"))
         result.kind = name_of(result.kind, SAMPLINGS)
         return result
@@ -135,7 +135,7 @@ def _lines(lines: Sequence[Any], dim: int) -> Any:
 
 
 class Weights(Handle):
-    """Weights of handles over a shape.
+    """Weights of handles everywhere in a shape.
 
     Args:
         sampling: a Sampling
@@ -144,9 +144,9 @@ class Weights(Handle):
         lines: segments to keep straight: (from, to) or (from, to, k), parallel to the earlier line k
         kernel: "wendland" (default) or "gauss"
         sigma: width of the kernel; None: as the sampling suggests
-        cutoff: where a Gauss kernel ends, in sigma; None: 5
+        cutoff: radius of a Gauss kernel in units of sigma; None: 5
         initial: "heat", "edges", "inverse" or "given"; None: "edges" if there are any, else "heat"
-        steps: of diffusion; None: 5
+        steps: steps of diffusion; None: 5
         method: "qp" (default), "equality" or "l1"
         affine_tail: whether an affine function makes sums and reproduction exact between the samples
         within_shape: whether diffusion stays inside the shape
@@ -154,8 +154,8 @@ class Weights(Handle):
         progress, threads: as for `libicc.Domain`
 
     Raises:
-        OutsideError: a handle or line is outside; ArgumentError: handles that cannot reproduce points;
-        SolverError: sigma is too large
+        OutsideError: a handle or line is outside; ArgumentError: the handles cannot reproduce points; SolverError:
+            sigma is too large
     """
 
     _free = "weights_free"
@@ -188,7 +188,7 @@ class Weights(Handle):
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_weights_info``; kernel, initial and method by their names."""
+        """The members of ``icc_weights_info``. Kernel, initial and method are given by name."""
         result = fields(self._info("weights_get_info", "weights_info"))
         result.kernel = name_of(result.kernel, KERNELS)
         result.initial = name_of(result.initial, INITIALS)
@@ -197,11 +197,11 @@ class Weights(Handle):
 
     @property
     def timings(self) -> SimpleNamespace:
-        """How long each step of making the weights took, in seconds: the members of ``icc_weights_timings``."""
+        """Seconds for each step of making the weights: the members of ``icc_weights_timings``."""
         return fields(self._info("weights_get_timings", "weights_timings"))
 
     def nodes(self) -> SimpleNamespace:
-        """points (n, dim), initial and weights (n, n_handles), status (n,) of the nodes."""
+        """The nodes: points (n, dim), initial weights and weights (n, n_handles), and status (n,)."""
         info = self._info("weights_get_info", "weights_info")
         n, m = info.n_nodes, info.n_handles
         points, initial, weights = np.empty((n, info.dim)), np.empty((n, m)), np.empty((n, m))
@@ -212,15 +212,15 @@ class Weights(Handle):
 
     def paint(self, handle: int, centre: ArrayLike, radius: float, amount: float, *,
               progress: Optional[Progress] = None, threads: Optional[int] = None) -> "Weights":
-        """New weights, with that of one handle raised around a place (dim,), by `amount` at the centre and
-        smoothly less up to the radius, and optimised again."""
+        """New weights: raises the weight of one handle around a place (dim,) and optimises again. The change is
+        `amount` at the centre and falls smoothly to 0 at the radius."""
         centre = points_of(centre, self._info("weights_get_info", "weights_info").dim)
         return Weights._wrap(create(lib.weights_paint, self, handle, address(centre), radius,
                                    amount, progress=progress, threads=threads))
 
     def repaint(self, nodes: ArrayLike, weights: ArrayLike, *, progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> "Weights":
-        """New weights, which at some nodes (n,) start from those given (n, n_handles)."""
+        """New weights, which start at some nodes (n,) from your own values (n, n_handles)."""
         nodes = np.ascontiguousarray(nodes, dtype=np.uint32)
         m = self._info("weights_get_info", "weights_info").n_handles
         weights = floats(weights, (len(nodes), m), "weights")
@@ -229,7 +229,7 @@ class Weights(Handle):
 
     def with_method(self, method: str, *, progress: Optional[Progress] = None,
                     threads: Optional[int] = None) -> "Weights":
-        """The same nodes and initial weights with another method; painting is lost."""
+        """New weights with the same nodes and initial weights but another method. Painting is lost."""
         return Weights._wrap(create(lib.weights_with_method, self,
                                    choose(method, METHODS, "method"), progress=progress,
                                    threads=threads))
@@ -237,9 +237,9 @@ class Weights(Handle):
     def stiffen(self, nodes: ArrayLike, rigidity: Optional[ArrayLike] = None, *,
                 progress: Optional[Progress] = None,
                 threads: Optional[int] = None) -> Tuple["Weights", Floats]:
-        """New weights, as rigid as possible at some nodes (n,), each of which may have its own rigidity (n,),
-        positive; and half the weighted sum of squared derivatives there before and after, (2,). They are the
-        optimum of one quadratic program for all these nodes and those around them: ``info.residual``."""
+        """New weights that are as rigid as possible at some nodes (n,). Each node may have its own positive rigidity
+        (n,). Also returns half the weighted sum of squared derivatives there, before and after, (2,). The weights are
+        the optimum of one quadratic program for these nodes and those around them: ``info.residual``."""
         nodes, energy = np.ascontiguousarray(nodes, dtype=np.uint32), np.empty(2)
         if rigidity is not None:
             rigidity = floats(rigidity, (len(nodes),), "rigidity")
@@ -270,8 +270,8 @@ class Weights(Handle):
 
     def dual(self, node: int, points: ArrayLike, *, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> Floats:
-        """The function that is 1 at a node, 0 at all others and interpolated as weights are: (n,) values at points
-        (n, dim)."""
+        """The dual function of a node: 1 there, 0 at all other nodes, interpolated as weights are. Returns (n,) values
+        at points (n, dim)."""
         points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         call, values = Call(progress, threads), np.empty(len(points))
         call.check(lib.weights_get_dual(self, int(node), len(points), address(points), address(values),
@@ -280,7 +280,7 @@ class Weights(Handle):
 
     def report(self, points: ArrayLike, *, progress: Optional[Progress] = None,
                threads: Optional[int] = None) -> SimpleNamespace:
-        """How good the weights are, measured at points; see ``icc_weights_report``."""
+        """Measures the quality of the weights at points: see ``icc_weights_report``."""
         points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         call, report = Call(progress, threads), new("weights_report")
         call.check(lib.weights_get_report(self, len(points), address(points),
@@ -289,7 +289,7 @@ class Weights(Handle):
 
     def bind(self, points: ArrayLike, *, derivatives: bool = False, progress: Optional[Progress] = None,
              threads: Optional[int] = None) -> "Binding":
-        """Points (n, dim) with their weights, for repeated poses."""
+        """Binds points (n, dim) to the handles, for repeated poses."""
         points = points_of(points, self._info("weights_get_info", "weights_info").dim)
         return Binding._wrap(create(lib.binding_create, self, len(points), address(points),
                                     int(derivatives), progress=progress, threads=threads))
@@ -332,8 +332,8 @@ class Binding(Saved):
 
     def pose(self, transforms: Union["Pose", ArrayLike], *, jacobians: bool = False,
              progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
-        """Images (n, dim) of the points under affine transforms (n_handles, dim, dim + 1), see `Pose`;
-        with ``jacobians`` also derivatives (n, dim, dim), if the binding has them."""
+        """Images (n, dim) of the points under affine transforms (n_handles, dim, dim + 1), see `Pose`. With
+        ``jacobians`` it also returns derivatives (n, dim, dim), if the binding has them."""
         n, m, dim = self._counts()
         if isinstance(transforms, Pose):
             transforms = transforms.transforms
@@ -363,8 +363,8 @@ class Pose:
 
     @property
     def transforms(self) -> Floats:
-        """The transforms, (n_handles, dim, dim + 1): per handle the rows of (A | b), which take x to A x + b.
-        An array to be written to."""
+        """The transforms, (n_handles, dim, dim + 1): per handle the rows of (A | b), which take x to A x + b. You may
+        write to this array."""
         return self._transforms
 
     def reset(self) -> None:
@@ -379,7 +379,7 @@ class Pose:
         check(lib.pose_move(dim, address(self.transforms[handle]), address(offset)))
 
     def turn(self, handle: int, angle: float, axis: Optional[ArrayLike] = None) -> None:
-        """Turns a handle about where it is, by an angle in radians; in 3-D about an axis (3,)."""
+        """Turns a handle about its present position, by an angle in radians; in 3-D about an axis (3,)."""
         dim = self.handles.shape[1]
         axis = None if axis is None else floats(axis, (3,), "axis")
         check(lib.pose_turn(dim, address(self.transforms[handle]), address(self.handles[handle]),

@@ -1,8 +1,8 @@
-"""Rasters with places in the world: warped window by window, in NumPy.
+"""Warps rasters that have a place in the world, window by window, in NumPy.
 
 A raster is an array (height, width) or (bands, height, width), and a `Grid` that says where its pixels lie. Every pixel
-of a result is computed by itself, so windows of it are, bit for bit, what the whole would have there; `libicc.dask`
-shares them out, `libicc.xarray` keeps the coordinates of a ``DataArray`` in step.
+of a result is computed separately. So a window of the result has the same bits as that part of the whole. `libicc.dask`
+spreads windows over processes, and `libicc.xarray` keeps the coordinates of a ``DataArray`` in step.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class Grid(NamedTuple):
     Args:
         transform: (a, b, c, d, e, f): the corner of pixel [row, column] is at x = a column + b row + c,
             y = d column + e row + f; the first six numbers of a ``rasterio`` transform
-        height, width: how many pixels
+        height, width: number of pixels
     """
 
     transform: Tuple[float, ...]
@@ -108,16 +108,16 @@ def warp_raster(data: ArrayLike, grid: Grid, mapping: Map, out: Optional[Grid] =
         data: (height, width) or (bands, height, width)
         grid: where its pixels lie, in the coordinates of the map's source
         mapping: from places in the raster to places in the result
-        out: where the pixels of the result lie, in the coordinates of the map's target; None: as those of `data`
+        out: where the pixels of the result lie, in the coordinates of the map's target; None: like those of `data`
         resampling: "linear" between the centres of pixels; "cubic", which is exact for quadratic functions and may
-            overshoot, within the range of whole numbers; or "nearest", for classes and labels. None averages where the
-            raster shrinks
-        fill: what pixels without an image in the raster get
-        nodata: pixels of this value have none: what is made of them gets `fill`; None: all have. NaN, if it is not this
-            value, is kept as such
+            overshoot, for whole numbers within their range; or "nearest", for classes and labels. None of them averages
+            where the raster shrinks
+        fill: value of pixels without an image in the raster
+        nodata: pixels of this value are missing, and pixels computed from them get `fill`. None: no pixel is missing.
+            NaN stays NaN unless it is this value
 
     Returns:
-        the raster warped, of the type and with the bands of `data`
+        the warped raster, of the type and with the bands of `data`
     """
     array = np.asarray(data)
     bands = array if array.ndim == 3 else array[None]

@@ -1,4 +1,4 @@
-"""The stages of the papers by themselves: grid, tree, function, triangulation."""
+"""The stages of the papers one by one: grid, tree, function, triangulation."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ class Grid(Handle):
     Arrays over its vertices have the grid's shape: axis k of the array is coordinate k.
 
     Args:
-        domain: a Domain, or what `libicc.as_domain` takes
-        cells: along the longest side; None: 50
+        domain: a Domain, or anything that `libicc.as_domain` takes
+        cells: grid cells along the longest side; None: 50
     """
 
     _free = "grid_free"
@@ -73,7 +73,7 @@ class Grid(Handle):
 
     @property
     def shape(self) -> Tuple[int, ...]:
-        """How many vertices there are along each axis."""
+        """Number of vertices along each axis."""
         info = self._info("grid_get_info", "grid_info")
         return tuple(info.shape[: info.dim])
 
@@ -114,7 +114,7 @@ class Tree(Handle):
         grid: a Grid
         root: the number of a vertex inside; None: the grassfire's maximum
         form: "thesis" (default) or "paper"
-        axis_order: in which order the axes are looked at, a permutation
+        axis_order: order in which a generation expands along the axes, a permutation
     """
 
     _free = "tree_free"
@@ -163,8 +163,8 @@ class Tree(Handle):
 
     def grow(self, values: Optional[ArrayLike] = None, *,
              progress: Optional[Progress] = None) -> Tuple[Indices, SimpleNamespace]:
-        """An order of the vertices in which the root is the only critical one: ranks as an array, and
-        a report, see ``icc_grow_report``."""
+        """Orders the vertices so that the root is the only critical one. Returns ranks as an array, and a report: see
+        ``icc_grow_report``."""
         shape = self.grid.shape
         values = None if values is None else np.asfortranarray(_floats_of(values, shape))
         rank = np.empty(shape, dtype=np.uint32, order="F")
@@ -221,7 +221,7 @@ class Function(Handle):
 
     @property
     def info(self) -> SimpleNamespace:
-        """The members of ``icc_function_info``; function and solver by their names."""
+        """The members of ``icc_function_info``. Function and solver are given by name."""
         result = fields(self._info("function_get_info", "function_info"))
         result.function = name_of(result.function, FUNCTIONS)
         result.solver = name_of(result.solver, SOLVERS)
@@ -239,7 +239,7 @@ class Function(Handle):
 
     @property
     def logs(self) -> Optional[Floats]:
-        """Logarithms of values that may be too small for doubles, or None; read-only."""
+        """Logarithms of the values, which may be too small for doubles; or None. Read-only."""
         return self.tree.grid._array(lib.function_logs(self), np.float64, self)
 
     def report(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
@@ -261,8 +261,8 @@ class Function(Handle):
 
 def triangulate(points: ArrayLike, n_boundary: int, *,
                 progress: Optional[Progress] = None) -> Indices:
-    """The conforming Delaunay triangles (m, 3) of points (n, 2) of which the first `n_boundary` are a
-    simple polygon."""
+    """The constrained Delaunay triangles (m, 3) of points (n, 2). The first `n_boundary` points are a simple
+    polygon."""
     points = points_of(points, 2)
     triangles = np.empty((2 * len(points) - n_boundary - 2, 3), dtype=np.uint32)
     call = Call(progress, 1)

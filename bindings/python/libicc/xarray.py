@@ -1,8 +1,8 @@
-"""xarray: after ``import libicc.xarray`` every ``DataArray`` has ``.icc``.
+"""xarray: ``import libicc.xarray`` adds an accessor ``.icc`` to every ``DataArray``.
 
     moved = elevation.icc.warp(mapping)
 
-Rasters of rioxarray keep their reference system: it is a coordinate like others.
+Rasters of rioxarray keep their reference system, because it is a coordinate like others.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 
 @xarray.register_dataarray_accessor("icc")
 class RasterAccessor:
-    """What maps do to a raster whose last two dimensions, y and x, have evenly spaced coordinates."""
+    """Applies maps to a raster whose last two dimensions, y and x, have evenly spaced coordinates."""
 
     def __init__(self, raster: Any):
         self._raster = raster
 
     @property
     def grid(self) -> Grid:
-        """Where the pixels lie: coordinates are those of their centres."""
+        """Where the pixels lie. The coordinates are those of their centres."""
         y, x = self._raster.dims[-2:]
         return Grid.of_centres(self._raster[x].values, self._raster[y].values)
 
     def warp(self, mapping: Map, like: Optional[Any] = None, *, resampling: str = "linear", fill: Optional[float] = None,
              threads: Optional[int] = None) -> Any:
-        """The raster as a map of the plane moves it, with the same other dimensions, coordinates and attributes.
+        """Moves the raster by a map of the plane. Other dimensions, coordinates and attributes stay.
 
         >>> import libicc, libicc.xarray, numpy, xarray
         >>> square, right = [[0, 0], [4, 0], [4, 3], [0, 3]], [[1, 0], [5, 0], [5, 3], [1, 3]]
@@ -45,13 +45,13 @@ class RasterAccessor:
                [nan,  8.,  9., 10.]])
 
         Args:
-            mapping, resampling, threads: as `libicc.raster.warp_raster`
-            like: a raster whose last two dimensions and their coordinates the result has; None: its own
-            fill: what pixels without an image get; None: what pixels without data have, or else NaN, and 0 in whole
+            mapping, resampling, threads: as in `libicc.raster.warp_raster`
+            like: a raster that gives the result its last two dimensions and their coordinates; None: this raster
+            fill: value of pixels without an image. None: the value of pixels without data; else NaN, or 0 for whole
                 numbers
 
-        Pixels without data have the attribute ``_FillValue``, ``missing_value`` or ``nodata``; or NaN where xarray has
-        put that for what is in the file, and in the encoding.
+        The value of pixels without data is the attribute ``_FillValue``, ``missing_value`` or ``nodata``. If xarray has
+        replaced it by NaN, it is in the encoding.
         """
         raster, like = self._raster, self._raster if like is None else like
         nodata = _nodata(raster)
