@@ -1,4 +1,4 @@
-// The same classes over a worker: what gives a value there gives a promise here.
+// The same classes over a worker: methods return promises instead of values.
 import { Handle } from './core.js';
 import { classesOf } from './instance.js';
 import { Remote } from './remote.js';
@@ -20,7 +20,7 @@ class RemoteObject {
 
   constructor(icc, number) { [this.#icc, this.#number] = [icc, number]; }
 
-  /** What is sent in its place. */
+  /** The number that is sent in its place. */
   numberFor(icc) {
     if (icc !== this.#icc) throw new TypeError(`this ${this.constructor.name} belongs to another instance`);
     if (this.#number === 0) throw new TypeError(`this ${this.constructor.name} has been freed`);
@@ -31,7 +31,7 @@ class RemoteObject {
     return this.#icc.request(name, { object: this.numberFor(this.#icc), ...more }, this);
   }
 
-  /** Gives the memory back, after the calls that have been begun. */
+  /** Frees the memory, after the calls that have begun. */
   free() {
     if (this.#number !== 0) this.#icc.release(this, this.#number);
     this.#number = 0;
@@ -40,7 +40,7 @@ class RemoteObject {
   [dispose]() { this.free(); }
 }
 
-/** A class of RemoteObjects with the methods and members of one of the library's. */
+/** Makes a class of RemoteObjects with the methods and members of one of the library's classes. */
 function remoteClassOf(icc, name, Class) {
   const Made = { [name]: class extends RemoteObject {} }[name];
   const own = Object.getOwnPropertyDescriptors(Class.prototype);
@@ -69,15 +69,15 @@ export class AsyncIcc {
     for (const key of FUNCTIONS) this[key] = (...args) => this.request('run', { key, args });
   }
 
-  /** source: as load() takes it; worker: one that runs the package's worker.js, where it is not beside this. */
+  /** source: as for load(). worker: one that runs the package's worker.js, if that is not beside this file. */
   static async start({ source, worker } = {}) {
     return new AsyncIcc(await Remote.start(worker ?? await workerBeside(), source));
   }
 
   get stops() { return this.#remote.stops; }
 
-  /** The calls that `work` begins, before it waits for any, tell progress(stage, share) and log(line), and
-   *  an AbortSignal cancels them. */
+  /** Watches the calls that `work` begins before it waits for any. They call progress(stage, share) and
+   *  log(line), and an AbortSignal cancels them. */
   during(env, work) {
     const before = this.#now;
     this.#now = env;
@@ -89,7 +89,7 @@ export class AsyncIcc {
 
   close() { this.#remote.close(); }
 
-  /** Sends a call; objects go and come by their numbers. `self` is the object that is called. */
+  /** Sends a call. Objects are passed by their numbers. `self` is the object that is called. */
   async request(name, argument, self = null) {
     const known = { self, object: argument.object };
     const lost = (result) => {

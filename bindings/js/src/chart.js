@@ -4,7 +4,7 @@ import { Handle } from './core.js';
 import { flat } from './points.js';
 import { withDomains } from './domain.js';
 
-/** The infos that only charts of one method have; each is refused by charts of the others. */
+/** The infos that only charts of one method have. Charts of other methods refuse them. */
 const INFOS = {
   gradient: ['icc_chart_get_gradient_info'], field: ['icc_chart_get_field_info'],
   foliation: ['icc_chart_get_foliation_info', 'icc_chart_get_shelling_info'],
@@ -34,10 +34,10 @@ export function chartOf(core, Domain) {
       return core.info(names[this.dim === 2 && this.domain.info.nMeshSimplices === 0 ? 0 : names.length - 1], this);
     }
 
-    /** Estimates how much of the shape the coordinates miss, from about nPoints points. */
+    /** Estimates what the coordinates miss, from about nPoints points. */
     report(nPoints = 0) { return core.info('icc_chart_get_report', this, nPoints); }
 
-    /** Coordinates of points: { facet, bary, t, status }. */
+    /** Computes the coordinates of points: { facet, bary, t, status }. */
     encode(points) {
       const { dim } = this, p = flat(points, dim), n = p.length / dim;
       const out = {
@@ -48,7 +48,7 @@ export function chartOf(core, Domain) {
       return out;
     }
 
-    /** Points of coordinates: { points, status }. */
+    /** Computes the points of coordinates: { points, status }. */
     decode({ facet, bary, t }) {
       const n = t.length;
       const out = { points: new Float64Array(n * this.dim), status: new Int32Array(n) };

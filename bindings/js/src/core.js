@@ -1,4 +1,4 @@
-// Calls of C functions by their declarations, and the objects that live behind them.
+// Calls C functions by their declarations, and owns the objects of C.
 import { Env } from './env.js';
 import { IccError } from './error.js';
 import { functions } from './layouts.js';
@@ -6,10 +6,10 @@ import { Address, Memory, pointee } from './memory.js';
 
 const isCreated = ([name, type]) => name === 'out' && type.endsWith('**');
 const isImplicit = (parameter) => isCreated(parameter) || parameter[0] === 'env' || parameter[0] === 'err';
-/** Written by the call: copied back. */
+/** Marks an argument that the call writes to: it is copied back. */
 const isWritten = (type) => type.endsWith('*') && !type.startsWith('const ');
 
-/** How the arguments of a function are passed; worked out at its first call. */
+/** How the arguments of a function are passed; computed on its first call. */
 function plan(name) {
   const [result, parameters] = functions[name];
   return {
@@ -37,7 +37,7 @@ export class Core {
   /**
    * Calls a C function. Its arguments are those of C without `out`, `env` and `err`: numbers, handles,
    * typed arrays and objects for structs; arrays and objects that C writes to are written to. Throws
-   * IccError unless the status is OK; gives the address that a creator wrote, or what C returned.
+   * IccError unless the status is OK. Returns the address that a creator wrote, or what C returned.
    */
   call(name, ...args) {
     let p = this.#plans.get(name);
@@ -70,7 +70,7 @@ export class Core {
     return created === 0 ? undefined : m.view.getUint32(created, true);
   }
 
-  /** The address of an argument that is an object of C: of the right class, and of this instance. */
+  /** The address of an argument that is an object of C. It must have the right class and belong to this instance. */
   #addressOf(name, { key, kind }, value) {
     if (value === null || value === undefined) return 0;
     if (value.kind === kind && value.core === this) return value.address;
@@ -78,17 +78,17 @@ export class Core {
     throw new TypeError(`${name}: ${key} is ${given}${value.kind === kind ? ' of another instance' : `, but has to be of ${kind}`}`);
   }
 
-  /** The same for creators, for the constructor of a Handle. */
+  /** Calls a creator, for the constructor of a Handle. */
   made(name, ...args) { return new Address(this.call(name, ...args)); }
 
-  /** The members that a function such as icc_map_get_info() fills in. */
+  /** Returns the members that a function such as icc_map_get_info() fills in. */
   info(name, ...args) {
     const out = {};
     this.call(name, ...args, out);
     return out;
   }
 
-  /** What a function such as icc_map_save() writes in two calls. */
+  /** Returns the bytes that a function such as icc_map_save() writes in two calls. */
   save(name, handle) {
     const size = new Uint32Array(1);
     this.call(name, handle, 0, null, size);
@@ -106,12 +106,12 @@ export class Core {
 // Node and browsers of before 2024 have no Symbol.dispose.
 const dispose = Symbol.dispose ?? Symbol.for('Symbol.dispose');
 
-/** An object of C. It is owned, and freed by free(), or when nothing refers to it any more; or borrowed
- *  from another one, which it keeps alive. */
+/** An object of C. If it is owned, free() frees it, or the garbage collector does. If it is borrowed from another
+ *  object, it keeps that one alive. */
 export class Handle {
   #core; #address; #free; #lender; #kind; #dim;
 
-  /** first: an Address; or the first of what `create` makes one from. */
+  /** first: an Address, or the first argument of `create`. */
   constructor(core, first, create, free, lender = null) {
     const address = first instanceof Address ? first.value : create();
     this.#core = core;
@@ -127,7 +127,7 @@ export class Handle {
   /** The type in C. */
   get kind() { return this.#kind; }
 
-  /** The dimension, of what has an info; asked for once. */
+  /** The dimension, of classes that have an info; read once. */
   get dim() { return (this.#dim ??= this.info.dim); }
 
   get address() {
@@ -136,7 +136,7 @@ export class Handle {
     return this.#address;
   }
 
-  /** Gives the memory back now. What was made from the object stays. */
+  /** Frees the memory now. Objects that were made from this one stay. */
   free() {
     if (this.#address === 0) return;
     if (this.#lender === null) {

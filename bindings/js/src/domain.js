@@ -1,4 +1,4 @@
-// Domains: a boundary and what it encloses. See icc_domain_create() and its kin.
+// Domains: a boundary and what it encloses. See icc_domain_create() and the functions after it.
 import { Handle } from './core.js';
 import { IccError } from './error.js';
 import { constantNames } from './names.js';
@@ -17,7 +17,7 @@ function featuresOf({ holes = [], lines = [], points = [], radii = [] }) {
     ...points.map((point, i) => feature('point', point, radii[i] ?? 0))];
 }
 
-/** A polygon that the caller frees. If its name is that of a side, errors are the fault of that side. */
+/** Makes a polygon that the caller frees. If its name is that of a side, errors name that side. */
 function polygonOf(Domain, name, shape) {
   if (typeof shape !== 'object' || shape === null)
     throw new TypeError(`${name} is ${shape}, but has to be a Domain or an outline`);
@@ -29,7 +29,7 @@ function polygonOf(Domain, name, shape) {
   }
 }
 
-/** Runs `work` with shapes, given by their names: Domains as they are, outlines as polygons that are freed afterwards. */
+/** Runs `work` with shapes, given by name. Domains are passed as they are. Outlines become polygons, freed afterwards. */
 export function withDomains(Domain, shapes, work) {
   const made = [];
   try {
@@ -51,7 +51,7 @@ export function domainOf(core) {
       super(core, address, none, 'icc_domain_free', lender);
     }
 
-    /** A simple polygon, and what is inside: { holes, lines, points, radii }. */
+    /** A simple polygon with features inside: { holes, lines, points, radii }. */
     static polygon(outline, features = {}) {
       const outer = ring(outline);
       const inside = featuresOf(features);
@@ -66,7 +66,7 @@ export function domainOf(core) {
       return new Domain(core.made('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
     }
 
-    /** A conforming mesh of the inside; `facets` may say in which order the boundary's are wanted. */
+    /** A conforming mesh of the inside. `facets` may give the order of the boundary's facets. */
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
       const v = flat(vertices, dim), s = indices(simplices);
       const f = facets === null ? null : indices(facets);
@@ -82,7 +82,7 @@ export function domainOf(core) {
 
     get info() { return core.info('icc_domain_get_info', this); }
 
-    /** The domain of a surface in space, filled with tetrahedra: { ratio, maxPoints }. */
+    /** Fills this surface in space with tetrahedra; options { ratio, maxPoints }. */
     fill(options = null) { return new Domain(core.made('icc_domain_fill', this, options)); }
 
     /** The boundary as it was given, with the vertices of all features: { vertices, facets }. */
@@ -109,8 +109,8 @@ export function domainOf(core) {
       return Array.from({ length: this.info.nFeatures }, (_, i) => core.info('icc_domain_get_feature', this, i));
     }
 
-    /** Where points lie: { where: [1 inside, 2 on the boundary, 3 outside], facet, bary } with the nearest
-     *  facet and barycentric coordinates of the nearest point on it. */
+    /** Reports where points lie: { where, facet, bary }. `where` is 1 inside, 2 on the boundary, 3 outside. `facet`
+     *  is the nearest facet, and `bary` has the barycentric coordinates of the nearest point on it. */
     locate(points) {
       const { dim } = this, p = flat(points, dim), n = p.length / dim;
       const out = { where: new Int32Array(n), facet: new Uint32Array(n), bary: new Float64Array(n * dim) };
@@ -123,7 +123,7 @@ export function domainOf(core) {
 /** Functions about boundaries and masks. */
 export function shapesOf(core) {
   return {
-    /** What keeps a closed polygon from being a boundary: [{ kind, a, b }], all of it. */
+    /** Lists all defects that keep a closed polygon from being a boundary: [{ kind, a, b }]. */
     boundaryDefects(outline) {
       const p = ring(outline), count = new Uint32Array(1);
       core.call('icc_boundary_defects', p.length / 2, p, 0, null, null, count);
@@ -133,7 +133,7 @@ export function shapesOf(core) {
         { kind: DEFECTS.get(kind).toLowerCase(), a: items[2 * i], b: items[2 * i + 1] }));
     },
 
-    /** Fills cells of a mask where others touch at an edge or a corner only; gives how many. */
+    /** Repairs a mask in which cells touch only at an edge or a corner. Returns the number of filled cells. */
     repairMask(shape, cells) {
       const filled = new Uint32Array(1);
       core.call('icc_mask_repair', shape.length, Uint32Array.from(shape), cells, filled);

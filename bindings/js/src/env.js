@@ -1,9 +1,9 @@
-// What calls tell while they run, and how they are stopped: the callbacks of icc_env.
+// Progress, diagnostics and cancelling of calls: the callbacks of icc_env.
 const I32 = 0x7f, F64 = 0x7c;
 const text = (word) => [word.length, ...new TextEncoder().encode(word)];
 
-/** A function of JavaScript as one of WebAssembly, which is what C's table of functions takes: a module
- *  that imports it and exports it again. See the WebAssembly specification, section 5.5. */
+/** Turns a JavaScript function into a WebAssembly one, because C's table of functions takes no others. The result is a
+ *  module that imports and exports it. See the WebAssembly specification, section 5.5. */
 function callable(parameters, results, work) {
   const section = (id, ...content) => [id, content.length, ...content];
   const bytes = [0, ...new TextEncoder().encode('asm'), 1, 0, 0, 0,
@@ -20,13 +20,12 @@ export class Env {
     this.#table = exports.__indirect_function_table;
   }
 
-  /** What a call gets as its env. */
+  /** The env of a call. */
   get address() { return this.#address; }
 
   /**
-   * Runs `work`; the calls in it tell progress(stage, share), which cancels them by giving true, and
-   * log(line), and an AbortSignal that is aborted cancels them. What a callback throws cancels, too, and
-   * is thrown by the call.
+   * Runs `work`. The calls in it call progress(stage, share) and log(line). They are cancelled if progress
+   * returns true, if an AbortSignal is aborted, or if a callback throws. The call then throws that error.
    */
   during({ progress = null, log = null, signal = null }, work) {
     signal?.throwIfAborted();
@@ -46,7 +45,7 @@ export class Env {
     });
   }
 
-  /** Throws what a callback has thrown. */
+  /** Throws the error that a callback has thrown. */
   rethrow() {
     if (this.#thrown === null) return;
     const { error } = this.#thrown;
@@ -64,7 +63,7 @@ export class Env {
     return { progress: at, log: at + 1 };
   }
 
-  /** True if the call is to be cancelled. Nothing is thrown through C, and calls of a callback's own tell nothing. */
+  /** True if the call is to be cancelled. No error passes through C. Calls inside a callback report nothing. */
   #ask(callback) {
     if (this.#thrown !== null) return 1;
     const before = [this.#now, this.#address], [now] = before;

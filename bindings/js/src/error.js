@@ -1,4 +1,4 @@
-// What a failed call throws.
+// The error that a failed call throws.
 import { constantNames } from './names.js';
 
 const CODES = constantNames('ICC_ERR_');
@@ -17,13 +17,13 @@ export class IccError extends Error {
     this.side = [null, 'source', 'target'][details.side ?? 0] ?? null;
   }
 
-  /** The same as the fault of a side, where no other is to blame. */
+  /** The same error, blamed on a side unless it has one. */
   blame(side) {
     if (this.code === 'CANCELLED' || this.code === 'MEMORY' || this.side !== null) return this;
     return Object.assign(this, { message: `${side}: ${this.message}`, side });
   }
 
-  /** Its members, to be sent to another thread. */
+  /** Its members, for sending to another thread. */
   get plain() {
     const { message, code, index, item, side } = this;
     return { message, code, index, item, side };

@@ -16,7 +16,7 @@ async function nearby() {
   return readFile(url);
 }
 
-/** A WebAssembly.Module of what load() takes. */
+/** Makes a WebAssembly.Module from the argument of load(). */
 export async function compiled(source) {
   const given = await (source ?? nearby());
   if (given instanceof WebAssembly.Module) return given;
@@ -25,14 +25,14 @@ export async function compiled(source) {
   return WebAssembly.compile(given);
 }
 
-/** The classes over a core; over none, to look at. */
+/** The classes over a core. Without a core they are only descriptions. */
 export function classesOf(core) {
   const Domain = domainOf(core), Chart = chartOf(core, Domain), Map = mapOf(core, Domain, Chart);
   return { Domain, Chart, Map, Match: matchOf(core, Domain), ...kernelOf(core), ...stagesOf(core) };
 }
 
 /**
- * Makes an instance of the library, with a memory of its own: objects of two instances do not mix.
+ * Makes an instance of the library, with its own memory. Objects of two instances do not mix.
  * source: nothing (the file beside this one), a WebAssembly.Module, its bytes, a Response, or a promise
  * of one of them.
  */
@@ -45,7 +45,7 @@ export async function load(source) {
     module, ...classesOf(core), ...shapesOf(core), IccError,
     /** Calls any function of C by its name: see Core.call(). */
     call: (name, ...args) => core.call(name, ...args),
-    /** Watches the calls in `work`, and stops them: see Env.during(). */
+    /** Watches the calls in `work`, and can cancel them: see Env.during(). */
     during: (env, work) => core.env.during(env, work),
     get memoryBytes() { return core.bytes; },
     version: core.memory.string(core.call('icc_version')),

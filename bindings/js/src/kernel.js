@@ -71,7 +71,7 @@ export function kernelOf(core) {
       return values;
     }
 
-    /** The function that is 1 at a node, 0 at all others and interpolated as weights are, at points. */
+    /** The dual function of a node at points: 1 at the node, 0 at all others, interpolated as weights are. */
     dual(node, points, { out } = {}) {
       const p = flat(points, this.dim), n = p.length / this.dim;
       const values = room(out, n);
@@ -84,26 +84,27 @@ export function kernelOf(core) {
       return core.info('icc_weights_get_report', this, p.length / this.dim, p);
     }
 
-    /** New weights, with a brush applied to a handle's. */
+    /** New weights, with a brush applied to the weight of one handle. */
     paint(handle, centre, radius, amount) {
       return new Weights(core.made('icc_weights_paint', this, handle, flat(centre, this.dim), radius, amount));
     }
 
-    /** New weights, with given initial ones at some nodes. */
+    /** New weights, which start from your own values at some nodes. */
     repaint(nodes, values) {
       return new Weights(core.made('icc_weights_repaint', this, nodes.length, nodes, flat(values)));
     }
 
     withMethod(method) { return new Weights(core.made('icc_weights_with_method', this, methodNumber(method))); }
 
-    /** New weights, with a part that moves as if it were rigid, and half its squared derivatives before and after: { weights, energy }. */
+    /** New weights, with a part that moves as if it were rigid: { weights, energy }. `energy` is half the sum of its squared
+     *  derivatives, before and after. */
     stiffen(nodes, rigidity = null) {
       const energy = new Float64Array(2);
       const address = core.made('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);
       return { weights: new Weights(address), energy };
     }
 
-    /** Points with their weights, for repeated poses. */
+    /** Binds points to the handles, for repeated poses. */
     bind(points, options) { return new Binding(this, points, options); }
   }
 
@@ -121,7 +122,7 @@ export function kernelOf(core) {
       return { nPoints: points[0], nHandles: handles[0], dim: dim[0] };
     }
 
-    /** What was bound: { handles, weights }. */
+    /** The handles and the weights of the points: { handles, weights }. */
     weights() {
       const { nPoints, nHandles, dim } = this.info;
       const out = { handles: new Float64Array(nHandles * dim), weights: new Float64Array(nPoints * nHandles) };
@@ -129,7 +130,7 @@ export function kernelOf(core) {
       return out;
     }
 
-    /** The points under a Pose; `jacobians` takes derivatives, if the binding has them. */
+    /** The points under a Pose. `jacobians` receives derivatives, if the binding has them. */
     pose(pose, { out, jacobians = null } = {}) {
       const { nPoints, dim } = this.info, images = room(out, nPoints * dim);
       core.call('icc_binding_pose', this, pose.transforms, images, jacobians);
@@ -137,7 +138,7 @@ export function kernelOf(core) {
     }
   }
 
-  /** A transform for each handle; it may be changed. */
+  /** A transform for each handle, which you may change. */
   class Pose {
     #dim; #handles; #transforms;
 
@@ -162,7 +163,7 @@ export function kernelOf(core) {
 
     move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), flat(offset, this.dim)); return this; }
 
-    /** Radians, counter-clockwise with y upwards; in space about an axis. */
+    /** Turns a handle by an angle in radians, counter-clockwise with y upwards; in space about an axis. */
     turn(handle, angle, axis = null) {
       const at = this.handles.subarray(handle * this.dim, (handle + 1) * this.dim);
       core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : flat(axis, 3), angle);

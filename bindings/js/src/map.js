@@ -6,7 +6,7 @@ import { flat, indices, meshOf } from './points.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
-/** A picture as ImageData has them, as icc_picture. */
+/** Turns a picture like ImageData into an icc_picture. */
 const picture = ({ width, height, data }) => ({
   width, height, channels: CHANNELS, bytes: 1, alpha: 1, stride: CHANNELS * width, pixels: bytesOf(data),
 });
@@ -40,15 +40,15 @@ export function mapOf(core, Domain, Chart) {
       return address === 0 ? null : new Chart(new Address(address), null, this);
     }
 
-    /** A fairer map: { iterations, levels, tolerance }. */
+    /** Makes a map of lower distortion from a mesh map; options { iterations, levels, tolerance }. */
     improve(options = null) { return new Map(core.made('icc_map_improve', this, options, null)); }
 
-    /** The map to a target that has moved, in at most so many steps of improvement. */
+    /** Makes the map to a target that has moved, with at most this many improvement steps. */
     retarget(target, iterations = 0) {
       return withDomains(Domain, { target }, (t) => new Map(core.made('icc_map_retarget', this, t, { iterations })));
     }
 
-    /** The mesh of a map of kind mesh: { vertices, images, simplices }. */
+    /** The mesh of a mesh map: { vertices, images, simplices }. */
     mesh() {
       const { dim, nVertices, nSimplices } = this.info;
       const out = {
@@ -59,8 +59,8 @@ export function mapOf(core, Domain, Chart) {
       return out;
     }
 
-    /** The mesh of a map of kind mesh in the plane as a triangulation for PROJ (+proj=tinshift), in JSON. The names of
-     * reference systems, { sourceCrs: 'EPSG:2056', targetCrs }, are noted in it. */
+    /** The mesh of a mesh map in the plane as a triangulation for PROJ (+proj=tinshift), in JSON. It records the names of
+     *  reference systems, { sourceCrs: 'EPSG:2056', targetCrs }. */
     toProj({ sourceCrs, targetCrs } = {}) {
       if (this.dim !== 2)
         throw new RangeError(`PROJ's triangulations are of the plane; this map has dimension ${this.dim}`);
@@ -78,10 +78,11 @@ export function mapOf(core, Domain, Chart) {
       });
     }
 
-    /** Images of points; NaN where there is none. `out` takes them, `status` a status for each. */
+    /** Maps points from the source to the target; NaN where there is no image. `out` receives the images, `status` a
+     *  status for each point. */
     apply(points, { out, status = null } = {}) { return this.#points('icc_map_apply', points, out, status, 1); }
 
-    /** Points of images. */
+    /** Maps points from the target to the source. */
     inverse(images, { out, status = null } = {}) {
       return this.#points('icc_map_apply_inverse', images, out, status, 1);
     }
@@ -97,10 +98,10 @@ export function mapOf(core, Domain, Chart) {
       return result;
     }
 
-    /** Images of the vertices of a mesh, and whether they make a mesh: { images, certificate }. */
+    /** Maps the vertices of a mesh and checks whether the image is a valid mesh: { images, certificate }. */
     certify(vertices, simplices) { return this.#carry('icc_map_certify', vertices, simplices); }
 
-    /** The same, with the images of inner vertices moved until no simplex inverts. */
+    /** Like certify(), but moves the images of inner vertices until no simplex is inverted. */
     repair(vertices, simplices) { return this.#carry('icc_map_repair', vertices, simplices); }
 
     #carry(name, vertices, simplices) {
@@ -110,8 +111,8 @@ export function mapOf(core, Domain, Chart) {
       return { images, certificate };
     }
 
-    /** Which way round one another features go: [{ vertex: [a, b], source, target, length }], with the
-     *  bends of ties in both. As options `ties` they make such a map again. */
+    /** The ties, which tell on which side features pass one another: [{ vertex: [a, b], source, target, length }], with
+     *  the bends in source and target. As the option `ties` they make a map of the same isotopy class. */
     ties() { return Array.from({ length: this.info.nTies }, (_, i) => this.#tie(i)); }
 
     #tie(i) {
@@ -122,7 +123,7 @@ export function mapOf(core, Domain, Chart) {
       return { vertex: info.vertex, source, target, length: info.length };
     }
 
-    /** Warps a picture into another one; both as ImageData has them: { width, height, data }. */
+    /** Warps a picture into another one. Both are like ImageData: { width, height, data }. */
     warp(source, target) {
       const pixels = bytesOf(target.data);
       core.memory.scope(() => {

@@ -8,8 +8,8 @@ const ADDED = 0xffffffff;
 /** The class Match of an instance. */
 export function matchOf(core, Domain) {
   return class Match extends Handle {
-    /** source, target: Domains of the plane, or outlines, or surfaces; landmarks: rows of a point of the source and one of the
-     *  target; options as in icc_match_options. new Map(match.source, match.target) maps them. */
+    /** source, target: Domains of the plane, outlines or surfaces. landmarks: rows of a point of the source and its
+     *  partner in the target. options as in icc_match_options. new Map(match.source, match.target) maps them. */
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
       const dim = source instanceof Domain ? source.info.dim : 2;
@@ -26,7 +26,7 @@ export function matchOf(core, Domain) {
     get source() { return new Domain(core.made('icc_match_source', this), this); }
     get target() { return new Domain(core.made('icc_match_target', this), this); }
 
-    /** For every common vertex its number in the domains that were given: { source, target }; -1: it was added. */
+    /** For every common vertex its number in the given domains: { source, target }; -1: it was added. */
     origins() {
       const { nVertices } = this.info;
       const source = new Uint32Array(nVertices), target = new Uint32Array(nVertices);
@@ -35,7 +35,8 @@ export function matchOf(core, Domain) {
       return { source: numbers(source), target: numbers(target) };
     }
 
-    /** Points of the source's boundary on the target's. `out` takes them, `off` how far each was from the common boundary. */
+    /** Takes points of the source's boundary to the target's. `out` receives them, `off` their distances from the common
+     *  boundary. */
     apply(points, { out, off = null } = {}) { return this.#follow('icc_match_apply', points, out, off); }
 
     /** Target to source. */

@@ -1,10 +1,10 @@
-// The memory of an instance: what the arguments of one call need, and structs in and out.
+// The memory of an instance: arguments of calls, and structs in both directions.
 import { structs as layouts } from './layouts.js';
 import { IccError } from './error.js';
 import { camel, numberOf, textOf } from './names.js';
 import { numbersOf } from './points.js';
 
-/** The layouts, with the members' names as JavaScript has them. */
+/** The layouts, with the members' names in camel case. */
 const structs = Object.fromEntries(Object.entries(layouts).map(([name, { size, members }]) => [name,
   { size, members: Object.fromEntries(Object.entries(members).map(([key, at]) => [camel(key), at])) }]));
 
@@ -12,13 +12,13 @@ const ARENA_BYTES = 1 << 16;
 const ALIGN = 8;
 const OUT_OF_MEMORY = 2;
 
-/** The typed array whose elements a C type has; void is bytes. */
+/** The typed array for a C type; void means bytes. */
 const ARRAYS = {
   double: Float64Array, int32_t: Int32Array, icc_status: Int32Array, uint32_t: Uint32Array,
   size_t: Uint32Array, uint8_t: Uint8Array, void: Uint8Array,
 };
 
-/** An address that C gave. A plain number is never taken for one. */
+/** An address from C. A plain number is never used as an address. */
 export class Address {
   constructor(value) { this.value = value; }
 }
@@ -35,7 +35,7 @@ export class Memory {
     this.#view = new DataView(exports.memory.buffer);
   }
 
-  /** A view of all memory; made anew when that has grown. */
+  /** A view of all memory; made again after it has grown. */
   get view() {
     if (this.#view.buffer !== this.#c.memory.buffer) this.#view = new DataView(this.#c.memory.buffer);
     return this.#view;
@@ -43,7 +43,7 @@ export class Memory {
 
   array(Type, at, n) { return new Type(this.#c.memory.buffer, at, n); }
 
-  /** Runs `work`; what it takes is given back when it ends. Small things come from an arena. */
+  /** Runs `work` and then frees what it has allocated. Small things come from an arena. */
   scope(work) {
     const used = this.#used, taken = this.#taken.length;
     ++this.#depth;
@@ -150,7 +150,7 @@ export class Memory {
     else value.set(this.array(value.constructor, at, value.length));
   }
 
-  /** The members of a struct, and what C has written to arrays that it points to. */
+  /** Copies back the members of a struct, and the arrays that it points to. */
   #getStruct(name, at, value) {
     Object.assign(value, this.read(name, at));
     for (const [key, [offset, type]] of Object.entries(structs[name].members)) {
@@ -160,7 +160,7 @@ export class Memory {
     }
   }
 
-  /** True if a pointer of this type is one to values of the caller, to be copied. */
+  /** True if a pointer of this type points to the caller's values, which are copied. */
   static copies(type) {
     const element = pointee(type);
     return Boolean(ARRAYS[element] || structs[element] || element.endsWith('*'));

@@ -24,13 +24,13 @@ export function constantOf(prefix, word) {
   throw new TypeError(`'${word}' is none of ${words.join(', ')}`);
 }
 
-/** What C gets for a member's value: of a word, its number. */
+/** The value of a member for C: words become numbers. */
 export function numberOf(struct, member, value) {
   const prefix = typeof value === 'string' ? PREFIXES.get(`${struct}.${member}`) : undefined;
   return prefix === undefined ? value : constantOf(prefix, value);
 }
 
-/** What the caller gets for a member's value: of a number of an enumeration, its word. */
+/** The value of a member for the caller: numbers of enumerations become words. */
 export function textOf(struct, member, value) {
   const prefix = PREFIXES.get(`${struct}.${member}`);
   if (prefix === undefined) return value;

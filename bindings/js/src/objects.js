@@ -16,7 +16,7 @@ export function objectOperations(icc) {
     return numbers.get(object);
   }
 
-  /** A value to be sent: objects, and those among the members of a plain one, by their numbers. */
+  /** Prepares a value for sending: objects, also those among the members of a plain one, become numbers. */
   function sent(value) {
     if (value instanceof Handle || value instanceof icc.Pose)
       return { object: numberOf(value), name: value.constructor.name };

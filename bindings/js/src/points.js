@@ -1,4 +1,4 @@
-// Checks points and numbers as callers have them. A value that is no number is refused.
+// Checks the caller's points and numbers. A value that is not a number is refused.
 
 const show = (value) => (typeof value === 'string' ? `'${value}'` : typeof value === 'object' && value !== null
   ? `an object with ${Object.keys(value).slice(0, 4).join(', ') || 'no members'}` : String(value));
@@ -17,8 +17,8 @@ export function numbersOf(list, what = 'numbers') {
   return numbers;
 }
 
-/** Points one after the other: a Float64Array as it is, or from numbers, [[x, y], ...] or [{ x, y }, ...]. With `dim` each
- *  must have as many numbers. */
+/** Points one after the other: a Float64Array as it is, or made from numbers, [[x, y], ...] or [{ x, y }, ...]. With
+ *  `dim` each point must have this many numbers. */
 export function flat(points, dim = 0) {
   const rows = isPoint(points) ? [ofPoint(points)]
     : Array.isArray(points) ? points.map((point) => (isPoint(point) ? ofPoint(point) : point)) : points;
@@ -38,10 +38,10 @@ export function ring(points) {
   return n > 6 && p[0] === p[n - 2] && p[1] === p[n - 1] ? p.subarray(0, n - 2) : p;
 }
 
-/** An icc_mesh of simplices: to be read, or with room to be filled. */
+/** An icc_mesh of simplices, for reading, or with room for writing. */
 export const meshOf = (dim, vertices, cells) => ({
   dim, nVertices: vertices.length / dim, vertices, nCells: cells.length / (dim + 1), cells,
 });
 
-/** Whole numbers that count vertices. */
+/** Vertex indices. */
 export const indices = (list) => Uint32Array.from(numbersOf(list, 'indices'));

@@ -1,5 +1,5 @@
-// Calls of operations that serve() answers, in a worker or on this thread. One is under way at a time, the
-// others wait here: so what is cancelled or stale before its turn costs nothing.
+// Calls operations that serve() answers, in a worker or on this thread. One call runs at a time. The others wait
+// here, so a call that is cancelled or outdated before its turn costs nothing.
 import { IccError } from './error.js';
 import { compiled } from './instance.js';
 import { serve } from './serve.js';
@@ -17,8 +17,8 @@ export class Remote {
     else if (worker) worker.onerror = (event) => { event.preventDefault(); fail(event); };
   }
 
-  /** worker: a Worker whose program calls serve(), or operations (as serve() takes them) for this thread;
-   *  source: as load() takes it. */
+  /** worker: a Worker whose program calls serve(), or operations for this thread (as for serve()).
+   *  source: as for load(). */
   static async start(worker, source) {
     const module = await compiled(source), { port1, port2 } = new MessageChannel();
     const flag = typeof SharedArrayBuffer === 'undefined' ? null : new Int32Array(new SharedArrayBuffer(4));
@@ -29,12 +29,12 @@ export class Remote {
     return remote;
   }
 
-  /** True if a call that is under way can be stopped from here; needs memory that threads share. */
+  /** True if a running call can be stopped from here. This needs shared memory. */
   get stops() { return this.#flag !== null && this.#worker !== null; }
 
   /**
-   * The result of an operation, as a promise. An AbortSignal that is aborted rejects it at once; the call
-   * is stopped where `stops` is true, and otherwise ends by itself, and `lost` gets its result.
+   * The result of an operation, as a promise. An aborted AbortSignal rejects it at once. If `stops` is true,
+   * the call itself stops. Otherwise it ends later, and `lost` gets its result.
    */
   call(name, argument, { progress, log, signal, lost } = {}) {
     if (this.#closed) return Promise.reject(this.#closed);
@@ -58,7 +58,7 @@ export class Remote {
     call.done = () => signal.removeEventListener('abort', abort);
   }
 
-  /** Begins the next call. Node goes on as long as one is under way, and not because of an idle worker. */
+  /** Begins the next call. Node stays alive while a call runs, but not for an idle worker. */
   #pump() {
     if (this.#running) return;
     const call = this.#running = this.#queue.shift() ?? null;
@@ -94,9 +94,9 @@ export class Remote {
   }
 
   /**
-   * Where only the latest counts: one `work` of a channel is under way at a time, and of those that come
-   * meanwhile only the last is run. work() gives a promise; what latest() gives is settled with it, or
-   * with undefined when a later one has come before it was its turn.
+   * For work of which only the latest counts. One `work` of a channel runs at a time. Of those that come
+   * meanwhile only the last is run. work() returns a promise. latest() returns one with the same result, or
+   * undefined if a later work has replaced this one.
    */
   latest(channel, work) {
     const state = this.#channels.get(channel) ?? { busy: false, next: null };
@@ -129,6 +129,6 @@ export class Remote {
     this.#worker?.terminate();
   }
 
-  /** Ends the worker and all that lives there; calls that are left are rejected. */
+  /** Ends the worker with all its objects. Remaining calls are rejected. */
   close() { if (!this.#closed) this.#fail(new Error('this instance has been closed')); }
 }

@@ -4,7 +4,7 @@ import { load } from './instance.js';
 
 const REPORT_MS = 16;          // between two reports of progress
 
-/** What a worker is told first: { port, module, flag }. In browsers it has to be listened to at once. */
+/** The first message to a worker: { port, module, flag }. In browsers the worker must listen for it at once. */
 async function told() {
   if ('onmessage' in globalThis)
     return new Promise((resolve) => { globalThis.onmessage = ({ data }) => resolve(data); });
@@ -12,7 +12,7 @@ async function told() {
   return new Promise((resolve) => { parentPort.once('message', resolve); });
 }
 
-/** The buffers of a result and of its members, which change hands rather than being copied. */
+/** The buffers of a result and of its members, which are transferred instead of copied. */
 function buffersOf(result) {
   if (ArrayBuffer.isView(result)) return [result.buffer];
   const views = Object.values(result ?? {}).filter((value) => ArrayBuffer.isView(value));
@@ -22,8 +22,8 @@ function buffersOf(result) {
 const failureOf = (error) => (error instanceof IccError ? { icc: error.plain } : { text: `${error?.stack ?? error}` });
 
 /**
- * Answers the calls of a Remote. make(icc) gives the operations, { name: (argument) => result }; buffers of
- * a result change hands. start: { port, module, flag }; left out in a worker, which is told.
+ * Answers the calls of a Remote. make(icc) returns the operations, { name: (argument) => result }. Buffers of
+ * a result are transferred. start: { port, module, flag }; left out in a worker, which gets it as a message.
  */
 export async function serve(make, start) {
   const { port, module, flag } = start ?? await told();

@@ -1,4 +1,4 @@
-// The stages of Integral Curve Coordinates by themselves: grid, tree, function. See icc/stages.h.
+// The stages of Integral Curve Coordinates one by one: grid, tree, function. See icc/stages.h.
 import { Handle } from './core.js';
 import { flat } from './points.js';
 import { Address } from './memory.js';
@@ -8,7 +8,7 @@ export function stagesOf(core) {
   const copied = (Type, address, n) => (address === 0 ? null : core.memory.array(Type, address, n).slice());
 
   class Grid extends Handle {
-    /** domain: a Domain; cells along its longest side. */
+    /** domain: a Domain. cells: number of cells along its longest side. */
     constructor(domain, cells = 0, lender = null) {
       super(core, domain, () => core.call('icc_grid_create', domain, cells), 'icc_grid_free', lender);
     }
@@ -25,7 +25,7 @@ export function stagesOf(core) {
     /** One byte per vertex, 1 inside. */
     inside() { return copied(Uint8Array, core.call('icc_grid_inside', this), this.info.nVertices); }
 
-    /** The grassfire's maximum: { vertex, rounds }, with how many rounds it burnt before that. */
+    /** The grassfire's maximum: { vertex, rounds }. The fire burnt this many rounds before it reached the vertex. */
     findMaximum() {
       const vertex = new Uint32Array(1), rounds = new Uint32Array(1);
       core.call('icc_grid_find_maximum', this, vertex, rounds);
@@ -54,7 +54,7 @@ export function stagesOf(core) {
     generations() { return copied(Int32Array, core.call('icc_tree_generations', this), this.#n); }
     report() { return core.info('icc_tree_get_report', this); }
 
-    /** An order of the vertices that has no critical one but the root: { rank, report }. */
+    /** Orders the vertices so that the root is the only critical one: { rank, report }. */
     grow(values = null) {
       const rank = new Uint32Array(this.#n), report = {};
       core.call('icc_tree_grow', this, values, rank, report);

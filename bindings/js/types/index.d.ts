@@ -153,9 +153,9 @@ export interface GridFunction extends Handle {
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
 }
 
-/** What calls tell while they run, and how they are stopped. */
+/** Progress, diagnostics and cancelling of calls. */
 export interface Env {
-  /** The stage, and the share of the call that is done; true cancels it. */
+  /** Receives the stage and the share of the call that is done. Return true to cancel. */
   progress?: ((stage: string, share: number) => boolean | void) | null;
   log?: ((line: string) => void) | null;
   signal?: AbortSignal | null;
@@ -189,7 +189,7 @@ export interface Instance {
   repairMask(shape: readonly number[], cells: Uint8Array): number;
   triangulate(nBoundary: number, points: Points): Uint32Array;
   call(name: string, ...args: unknown[]): any;
-  /** Watches the calls in `work`, and stops them. */
+  /** Watches the calls in `work`, and can cancel them. */
   during<T>(env: Env, work: () => T): T;
   readonly memoryBytes: number;
   readonly version: string;
@@ -198,10 +198,10 @@ export interface Instance {
   codeOf(status: number): string;
 }
 
-/** Makes an instance of the library, with a memory of its own. */
+/** Makes an instance of the library, with its own memory. */
 export function load(source?: Source | Promise<Source>): Promise<Instance>;
 
-/** What a worker has: promises of values, and objects by reference. */
+/** The same interface in a worker: promises of values, and objects by reference. */
 type Object_ = Handle | Pose;
 export type Far<T> = T extends Object_ ? Away<T> : T extends null ? null
   : T extends { weights: Weights; energy: infer E } ? { weights: Away<Weights>; energy: E } : T;
@@ -224,7 +224,7 @@ export interface WorkerLike { postMessage(message: any, transfer?: any): void; t
 /** Calls of the operations that serve() answers in a worker, one at a time. */
 export class Remote {
   static start(worker: WorkerLike | MakeOperations, source?: Source | Promise<Source>): Promise<Remote>;
-  /** True if a call that is under way can be stopped. */
+  /** True if a running call can be stopped. */
   readonly stops: boolean;
   call(name: string, argument?: unknown, env?: Env & { lost?: (result: any) => void }): Promise<any>;
   latest<T>(channel: string, work: () => Promise<T>): Promise<T | undefined>;
@@ -236,9 +236,9 @@ export function serve(make: MakeOperations): Promise<void>;
 /** The classes of an instance in a worker. */
 export type AsyncIcc = { readonly [K in Class]: AwayClass<Instance[K]> } & AwayFunctions & {
   readonly stops: boolean;
-  /** Watches the calls that `work` begins before it waits for any, and stops them. */
+  /** Watches the calls that `work` begins before it waits for any, and can cancel them. */
   during<T>(env: Env, work: () => T): T;
-  /** Of works that come while one of the channel is under way, only the last is run; the others give undefined. */
+  /** While one work of a channel runs, only the last of those that come is kept. The others give undefined. */
   latest<T>(channel: string, work: () => Promise<T>): Promise<T | undefined>;
   close(): void;
 };
