@@ -670,6 +670,136 @@ START_TEST(the_same_bits_every_time)
 }
 END_TEST
 
+/* ---- overlays in patches ---- */
+
+enum { FLOWER = 1000 };
+
+/* An outline with petals of the given depth. */
+static icc_domain *create_flower(double petals, double depth, double phase)
+{
+    static double xy[2 * FLOWER];
+    icc_domain *domain;
+    for (size_t k = 0; k < FLOWER; ++k) {
+        const double angle = 6.28318530717958647692 * (double)k / FLOWER;
+        const double radius = 1 + depth * cos(petals * angle + phase);
+        xy[2 * k] = radius * cos(angle);
+        xy[2 * k + 1] = radius * sin(angle);
+    }
+    ck_assert_int_eq(icc_domain_create(&domain, 2, FLOWER, xy, 0, NULL, NULL, NULL), ICC_OK);
+    return domain;
+}
+
+static icc_map *create_flower_map(const icc_domain *source, const icc_domain *target,
+                                  int32_t iterations)
+{
+    const icc_map_options options = {.size = sizeof options, .iterations = iterations};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create(&map, source, target, &options, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(info_of(map).kind, ICC_MAP_MESH);
+    ck_assert_int_eq(info_of(map).certified, 1);
+    return map;
+}
+
+/* Some triangles of the chart's mesh are inverted, but most of its inner vertices are vertices of
+ * the map. An overlay of the whole has none of them. */
+static void check_patched(const icc_map *map)
+{
+    const iccp_planar *mesh = map->source->mesh;
+    const iccp_plmap *pl = &iccp_plane_of(map)->pl;
+    const size_t n_inner = mesh->n_vertices - mesh->n_boundary;
+    size_t n_kept = 0;
+    for (size_t v = mesh->n_boundary; v < mesh->n_vertices; ++v)
+        for (size_t w = mesh->n_boundary; w < pl->n_vertices; ++w)
+            if (memcmp(mesh->points + 2 * v, pl->points + 2 * w, 2 * sizeof(double)) == 0) {
+                ++n_kept;
+                break;
+            }
+    ck_assert_uint_gt(report_of(map).n_inverted, 0);
+    ck_assert_uint_gt(n_kept, n_inner / 2);
+    ck_assert_uint_lt(n_kept, n_inner);
+}
+
+static icc_map *load_again(const icc_map *map)
+{
+    size_t n;
+    icc_map *loaded;
+    ck_assert_int_eq(icc_map_save(map, 0, NULL, &n), ICC_OK);
+    void *data = malloc(n);
+    ck_assert_int_eq(icc_map_save(map, n, data, &n), ICC_OK);
+    ck_assert_int_eq(icc_map_load(&loaded, n, data, NULL, NULL), ICC_OK);
+    free(data);
+    return loaded;
+}
+
+/* The map's own mesh, certified by the map. */
+static icc_certificate certificate_of(const icc_map *map)
+{
+    const icc_map_info info = info_of(map);
+    icc_certificate certificate = {.size = sizeof certificate};
+    double *points = calloc(info.n_vertices, 2 * sizeof *points);
+    double *images = calloc(info.n_vertices, 2 * sizeof *images);
+    uint32_t *corners = calloc(info.n_simplices, 3 * sizeof *corners);
+    ck_assert_int_eq(flat_get_mesh(map, points, NULL, corners), ICC_OK);
+    ck_assert_int_eq(flat_certify(map, info.n_vertices, points, info.n_simplices, corners, images,
+                                  &certificate, NULL, NULL),
+                     ICC_OK);
+    free(points);
+    free(images);
+    free(corners);
+    return certificate;
+}
+
+static void check_same_map(const icc_map *a, const icc_map *b)
+{
+    const icc_map_info i = info_of(a), j = info_of(b);
+    const icc_certificate c = certificate_of(a), d = certificate_of(b);
+    ck_assert(is_same(a, b));
+    ck_assert_int_eq(i.kind, ICC_MAP_MESH);
+    ck_assert_int_eq(i.certified, 1);
+    ck_assert_int_eq(j.certified, 1);
+    ck_assert_double_eq(i.energy, j.energy);
+    ck_assert_int_eq(c.certified, d.certified);
+    ck_assert_uint_eq(c.n_inverted, d.n_inverted);
+    ck_assert_uint_eq(c.n_no_image, d.n_no_image);
+}
+
+static icc_map *retarget(const icc_map *map, const icc_domain *target)
+{
+    icc_map *next;
+    ck_assert_int_eq(icc_map_retarget(&next, map, target, NULL, NULL, NULL), ICC_OK);
+    return next;
+}
+
+/* The start, and the map that is made of it. */
+START_TEST(overlays_in_patches_are_maps_like_others)
+{
+    icc_domain *source = create_flower(5, 0.4, 0), *target = create_flower(4, 0.4, 1);
+    icc_domain *moved = create_flower(4, 0.38, 1.05);
+    icc_map *start = create_flower_map(source, target, -1);
+    check_patched(start);
+    icc_map_free(start);
+    icc_map *map = create_flower_map(source, target, 0), *loaded = load_again(map);
+    check_same_map(map, loaded);
+    icc_map *next[2] = {retarget(map, moved), retarget(loaded, moved)};
+    check_same_map(next[0], next[1]);
+    icc_improve_report report[2];
+    icc_map *better[2] = {improve(map, NULL, &report[0], NULL),
+                          improve(loaded, NULL, &report[1], NULL)};
+    check_same_map(better[0], better[1]);
+    ck_assert_double_eq(report[0].energy, report[1].energy);
+    ck_assert_uint_eq(report[0].n_iterations, report[1].n_iterations);
+    for (int k = 0; k < 2; ++k) {
+        icc_map_free(next[k]);
+        icc_map_free(better[k]);
+    }
+    icc_map_free(map);
+    icc_map_free(loaded);
+    icc_domain_free(source);
+    icc_domain_free(target);
+    icc_domain_free(moved);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("mesh map");
@@ -688,6 +818,7 @@ int main(void)
     tcase_add_test(tests, work_is_bounded);
     tcase_add_test(tests, what_crosses_too_often_is_of_kind_curves);
     tcase_add_test(tests, the_same_bits_every_time);
+    tcase_add_test(tests, overlays_in_patches_are_maps_like_others);
     suite_add_tcase(suite, tests);
     SRunner *runner = srunner_create(suite);
     srunner_run_all(runner, CK_NORMAL);
