@@ -85,7 +85,7 @@ static icc_status encode_many(const icc_chart *chart, size_t n, const double *po
             volume[i] = NAN;
         status[i] = to_local(chart, points + (size_t)chart->domain->dim * i, local);
         if (status[i] == ICC_OK &&
-            !iccp_chart_is_settled(chart, local, &place[n_which], &coords[i], &status[i]))
+            !iccp_chart_is_trivial(chart, local, &place[n_which], &coords[i], &status[i]))
             which[n_which++] = i;
     }
     if (n_which == 0)

@@ -83,7 +83,7 @@ static int32_t locate(const icc_chart *chart, const double *point, iccp_chart_pl
     return MAXIMUM;
 }
 
-bool iccp_chart_is_settled(const icc_chart *chart, const double *point, iccp_chart_place *place,
+bool iccp_chart_is_trivial(const icc_chart *chart, const double *point, iccp_chart_place *place,
                            iccp_coords *coords, icc_status *status)
 {
     const int32_t where = locate(chart, point, place, coords);
@@ -107,7 +107,7 @@ icc_status iccp_chart_encode(const icc_chart *chart, const double *point, iccp_c
 {
     iccp_chart_place place;
     icc_status status;
-    if (!iccp_chart_is_settled(chart, point, &place, coords, &status))
+    if (!iccp_chart_is_trivial(chart, point, &place, coords, &status))
         return chart->ops->encode(chart, point, &place, coords, jet);
     return status == ICC_OK && jet != NULL ? ICC_ERR_TRACE : status;
 }

@@ -11,7 +11,7 @@
  * - encode, decode: from a point to its coordinates, and back.
  * - place: where a point lies, in the terms of its method.
  * - jet: derivatives of the result of encode or decode.
- * - settled: a point without a curve of its own, so its coordinates are known at once.
+ * - trivial: a point without a curve of its own, so its coordinates are known at once.
  * - end: coordinates of the boundary or of the maximum, where a curve ends.
  *
  * Ways: chart.c handles one point, bulk.c many. low_discrepancy.h spreads sample points.
@@ -154,7 +154,7 @@ void iccp_chart_set_maximum(icc_chart *chart, const double *local);
 
 /* Returns true if a point has no curve of its own: it is outside, the maximum, or on the
  * boundary. `*status` and `coords` are then the result. Otherwise `place` is set for the method. */
-bool iccp_chart_is_settled(const icc_chart *chart, const double *point, iccp_chart_place *place,
+bool iccp_chart_is_trivial(const icc_chart *chart, const double *point, iccp_chart_place *place,
                            iccp_coords *coords, icc_status *status);
 
 /* Returns true if the coordinates are those of a point of the boundary or of the maximum, and

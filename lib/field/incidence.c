@@ -84,7 +84,7 @@ typedef struct scan {
     uint32_t faces;                          /* faces of the current simplex that the facet meets */
     uint32_t reached;                        /* corners of the current simplex that count where the
                                                 facet is */
-    int32_t settled;                         /* how many axes of its order prove that the simplex is
+    int32_t n_decisive;                      /* how many axes of its order prove that the simplex is
                                                 apart */
     bool second;                             /* second pass: all bits are known */
     uint32_t *seen;                          /* by vertex: 1 + the last facet noted there */
@@ -226,13 +226,13 @@ static contact plane_contact(const scan *s, const int32_t *cell, const int8_t *a
 }
 
 /* Compares a simplex with the facet, by the plane of the facet and those of the simplex's own
- * facets. Sets s->faces, s->reached and s->settled. */
+ * facets. Sets s->faces, s->reached and s->n_decisive. */
 static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
 {
     const int32_t dim = s->domain->dim;
     contact least = plane_contact(s, cell, axis); /* the cheaper test, which most simplices fail */
     s->faces = s->reached = 0;
-    s->settled = dim;
+    s->n_decisive = dim;
     if (least == APART)
         return APART;
     for (int32_t i = 0; i <= dim; ++i) {
@@ -244,7 +244,7 @@ static contact contact_with(scan *s, const int32_t *cell, const int8_t *axis)
             lowest = above - below < lowest ? above - below : lowest;
         }
         if (highest < -CONTACT) {
-            s->settled = i < dim ? i + 1 : dim;
+            s->n_decisive = i < dim ? i + 1 : dim;
             return APART;
         }
         s->faces |= lowest <= CONTACT ? (uint32_t)1 << i : 0;
@@ -350,7 +350,7 @@ static bool visit_cell(scan *s, const int32_t *cell)
         if (!visit_simplex(s, cell, lowest, r))
             return false;
         int32_t n_alike = 1;
-        for (int32_t free = grid->dim - s->settled; free > 1; --free)
+        for (int32_t free = grid->dim - s->n_decisive; free > 1; --free)
             n_alike *= free;
         r += n_alike - r % n_alike;
     }

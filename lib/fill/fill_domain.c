@@ -136,7 +136,7 @@ static icc_status finish(icc_domain **out, iccp_tets *m, iccp_surface *s, const 
 }
 
 /* The stages, for which the costs below are listed. */
-enum { INSERT, SEGMENTS, FACETS, LIFT, SETTLE, REFINE, IMPROVE, CHECK, N_STAGES };
+enum { INSERT, SEGMENTS, FACETS, LIFT, CLEAN_UP, REFINE, IMPROVE, CHECK, N_STAGES };
 static const double cost[N_STAGES] = {10, 5, 5, 5, 15, 30, 20, 10};
 
 static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
@@ -161,7 +161,7 @@ static icc_status make(iccp_tets *m, iccp_surface *s, const icc_domain *surface,
     m->points.n_dyadic = 0; /* all are doubles now */
     m->metric.on = false;
     if (status == ICC_OK)
-        status = iccp_tets_settle(m, &stage[SETTLE], err);
+        status = iccp_tets_clean_up(m, &stage[CLEAN_UP], err);
     if (status == ICC_OK && options->ratio < HUGE_VAL)
         status = iccp_tets_refine(m, s, options->ratio, options->max_points, &stage[REFINE], err);
     if (status == ICC_OK)

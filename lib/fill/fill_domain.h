@@ -12,7 +12,7 @@
  * - lift: to move a point from the surface to the inside (lift.h).
  * - star, ring, link: tetrahedra at a point, those around an edge, and the points opposite to it.
  * - cavity, rim: tetrahedra that a new point replaces, and the boundary of their space (insert.h).
- * - settle: contract and smooth inner points (reshape.h, contract.h).
+ * - clean up: contract and smooth inner points (reshape.h, contract.h).
  * - refine: add inner points (inner_points.h). improve: flip and smooth (reshape.h).
  * - metric: a linear map in which a stretched surface has the same extent in all directions
  *   (metric.h).
@@ -20,8 +20,8 @@
  * Ways, in the order of fill_domain.c
  * - insert.h for the vertices. segments.h for edges, by flip.h, then points on them (split.c).
  * - facets.h for facets, and to remove the outside. facet_scan.h finds what pierces a facet.
- * - lift.h, with lifting.h for the facets of one point. reshape.h settles, inner_points.h refines,
- *   reshape.h improves, by flip.h; quality.h says what is better.
+ * - lift.h, with lifting.h for the facets of one point. reshape.h cleans up, inner_points.h
+ *   refines, reshape.h improves, by flip.h; quality.h says what is better.
  * - Exact signs of dyadic points: fixed.h.
  *
  * Invariants: every tetrahedron is positive by exact signs after every step. A step that fails

@@ -169,7 +169,7 @@ static uint32_t stamp_bad(iccp_tets *m)
     return stamp;
 }
 
-icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err)
+icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err)
 {
     enum { ROUNDS = 4 };
     const double enough = 1e-4; /* worst quality that may remain */

@@ -13,7 +13,7 @@ bool iccp_smooth_point(iccp_tets *m, uint32_t p);
 
 /* Contracts and smooths the inner points. The earlier stages put them where they were necessary,
  * not where they give a good shape. */
-icc_status iccp_tets_settle(iccp_tets *m, const iccp_env *env, icc_error *err);
+icc_status iccp_tets_clean_up(iccp_tets *m, const iccp_env *env, icc_error *err);
 
 /* Makes some rounds of flips and smoothing. */
 icc_status iccp_tets_improve(iccp_tets *m, const iccp_env *env, icc_error *err);

@@ -97,8 +97,8 @@ icc_status iccp_map_conclude(icc_map *map, const iccp_env *env, icc_error *err)
 
 /* Makes a map affine inside if its boundary is affine, unless that would change the isotopy class
  * of its features. */
-static icc_status settle(icc_map *map, int32_t iterations, double *energy, const iccp_env *env,
-                         icc_error *err)
+static icc_status make_affine(icc_map *map, int32_t iterations, double *energy, const iccp_env *env,
+                              icc_error *err)
 {
     iccp_env quiet = *env;
     quiet.progress = NULL;
@@ -107,7 +107,7 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
     const iccp_simplicial_map simplicial = map->kind->mesh(map);
     double *before;
     icc_status status =
-        iccp_affine_settle(&simplicial, map->source_domain, map->target_domain, &before, &quiet);
+        iccp_affine_extend(&simplicial, map->source_domain, map->target_domain, &before, &quiet);
     if (status != ICC_OK || before == NULL)
         return status;
     bool kept;
@@ -124,11 +124,11 @@ static icc_status settle(icc_map *map, int32_t iterations, double *energy, const
 
 /* Sets class_kept of `next`, which was made from `map`: whether the isotopy class of the features
  * is the one that it should be. */
-static icc_status judge_class(icc_map *next, const icc_map *map, bool moved, const iccp_env *env)
+static icc_status set_class_kept(icc_map *next, const icc_map *map, bool moved, const iccp_env *env)
 {
     bool kept = false;
-    const icc_status status = map->info.class_kept && next->kind->follows != NULL
-                                  ? next->kind->follows(&kept, next, map, moved, env)
+    const icc_status status = map->info.class_kept && next->kind->keeps_class != NULL
+                                  ? next->kind->keeps_class(&kept, next, map, moved, env)
                                   : ICC_OK;
     next->info.class_kept = kept;
     return status;
@@ -174,7 +174,7 @@ static icc_status create_of_kind(icc_map **out, const icc_domain *source, const 
     if (status == ICC_OK)
         status = iccp_map_conclude(map, env, err);
     if (status == ICC_OK)
-        status = settle(map, options->iterations, &map->info.energy, env, err);
+        status = make_affine(map, options->iterations, &map->info.energy, env, err);
     if (status != ICC_OK) {
         iccp_map_release(map);
         return iccp_explain(err, status);
@@ -339,7 +339,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     /* An affine map has the least energy, so a finer mesh would gain nothing. */
     static const icc_improve_options NO_MORE = {.iterations = 1, .levels = -1};
     const iccp_simplicial_map simplicial = map->kind->mesh(map);
-    if (iccp_affine_is_settled(&simplicial, map->source_domain, map->target_domain))
+    if (iccp_is_affine(&simplicial, map->source_domain, map->target_domain))
         options = &NO_MORE;
     iccp_team team;
     iccp_env with;
@@ -356,9 +356,9 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         status = iccp_map_conclude(better, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK)
-        status = settle(better, 0, &report->energy, env, err);
+        status = make_affine(better, 0, &report->energy, env, err);
     if (status == ICC_OK)
-        status = judge_class(better, map, false, env);
+        status = set_class_kept(better, map, false, env);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);
@@ -440,9 +440,9 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
         status = iccp_map_conclude(next, &with, err);
     iccp_without_team(&with, env);
     if (status == ICC_OK)
-        status = settle(next, iterations, &next->info.energy, env, err);
+        status = make_affine(next, iterations, &next->info.energy, env, err);
     if (status == ICC_OK)
-        status = judge_class(next, map, true, env);
+        status = set_class_kept(next, map, true, env);
     if (status != ICC_OK) {
         iccp_map_release(next);
         return iccp_explain(err, status);

@@ -98,7 +98,7 @@ typedef struct pairs {
     iccp_spot *spots[2];
 } pairs;
 
-static void settle(pairs *p, uint32_t f, uint32_t g)
+static void set_partners(pairs *p, uint32_t f, uint32_t g)
 {
     p->partner[0][f] = g;
     p->partner[1][g] = f;
@@ -106,7 +106,7 @@ static void settle(pairs *p, uint32_t f, uint32_t g)
 
 /* A circle and its point have the same partners. Copies them from one to the other, in either
  * direction. */
-static void settle_rims(pairs *p, bool is_known_by_point)
+static void set_rim_partners(pairs *p, bool is_known_by_point)
 {
     const iccp_feature *const a = p->domain[0]->features->item;
     const iccp_feature *const b = p->domain[1]->features->item;
@@ -115,10 +115,10 @@ static void settle_rims(pairs *p, bool is_known_by_point)
         if (a[f].rim_of == NONE)
             continue;
         if (p->partner[0][f] != NONE)
-            settle(p, a[f].rim_of, b[p->partner[0][f]].rim_of);
+            set_partners(p, a[f].rim_of, b[p->partner[0][f]].rim_of);
         for (uint32_t g = 0; g < n && is_known_by_point; ++g)
             if (b[g].rim_of != NONE && p->partner[0][a[f].rim_of] == b[g].rim_of)
-                settle(p, f, g);
+                set_partners(p, f, g);
     }
 }
 
@@ -141,7 +141,7 @@ static icc_status pair_kind(pairs *p, int32_t kind, double sure, const iccp_env 
         status = check(p->spots[0], p->spots[1], n[0], p->domain[0]->features->item, least * least,
                        sure, err);
     for (size_t k = 0; k < n[0] && status == ICC_OK; ++k)
-        settle(p, p->spots[0][k].number, p->spots[1][k].number);
+        set_partners(p, p->spots[0][k].number, p->spots[1][k].number);
     return status;
 }
 
@@ -162,13 +162,13 @@ icc_status iccp_features_partner(uint32_t *partner, const icc_domain *source,
             p.partner[1][f] = NONE;
         for (uint32_t f = 0; f < n; ++f)
             if (partner[f] != NONE)
-                settle(&p, f, partner[f]);
-        settle_rims(&p, true);
+                set_partners(&p, f, partner[f]);
+        set_rim_partners(&p, true);
     }
     for (size_t k = 0; k < sizeof order / sizeof *order && status == ICC_OK; ++k) {
         status = pair_kind(&p, order[k], sure, env, err);
         if (status == ICC_OK && order[k] == RIM)
-            settle_rims(&p, false);
+            set_rim_partners(&p, false);
     }
     iccp_free(&env->memory, p.partner[1]);
     iccp_free(&env->memory, p.spots[0]);

@@ -128,7 +128,7 @@ static void flip_some(state *s, int level)
 
 /* Begins with the empty set, for which f is the solution. All wrong inequalities change as long as
  * their number falls. After every PATIENCE steps without a new minimum, the share that changes is
- * halved; only a solver that never settles was seen to need that. */
+ * halved; only a solver that never converges was seen to need that. */
 static icc_status iterate(state *s, iccp_tied_solver solve, iccp_solution *info,
                           const iccp_env *env)
 {

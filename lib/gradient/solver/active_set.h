@@ -14,7 +14,7 @@ typedef icc_status (*iccp_tied_solver)(const iccp_unknowns *unknowns, const iccp
  * iccp_ties, best from the solution without inequalities.
  *
  * Fills in n_violated, n_active, n_iterations, residual_before, residual and seconds_verify of
- * `info`; the solver adds to the rest. Returns ICC_ERR_SOLVER if the active set has not settled
+ * `info`; the solver adds to the rest. Returns ICC_ERR_SOLVER if the active set has not converged
  * after 1000 iterations. Needs 30 bytes per unknown besides the solver's memory. */
 icc_status iccp_active_set_laplace(const iccp_unknowns *unknowns, double eta,
                                    iccp_tied_solver solve, uint32_t *order, const iccp_scaled *f,

@@ -79,7 +79,7 @@ static void flip(const search *s, uint32_t corner, size_t look)
 }
 
 /* Whether no edge of a triangle has to be tested. `look`: the test of its first corner. */
-static bool is_settled(const search *s, size_t triangle, size_t look)
+static bool is_done(const search *s, size_t triangle, size_t look)
 {
     const size_t per_pass = 3 * s->map->corners.n_triangles;
     if (look > per_pass)
@@ -97,7 +97,7 @@ static size_t flip_all(const search *s)
     for (int pass = 0; pass < PASSES && n != n_before; ++pass) {
         n_before = n;
         for (uint32_t t = 0; t < c->n_triangles; ++t, look += 3)
-            for (uint32_t k = 0; k < 3 && !is_settled(s, t, look); ++k) {
+            for (uint32_t k = 0; k < 3 && !is_done(s, t, look); ++k) {
                 const uint32_t corner = 3 * t + k, twin = c->twin[corner];
                 if (corner < twin && twin != ICCP_NO_NEIGHBOUR &&
                     is_better_now(s, corner, look + k)) {

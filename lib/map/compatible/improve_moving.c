@@ -143,28 +143,28 @@ static icc_status relax(iccp_plmap *map, double tense, iccp_work *work, const ic
     return status;
 }
 
-/* How crowded a mesh is: the square of its triangles over grain->many, at least 1. In a crowded
- * mesh only tenser triangles are cut, and merging may cost more. */
-static double crowding(const iccp_plmap *map, const iccp_grain *grain)
+/* How crowded a mesh is: the square of its triangles over limits->most_triangles, at least 1. In a
+ * crowded mesh only tenser triangles are cut, and merging may cost more. */
+static double crowding(const iccp_plmap *map, const iccp_mesh_limits *limits)
 {
-    const double times = (double)map->corners.n_triangles / (double)grain->many;
+    const double times = (double)map->corners.n_triangles / (double)limits->most_triangles;
     return iccp_max(1, times * times);
 }
 
-icc_status iccp_improve_moving(iccp_plmap *map, const iccp_grain *grain, double room,
+icc_status iccp_improve_moving(iccp_plmap *map, const iccp_mesh_limits *limits, double room,
                                iccp_work *work, const iccp_env *env)
 {
     const double tense = iccp_max(TENSE, TENSE_TO_MEAN * iccp_plmap_energy(map));
-    const double shortest = SHORTEST * grain->longest;
+    const double shortest = SHORTEST * limits->longest_edge;
     size_t n_flips, n_gone;
     if (room > ENOUGH_ROOM && !any_is_extreme(map, tense, shortest))
         return ICC_OK;
     map->plan = NULL;
-    icc_status status = cut_tense(map, tense * crowding(map, grain), shortest);
+    icc_status status = cut_tense(map, tense * crowding(map, limits), shortest);
     if (status == ICC_OK)
         status = iccp_flip_edges(map, &n_flips, env);
-    const double crowded = crowding(map, grain);
+    const double crowded = crowding(map, limits);
     if (status == ICC_OK && crowded > 1)
-        status = iccp_coarsen_within(map, RISE * crowded, grain->longest, &n_gone, env);
+        status = iccp_coarsen_within(map, RISE * crowded, limits->longest_edge, &n_gone, env);
     return status == ICC_OK ? relax(map, tense, work, env) : status;
 }

@@ -9,7 +9,7 @@ static const double BLOCKED = 0.35;
 
 typedef struct tended {
     iccp_plmap *map;
-    const iccp_grain *grain;
+    const iccp_mesh_limits *limits;
 } tended;
 
 void iccp_target_place(const iccp_plmap *map, const icc_domain *target, size_t vertex,
@@ -34,14 +34,14 @@ static void place(const void *map, const icc_domain *target, size_t point, doubl
 static icc_status mend(void *map, iccp_work *work, const iccp_env *env)
 {
     const tended *t = map;
-    return iccp_improve_moving(t->map, t->grain, 0, work, env);
+    return iccp_improve_moving(t->map, t->limits, 0, work, env);
 }
 
-icc_status iccp_move_targets(iccp_plmap *map, const icc_domain *target, const iccp_grain *grain,
-                             size_t patience, iccp_work *work, bool *reached, double *room,
-                             const iccp_env *env)
+icc_status iccp_move_targets(iccp_plmap *map, const icc_domain *target,
+                             const iccp_mesh_limits *limits, size_t patience, iccp_work *work,
+                             bool *reached, double *room, const iccp_env *env)
 {
     static const iccp_continuation PLANE = {see, place, BLOCKED, mend};
-    tended t = {map, grain};
+    tended t = {map, limits};
     return iccp_continue(&PLANE, &t, target, patience, work, reached, room, env);
 }

@@ -150,8 +150,8 @@ static void follow(const iccp_affine *a, const iccp_simplicial_map *map)
 }
 
 /* True if the boundary is affine. Sets *inside if the inside is, too. */
-static bool is_affine(const iccp_simplicial_map *map, const icc_domain *source,
-                      const icc_domain *target, iccp_affine *a, bool *inside)
+static bool is_boundary_affine(const iccp_simplicial_map *map, const icc_domain *source,
+                               const icc_domain *target, iccp_affine *a, bool *inside)
 {
     const bool boundary =
         iccp_affine_fit(a, map) && agrees(a, map, true, tolerance_of(a, source, target));
@@ -159,22 +159,22 @@ static bool is_affine(const iccp_simplicial_map *map, const icc_domain *source,
     return boundary;
 }
 
-bool iccp_affine_is_settled(const iccp_simplicial_map *map, const icc_domain *source,
-                            const icc_domain *target)
+bool iccp_is_affine(const iccp_simplicial_map *map, const icc_domain *source,
+                    const icc_domain *target)
 {
     iccp_affine a;
     bool inside;
-    return is_affine(map, source, target, &a, &inside) && inside;
+    return is_boundary_affine(map, source, target, &a, &inside) && inside;
 }
 
-icc_status iccp_affine_settle(const iccp_simplicial_map *map, const icc_domain *source,
+icc_status iccp_affine_extend(const iccp_simplicial_map *map, const icc_domain *source,
                               const icc_domain *target, double **before, const iccp_env *env)
 {
     const size_t n = map->dim * map->n_points;
     iccp_affine a;
     *before = NULL;
     bool inside;
-    if (!is_affine(map, source, target, &a, &inside) || inside)
+    if (!is_boundary_affine(map, source, target, &a, &inside) || inside)
         return ICC_OK;
     double *kept = iccp_alloc(&env->memory, n, sizeof *kept);
     if (kept == NULL)

@@ -21,11 +21,11 @@ bool iccp_affine_fit(iccp_affine *a, const iccp_simplicial_map *map);
  * it, because an affine map has the least energy. The images of fixed points do not change.
  * `before` then holds the earlier images, and the caller frees it. It is NULL if nothing changed:
  * the boundary is not affine, the inside is affine already, or a simplex would not be positive. */
-icc_status iccp_affine_settle(const iccp_simplicial_map *map, const icc_domain *source,
+icc_status iccp_affine_extend(const iccp_simplicial_map *map, const icc_domain *source,
                               const icc_domain *target, double **before, const iccp_env *env);
 
 /* True if the whole map is affine up to rounding, so no other has less energy. */
-bool iccp_affine_is_settled(const iccp_simplicial_map *map, const icc_domain *source,
-                            const icc_domain *target);
+bool iccp_is_affine(const iccp_simplicial_map *map, const icc_domain *source,
+                    const icc_domain *target);
 
 #endif

@@ -19,7 +19,7 @@ static const double GROWTH = 1.4, STEPS = 6;
 static const double SLOW = 5e-3;
 enum { MOST_STEPS = 20 };
 
-/* For a relaxed map with less energy than this, is_settled() predicts the next gain. */
+/* For a relaxed map with less energy than this, has_converged() predicts the next gain. */
 static const double NEAR = 5;
 
 static bool may_refine(double n_simplices, const iccp_schedule *schedule, const iccp_work *work,
@@ -32,7 +32,7 @@ static bool may_refine(double n_simplices, const iccp_schedule *schedule, const 
 
 /* Whether the next refinement of a map NEAR an isometry will gain too little. Gains are taken to
  * fall by the same factor each time, so the next one is gain^2 / gain_before. */
-static bool is_settled(double energy, double least_gain, double gain, double gain_before)
+static bool has_converged(double energy, double least_gain, double gain, double gain_before)
 {
     return energy < NEAR && gain < gain_before && gain * gain < least_gain * gain_before;
 }
@@ -60,7 +60,7 @@ static icc_status refine_often(const iccp_profile *profile, void *map,
         const double gain = (before - improvement->energy) / before;
         n_in_vain = gain < profile->least_gain ? n_in_vain + 1 : 0;
         if (status == ICC_OK && schedule->is_relaxed &&
-            is_settled(improvement->energy, profile->least_gain, gain, gain_before)) {
+            has_converged(improvement->energy, profile->least_gain, gain, gain_before)) {
             improvement->is_converged = true;
             break;
         }

@@ -325,7 +325,7 @@ static icc_status compare_moved(bool *kept, const iccp_sequences *before, iccp_s
     return status;
 }
 
-icc_status iccp_isotopy_follows(bool *kept, const iccp_isotopy *isotopy,
+icc_status iccp_isotopy_is_kept(bool *kept, const iccp_isotopy *isotopy,
                                 const icc_domain *old_target, const iccp_plmap *map,
                                 const icc_domain *source, const icc_domain *target,
                                 const iccp_env *env)

@@ -48,7 +48,7 @@ icc_status iccp_isotopy_move(iccp_cuts *cuts, bool *arrived, const iccp_isotopy 
 
 /* *kept becomes true if a map to `target` has the class that iccp_isotopy_move() would give.
  * `isotopy` is that of the map to `old_target`, and may be NULL. */
-icc_status iccp_isotopy_follows(bool *kept, const iccp_isotopy *isotopy,
+icc_status iccp_isotopy_is_kept(bool *kept, const iccp_isotopy *isotopy,
                                 const icc_domain *old_target, const iccp_plmap *map,
                                 const icc_domain *source, const icc_domain *target,
                                 const iccp_env *env);

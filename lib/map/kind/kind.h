@@ -68,8 +68,8 @@ typedef struct iccp_map_kind {
 
     /* Tells whether `next` is in the isotopy class of its features that it should have. `next`
      * was made from `map` by `retarget` if `moved` is true, and otherwise by `improve`. */
-    icc_status (*follows)(bool *kept, const icc_map *next, const icc_map *map, bool moved,
-                          const iccp_env *env);
+    icc_status (*keeps_class)(bool *kept, const icc_map *next, const icc_map *map, bool moved,
+                              const iccp_env *env);
     /* See icc_map_get_tie(). Fails with ICC_ERR_ARGUMENT if there is no such tie. */
     icc_status (*tie)(const icc_map *map, size_t tie, icc_tie_info *info, double *target);
 

@@ -107,12 +107,12 @@ static icc_status retarget(icc_map *next, const icc_map *map, int32_t iterations
     return status;
 }
 
-static icc_status follows(bool *kept, const icc_map *next, const icc_map *map, bool moved,
-                          const iccp_env *env)
+static icc_status keeps_class(bool *kept, const icc_map *next, const icc_map *map, bool moved,
+                              const iccp_env *env)
 {
     const iccp_mesh_map *before = map->state, *after = next->state;
     if (moved)
-        return iccp_isotopy_follows(kept, before->isotopy, map->target_domain, &after->pl,
+        return iccp_isotopy_is_kept(kept, before->isotopy, map->target_domain, &after->pl,
                                     map->source_domain, next->target_domain, env);
     *kept = iccp_isotopy_same(before->isotopy, after->isotopy);
     return ICC_OK;
@@ -156,7 +156,7 @@ const iccp_map_kind iccp_plane_kind = {.number = ICC_MAP_MESH,
                                        .renew = renew,
                                        .improve = improve,
                                        .retarget = retarget,
-                                       .follows = follows,
+                                       .keeps_class = keeps_class,
                                        .tie = tie,
                                        .visit = visit,
                                        .free_state = free_state};

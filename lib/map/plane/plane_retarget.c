@@ -87,25 +87,25 @@ static icc_status move_features(iccp_mesh_map *map, const journey *j,
                                 iccp_map_facts *info, const iccp_env *env, icc_error *err)
 {
     const double begin = iccp_seconds(), stretch = map->pl.stretch;
-    const iccp_grain grain = {iccp_planar_step(j->target, CELLS),
-                              MANY + MANY_EACH * j->source->features->n_places};
+    const iccp_mesh_limits limits = {iccp_planar_step(j->target, CELLS),
+                                     MANY + MANY_EACH * j->source->features->n_places};
     bool reached = false;
     double room = 0;
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){3, 1}, env);
     icc_status status = ICC_OK;
     if (map->pl.corners.n_triangles < ENOUGH)
-        status = iccp_limit_edges(&map->pl, grain.longest, &part[0]);
+        status = iccp_limit_edges(&map->pl, limits.longest_edge, &part[0]);
     if (status == ICC_OK)
-        status = iccp_move_targets(&map->pl, j->target, &grain, PATIENCE, &work->search, &reached,
+        status = iccp_move_targets(&map->pl, j->target, &limits, PATIENCE, &work->search, &reached,
                                    &room, &part[0]);
     if (status == ICC_OK && !reached)
-        status = rebuild(&map->pl, j, grain.longest, &work->overlay, &reached, &part[0]);
+        status = rebuild(&map->pl, j, limits.longest_edge, &work->overlay, &reached, &part[0]);
     if (status == ICC_OK && !reached)
-        status = iccp_move_targets(&map->pl, j->target, &grain, LAST_PATIENCE, &work->search,
+        status = iccp_move_targets(&map->pl, j->target, &limits, LAST_PATIENCE, &work->search,
                                    &reached, &room, &part[0]);
     if (status == ICC_OK && reached)
-        status = iccp_improve_moving(&map->pl, &grain, room, &work->improvement, &part[0]);
+        status = iccp_improve_moving(&map->pl, &limits, room, &work->improvement, &part[0]);
     map->pl.stretch = stretch;
     info->seconds_repair = iccp_seconds() - begin;
     if (status == ICC_OK && !reached)
@@ -149,7 +149,7 @@ static icc_status plan_of(iccp_newton_plan **plan, const iccp_mesh_map *map, con
 static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work *work,
                             bool *reached, iccp_map_facts *info, const iccp_env *env)
 {
-    const iccp_grain grain = {iccp_planar_step(target, CELLS), SIZE_MAX};
+    const iccp_mesh_limits limits = {iccp_planar_step(target, CELLS), SIZE_MAX};
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(pl);
     const size_t n = 2 * pl->n_vertices;
     double room, *before = iccp_alloc(&env->memory, n, sizeof *before);
@@ -164,7 +164,7 @@ static icc_status move_cage(iccp_plmap *pl, const icc_domain *target, iccp_work 
     iccp_free(&env->memory, before);
     return *reached
                ? ICC_OK
-               : iccp_move_targets(pl, target, &grain, LAST_PATIENCE, work, reached, &room, env);
+               : iccp_move_targets(pl, target, &limits, LAST_PATIENCE, work, reached, &room, env);
 }
 
 /* Moves the map of a cage to another target, and improves it. If the way is blocked, the result is

@@ -526,7 +526,7 @@ END_TEST
 
 /* ---------------------------------------------------------- when things fail */
 
-/* Never settles. */
+/* Never converges. */
 static icc_status solve_randomly(const iccp_unknowns *unknowns, const iccp_ties *ties,
                                  const iccp_scaled *f, iccp_solution *info, const iccp_env *env)
 {

@@ -284,12 +284,12 @@ START_TEST(carried_round)
     iccp_env env;
     bool kept = true;
     ck_assert_int_eq(iccp_env_read(&env, NULL, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_isotopy_follows(&kept, iccp_plane_of(first)->isotopy,
+    ck_assert_int_eq(iccp_isotopy_is_kept(&kept, iccp_plane_of(first)->isotopy,
                                           first->target_domain, &iccp_plane_of(map)->pl, source,
                                           map->target_domain, &env),
                      ICC_OK);
     ck_assert(!kept);
-    ck_assert_int_eq(iccp_isotopy_follows(&kept, iccp_plane_of(first)->isotopy,
+    ck_assert_int_eq(iccp_isotopy_is_kept(&kept, iccp_plane_of(first)->isotopy,
                                           first->target_domain, &iccp_plane_of(first)->pl, source,
                                           source, &env),
                      ICC_OK);
