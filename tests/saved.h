@@ -3,6 +3,7 @@
 #define TESTS_SAVED_H
 
 #include "flat_mesh.h"
+#include "infos.h"
 #include "random.h"
 #include "reports.h"
 
@@ -162,7 +163,7 @@ static inline void same_domain(const icc_domain *a, const icc_domain *b)
 }
 
 /* Everything that a chart says of itself, but for times; what its method does not have is 0. */
-typedef struct chart_story {
+typedef struct chart_facts {
     icc_chart_info common;
     icc_gradient_info gradient;
     icc_field_info field;
@@ -170,9 +171,9 @@ typedef struct chart_story {
     icc_shelling_info shelling;
     icc_disc_info disc;
     size_t n_mesh_vertices, n_mesh_boundary, n_mesh_simplices;
-} chart_story;
+} chart_facts;
 
-static inline void read_story(const icc_chart *chart, chart_story *s)
+static inline void read_facts(const icc_chart *chart, chart_facts *s)
 {
     memset(s, 0, sizeof *s);
     s->common.size = sizeof s->common;
@@ -197,10 +198,10 @@ static inline void read_story(const icc_chart *chart, chart_story *s)
         s->foliation.n_mesh_simplices + s->shelling.n_mesh_simplices + s->disc.n_mesh_simplices;
 }
 
-static inline chart_story story_of(const icc_chart *chart)
+static inline chart_facts facts_of(const icc_chart *chart)
 {
-    chart_story s;
-    read_story(chart, &s);
+    chart_facts s;
+    read_facts(chart, &s);
     return s;
 }
 
@@ -270,27 +271,20 @@ static inline void same_chart(const icc_chart *a, const icc_chart *b)
 {
     static coordinates x, y;
     double points[SAVED_POINTS * ICC_MAX_DIM];
-    chart_story story, other;
-    read_story(a, &story);
-    read_story(b, &other);
+    chart_facts facts, other;
+    read_facts(a, &facts);
+    read_facts(b, &other);
     same_domain(icc_chart_domain(a), icc_chart_domain(b));
-    ck_assert_same(&story, &other, sizeof story, "info of the chart");
+    ck_assert_same(&facts, &other, sizeof facts, "info of the chart");
     saved_points(icc_chart_domain(a), 5, points);
     find_coordinates(a, points, &x);
     find_coordinates(b, points, &y);
     ck_assert_uint_lt(x.n_failed, SAVED_POINTS);
     ck_assert_same(&x, &y, sizeof x, "coordinates");
-    same_curves(a, b, points, story.common.dim);
+    same_curves(a, b, points, facts.common.dim);
 }
 
 /* ---- maps ---- */
-
-static inline icc_map_info map_story(const icc_map *map)
-{
-    icc_map_info info = {.size = sizeof info};
-    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
-    return info;
-}
 
 /* How it was made, but for the seconds. */
 static inline icc_map_report map_making(const icc_map *map)
@@ -339,7 +333,7 @@ static inline void same_map(const icc_map *a, const icc_map *b, const icc_domain
 {
     static images x, y;
     double points[SAVED_POINTS * ICC_MAX_DIM];
-    const icc_map_info info = map_story(a), other = map_story(b);
+    const icc_map_info info = info_of_map(a), other = info_of_map(b);
     ck_assert_same(&info, &other, sizeof info, "info of the map");
     const icc_map_report made = map_making(a), made_too = map_making(b);
     ck_assert_same(&made, &made_too, sizeof made, "report of the map");

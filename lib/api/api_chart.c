@@ -2,7 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 #include "method/chart_create.h"
 #include "method/load.h"
 

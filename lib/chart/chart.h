@@ -1,5 +1,5 @@
 /* The chart object: coordinates of a domain's inside, by any method. A method is a table of
- * operations on local points that have a curve of their own. Bulk calls are written once on top of
+ * operations on local points that have a curve of their own. Batch calls are written once on top of
  * the table. So are points without a curve: outside, on the boundary and at the maximum.
  *
  * Words of this folder. Begin with iccp_chart_ops.
@@ -14,7 +14,7 @@
  * - trivial: a point without a curve of its own, so its coordinates are known at once.
  * - end: coordinates of the boundary or of the maximum, where a curve ends.
  *
- * Ways: chart.c handles one point, bulk.c many. low_discrepancy.h spreads sample points.
+ * Ways: chart.c handles one point, encode_points.c many. low_discrepancy.h spreads sample points.
  *
  * Invariants: after its creation a chart changes only by `ready`. Methods stand in folders
  * above, and none of them is named here. lib/method creates charts. Source: Huynh and Gingold,

@@ -74,7 +74,7 @@ static icc_status visit_charts(iccp_blob *b, icc_map *map, int32_t kind, const i
 }
 
 /* Reads or writes how the map was made, which is only information. */
-static icc_status visit_story(iccp_blob *b, iccp_map_facts *info)
+static icc_status visit_facts(iccp_blob *b, iccp_map_facts *info)
 {
     iccp_blob_i32(b, ICCP_U64, 0, INT32_MAX, &info->n_levels);
     iccp_blob_size(b, &info->n_inverted);
@@ -114,7 +114,7 @@ static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_e
     if (status == ICC_OK && has_charts)
         status = visit_charts(b, *map, kind, &part[1], err);
     if (status == ICC_OK)
-        status = visit_story(b, &(*map)->info);
+        status = visit_facts(b, &(*map)->info);
     if (status == ICC_OK)
         status = visit_state(b, *map, kind, &part[2]);
     return status;

@@ -268,7 +268,7 @@ static void check_certified_map(random_source *r, const pair *p, const icc_map *
 
 /* Points that are mapped together get the bits of points that are mapped one by one, failures
  * included. */
-static void check_bulk(random_source *r, const pair *p, const icc_map *map)
+static void check_batch(random_source *r, const pair *p, const icc_map *map)
 {
     static double points[N_POINTS * ICC_MAX_DIM], images[N_POINTS * ICC_MAX_DIM];
     static icc_status statuses[N_POINTS];
@@ -458,7 +458,7 @@ START_TEST(masks)
             ck_assert_uint_eq(lost, 0);
         ck_assert_uint_le(lost, N_POINTS / 20);
         check_boundary(&r, &p, map);
-        check_bulk(&r, &p, map);
+        check_batch(&r, &p, map);
         icc_map_free(map);
         pair_free(&p);
     }

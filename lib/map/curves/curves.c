@@ -5,7 +5,7 @@
  * section 4, steps 3-5. */
 #include "map/curves/curves.h"
 
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 #include "math/elementary.h"
 
 #include <math.h>

@@ -6,14 +6,14 @@
  * Words of this folder
  * - curve map: a map of kind ICC_MAP_CURVES, which has no mesh of its own.
  * - share: the part of a domain's measure near a point, per piece of a facet and of the curve.
- * - digits: the accuracy that doubles keep between the two charts (digits.h).
- * - come back: a point's image, mapped back, is near the point again.
+ * - round trip: mapping a point, and mapping its image back (round_trip.h). A point comes back if
+ *   the result is near it.
  * - guarded: a map that checks whether images come back, point by point.
  *
  * Invariants: a curve map is certified if both charts are. With charts of method field, samples
  * must also come back. Then a suspect image that does not come back is refused.
  *
- * Ways: curves.c maps, digits.c checks, curves_certificate.c certifies. curves_kind.c connects
+ * Ways: curves.c maps, round_trip.c checks, curves_certificate.c certifies. curves_kind.c connects
  * them to the table in map/kind/kind.h. Begin with this file. */
 #ifndef ICCP_CURVES_H
 #define ICCP_CURVES_H

@@ -1,9 +1,9 @@
 /* Certifies a curve map. A certified chart is a homeomorphism of its domain onto the
  * coordinates, so two of them give a one-to-one map. In doubles, charts of method field need one
- * more check (digits.h). */
+ * more check (round_trip.h). */
 #include "map/curves/curves_certificate.h"
 
-#include "map/curves/digits.h"
+#include "map/curves/round_trip.h"
 
 icc_status iccp_curves_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
@@ -14,6 +14,6 @@ icc_status iccp_curves_certify(icc_map *map, const iccp_env *env, icc_error *err
     info->reason_side = !source->certified ? 1 : !target->certified ? 2 : 0;
     info->reason = info->reason_side == 2 ? target->reason : source->reason;
     return info->certified && source->method == ICC_METHOD_FIELD
-               ? iccp_digits_check(map->source, map->target, info, env)
+               ? iccp_round_trip_check(map->source, map->target, info, env)
                : ICC_OK;
 }

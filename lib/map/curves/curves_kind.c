@@ -1,10 +1,10 @@
 /* The table of operations of curve maps. See map/kind/kind.h. */
 #include "map/curves/curves_kind.h"
 
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 #include "map/curves/curves.h"
 #include "map/curves/curves_certificate.h"
-#include "map/curves/digits.h"
+#include "map/curves/round_trip.h"
 #include "map/kind/caller_point.h"
 
 static bool suits(const icc_domain *source)
@@ -58,7 +58,7 @@ static icc_status differentiate(const icc_map *map, bool inverse, size_t n, cons
         double *image = images != NULL ? images + dim * i : own;
         double *jacobian = jacobians + dim * dim * i;
         all = status[i] = is_guarded(map)
-                              ? iccp_digits_point(from, to, point, image, jacobian, path)
+                              ? iccp_checked_point(from, to, point, image, jacobian, path)
                               : iccp_curves_point(from, to, point, image, jacobian, path);
         if (all != ICC_OK)
             iccp_image_none(dim, image, jacobian);
@@ -73,7 +73,7 @@ static icc_status apply(const icc_map *map, bool inverse, size_t n, const double
     const icc_chart *to = inverse ? map->source : map->target;
     if (jacobians != NULL)
         return differentiate(map, inverse, n, points, images, jacobians, status, path);
-    return is_guarded(map) ? iccp_digits_points(from, to, n, points, images, status, path)
+    return is_guarded(map) ? iccp_checked_points(from, to, n, points, images, status, path)
                            : iccp_curves_points(from, to, n, points, images, NULL, status, path);
 }
 

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "base/threads.h"
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 #include "domain/features.h"
 #include "map/compatible/overlay_patches.h"
 #include "map/compatible/overlay_start.h"

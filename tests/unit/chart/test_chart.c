@@ -1,5 +1,5 @@
 /* What the tests of the public functions cannot reach: corners of charts and maps. */
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 #include "foliation/chart_foliation.h"
 #include "gradient/coordinates/gradient_state.h"
 #include "map/map.h"

@@ -79,7 +79,7 @@ START_TEST(curves)
             const shape l = shape_l(), other = shape_reversed(&l);
             domain_pair p = bent_pair(turn == 0 ? &l : &other);
             icc_map *map = map_of(&p, ICC_MAP_CURVES, METHODS[m], 14, 0);
-            ck_assert_int_eq(map_story(map).kind, ICC_MAP_CURVES);
+            ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_CURVES);
             check_map(map, p.source);
             icc_map_free(map);
             domain_pair_free(&p);
@@ -117,7 +117,7 @@ START_TEST(hard_meshes)
         if (icc_domain_create(&p.target, 2, moved.n, moved.xy, 0, NULL, NULL, NULL) == ICC_OK &&
             icc_map_create(&map, p.source, p.target, &options, NULL, NULL) == ICC_OK) {
             check_map(map, p.source);
-            n += map_story(map).kind == ICC_MAP_MESH;
+            n += info_of_map(map).kind == ICC_MAP_MESH;
             icc_map_free(map);
         }
         domain_pair_free(&p);
@@ -137,7 +137,7 @@ START_TEST(far_meshes)
     }
     domain_pair p = {domain_of_shape(&s), domain_of_shape(&round)};
     icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 2);
-    ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
+    ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_MESH);
     check_map(map, p.source);
     icc_map_free(map);
     domain_pair_free(&p);
@@ -225,7 +225,7 @@ START_TEST(it_goes_on)
         const icc_improve_options options = {.size = sizeof options, .iterations = 3, .levels = 2};
         ck_assert_int_eq(icc_map_improve(&better[0], map, &options, NULL, NULL, NULL), ICC_OK);
         ck_assert_int_eq(icc_map_improve(&better[1], loaded, &options, NULL, NULL, NULL), ICC_OK);
-        ck_assert(map_story(better[0]).n_vertices > map_story(map).n_vertices);
+        ck_assert(info_of_map(better[0]).n_vertices > info_of_map(map).n_vertices);
         same_map(better[0], better[1], p.source);
         check_map(better[0], p.source);
         for (int k = 0; k < 2; ++k)
@@ -280,7 +280,7 @@ START_TEST(filled)
     for (int32_t dim = 2; dim <= 4; ++dim) {
         domain_pair p = filled_pair(dim, 3);
         icc_map *map = map_of(&p, 0, 0, 0, 0);
-        ck_assert_int_eq(map_story(map).kind, dim == 3 ? ICC_MAP_MESH : ICC_MAP_CURVES);
+        ck_assert_int_eq(info_of_map(map).kind, dim == 3 ? ICC_MAP_MESH : ICC_MAP_CURVES);
         check_map(map, p.source);
         icc_map_free(map);
         domain_pair_free(&p);
@@ -314,12 +314,12 @@ START_TEST(cut_chords)
     ck_assert_int_eq(mesh_domain(&p.source, &cube, NULL, NULL), ICC_OK);
     p.target = dented_cube(p.source);
     icc_map *map = map_of(&p, ICC_MAP_MESH, 0, 0, 0);
-    ck_assert_int_eq(map_story(map).kind, ICC_MAP_MESH);
-    ck_assert_uint_gt(map_story(map).n_simplices, cube.n_simplices);
+    ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_MESH);
+    ck_assert_uint_gt(info_of_map(map).n_simplices, cube.n_simplices);
     check_map(map, p.source);
     /* A point of that mesh outside of the source, its image where it was: bytes end with points,
      * corners and images. */
-    const icc_map_info info = map_story(map);
+    const icc_map_info info = info_of_map(map);
     const size_t n_inner = info.n_vertices - 8;
     bytes b = map_bytes(map);
     icc_map *loaded;
@@ -482,7 +482,7 @@ START_TEST(false_meshes_are_refused)
 {
     domain_pair p;
     icc_map *map = small_map(0, &p), *loaded;
-    const icc_map_info info = map_story(map);
+    const icc_map_info info = info_of_map(map);
     const size_t n_boundary = 2 * info.n_vertices - info.n_simplices - 2;
     bytes b = map_bytes(map), changed = {b.n, saved_alloc(b.n)};
     const size_t boundary = b.n - 12 * n_boundary, triangles = boundary - 12 * info.n_simplices;

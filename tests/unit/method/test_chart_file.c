@@ -387,7 +387,7 @@ START_TEST(false_foliations_are_refused)
     const size_t n_triangles = (size_t)get64(&b, COUNTS + 8);
     const size_t points = PIECES + 4 * N_CORNERS, triangles = points + 16 * n_inner;
     const size_t centre = triangles + 12 * n_triangles + 8;
-    ck_assert_uint_eq(n_triangles, story_of(chart).n_mesh_simplices);
+    ck_assert_uint_eq(n_triangles, facts_of(chart).n_mesh_simplices);
     for (size_t t = 0; t < n_triangles; ++t) {
         memcpy(changed.data, b.data, b.n);
         memcpy(changed.data + triangles + 12 * t, b.data + triangles + 12 * t + 4, 4);
@@ -417,8 +417,8 @@ START_TEST(false_discs_are_refused)
 {
     icc_chart *chart = small_chart(1), *loaded;
     bytes b = chart_bytes(chart);
-    const size_t n = story_of(chart).n_mesh_vertices;
-    for (size_t v = story_of(chart).n_mesh_boundary; v < n; ++v) {
+    const size_t n = facts_of(chart).n_mesh_vertices;
+    for (size_t v = facts_of(chart).n_mesh_boundary; v < n; ++v) {
         unsigned char *image = b.data + b.n - 16 * (n - v), old[16];
         memcpy(old, image, 16);
         memset(image, 0, 16);
@@ -438,7 +438,7 @@ START_TEST(false_directions_are_refused)
     for (int k = 4; k < N_SMALL; ++k) {
         icc_chart *chart = small_chart(k), *loaded;
         bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
-        const size_t n = story_of(chart).n_mesh_simplices;
+        const size_t n = facts_of(chart).n_mesh_simplices;
         for (size_t side = 0; side < 4 * n; ++side) {
             const size_t at = b.n - 8 * (4 * n - side);
             memcpy(changed.data, b.data, b.n);
@@ -479,7 +479,7 @@ START_TEST(leaves_from_nowhere_are_refused)
     random_source r = {8};
     icc_chart *chart = chart_with(filled(mesh_cube(3, 3, 0.1, &r)), 0, 0), *loaded;
     bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
-    const size_t n = story_of(chart).n_mesh_simplices;
+    const size_t n = facts_of(chart).n_mesh_simplices;
     int n_tried = 0;
     for (size_t s = 0; s < n; ++s) {
         const size_t at = b.n - 32 * (n - s);
@@ -511,7 +511,7 @@ START_TEST(false_fillings_are_refused)
 {
     icc_chart *chart = small_chart(5), *loaded;
     bytes b = chart_bytes(chart), changed = {b.n, saved_alloc(b.n)};
-    const size_t n = story_of(chart).n_mesh_simplices, corners = b.n - 8 - (32 + 16) * n;
+    const size_t n = facts_of(chart).n_mesh_simplices, corners = b.n - 8 - (32 + 16) * n;
     for (size_t s = 0; s < n; ++s)
         for (int other = 0; other < 2; ++other) {
             const size_t at = corners + 16 * s;

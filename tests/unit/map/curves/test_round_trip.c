@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "map/curves/curves.h"
-#include "map/curves/digits.h"
+#include "map/curves/round_trip.h"
 
 #include "../../../determinant.h"
 #include "../../../infos.h"
@@ -121,7 +121,8 @@ START_TEST(what_does_not_come_back_has_no_image)
                      ICC_OK);
     /* In place, too. */
     memcpy(images, points, sizeof images);
-    ck_assert_int_eq(iccp_digits_points(from, to, N_POINTS, images, images, status, &path), ICC_OK);
+    ck_assert_int_eq(iccp_checked_points(from, to, N_POINTS, images, images, status, &path),
+                     ICC_OK);
     ck_assert_int_eq(iccp_curves_points(to, from, N_POINTS, plain, back, NULL, arrived, &path),
                      ICC_OK);
     for (size_t i = 0; i < N_POINTS; ++i) {
@@ -135,7 +136,7 @@ START_TEST(what_does_not_come_back_has_no_image)
         } else {
             ck_assert(isnan(images[2 * i]) && !(away <= 0.9e-6 * sqrt(8)));
         }
-        const icc_status one = iccp_digits_point(from, to, points + 2 * i, image, jacobian, &path);
+        const icc_status one = iccp_checked_point(from, to, points + 2 * i, image, jacobian, &path);
         ck_assert(one == ICC_OK || one == ICC_ERR_TRACE);
         ck_assert(one == ICC_ERR_TRACE || (status[i] == ICC_OK && determinant(2, jacobian) > 0));
         n_no_derivative += one == ICC_ERR_TRACE;
@@ -188,8 +189,8 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("digits");
-    TCase *tests = tcase_create("digits");
+    Suite *suite = suite_create("round trip");
+    TCase *tests = tcase_create("round trip");
     tcase_add_test(tests, shares_are_determinants);
     tcase_add_test(tests, what_does_not_come_back_has_no_image);
     tcase_add_test(tests, reasons);

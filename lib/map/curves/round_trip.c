@@ -1,11 +1,11 @@
-/* Checks the digits of a map by its way back. A point is mapped, and its image is mapped back. The
- * distance of the two is what the doubles have lost.
+/* Checks a map by round trips. A point is mapped, and its image is mapped back. The distance of the
+ * two is what the doubles have lost.
  *
  * The way back costs as much as the map. So only points are sent back whose surroundings shrink so
  * much that digits may be missing. The divergence of the two fields along the curves tells how
  * much they shrink, and rounding cannot spoil it. Source: docs/theory/charts-space.md, "fields on
  * grids". */
-#include "map/curves/digits.h"
+#include "map/curves/round_trip.h"
 
 #include "base/minmax.h"
 #include "base/threads.h"
@@ -99,9 +99,9 @@ static bool is_suspect(const iccp_shares *shares)
     return !(shares->to - shares->from >= iccp_ln(SUSPECT));
 }
 
-icc_status iccp_digits_points(const icc_chart *from, const icc_chart *to, size_t n,
-                              const double *points, double *images, icc_status *status,
-                              iccp_path *path)
+icc_status iccp_checked_points(const icc_chart *from, const icc_chart *to, size_t n,
+                               const double *points, double *images, icc_status *status,
+                               iccp_path *path)
 {
     const size_t dim = (size_t)from->info.dim;
     double own[ICCP_CHART_MANY * ICC_MAX_DIM]; /* a copy, because the images may overwrite the
@@ -142,8 +142,8 @@ static bool is_positive(int32_t dim, const double *jacobian)
     return iccp_orient_value((size_t)dim, rows) > 0;
 }
 
-icc_status iccp_digits_point(const icc_chart *from, const icc_chart *to, const double *point,
-                             double *image, double *jacobian, iccp_path *path)
+icc_status iccp_checked_point(const icc_chart *from, const icc_chart *to, const double *point,
+                              double *image, double *jacobian, iccp_path *path)
 {
     static const size_t FIRST = 0;
     bool home;
@@ -307,8 +307,8 @@ static icc_status judge_way(const icc_chart *from, const icc_chart *to, iccp_map
     return status;
 }
 
-icc_status iccp_digits_check(const icc_chart *source, const icc_chart *target, iccp_map_facts *info,
-                             const iccp_env *env)
+icc_status iccp_round_trip_check(const icc_chart *source, const icc_chart *target,
+                                 iccp_map_facts *info, const iccp_env *env)
 {
     icc_status status = judge_way(source, target, info, env);
     if (status == ICC_OK)

@@ -1,6 +1,6 @@
-/* Bulk conversions: points in chunks, in parallel, between the caller's coordinates and a
+/* Batch conversions: points in chunks, in parallel, between the caller's coordinates and a
  * chart's. */
-#include "chart/bulk.h"
+#include "chart/encode_points.h"
 
 #include "base/threads.h"
 
@@ -142,7 +142,7 @@ icc_status iccp_decode_points(const icc_chart *chart, size_t n, iccp_coords *coo
     return iccp_is_point_status(all) ? ICC_OK : all;
 }
 
-typedef struct bulk {
+typedef struct batch {
     const icc_chart *chart;
     const iccp_memory *memory;
     double *points;
@@ -150,9 +150,9 @@ typedef struct bulk {
     double *bary, *t;
     icc_status *status;
     atomic_size_t n_failed;
-} bulk;
+} batch;
 
-static void note(bulk *b, size_t begin, size_t end, const icc_status *status)
+static void note(batch *b, size_t begin, size_t end, const icc_status *status)
 {
     size_t n_failed = 0;
     for (size_t i = begin; i < end; ++i) {
@@ -163,7 +163,7 @@ static void note(bulk *b, size_t begin, size_t end, const icc_status *status)
     atomic_fetch_add(&b->n_failed, n_failed);
 }
 
-static void write_coords(bulk *b, size_t i, const iccp_coords *coords, icc_status status)
+static void write_coords(batch *b, size_t i, const iccp_coords *coords, icc_status status)
 {
     const size_t dim = (size_t)b->chart->domain->dim;
     b->facet[i] = status == ICC_OK ? coords->facet : UINT32_MAX;
@@ -174,7 +174,7 @@ static void write_coords(bulk *b, size_t i, const iccp_coords *coords, icc_statu
 
 static icc_status encode_chunk(void *argument, size_t begin, size_t end)
 {
-    bulk *b = argument;
+    batch *b = argument;
     const size_t dim = (size_t)b->chart->domain->dim, n = end - begin;
     iccp_coords coords[ICCP_CHART_MANY];
     icc_status status[ICCP_CHART_MANY];
@@ -194,7 +194,7 @@ static icc_status encode_chunk(void *argument, size_t begin, size_t end)
 /* One path serves all points of a chunk, so its memory is the only allocation. */
 static icc_status decode_chunk(void *argument, size_t begin, size_t end)
 {
-    bulk *b = argument;
+    batch *b = argument;
     const size_t dim = (size_t)b->chart->domain->dim, n = end - begin;
     iccp_coords coords[ICCP_CHART_MANY];
     icc_status status[ICCP_CHART_MANY] = {ICC_OK};
@@ -213,7 +213,7 @@ static icc_status decode_chunk(void *argument, size_t begin, size_t end)
     return all;
 }
 
-static icc_status run(bulk *b, size_t n, iccp_chunk chunk, size_t *n_failed, const iccp_env *env)
+static icc_status run(batch *b, size_t n, iccp_chunk chunk, size_t *n_failed, const iccp_env *env)
 {
     icc_status status = n > 0 ? iccp_chart_ready(b->chart, chunk == decode_chunk) : ICC_OK;
     if (status == ICC_OK)
@@ -228,7 +228,7 @@ icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *point
                            const iccp_env *env)
 {
     /* encode_chunk only reads the points. */
-    bulk b = {chart, &env->memory, (double *)points, facet, bary, t, status, 0};
+    batch b = {chart, &env->memory, (double *)points, facet, bary, t, status, 0};
     return run(&b, n, encode_chunk, n_failed, env);
 }
 
@@ -237,7 +237,7 @@ icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *fac
                            size_t *n_failed, const iccp_env *env)
 {
     /* decode_chunk only reads the coordinates. */
-    bulk b = {chart,          &env->memory, points, (uint32_t *)facet,
-              (double *)bary, (double *)t,  status, 0};
+    batch b = {chart,          &env->memory, points, (uint32_t *)facet,
+               (double *)bary, (double *)t,  status, 0};
     return run(&b, n, decode_chunk, n_failed, env);
 }

@@ -233,8 +233,8 @@ END_TEST
 
 int main(void)
 {
-    Suite *suite = suite_create("field digits");
-    TCase *tests = tcase_create("field digits");
+    Suite *suite = suite_create("field round trip");
+    TCase *tests = tcase_create("field round trip");
     tcase_add_test(tests, balls);
     tcase_add_test(tests, ellipses);
     tcase_add_test(tests, rods);

@@ -1,6 +1,6 @@
 /* Converts one or many points between the caller's coordinates and a chart's. */
-#ifndef ICCP_BULK_H
-#define ICCP_BULK_H
+#ifndef ICCP_ENCODE_POINTS_H
+#define ICCP_ENCODE_POINTS_H
 
 #include "chart/chart.h"
 
