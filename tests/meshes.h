@@ -333,9 +333,9 @@ static inline int mesh_of_data(test_mesh *m, const char *name, const char *side,
         (void)printf("%s is not there: %s skipped\n", path, tag);
         return 0;
     }
-    char both[128];
-    (void)snprintf(both, sizeof both, "%s_%s_%s", tag, name, side);
-    const int good = mesh_tetgen(m, o.n_vertices, o.vertices, o.n_faces, o.faces, both);
+    char label[128];
+    (void)snprintf(label, sizeof label, "%s_%s_%s", tag, name, side);
+    const int good = mesh_tetgen(m, o.n_vertices, o.vertices, o.n_faces, o.faces, label);
     obj_free(&o);
     return good;
 }

@@ -82,8 +82,8 @@ static ICCP_INLINE void iccp_sort_indices(uint32_t *indices, uint32_t *work, siz
     for (size_t width = 1; width < n; width *= 2) {
         for (size_t i = 0; i < n; i += 2 * width) {
             const size_t left = n - i < width ? n - i : width;
-            const size_t both = n - i < 2 * width ? n - i : 2 * width;
-            iccp_merge_indices(to + i, from + i, left, both, context, is_less);
+            const size_t merged = n - i < 2 * width ? n - i : 2 * width;
+            iccp_merge_indices(to + i, from + i, left, merged, context, is_less);
         }
         uint32_t *swap = from;
         from = to;

@@ -189,8 +189,8 @@ bool iccp_segment_meets(const iccp_facet_tree *tree, uint32_t facet, const doubl
     const double height_to = fabs(iccp_orient_value(tree->dim, points));
     points[tree->dim] = from;
     const double height_from = fabs(iccp_orient_value(tree->dim, points));
-    const double both = height_from + height_to;
-    *share = sign_from == 0 ? 0 : sign_to == 0 ? 1 : both > 0 ? height_from / both : 0;
+    const double height = height_from + height_to;
+    *share = sign_from == 0 ? 0 : sign_to == 0 ? 1 : height > 0 ? height_from / height : 0;
     return true;
 }
 

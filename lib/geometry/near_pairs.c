@@ -364,8 +364,8 @@ void iccp_near_pairs_between(iccp_near_pairs *pairs, size_t begin, size_t middle
     const list all = {pairs, 0, pairs->n, middle};
     if (!have_spans(pairs, end - begin))
         return;
-    list both = copy(&all, begin, middle, middle, end);
-    compare(&both);
+    list between = copy(&all, begin, middle, middle, end);
+    compare(&between);
     pairs->n = all.n;
 }
 

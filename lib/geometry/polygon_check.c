@@ -243,8 +243,8 @@ static ICCP_INLINE double area_of(const iccp_polygon *polygon)
                 error[l] += block.error[i][l] + lost;
             }
     }
-    const double both = iccp_two_sum(sum[0], -sum[1], &tail);
-    return 0.5 * fabs(both + (tail + (error[0] - error[1])));
+    const double total = iccp_two_sum(sum[0], -sum[1], &tail);
+    return 0.5 * fabs(total + (tail + (error[0] - error[1])));
 }
 
 #ifdef ICCP_HAS_SIMD

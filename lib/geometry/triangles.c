@@ -260,12 +260,12 @@ static void find_box(const double *vertices, const uint32_t *corners, float *box
 
 bool iccp_triangles_meet(const double *vertices, const uint32_t *s, const uint32_t *t)
 {
-    const uint32_t both[6] = {s[0], s[1], s[2], t[0], t[1], t[2]};
+    const uint32_t corners[6] = {s[0], s[1], s[2], t[0], t[1], t[2]};
     place p = {.corner = {UINT32_MAX, UINT32_MAX, UINT32_MAX}}, q = {.triangle = 1};
     find_box(vertices, s, p.box);
     find_box(vertices, t, q.box);
     q.corner[0] = q.corner[1] = q.corner[2] = UINT32_MAX - 1;
-    return places_meet(vertices, both, &p, &q);
+    return places_meet(vertices, corners, &p, &q);
 }
 
 /* ------------------------------------------------------------ all pairs */

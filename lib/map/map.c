@@ -288,8 +288,8 @@ static icc_status create_filled(icc_map **out, const icc_domain *const domains[2
     icc_status status = iccp_fill_pair(filled, domains, &part[0], err);
     if (status != ICC_OK)
         return status;
-    const icc_domain *const both[2] = {filled[0], filled[1]};
-    status = create_without_features(out, both, options, chart_options, &part[1], err);
+    const icc_domain *const meshed[2] = {filled[0], filled[1]};
+    status = create_without_features(out, meshed, options, chart_options, &part[1], err);
     iccp_domain_release(filled[0]);
     iccp_domain_release(filled[1]);
     return status;

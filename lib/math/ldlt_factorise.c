@@ -358,11 +358,11 @@ static icc_status factorise_at_once(factorisation *f)
     forest small = {.whole = f, .subtrees = &l->small};
     forest large = {.whole = f, .subtrees = &l->large, .inner = &small};
     icc_status status = find_subtrees(l, env);
-    const double first = l->small.labour / f->labour.all, both = l->large.labour / f->labour.all;
+    const double first = l->small.labour / f->labour.all, second = l->large.labour / f->labour.all;
     if (status == ICC_OK)
         status = factorise_runs(&small, 0, first);
     if (status == ICC_OK)
-        status = factorise_runs(&large, first, both);
+        status = factorise_runs(&large, first, second);
     if (status == ICC_OK)
         status = iccp_labour_add(&f->labour, l->large.labour);
     if (status == ICC_OK)

@@ -219,8 +219,8 @@ static void match_sides(const equations *e, const double *inflow, double *flux)
         if ((other & ICCP_ON_BOUNDARY) != 0) {
             flux[s] = -inflow[other & ~ICCP_ON_BOUNDARY];
         } else if (other > s) {
-            const bool both = e->row[s] != NONE;
-            flux[s] = both ? 0.5 * (flux[s] - flux[other]) : flux[s] - flux[other];
+            const bool has_two = e->row[s] != NONE;
+            flux[s] = has_two ? 0.5 * (flux[s] - flux[other]) : flux[s] - flux[other];
             flux[other] = -flux[s];
         }
     }

@@ -353,7 +353,7 @@ static inline icc_status call_map_jacobian(const objects *o, outcome *out, const
                             env);
 }
 
-/* Cancelled, it succeeds with what it has; the tests are told what those of other calls are. */
+/* Cancelled, it succeeds with what it has; the tests are given what those of other calls are. */
 static inline icc_status call_map_improve(const objects *o, outcome *out, const icc_env *env,
                                           icc_error *err)
 {

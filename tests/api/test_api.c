@@ -25,7 +25,7 @@
         ck_assert_ptr_null(object);                                                                \
     } while (0)
 
-/* Whoever forgets the size is told so: of any struct by name, and even of the error's own. */
+/* A size of 0 is refused: of any struct by name, and even of the error's own. */
 START_TEST(a_struct_without_its_size_is_refused_by_name)
 {
     objects o;

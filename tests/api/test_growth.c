@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Seconds below which nothing is told from noise. */
+/* Seconds below which everything is noise. */
 static const double NOISE = 0.06;
 static const double TURN = 6.283185307179586;
 

@@ -167,7 +167,7 @@ static void check_points(const subject *s, const char *operation, icc_status cal
                           "%s / %s: point %zu is %g with status %s", s->name, operation, i,
                           numbers[i * width + k], icc_status_name(status[i]));
     }
-    ck_assert_msg(n_bad == n_failed, "%s / %s: %zu of %zu failures told", s->name, operation,
+    ck_assert_msg(n_bad == n_failed, "%s / %s: %zu of %zu failures reported", s->name, operation,
                   n_failed, n_bad);
 }
 

@@ -78,7 +78,7 @@ static void make_body(body *b, const obj *o, size_t n_landmarks, random_source *
     free(x);
 }
 
-/* Whether all is as it should be; what is not is told. */
+/* Whether all is as it should be; what is not is reported. */
 static bool draw(const body b[2], size_t n)
 {
     double *directions[2] = {NULL, NULL};

@@ -83,7 +83,7 @@ static void check_chart(const uint8_t *bytes, size_t size, const icc_env *env)
     icc_chart_free(chart);
 }
 
-/* As many numbers as are told, and finite. */
+/* As many numbers as the chart says, and finite. */
 static void check_ties(const icc_map *map, size_t n)
 {
     for (size_t k = 0; k < n; ++k) {

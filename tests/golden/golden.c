@@ -300,7 +300,7 @@ static icc_status save(const object *o, size_t capacity, void *data, size_t *n)
                                  : icc_binding_save(o->binding, capacity, data, n);
 }
 
-/* The kind is told from the bytes, as docs/reference/formats.md has it. */
+/* The bytes tell the kind, as docs/reference/formats.md has it. */
 static object load(size_t n, const unsigned char *data, const char *name)
 {
     icc_error err = {.size = sizeof err};

@@ -165,7 +165,7 @@ void carries_exceptions()
         icc::map(source, target, icc::sized<icc_map_options>(), e);
     };
     make([] { return false; });
-    check(n_calls > 0, "progress is told");
+    check(n_calls > 0, "progress is reported");
     check(thrown([&] { make([] { return true; }); }, none).status == ICC_ERR_CANCELLED, "cancelled");
     n_calls = 0;
     const auto mine = thrown([&] { make([]() -> bool { throw std::out_of_range("mine"); }); },

@@ -232,10 +232,10 @@ START_TEST(ties_are_kept)
     icc_map *map, *better;
     ck_assert_int_eq(icc_map_create(&map, domain, domain, &options, NULL, NULL), ICC_OK);
     ck_assert_int_eq(icc_map_improve(&better, map, NULL, NULL, NULL, NULL), ICC_OK);
-    const icc_map *const both[2] = {map, better};
+    const icc_map *const maps[2] = {map, better};
     for (int k = 0; k < 2; ++k) {
         icc_map_info info = {.size = sizeof info};
-        ck_assert_int_eq(icc_map_get_info(both[k], &info), ICC_OK);
+        ck_assert_int_eq(icc_map_get_info(maps[k], &info), ICC_OK);
         ck_assert_int_eq(info.class_kept, 1);
         ck_assert_double_gt(info.energy, 5);
     }

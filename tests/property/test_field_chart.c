@@ -168,7 +168,7 @@ static bool is_certified(const icc_map *map)
 {
     const icc_chart *const charts[2] = {icc_map_source_chart(map), icc_map_target_chart(map)};
     icc_map_info whole = {.size = sizeof whole};
-    bool both = true;
+    bool certified = true;
     for (int k = 0; k < 2; ++k) {
         const icc_chart_info info = info_of_chart(charts[k]);
         const icc_field_info own = field_info_of(charts[k]);
@@ -177,14 +177,15 @@ static bool is_certified(const icc_map *map)
                   (own.n_infeasible == 0 && own.n_not_inward == 0 && own.n_stray == 0));
         ck_assert((info.reason == ICC_REASON_NONE) == (info.certified == 1));
         ck_assert(own.n_not_inward <= own.n_contacts && own.n_contacts > 0);
-        both = both && info.certified;
+        certified = certified && info.certified;
     }
     ck_assert_int_eq(icc_map_get_info(map, &whole), ICC_OK);
     /* Nothing here is so thin that digits would be lost between two charts. */
-    ck_assert_int_eq(whole.certified, both);
-    ck_assert((whole.reason == ICC_REASON_NONE) == both && (whole.reason_side == 0) == both);
+    ck_assert_int_eq(whole.certified, certified);
+    ck_assert((whole.reason == ICC_REASON_NONE) == certified &&
+              (whole.reason_side == 0) == certified);
     ck_assert_uint_eq(report_of(map).n_lost, 0);
-    return both;
+    return certified;
 }
 
 /* Everything on a curve has its boundary point, and t rises along it. */

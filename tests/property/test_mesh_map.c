@@ -405,8 +405,8 @@ START_TEST(jacobians_are_those_of_the_triangles)
             for (size_t i = 0; i < 2; ++i)
                 for (size_t d = 0; d < 2; ++d) {
                     const double x = p[2 * i] - c[0], y = p[2 * i + 1] - c[1];
-                    const double told = j[2 * d] * x + j[2 * d + 1] * y;
-                    worst = fmax(worst, fabs(told - (q[2 * i + d] - image[d])) /
+                    const double linear = j[2 * d] * x + j[2 * d + 1] * y;
+                    worst = fmax(worst, fabs(linear - (q[2 * i + d] - image[d])) /
                                             width(map->target_domain) / stretch_of_inverse(map, c));
                 }
         }
@@ -580,13 +580,13 @@ START_TEST(work_is_bounded)
 }
 END_TEST
 
-typedef struct told {
+typedef struct log_counts {
     int n_overlays, n_crossings;
-} told;
+} log_counts;
 
 static void listen(void *user, const char *message)
 {
-    told *t = user;
+    log_counts *t = user;
     t->n_overlays += strstr(message, "making an overlay") != NULL;
     t->n_crossings += strstr(message, "cross too often") != NULL;
 }
@@ -600,7 +600,7 @@ START_TEST(what_crosses_too_often_is_of_kind_curves)
     static double xy[2][2 * N];
     icc_domain *domains[2];
     icc_map *map;
-    told t = {0, 0};
+    log_counts t = {0, 0};
     const icc_env env = {.size = sizeof env, .user = &t, .log = listen};
     for (size_t k = 0; k < N; ++k) {
         const bool below = k < N / 2;

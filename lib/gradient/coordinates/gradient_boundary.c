@@ -25,9 +25,9 @@ static void extrapolate(icc_function *field, uint32_t v, uint32_t u, uint32_t t)
         field->values[v] = 2 * field->values[u] - field->values[t];
         return;
     }
-    const uint32_t both[2] = {u, t};
+    const uint32_t ends[2] = {u, t};
     double f[2];
-    iccp_function_local(field, 2, both, f);
+    iccp_function_local(field, 2, ends, f);
     field->values[v] = 2 * f[0] - f[1];
     field->exponent[v] =
         field->exponent[u] > field->exponent[t] ? field->exponent[u] : field->exponent[t];

@@ -30,9 +30,9 @@ static void raise_exponent(icc_function *function, double *weight, uint32_t u, u
 
 static void add_end(icc_function *function, double *weight, uint32_t u, uint32_t v, double reach)
 {
-    const uint32_t both[2] = {u, v};
+    const uint32_t ends[2] = {u, v};
     double local[2];
-    iccp_function_local(function, 2, both, local);
+    iccp_function_local(function, 2, ends, local);
     function->values[v] -= (1 - reach) * local[0];
     weight[v] += reach;
 }

@@ -76,9 +76,9 @@ static inline void iccp_function_local(const icc_function *function, size_t n,
 /* Returns -1, 0 or 1 if the function at u is smaller than, equal to or larger than at v. */
 static inline int iccp_function_compare(const icc_function *function, uint32_t u, uint32_t v)
 {
-    const uint32_t both[2] = {u, v};
+    const uint32_t ends[2] = {u, v};
     double local[2];
-    iccp_function_local(function, 2, both, local);
+    iccp_function_local(function, 2, ends, local);
     return (local[0] > local[1]) - (local[0] < local[1]);
 }
 

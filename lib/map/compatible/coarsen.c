@@ -13,7 +13,7 @@
 enum { MOST_NEIGHBOURS = 64, LOOKS_PER_REPORT = 1 << 14 };
 
 /* A merge makes no triangle flatter than this, unless it replaces one that is at least as flat. */
-static const double LEAST_ROUNDNESS = 1e-4;
+static const double LEAST_MERGED_ROUNDNESS = 1e-4;
 
 typedef struct coarsening {
     const iccp_memory *memory;
@@ -113,7 +113,7 @@ static size_t best_neighbour(const coarsening *o, uint32_t vertex, const star *s
     iccp_quality now = iccp_no_quality();
     for (size_t k = 0; k < s->n; ++k)
         iccp_quality_add(&now, o->map, vertex, s->ring[k], s->ring[k + 1]);
-    const double least = iccp_min(now.roundness, LEAST_ROUNDNESS);
+    const double least = iccp_min(now.roundness, LEAST_MERGED_ROUNDNESS);
     double most = iccp_max((1 + o->rise) * now.energy, o->mean * now.area);
     for (size_t j = 0; j < s->n; ++j) {
         const double energy = may[j] ? energy_merged(o, s, j, most, least) : HUGE_VAL;

@@ -15,7 +15,7 @@ static const double LEAST_FALL = 1e-3;
 
 /* A flip makes no triangle flatter than this, unless it replaces one that is at least as flat. Flat
  * triangles make Newton's steps short. */
-static const double LEAST_ROUNDNESS = 0.05;
+static const double LEAST_FLIPPED_ROUNDNESS = 0.05;
 
 /* Flipping the edge makes triangles x a y and y b x from x a b and y b a. */
 static bool is_better_flipped(const iccp_plmap *map, uint32_t corner)
@@ -32,7 +32,7 @@ static bool is_better_flipped(const iccp_plmap *map, uint32_t corner)
     iccp_quality_add(&then, map, x, a, y);
     iccp_quality_add(&then, map, y, b, x);
     return then.energy < (1 - LEAST_FALL) * now.energy &&
-           then.roundness >= iccp_min(now.roundness, LEAST_ROUNDNESS);
+           then.roundness >= iccp_min(now.roundness, LEAST_FLIPPED_ROUNDNESS);
 }
 
 /* An edge is tested again only if one of its two triangles has changed since. Tests are numbered

@@ -4,8 +4,8 @@
 
 #include "base/sort.h"
 #include "base/threads.h"
-#include "map/compatible/both_sides.h"
 #include "map/compatible/flips.h"
+#include "map/compatible/points_and_images.h"
 #include "map/energy/dirichlet.h"
 #include "math/vec.h"
 
@@ -40,11 +40,11 @@ static double energy_of(const void *map, const iccp_env *env)
     return iccp_plmap_energy(map);
 }
 
-static icc_status descend(void *map, const iccp_descent *descent, bool both_sides, iccp_work *work,
-                          iccp_improvement *improvement, const iccp_env *env)
+static icc_status descend(void *map, const iccp_descent *descent, bool moves_points,
+                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
-    if (both_sides)
-        return iccp_improve_both_sides(map, descent, work, improvement, env);
+    if (moves_points)
+        return iccp_improve_points_and_images(map, descent, work, improvement, env);
     const iccp_simplicial_map simplicial = iccp_plmap_simplicial(map);
     return iccp_improve_images(&simplicial, descent, work, improvement, env);
 }

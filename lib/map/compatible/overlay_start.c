@@ -7,10 +7,10 @@
 #include "map/compatible/overlay_start.h"
 
 #include "base/minmax.h"
-#include "map/compatible/both_sides.h"
 #include "map/compatible/coarsen.h"
 #include "map/compatible/compatible.h"
 #include "map/compatible/flips.h"
+#include "map/compatible/points_and_images.h"
 #include "map/energy/untangle.h"
 
 #include <math.h>
@@ -77,7 +77,7 @@ icc_status iccp_overlay_round(iccp_plmap *map, iccp_work *work, double *gain, co
     if (status == ICC_OK)
         status = iccp_flip_edges(map, &n_flips, env);
     if (status == ICC_OK)
-        status = iccp_improve_both_sides(map, &DESCENT, work, &ignored, &part[1]);
+        status = iccp_improve_points_and_images(map, &DESCENT, work, &ignored, &part[1]);
     *gain = 1 - iccp_plmap_energy(map) / before;
     return status;
 }

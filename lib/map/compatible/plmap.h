@@ -18,7 +18,7 @@
  *
  * Ways
  * - To a one-to-one map: overlay.h, compatible.h, overlay_start.h, overlay_patches.h.
- * - To less energy: both_sides.h moves points and images, flips.h flips edges, and improve.h does
+ * - To less energy: points_and_images.h moves both, flips.h flips edges, and improve.h does
  *   both and refines the mesh.
  * - To another mesh: coarsen.h, density.h. What new triangles are worth: triangle_quality.h.
  * - To bytes: plmap_file.h.

@@ -55,7 +55,7 @@ static icc_status refine_often(const iccp_profile *profile, void *map,
         status = profile->refine(map, &n_changes, env);
         if (status != ICC_OK || n_changes == 0)
             break;
-        status = profile->descend(map, &descent, schedule->both_sides, work, improvement, &part);
+        status = profile->descend(map, &descent, schedule->moves_points, work, improvement, &part);
         ++improvement->n_levels;
         const double gain = (before - improvement->energy) / before;
         n_in_vain = gain < profile->least_gain ? n_in_vain + 1 : 0;
@@ -85,7 +85,7 @@ icc_status iccp_improve_by(const iccp_profile *profile, void *map, const iccp_sc
     if (schedule->is_relaxed && schedule->levels > 0)
         improvement->energy = profile->energy(map, env);
     else
-        status = profile->descend(map, &first, schedule->both_sides, work, improvement, &part[0]);
+        status = profile->descend(map, &first, schedule->moves_points, work, improvement, &part[0]);
     if (status == ICC_OK && schedule->levels > 0)
         status = refine_often(profile, map, schedule, slow, work, improvement, &part[1]);
     if (status == ICC_OK && schedule->levels > 0 && !improvement->is_converged)

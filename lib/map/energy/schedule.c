@@ -41,7 +41,7 @@ iccp_work *iccp_bound(iccp_work *part, const iccp_allowance *work)
 }
 
 const iccp_schedule iccp_schedule_plain = {0}, iccp_schedule_relaxed = {.is_relaxed = true},
-                    iccp_schedule_both_sides = {.both_sides = true, .is_relaxed = true};
+                    iccp_schedule_moving_points = {.moves_points = true, .is_relaxed = true};
 
 iccp_schedule iccp_schedule_of(const icc_improve_options *options, const iccp_schedule *how,
                                double most)
@@ -53,7 +53,7 @@ iccp_schedule iccp_schedule_of(const icc_improve_options *options, const iccp_sc
                                      : options->levels == 0 ? LEVELS
                                                             : (size_t)options->levels,
                            .most = most,
-                           .both_sides = how->both_sides,
+                           .moves_points = how->moves_points,
                            .is_relaxed = how->is_relaxed};
 }
 

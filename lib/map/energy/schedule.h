@@ -11,7 +11,7 @@ typedef struct iccp_schedule {
     double tolerance;  /* steps on the last mesh end when one gains no more than this share */
     size_t levels;     /* the most refinements */
     double most;       /* the most triangles that a refinement may reach */
-    bool both_sides;   /* the points of inner vertices move, too */
+    bool moves_points; /* the points of inner vertices move, too */
     bool is_relaxed;   /* they have moved before, so refining begins at once and one slow step
                           ends the steps on a mesh */
 } iccp_schedule;
@@ -33,13 +33,13 @@ double iccp_spent(const iccp_allowance *work);
 /* Limits a part to the work that is left of the whole. Call it before the part begins. */
 iccp_work *iccp_bound(iccp_work *part, const iccp_allowance *work);
 
-/* Values of both_sides and is_relaxed for iccp_schedule_of(). `plain` moves images alone, from any
- * start. `relaxed` does so from a start on which both sides have moved. `both_sides` moves points,
- * too, from such a start. */
-extern const iccp_schedule iccp_schedule_plain, iccp_schedule_relaxed, iccp_schedule_both_sides;
+/* Values of moves_points and is_relaxed for iccp_schedule_of(). `plain` moves images alone, from
+ * any start. `relaxed` does so from a start where points and images have moved. `moving_points`
+ * moves points, too, from such a start. */
+extern const iccp_schedule iccp_schedule_plain, iccp_schedule_relaxed, iccp_schedule_moving_points;
 
 /* Returns the schedule that the options ask for, with defaults for members that are 0. `how` gives
- * both_sides and is_relaxed. The mesh gets at most `most` simplices. */
+ * moves_points and is_relaxed. The mesh gets at most `most` simplices. */
 iccp_schedule iccp_schedule_of(const icc_improve_options *options, const iccp_schedule *how,
                                double most);
 

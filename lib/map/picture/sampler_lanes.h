@@ -188,11 +188,11 @@ TARGET static ICCP_INLINE void advance(place *x)
 /* Loads two pixels of a row. With three channels, the fourth byte has no meaning. */
 static ICCP_INLINE uint64_t load_pair(const uint8_t *left, format f)
 {
-    uint64_t both;
+    uint64_t pair;
     uint32_t first, second;
     if (f.channels == 4) {
-        memcpy(&both, left, 8);
-        return both;
+        memcpy(&pair, left, 8);
+        return pair;
     }
     memcpy(&first, left, 4);
     memcpy(&second, left + 2, 4);
@@ -434,13 +434,13 @@ TARGET static bool is_opaque(const icc_picture *p)
     bool all = true;
     for (int32_t j = 0; j < p->height && all; ++j) {
         const uint8_t *row = (const uint8_t *)p->pixels + (size_t)j * p->stride;
-        uint32_t both = ~0U;
+        uint32_t common = ~0U;
         for (int32_t i = 0; i < p->width; ++i) {
             uint32_t pixel;
             memcpy(&pixel, row + 4 * (size_t)i, sizeof pixel);
-            both &= pixel;
+            common &= pixel;
         }
-        all = both >> 24 == 255;
+        all = common >> 24 == 255;
     }
     return all;
 }

@@ -115,10 +115,11 @@ static ICCP_INLINE void plain_sum_pair(const cell *c, format f, int channel, sum
         plain_sum(c, f, channel + 1, s);
         return;
     }
-    const uint64_t both = blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel),
-                                pair(q, channel), pair(q + c->right, channel));
-    s->of[channel] = both & UINT32_MAX;
-    s->of[channel + 1] = both >> 32;
+    const uint64_t blended =
+        blend(c, position_bits(f), pair(p, channel), pair(p + c->right, channel), pair(q, channel),
+              pair(q + c->right, channel));
+    s->of[channel] = blended & UINT32_MAX;
+    s->of[channel + 1] = blended >> 32;
 }
 
 static ICCP_INLINE sums plain_sums(const cell *c, format f)

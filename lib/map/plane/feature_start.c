@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "base/minmax.h"
-#include "map/compatible/both_sides.h"
 #include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
 #include "map/compatible/overlay_start.h"
+#include "map/compatible/points_and_images.h"
 #include "map/compatible/triangle_quality.h"
 #include "map/isotopy/close_cuts.h"
 #include "map/isotopy/ties.h"
@@ -180,7 +180,8 @@ static icc_status relax(iccp_plmap *map, iccp_work *work, const iccp_env *env)
     if (iccp_plmap_energy(map) > GOOD)
         return iccp_overlay_relax(map, work, env);
     const icc_status status = iccp_flip_edges(map, &n_flips, env);
-    return status == ICC_OK ? iccp_improve_both_sides(map, &DESCENT, work, &ignored, env) : status;
+    return status == ICC_OK ? iccp_improve_points_and_images(map, &DESCENT, work, &ignored, env)
+                            : status;
 }
 
 icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const icc_domain *target,

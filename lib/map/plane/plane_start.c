@@ -214,7 +214,7 @@ static icc_status disentangle(iccp_plmap *pl, const icc_improve_options *options
     bool cancelled = false;
     icc_status status = ICC_OK;
     if (iccp_plmap_energy(pl) > ENTANGLED)
-        status = iccp_plane_improve(pl, options, &iccp_schedule_both_sides, &half, &cancelled,
+        status = iccp_plane_improve(pl, options, &iccp_schedule_moving_points, &half, &cancelled,
                                     &ignored, env);
     work->left -= half.spent;
     work->spent += half.spent;

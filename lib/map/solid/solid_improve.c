@@ -29,12 +29,12 @@ static double energy_of(const void *map, const iccp_env *env)
     return iccp_simplicial_energy_at_once(&simplicial, env);
 }
 
-static icc_status descend(void *map, const iccp_descent *descent, bool both_sides, iccp_work *work,
-                          iccp_improvement *improvement, const iccp_env *env)
+static icc_status descend(void *map, const iccp_descent *descent, bool moves_points,
+                          iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     const improved *m = map;
     const iccp_simplicial_map simplicial = iccp_solid_simplicial(m->map);
-    (void)both_sides;
+    (void)moves_points;
     return iccp_improve_images(&simplicial, descent, work, improvement, env);
 }
 

@@ -51,28 +51,28 @@ static const struct {
 enum { N_STRATEGIES = sizeof STRATEGIES / sizeof *STRATEGIES };
 
 /* A map, and one in the other direction. */
-typedef struct both {
+typedef struct map_pair {
     iccp_solid_map *map[2];
     iccp_direction ways[2];
     size_t fewest; /* the least number of inverted tetrahedra */
-} both;
+} map_pair;
 
 /* Runs a strategy on both sides, unless there is a map already. A map in the other direction is
  * inverted. */
-static icc_status take_turns(both *b, size_t k, iccp_map_facts *info, const iccp_env *env)
+static icc_status take_turns(map_pair *p, size_t k, iccp_map_facts *info, const iccp_env *env)
 {
     iccp_env part[2];
     icc_status status = ICC_OK;
     iccp_split(part, 2, (const double[]){1, 1}, env);
-    for (size_t side = 0; status == ICC_OK && b->fewest > 0 && side < 2; ++side) {
+    for (size_t side = 0; status == ICC_OK && p->fewest > 0 && side < 2; ++side) {
         info->n_unrepaired = SIZE_MAX;
-        status = STRATEGIES[k].run(b->map[side], b->ways[side], info, &part[side]);
+        status = STRATEGIES[k].run(p->map[side], p->ways[side], info, &part[side]);
         if (status == ICC_OK && info->n_unrepaired > 0 && info->n_unrepaired < SIZE_MAX)
             iccp_log(env, "%zu tetrahedra are left of the %s's", info->n_unrepaired,
                      side == 0 ? "source" : "target");
-        b->fewest = info->n_unrepaired < b->fewest ? info->n_unrepaired : b->fewest;
-        if (status == ICC_OK && b->fewest == 0 && side == 1)
-            status = invert(b->map[0], b->map[1]);
+        p->fewest = info->n_unrepaired < p->fewest ? info->n_unrepaired : p->fewest;
+        if (status == ICC_OK && p->fewest == 0 && side == 1)
+            status = invert(p->map[0], p->map[1]);
     }
     return status;
 }
@@ -85,17 +85,17 @@ static icc_status find(iccp_solid_map *map, iccp_direction way, use purpose, icc
     iccp_env part[N_STRATEGIES];
     iccp_solid_map other = {
         .memory = map->memory, .mesh = way.target->domain->mesh, .stretch = 1 / map->stretch};
-    both b = {{map, &other}, {way, {way.target, way.source}}, SIZE_MAX};
+    map_pair p = {{map, &other}, {way, {way.target, way.source}}, SIZE_MAX};
     icc_status status = ICC_OK;
     map->mesh = way.source->domain->mesh;
     iccp_split(part, N_STRATEGIES, (const double[N_STRATEGIES]){28, 6, 2, 2, 2}, env);
-    for (size_t k = 0; status == ICC_OK && b.fewest > 0 && k < N_STRATEGIES; ++k) {
+    for (size_t k = 0; status == ICC_OK && p.fewest > 0 && k < N_STRATEGIES; ++k) {
         if ((STRATEGIES[k].uses & purpose) == 0)
             continue;
-        status = take_turns(&b, k, info, &part[k]);
+        status = take_turns(&p, k, info, &part[k]);
         map->way = STRATEGIES[k].way;
     }
-    info->n_unrepaired = b.fewest;
+    info->n_unrepaired = p.fewest;
     iccp_simplices_free(other.own);
     iccp_free(&env->memory, other.images);
     return status;
@@ -177,7 +177,7 @@ static icc_status go_round(iccp_solid_map *map, iccp_direction way, iccp_map_fac
                            const iccp_env *env)
 {
     icc_chart *ball;
-    iccp_map_facts told = *info;
+    iccp_map_facts found = *info;
     double apex[3];
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 4}, env);
@@ -187,11 +187,11 @@ static icc_status go_round(iccp_solid_map *map, iccp_direction way, iccp_map_fac
         return status;
     iccp_solid_map round = {.memory = env->memory};
     round.stretch = iccp_cbrt(fabs(ball->domain->measure) / fabs(from->measure));
-    status = find(&round, (iccp_direction){way.source, ball}, ROUND, &told, &part[1]);
-    if (status == ICC_OK && told.n_unrepaired == 0)
+    status = find(&round, (iccp_direction){way.source, ball}, ROUND, &found, &part[1]);
+    if (status == ICC_OK && found.n_unrepaired == 0)
         status = put_on(map, &round, way, apex, info, env);
-    info->seconds_repair = told.seconds_repair;
-    info->seconds_certify = told.seconds_certify;
+    info->seconds_repair = found.seconds_repair;
+    info->seconds_certify = found.seconds_certify;
     iccp_simplices_free(round.own);
     iccp_free(&env->memory, round.images);
     iccp_chart_release(ball);

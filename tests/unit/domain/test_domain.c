@@ -918,7 +918,7 @@ START_TEST(test_locate_exactly)
 }
 END_TEST
 
-/* Vertices much closer together than the tolerance are still told apart. */
+/* Vertices much closer together than the tolerance are still distinguished. */
 START_TEST(test_clustered_vertices)
 {
     double points[2 * 12];

@@ -587,7 +587,7 @@ END_TEST
 
 /* --------------------------------------------------------- memory, progress */
 
-/* Makes one, or is told what is wrong with it. */
+/* Makes one, or gets an error that says what is wrong with it. */
 static icc_status make_once(const icc_env *env, icc_error *err, void *argument)
 {
     icc_domain *domain;

@@ -425,8 +425,8 @@ static void make_cones(uint32_t n, int turns, random_source *r, double *vertices
                 turns > 0 ? at + 0.3 * (random_unit(r) - 0.5) : random_unit(r) - 0.5;
         }
         const uint32_t next = i + 1 < n ? i + 1 : 0;
-        const uint32_t both[6] = {n, i, next, n + 1, next, i};
-        memcpy(faces + 6 * i, both, sizeof both);
+        const uint32_t two_faces[6] = {n, i, next, n + 1, next, i};
+        memcpy(faces + 6 * i, two_faces, sizeof two_faces);
     }
     for (uint32_t k = 0; k < 6; ++k)
         vertices[3 * n + k] = 0.2 * random_unit(r) + (k == 2 ? 1 : k == 5 ? -1 : 0);
@@ -571,9 +571,9 @@ static icc_status search_cones(const icc_env *caller, icc_error *err, void *argu
     for (uint32_t i = 0; i < N; ++i) {
         const double angle = 6.283185307179586 * i / N;
         const double rim[3] = {cos(angle), sin(angle), i % 2 == 0 ? -0.1 : 0.1};
-        const uint32_t next = (i + 1) % N, both[6] = {N, i, next, N + 1, next, i};
+        const uint32_t next = (i + 1) % N, two_faces[6] = {N, i, next, N + 1, next, i};
         memcpy(vertices + 3 * i, rim, sizeof rim);
-        memcpy(faces + 6 * i, both, sizeof both);
+        memcpy(faces + 6 * i, two_faces, sizeof two_faces);
     }
     vertices[3 * N + 2] = 1;
     vertices[3 * N + 5] = -1;

@@ -137,7 +137,7 @@ START_TEST(test_extremes)
 }
 END_TEST
 
-/* Vertices too small beside the largest are told apart from those that are 0 or large enough. */
+/* Vertices too small beside the largest are distinguished from those that are 0 or large enough. */
 START_TEST(test_range)
 {
     double points[6] = {1e300, 1e300, -1e300, 0, 0, 0};

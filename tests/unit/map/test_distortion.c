@@ -359,7 +359,7 @@ START_TEST(eigenvalues)
 }
 END_TEST
 
-/* Values that can be told by hand: J = diag(a, b, c). */
+/* Values that can be found by hand: J = diag(a, b, c). */
 START_TEST(energies_of_stretches)
 {
     for (size_t dim = 2; dim <= 3; ++dim) {

@@ -101,7 +101,7 @@ START_TEST(plane_meshes)
 }
 END_TEST
 
-/* Where boundaries are so near each other that places on them can hardly be told apart. */
+/* Where boundaries are so near each other that places on them can hardly be distinguished. */
 START_TEST(hard_meshes)
 {
     int n = 0;

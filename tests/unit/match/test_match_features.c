@@ -201,7 +201,7 @@ START_TEST(finds_features)
 }
 END_TEST
 
-/* One feature less of some kind is told with both numbers. */
+/* One feature less of some kind is reported with both numbers. */
 START_TEST(counts_features)
 {
     static const char *const texts[] = {"the source has 2 holes, the target 0",

@@ -457,7 +457,7 @@ START_TEST(iterations_take_little_memory)
 }
 END_TEST
 
-static icc_status both(const icc_env *given, icc_error *err, void *argument)
+static icc_status make_fluxes(const icc_env *given, icc_error *err, void *argument)
 {
     const flux_case *c = argument;
     iccp_env env;
@@ -474,7 +474,7 @@ static icc_status both(const icc_env *given, icc_error *err, void *argument)
 START_TEST(failures_leave_nothing)
 {
     flux_case c = flux_number(FLUX_KINDS + FLUX_CUBE);
-    faulty_sweep(both, &c);
+    faulty_sweep(make_fluxes, &c);
     flux_free(&c);
 }
 END_TEST

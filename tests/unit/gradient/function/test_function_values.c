@@ -143,9 +143,9 @@ START_TEST(values_go_on_beyond_doubles)
         const int k = (int)v - 2;
         ck_assert(f[v] == ldexp(1 + 0.5 * (k % 2), -20 * k));
         ck_assert_double_eq_tol(u[v], log(1 + 0.5 * (k % 2)) - 20 * k * log(2), 1e-11);
-        uint32_t both[2] = {v, v + 1};
+        uint32_t ends[2] = {v, v + 1};
         double local[2];
-        iccp_function_local(field, 2, both, local);
+        iccp_function_local(field, 2, ends, local);
         const double expected = k == N - 1 ? 0 : (k % 2 ? 1 / 1.5 : 1.5) * 0x1p-20;
         ck_assert_double_eq_tol(local[1] / local[0], expected, 1e-20);
         ck_assert_int_eq(iccp_function_compare(field, v, v + 1), 1);

@@ -595,9 +595,9 @@ static int euler(const iccp_kuhn *kuhn, const iccp_link_set *set, const iccp_lin
     for (int i = from; i < kuhn->n_neighbours; ++i) {
         if (!iccp_link_has(set, i) || !iccp_link_has(common, i))
             continue;
-        const iccp_link_set both = {
+        const iccp_link_set shared = {
             {common->word[0] & kuhn->joined[i].word[0], common->word[1] & kuhn->joined[i].word[1]}};
-        sum += 1 - euler(kuhn, set, &both, i + 1);
+        sum += 1 - euler(kuhn, set, &shared, i + 1);
     }
     return sum;
 }

@@ -464,7 +464,7 @@ START_TEST(lines_merge_in_lower_and_lower_faces)
 }
 END_TEST
 
-/* f = |x_k - 2|: where two slopes part, the walk goes to the side that it is told to. */
+/* f = |x_k - 2|: where two slopes part, the walk goes to the side that is asked for. */
 START_TEST(starts_go_ahead)
 {
     random_source r = {7};

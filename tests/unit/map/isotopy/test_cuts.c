@@ -248,11 +248,11 @@ static pieces pieces_of(const iccp_cuts *cuts, const iccp_domain_pair *s, int si
         uint32_t from = cuts->ends[2 * i];
         for (uint32_t b = cuts->first[i]; b <= cuts->first[i + 1]; ++b) {
             const uint32_t to = b < cuts->first[i + 1] ? (uint32_t)s->n + b : cuts->ends[2 * i + 1];
-            const uint32_t both[2] = {from, to};
+            const uint32_t ends[2] = {from, to};
             for (size_t e = 0; e < 2; ++e) {
-                p.name[2 * p.n + e] = both[e];
-                p.ends[2 * p.n + e] = both[e] < s->n ? vertex_of(s->domain[side], both[e])
-                                                     : cuts->points[side] + 2 * (both[e] - s->n);
+                p.name[2 * p.n + e] = ends[e];
+                p.ends[2 * p.n + e] = ends[e] < s->n ? vertex_of(s->domain[side], ends[e])
+                                                     : cuts->points[side] + 2 * (ends[e] - s->n);
             }
             ++p.n;
             from = to;

@@ -91,28 +91,28 @@ START_TEST(relaxing_lowers_the_energy_and_keeps_the_class)
     for (int trial = 0; trial < 4; ++trial) {
         const bool is_severe = trial % 2 == 1;
         surface_star(&shape, 3, .3, &r);
-        drawn both[2] = {draw(&shape), {.x = NULL}};
+        drawn pair[2] = {draw(&shape), {.x = NULL}};
         surface_star(&shape, 3, .3, &r);
         for (size_t k = 0; k < 3 * shape.n_vertices; ++k)
             shape.vertices[k] *= k % 3 == 0 ? 1 : .4; /* a cigar, which as such is drawn badly */
-        both[1] = draw(&shape);
-        const size_t n = both[0].m.n_vertices, size = 3 * n * sizeof(double);
+        pair[1] = draw(&shape);
+        const size_t n = pair[0].m.n_vertices, size = 3 * n * sizeof(double);
         double weight, *const before = malloc(size), *const first = malloc(size);
         uint8_t *const is_fixed = calloc(n, 1);
         ck_assert(before != NULL && first != NULL && is_fixed != NULL);
         for (size_t v = 0; v < n; v += 40)
             is_fixed[v] = 1;
-        memcpy(before, both[0].directions, size);
-        const double energy = energy_of(&both[0], &both[1], is_severe, &weight);
-        const iccp_drawn_surface side[2] = {part_of(&both[0]), part_of(&both[1])};
+        memcpy(before, pair[0].directions, size);
+        const double energy = energy_of(&pair[0], &pair[1], is_severe, &weight);
+        const iccp_drawn_surface side[2] = {part_of(&pair[0]), part_of(&pair[1])};
         double *const second = malloc(size);
         ck_assert_ptr_nonnull(second);
-        memcpy(second, both[1].directions, size);
+        memcpy(second, pair[1].directions, size);
         double left[2];
         for (int run = 0; run < 2; ++run) { /* the same twice */
             iccp_relaxation relaxation;
-            memcpy(both[0].directions, before, size);
-            memcpy(both[1].directions, second, size);
+            memcpy(pair[0].directions, before, size);
+            memcpy(pair[1].directions, second, size);
             ck_assert_int_eq(iccp_relaxation_create(&relaxation, side,
                                                     (const uint8_t *const[]){is_fixed, NULL},
                                                     &env.memory),
@@ -122,13 +122,13 @@ START_TEST(relaxing_lowers_the_energy_and_keeps_the_class)
             ck_assert(left[run] > 0 && left[run] < 1e8);
             iccp_relaxation_free(&relaxation, &env.memory);
             if (run == 0)
-                memcpy(first, both[0].directions, size);
+                memcpy(first, pair[0].directions, size);
         }
-        ck_assert_mem_eq(first, both[0].directions, size);
-        ck_assert_double_lt(energy_of(&both[0], &both[1], is_severe, &weight),
+        ck_assert_mem_eq(first, pair[0].directions, size);
+        ck_assert_double_lt(energy_of(&pair[0], &pair[1], is_severe, &weight),
                             (is_severe ? .99 : .995) * energy);
         for (int s = 0; s < 2; ++s)
-            ck_assert_int_eq(iccp_sphere_check(&both[s].m, both[s].directions, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_sphere_check(&pair[s].m, pair[s].directions, NULL), ICC_OK);
         size_t n_moved = 0;
         for (size_t v = 0; v < n; ++v) {
             const bool has_moved = memcmp(before + 3 * v, first + 3 * v, 3 * sizeof(double)) != 0;
@@ -140,8 +140,8 @@ START_TEST(relaxing_lowers_the_energy_and_keeps_the_class)
         free(first);
         free(second);
         free(is_fixed);
-        free_drawn(&both[0]);
-        free_drawn(&both[1]);
+        free_drawn(&pair[0]);
+        free_drawn(&pair[1]);
     }
 }
 END_TEST

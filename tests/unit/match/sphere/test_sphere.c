@@ -1,5 +1,5 @@
 /* Drawings of closed surfaces on the sphere: surfaces shrink and grow, drawings are one-to-one, and
- * what is not is told. */
+ * what is not is reported. */
 #include "../../../default_env.h"
 #include "../../../faulty.h"
 #include "../../../hard_bodies.h"

@@ -5,7 +5,7 @@
  * A triangle that is tiny on one side costs next to nothing there, however flat it becomes on the
  * other side. It may become so flat that doubles see no area, and then the inverse has no energy.
  * So the corners of such triangles go back to where they were. */
-#include "map/compatible/both_sides.h"
+#include "map/compatible/points_and_images.h"
 
 #include "map/compatible/triangle_quality.h"
 
@@ -14,7 +14,7 @@
 
 /* Triangles become no flatter than this. Rounding changes the roundness of a triangle by about this
  * much if the triangle is 1e-8 of the domain across. */
-static const double LEAST_ROUNDNESS = 1e-8;
+static const double LEAST_RESOLVED_ROUNDNESS = 1e-8;
 
 typedef struct retreat {
     iccp_plmap *map;
@@ -35,7 +35,8 @@ static bool is_spoilt(const retreat *r, uint32_t triangle)
 {
     const uint32_t *v = r->map->corners.vertex + 3 * (size_t)triangle;
     if (!iccp_plmap_positive_image(r->map, triangle) ||
-        roundness_of(r->map->images, v) < iccp_min(LEAST_ROUNDNESS, roundness_of(r->before, v)))
+        roundness_of(r->map->images, v) <
+            iccp_min(LEAST_RESOLVED_ROUNDNESS, roundness_of(r->before, v)))
         return true;
     return !iccp_quality_is_sound(r->map, v[0], v[1], v[2]);
 }
@@ -71,8 +72,9 @@ static void send_back_spoilt(const retreat *r, double energy_before)
         memcpy(r->map->images, r->before, 2 * n * sizeof *r->before);
 }
 
-icc_status iccp_improve_both_sides(iccp_plmap *map, const iccp_descent *descent, iccp_work *work,
-                                   iccp_improvement *improvement, const iccp_env *env)
+icc_status iccp_improve_points_and_images(iccp_plmap *map, const iccp_descent *descent,
+                                          iccp_work *work, iccp_improvement *improvement,
+                                          const iccp_env *env)
 {
     const size_t n = map->n_vertices;
     retreat r = {map, iccp_alloc(&env->memory, n, 2 * sizeof *r.before),
