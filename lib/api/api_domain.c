@@ -109,7 +109,7 @@ static icc_status check_feature(size_t f, const icc_feature *feature, icc_error 
                                          "a line has at least 2 vertices", "a point has 1 vertex"};
     if (feature->kind < ICC_FEATURE_HOLE || feature->kind > ICC_FEATURE_POINT)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
-                            "feature %zu has the kind %ld, which is none", f, (long)feature->kind);
+                            "feature %zu: there is no kind %ld", f, (long)feature->kind);
     if (!iccp_feature_allows(feature->kind, feature->n_vertices))
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
                             "feature %zu: %s, not %zu", f, counts[feature->kind - 1],
@@ -120,12 +120,12 @@ static icc_status check_feature(size_t f, const icc_feature *feature, icc_error 
     if (!(feature->radius >= 0 && isfinite(feature->radius)) ||
         (feature->radius > 0 && feature->kind != ICC_FEATURE_POINT))
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_FEATURE, (int64_t)f,
-                            "feature %zu: the radius is %g; it is at least 0 and finite, and 0 "
-                            "but for points",
+                            "feature %zu: the radius is %g; it must be finite and at least 0, and "
+                            "only a point may have one",
                             f, feature->radius);
     if (feature->n_facets > 0 || feature->facets != NULL)
         return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_FEATURE, (int64_t)f,
-                            "feature %zu has facets: surfaces inside are not supported as yet", f);
+                            "feature %zu has facets: surfaces inside are not supported", f);
     return ICC_OK;
 }
 

@@ -125,8 +125,8 @@ static icc_status check_handles(size_t dim, size_t n, const double *handles, icc
 {
     if (n < dim + 1 || n > MAX_HANDLES)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "there are %zu handles; there must be %zu at least, to reproduce points",
-                         n, dim + 1);
+                         "there are %zu handles; at least %zu are needed to reproduce points", n,
+                         dim + 1);
     const size_t j = first_infinite(n, dim, handles);
     if (j == n)
         return ICC_OK;

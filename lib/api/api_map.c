@@ -333,7 +333,7 @@ static icc_status read_mesh(icc_mesh *mesh, const icc_map *map, const icc_mesh *
     const char *name = dim == 2 ? "triangle" : "tetrahedron";
     if (dim != 2 && dim != 3)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "dim is %zu; meshes are carried along in dimensions 2 and 3 only", dim);
+                         "dim is %zu; only meshes in 2 or 3 dimensions can be mapped", dim);
     const icc_status status = iccp_read_mesh(mesh, given, err);
     if (status != ICC_OK)
         return status;

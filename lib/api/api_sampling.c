@@ -38,10 +38,9 @@ static icc_status check_regions(int32_t dim, size_t n_regions, const icc_domain 
                                 "region %zu has dimension %ld instead of %ld", r,
                                 (long)regions[r]->dim, (long)dim);
         if (regions[r]->features != NULL)
-            return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_REGION, (int64_t)r,
-                                "region %zu has holes, lines or points inside, as only maps of "
-                                "kind mesh can have",
-                                r);
+            return iccp_fail_at(
+                err, ICC_ERR_UNSUPPORTED, ICC_ITEM_REGION, (int64_t)r,
+                "region %zu has holes, lines or points inside, which only mesh maps can have", r);
     }
     return ICC_OK;
 }

@@ -36,7 +36,7 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, icc_
     if (full->alpha && full->interpolation != ICC_INTERPOLATION_NEAREST &&
         iccp_picture_has_values(full))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
-                         "icc_picture: alpha goes with up to 4 channels of 1 or 2 bytes, linear or "
+                         "icc_picture: alpha needs at most 4 channels of 1 or 2 bytes, linear or "
                          "nearest interpolation, and no nodata");
     const size_t pixel = (size_t)(full->channels * full->bytes);
     if (full->pixels == NULL || full->stride / pixel < (size_t)full->width ||
@@ -67,7 +67,7 @@ icc_status icc_map_warp(const icc_map *map, const icc_picture *source, const icc
         status =
             iccp_fail(err, ICC_ERR_ARGUMENT, "the pictures differ in channels, bytes or alpha");
     if (status == ICC_OK && map->info.dim != 2)
-        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "a map of dimension %ld takes no picture",
+        status = iccp_fail(err, ICC_ERR_UNSUPPORTED, "a map of dimension %ld cannot warp a picture",
                            (long)map->info.dim);
     if (status != ICC_OK)
         return status;

@@ -47,11 +47,11 @@ icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu simplices; there must be 1 to %zu",
                          full->n_cells, ICCP_MAX_COUNT);
     if (full->regions != NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_mesh.regions are not supported as yet");
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_mesh.regions are not supported");
     for (size_t cell = 0; cell < full->n_cells; ++cell)
         if (!is_simplex(full, cell))
             return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_SIMPLEX, (int64_t)cell,
-                                "cell %zu is not a simplex: others are not supported as yet", cell);
+                                "cell %zu is not a simplex; other cells are not supported", cell);
     return ICC_OK;
 }
 

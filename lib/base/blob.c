@@ -220,19 +220,21 @@ icc_status iccp_blob_open(iccp_blob *b, const void *data, size_t n_bytes, const 
     *b =
         (iccp_blob){.reads = true, .from = bytes, .size = n_bytes, .at = HEADER, .memory = *memory};
     if (n_bytes < HEADER || memcmp(bytes, MAGIC, sizeof MAGIC) != 0)
-        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes are none of libicc's");
+        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes were not saved by libicc");
     if (memcmp(bytes + KIND_AT, kind, 4) != 0)
-        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes are not of the kind \"%.4s\"", kind);
+        return iccp_fail(err, ICC_ERR_FORMAT, "these bytes hold no object of the kind \"%.4s\"",
+                         kind);
     if (get(bytes + LENGTH_AT, 8) != n_bytes)
-        return iccp_fail(err, ICC_ERR_FORMAT, "%zu bytes instead of those that were written",
-                         n_bytes);
+        return iccp_fail(err, ICC_ERR_FORMAT,
+                         "there are %zu bytes, which is not how many were written", n_bytes);
     if (get(bytes + CHECKSUM_AT, 4) != checksum(bytes, n_bytes))
         return iccp_fail(err, ICC_ERR_FORMAT, "the bytes have changed: the checksum is wrong");
     const uint32_t written = (uint32_t)get(bytes + VERSION_AT, 4);
     if (written > version)
-        return iccp_fail(err, ICC_ERR_VERSION,
-                         "version %lu of the format; this library knows up to %lu",
-                         (unsigned long)written, (unsigned long)version);
+        return iccp_fail(
+            err, ICC_ERR_VERSION,
+            "the bytes have version %lu of the format, but this library reads versions up to %lu",
+            (unsigned long)written, (unsigned long)version);
     if (written == 0)
         return iccp_fail(err, ICC_ERR_FORMAT, "version 0 of the format does not exist");
     b->version = written;

@@ -50,13 +50,14 @@ icc_status iccp_budget_end(const iccp_budget *budget, icc_status status, icc_err
 {
     const double limit = budget->limit / 1e6;
     if (budget->wanted > 0)
-        return iccp_fail(err, ICC_ERR_FORMAT,
-                         "to rebuild what was saved takes about %.0f MB; icc_env.load_limit allows "
-                         "%.0f MB",
-                         budget->wanted / 1e6, limit);
+        return iccp_fail(
+            err, ICC_ERR_FORMAT,
+            "rebuilding the saved object takes about %.0f MB; icc_env.load_limit allows "
+            "%.0f MB",
+            budget->wanted / 1e6, limit);
     if (budget->is_long)
         return iccp_fail(err, ICC_ERR_FORMAT,
-                         "to rebuild what was saved takes more work than icc_env.load_limit, "
+                         "rebuilding the saved object takes more work than icc_env.load_limit, "
                          "%.0f MB, allows",
                          limit);
     return status;

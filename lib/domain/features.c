@@ -20,8 +20,7 @@ icc_status iccp_features_refuse(const icc_domain *domain, const char *what, icc_
     if (domain->features == NULL)
         return ICC_OK;
     return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                     "%s cannot have holes, lines or points inside: only maps of kind mesh can",
-                     what);
+                     "%s cannot have holes, lines or points inside: only mesh maps can", what);
 }
 
 static size_t count_facets(const icc_feature *feature)

@@ -211,7 +211,8 @@ icc_status iccp_simplicial_measure(const iccp_facet_tree *tree, int32_t *orienta
     if (dim == 3)
         *orientation = surface_orientation(tree);
     else if (!(fabs(sum) > NO_VOLUME * size))
-        return iccp_fail(err, ICC_ERR_BOUNDARY, "the shape has no volume that doubles can tell");
+        return iccp_fail(err, ICC_ERR_BOUNDARY,
+                         "the volume of the shape is too small for double precision");
     assert(*orientation != 0);
     *volume = fabs(sum);
     for (size_t k = 2; k <= dim; ++k)

@@ -108,7 +108,8 @@ static icc_status recover(iccp_facet_scan *scan, uint32_t facet, icc_error *err)
         if (done == ICCP_INSERT_MEMORY)
             return iccp_fail_memory(err);
         if (done != ICCP_INSERTED)
-            return iccp_fail_facet(err, facet, "it cannot be told from its surroundings");
+            return iccp_fail_facet(err, facet,
+                                   "it is too close to its surroundings for double precision");
     }
 }
 
@@ -139,7 +140,7 @@ static icc_status mark_walls(iccp_tets *m, const iccp_surface *s, uint32_t *wall
         if (!iccp_facet_scan_run(&scan, f))
             status = iccp_fail_memory(err);
         else if (scan.piercing.n > 0 || scan.faces.n == 0)
-            status = iccp_fail_facet(err, f, "it was lost");
+            status = iccp_fail_facet(err, f, "it is missing from the mesh");
         for (size_t k = 0; k < scan.faces.n && status == ICC_OK; ++k) {
             const uint32_t side = scan.faces.item[k];
             wall[side] = wall[m->tet[side / 4].across[side % 4]] = ICCP_WALL | f;
@@ -192,6 +193,6 @@ icc_status iccp_carve(iccp_tets *m, const iccp_surface *s, const iccp_env *env, 
     }
     iccp_free(&env->memory, wall);
     if (status == ICC_OK && m->n_alive == 0)
-        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "nothing is left inside");
+        status = iccp_fail(err, ICC_ERR_TOPOLOGY, "no tetrahedron is left inside");
     return status;
 }

@@ -288,7 +288,8 @@ icc_status iccp_tets_insert_all(iccp_tets *m, size_t n, const uint32_t *order, c
             return iccp_fail_memory(err);
         if (made != ICCP_INSERTED)
             return iccp_fail_at(err, ICC_ERR_RESOLUTION, ICC_ITEM_VERTEX, (int64_t)p,
-                                "vertex %lu cannot be told from others", (unsigned long)p);
+                                "vertex %lu is too close to others for double precision",
+                                (unsigned long)p);
     }
     return ICC_OK;
 }

@@ -134,8 +134,9 @@ icc_status iccp_recover_segments(iccp_tets *m, iccp_surface *s, const iccp_env *
             if (made == ICCP_NO_MEMORY)
                 status = iccp_fail_memory(err);
             else if (made == ICCP_STUCK)
-                status = iccp_fail_facet(err, segment->facet,
-                                         "one of its edges cannot be told from its surroundings");
+                status = iccp_fail_facet(
+                    err, segment->facet,
+                    "one of its edges is too close to its surroundings for double precision");
         }
     }
     iccp_free(&m->memory, o.tets.item);

@@ -144,13 +144,13 @@ static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map
     icc_status status = kind->create(map, options, env, err);
     const bool has_none = status == ICC_OK && kind->mesh != NULL && map->state == NULL;
     if (has_none && options->kind == ICC_MAP_MESH)
-        status = iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "no map of kind mesh was found: %zu %s stay inverted; kind 0 makes the "
-                           "best map that can be had, here of kind curves",
-                           map->info.n_unrepaired, items);
+        status = iccp_fail(
+            err, ICC_ERR_CERTIFICATE,
+            "no mesh map was found: %zu %s stay inverted; with kind 0 you get a curve map",
+            map->info.n_unrepaired, items);
     if (has_none && options->kind == 0) {
-        iccp_log(env, "%zu %s stay inverted: the map is of kind curves", map->info.n_unrepaired,
-                 items);
+        iccp_log(env, "%zu %s stay inverted, so the map becomes a curve map",
+                 map->info.n_unrepaired, items);
         map->kind = &iccp_curves_kind;
     }
     map->info.kind = map->kind->number;
@@ -233,7 +233,7 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
     if (options->kind == ICC_MAP_MESH &&
         (source->dim > 3 || (source->dim == 3 && source->mask != NULL)))
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "map kind mesh is not available for %s of dimension %ld",
+                         "a mesh map is not available for %s of dimension %ld",
                          source->mask != NULL ? "masks" : "domains", (long)source->dim);
     if (source->features == NULL)
         return options->n_ties == 0
@@ -242,9 +242,9 @@ static icc_status check_request(const icc_domain *source, const icc_map_options 
                                "ties are between features, of which there are none");
     if (options->kind == ICC_MAP_CURVES || chart_options[0].method != 0 ||
         chart_options[0].maximum != NULL || chart_options[1].maximum != NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "holes, lines or points inside: only kind mesh without charts can have "
-                         "them");
+        return iccp_fail(
+            err, ICC_ERR_UNSUPPORTED,
+            "holes, lines or points inside need a mesh map that is made without charts");
     return ICC_OK;
 }
 
@@ -335,7 +335,7 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
     const double start = iccp_seconds();
     icc_map *better = NULL;
     if (map->kind->improve == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be improved");
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only mesh maps can be improved");
     /* An affine map has the least energy, so a finer mesh would gain nothing. */
     static const icc_improve_options NO_MORE = {.iterations = 1, .levels = -1};
     const iccp_simplicial_map simplicial = map->kind->mesh(map);
@@ -394,8 +394,8 @@ static icc_status begin_anew(icc_map *map, int32_t iterations, size_t vertex, co
         create(&fresh, map->source_domain, map->target_domain, &options, any, env, err);
     if (status == ICC_ERR_CERTIFICATE && vertex != NO_VERTEX)
         return iccp_fail_at(err, status, ICC_ITEM_VERTEX, (int64_t)vertex,
-                            "the way from the target before is blocked at vertex %zu, and no new "
-                            "map of kind mesh was found: go there in several steps",
+                            "the way from the previous target is blocked at vertex %zu, and no new "
+                            "mesh map was found: move there in several steps",
                             vertex);
     if (status != ICC_OK)
         return status;
@@ -429,7 +429,7 @@ icc_status iccp_map_retarget(icc_map **out, const icc_map *map, const icc_domain
     const double start = iccp_seconds();
     icc_map *next = NULL;
     if (map->kind->retarget == NULL)
-        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only maps of kind mesh can be followed");
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "only mesh maps can follow a moving target");
     iccp_team team;
     iccp_env with;
     iccp_with_team(&with, &team, env);

@@ -163,8 +163,8 @@ static icc_status pair_outlines(pairing *p, iccp_union_outline *common, iccp_out
         return status;
     if (outline[0].end > 0 && (n = add_ends(p, outline, n)) == 0)
         return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)p->number[0],
-                            "landmarks of feature %lu (a line) do not follow one another along it, "
-                            "or pair one of its ends with no end",
+                            "landmarks of feature %lu (a line) are not in order along it, or pair "
+                            "one of its ends with a vertex that is no end",
                             (unsigned long)feature);
     move_outline(p, &outline[0], n);
     return iccp_pair_moved(common, &outline[0], &outline[1], n, p->shares, p->options, env, err);

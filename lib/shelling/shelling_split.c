@@ -118,7 +118,7 @@ icc_status iccp_split_deepest(iccp_simplices **out, const icc_domain *domain, co
     const uint32_t deepest = find_deepest(domain);
     if (deepest == NONE)
         return iccp_fail(err, ICC_ERR_RESOLUTION,
-                         "the mesh has no vertex inside, and no %s that one could be put into",
+                         "the mesh has no vertex inside, and no %s that could hold one",
                          iccp_simplices_name((size_t)domain->dim));
     icc_status status = copy(out, domain->mesh, &env->memory);
     if (status == ICC_OK) {

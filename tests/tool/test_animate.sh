@@ -17,7 +17,7 @@ run 2 demo one two
 says "'two' is one argument too many"
 run 0 demo 'a demo'
 cmp -s 'a demo/fish.png' libicc-demo/fish.png || complain "two demos differ"
-holds out "  cd 'a demo'"
+holds out " -s 'a demo/before.txt' -t 'a demo/after.txt'"
 
 # What is printed to try next is tried.
 mkdir bin
@@ -113,7 +113,7 @@ says "short.txt: 11 vertices"
 run 1 animate -s before.txt fish.png o.png before.txt nowhere.txt
 says "nowhere.txt: cannot be opened"
 run 1 animate -s before.txt before.txt o.png before.txt
-says "before.txt: this is no PNG"
+says "before.txt: this is not a PNG"
 [ ! -e o-0000.png ] || complain "a frame is written though a cage is wrong"
 run 0 animate -s before.txt - o.png after.txt <fish.png
 same o-0000.png one-0000.png "a picture from standard input"

@@ -99,7 +99,7 @@ complex|the array is of type '<c16'
 fortran|the array is in Fortran's order; save numpy.ascontiguousarray(array)
 long|the array has 1 axis; a picture has rows, columns and perhaps channels
 four|the array has 4 axes
-wide|the array has 65 channels, in its last axis; 1 to 64 are taken
+wide|the array has 65 channels, in its last axis; there may be 1 to 64
 short|the .npy file has 4799 bytes of data, which is not what its shape says
 END
 run 1 warp -s before.txt -t after.txt bandsf4l.npy out.png
@@ -109,5 +109,5 @@ says 'out.png: the picture has more than four channels, which PNG cannot hold; .
 run 2 warp -s before.txt -t after.txt --background ff0000 bandsf4l.npy out.npy
 says '--background is a colour, and the picture is an array of floats'
 run 2 warp -s before.txt -t after.txt --outside null bandsu2l.npy out.npy
-says 'whole numbers of more than four channels have no value for what has no image'
+says 'an array of whole numbers with more than four channels has no value for pixels without an image'
 finish

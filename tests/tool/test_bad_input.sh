@@ -40,7 +40,7 @@ printf '0 0\n1 .\n1 1\n' | rejects 2: "'.' is not a number"
 printf '0 0\n\000\n1 1\n' | rejects 2: 'zero byte'
 printf '0 0\n\001\377\n1 1\n' | rejects 2: "'??' is not a number"
 printf 'OFF\n3 1 0\n' | rejects 3: 'the file ends early'
-printf '\223NUMPY\001' | rejects ' ' 'a .npy file of version 0'
+printf '\223NUMPY\001' | rejects ' ' 'this .npy file has version 0'
 printf '\211PNG\r\n' | rejects ' ' 'a PNG picture'
 
 # Geometry.
@@ -76,7 +76,7 @@ printf 'POLYGON ((0, 9 0, 9 9))' | rejects 1: '1 number where a vertex has 2'
 printf 'POLYGON ((0 0 1 2 3, 9 0, 9 9))' | rejects 1: "'3,' where ')' is expected"
 printf 'POLYGON EMPTY' | rejects 1: 'is empty'
 printf 'LINESTRING (0 0, 1 1)' | rejects 1: 'a cage is a POLYGON'
-printf 'POLYGON ((0 0, 1 0, 1 1)) POINT (1 1)' | rejects 1: 'more text behind'
+printf 'POLYGON ((0 0, 1 0, 1 1)) POINT (1 1)' | rejects 1: 'more text after'
 
 # GeoJSON.
 printf '{"type":"Polygon",\n"coordinates":[[[0,0],' | rejects 2: 'the JSON ends early'
@@ -184,7 +184,7 @@ printf '<svg><path d="M0 0A1 1 0 0 5 5z"/></svg>' | rejects 1: "'5' in the path 
 printf '<svg><path d="L0 0 1 1 1 0"/></svg>' | rejects 1: 'does not begin with M'
 printf '<svg><path d="M0 0B1 1"/></svg>' | rejects 1: "'B' is not a command"
 printf '<svg><path/></svg>' | rejects 1: 'has no outline'
-printf '<svg><g transform="scale(2"><g><path d="M0 0L1 0 1 1z"/></g></g></svg>' | rejects 1: 'a transform that is none of SVG'
+printf '<svg><g transform="scale(2"><g><path d="M0 0L1 0 1 1z"/></g></g></svg>' | rejects 1: 'a transform that SVG does not have'
 printf '<svg><polygon points="0 0 1 0 1"/></svg>' | rejects 1: 'lacks its y'
 printf '<svg><polygon points="0 0 1 x 1 1"/></svg>' | rejects 1: "'x'"
 

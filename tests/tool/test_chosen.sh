@@ -45,7 +45,7 @@ run 1 map -s 'source.txt#name=Kent' -t target.txt -p points.txt
 says 'only GeoJSON and SVG have names of shapes; name "Kent" was asked for'
 printf '{"type":"Polygon","coordinates":[[%s]]}' "$(ring source.txt)" >bare.json
 run 1 map -s 'bare.json#name=Kent' -t target.txt -p points.txt
-says 'there is no list of features in which to look for name "Kent"'
+says 'there is no list of features to look for name "Kent" in'
 run 0 map -s bare.json -t target.txt -p points.txt
 
 # Shapes of SVG without ids, by number in the order of the file, whatever they are; an id that looks like one comes first.

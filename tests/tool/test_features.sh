@@ -116,23 +116,23 @@ says 'libicc: holes.svg:1: hole 2'
 # What works on cages without features only.
 collection "$source" "$point" >a.geojson
 run 1 encode -s a.geojson -p points.txt
-says 'libicc: a.geojson: cages with holes, lines or points inside have maps, but no charts'
+says 'libicc: a.geojson: a cage with holes, lines or points inside has maps, but no chart'
 for command in "check -s a.geojson" "info -s a.geojson" "plot -s a.geojson out.svg"; do
     # shellcheck disable=SC2086 # words
     run 1 $command
-    says 'have maps, but no charts; --target FILE is missing'
+    says 'has maps, but no chart; --target FILE is missing'
 done
 run 1 check -s a.geojson --repair b.geojson
 says 'libicc: a.geojson: --repair is for cages without'
 run 1 plot -s a.geojson out.vtk
-says 'libicc: a.geojson: holes, lines or points inside'
+says 'libicc: a.geojson: there are holes, lines or points inside'
 printf '{"handles": [[1, 1], [9, 9]]}' >handles.json
 run 1 weights -s a.geojson -a handles.json -p points.txt
-says 'libicc: a.geojson: holes, lines or points inside'
+says 'libicc: a.geojson: there are holes, lines or points inside'
 collection "$source" "$target" >both.geojson
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >mesh.off
 run 1 map -s both.geojson --mesh mesh.off -p points.txt
-says 'libicc: both.geojson: holes, lines or points inside'
+says 'libicc: both.geojson: there are holes, lines or points inside'
 
 # Features go to features, whatever their order and format, there and back; holes have no inside.
 moved='[[1,2],[3,2],[3,4],[1,4],[1,2]]'
@@ -247,14 +247,14 @@ run 0 map -s sized.geojson -p on.txt
 close_to out expected 1e-12
 run 0 check -s sized.geojson
 holds out ', with 1 hole and 1 point inside'
-refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' -1)" "$partner"
-refuses 'source: the radius of point 3 is no number from 0 up' "$source" "$target" "$(sized source '[2,8]' '"1"')" "$partner"
+refuses 'source: the radius of point 3 must be a number of at least 0' "$source" "$target" "$(sized source '[2,8]' -1)" "$partner"
+refuses 'source: the radius of point 3 must be a number of at least 0' "$source" "$target" "$(sized source '[2,8]' '"1"')" "$partner"
 refuses 'target: point 3 has no radius, but in the source one' "$source" "$target" "$(sized source '[2,8]' 1)" "$partner"
 refuses 'source: circle of point 3, vertex' "$source" "$target" "$(sized source '[2,8]' 4)" "$(sized target '[2,8]' 1)"
-refuses 'points with a radius and ties do not go together' "$source" "$target" "$(sized source '[2,8]' 1)" \
+refuses 'points with a radius cannot be combined with ties' "$source" "$target" "$(sized source '[2,8]' 1)" \
     "$(sized target '[2,8]' 1)" "$(feature source-tie LineString '[[0,10],[2,8]]' 1)"
 run 1 map -s sized.geojson -p on.txt --ties ties.geojson
-says 'points with a radius and ties do not go together'
+says 'points with a radius cannot be combined with ties'
 collection "$source" "$target" "$(sized source '[2,8]' 0)" "$(sized target '[3,8]' null)" >none.geojson
 printf '2 8\n' >on.txt
 run 0 map -s none.geojson -p on.txt

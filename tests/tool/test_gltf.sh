@@ -264,7 +264,7 @@ refused("nodes[0] ('one') flattens its mesh", lambda s: s.node(**one, matrix=[1,
 refused('nodes[0] is among its own children', lambda s: (s.node(**one, children=[1]), s.node(children=[0])))
 refused('nodes[2] is a child twice', lambda s: (s.node(children=[2]), s.node(children=[2]), s.node(**one)))
 refused("nodes[0] ('one') stands for many copies", lambda s: s.node(**one, extensions={'EXT_mesh_gpu_instancing': {}}))
-refused('nodes[0].rotation is no rotation', lambda s: s.node(**one, rotation=[0, 0, 0, 0]))
+refused('nodes[0].rotation is not a rotation', lambda s: s.node(**one, rotation=[0, 0, 0, 0]))
 refused('nodes[0].scale is not a list of 3 finite numbers', lambda s: s.node(**one, scale=[1, 2]))
 refused('mesh must be a glTF mesh, a whole number from 0 to 0', lambda s: s.node(mesh=1))
 refused('children must be a glTF node, a whole number from 0 to 0', lambda s: s.node(**one, children=[1]))
@@ -291,7 +291,7 @@ def overlapping(s):
     s.tree['accessors'][-1].update(bufferView=s.tree['accessors'][p['POSITION']]['bufferView'], count=len(v) // 2)
     s.tree['meshes'][0]['primitives'][0]['targets'] = [{'POSITION': len(s.tree['accessors']) - 2}]
     s.node(**one)
-refused('has bytes of another one', overlapping, 1, mesh)
+refused('shares bytes with another one', overlapping, 1, mesh)
 def indices(name):
     def make(s):
         p = s.tree['meshes'][0]['primitives'][0]
@@ -299,12 +299,12 @@ def indices(name):
         s.tree['accessors'][p['indices']].update(bufferView=s.tree['accessors'][p['attributes'][name]]['bufferView'], count=3)
         s.node(**one)
     return make
-refused('accessors[1], for indices, has bytes of vertices', indices('POSITION'))
-refused('accessors[1], for indices, has bytes of vertices', indices('TANGENT'), 1, mesh)
+refused('accessors[1], for indices, shares bytes with vertices', indices('POSITION'))
+refused('accessors[1], for indices, shares bytes with vertices', indices('TANGENT'), 1, mesh)
 def far(s):
     s.tree['meshes'][0]['primitives'][0]['targets'] = [{'POSITION': s.array(9 * v)}]
     s.node(**one)
-refused('morph targets displace', far, 4, mesh)
+refused('morph targets move', far, 4, mesh)
 import os
 assert not os.path.exists('no.glb')
 err = run(4, *mesh, '--outside', 'keep')[1]
@@ -321,7 +321,7 @@ s.tree['skins'] = [{'joints': [1]}]
 s.tree['animations'] = [{'channels': [{'sampler': 0, 'target': {'node': 1, 'path': 'rotation'}}], 'samplers': []}]
 s.write('in.glb')
 out, err = run(0, 'mesh', '-s', 'box.obj', '-t', 'sheared.obj', 'in.glb', 'out.glb')
-assert err == 'libicc: in.glb: skins stay: joints, and their inverse bind matrices\nlibicc: in.glb: animations of nodes stay\n', err
+assert err == 'libicc: in.glb: skins stay as they are (joints and inverse bind matrices)\nlibicc: in.glb: animations of nodes stay as they are\n', err
 assert np.abs(Read('out.glb').array(0) - v @ shear.T).max() < 2e-6
 # Two nodes that do the same draw one mesh; a mesh that none draws is where its positions are.
 s = Scene()
@@ -339,7 +339,7 @@ s.tree['meshes'][1]['primitives'][0]['attributes']['NORMAL'] = s.tree['meshes'][
 s.node(mesh=0), s.node(mesh=1)
 s.write('in.glb')
 err = run(0, 'mesh', '-s', 'box.obj', '-t', 'sheared.obj', 'in.glb', 'out.glb')[1]
-assert err == 'libicc: in.glb: there are normals or tangents that are not carried: they stay\n', err
+assert err == 'libicc: in.glb: some normals or tangents stay as they are\n', err
 assert np.array_equal(Read('out.glb').array(2), Read('in.glb').array(2))
 # On the boundary, where there is no derivative, it is taken beside it.
 s = Scene()
@@ -383,7 +383,7 @@ assert 'normals of several vertices become the mean of their images, off by up t
 with open('in.obj', 'a') as o:
     o.write('\n')
 open('bare.obj', 'w').write(open('in.obj').read().replace('//1', ''))
-assert 'they stay' in carry('bare.obj', 'out.obj')
+assert 'stay as they are' in carry('bare.obj', 'out.obj')
 # PLY as text and as binary of both orders, in any order of properties.
 for form, order in (('ascii', ''), ('binary_little_endian', '<'), ('binary_big_endian', '>')):
     for kind, names in (('float', 'x y z nx ny nz'), ('double', 'nz x nx y ny red z')):
@@ -418,12 +418,12 @@ text = 'ply\nformat ascii 1.0\nelement vertex 3\n' + ''.join('property float %s\
     'element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0\n1 0 0 1 0 0\n0 1 0 1 0 0\n3 0 1 2\n'
 for kinds in (('float', 'float', 'float', 'w'), ('char', 'char', 'char', 'nz'), ('float', 'double', 'float', 'nz')):
     open('in.ply', 'w').write(text % kinds)
-    assert 'they stay' in carry('in.ply', 'out.ply'), kinds
+    assert 'stay as they are' in carry('in.ply', 'out.ply'), kinds
     assert open('out.ply').read().count(' 1 0 0\n') == 3
 # VTK.
 open('in.vtk', 'w').write('# vtk DataFile Version 3.0\nx\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n0 0 0\n1 0 0\n0 1 0\n0 0 1\nCELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n'
                           'POINT_DATA 4\nNORMALS n float\n' + '0 0 1\n' * 4)
-assert 'libicc: in.vtk: there are normals or tangents that are not carried: they stay\n' == carry('in.vtk', 'out.vtk')
+assert 'libicc: in.vtk: some normals or tangents stay as they are\n' == carry('in.vtk', 'out.vtk')
 # In the plane: what stands upright stays.
 open('a.txt', 'w').write('-9 -9\n9 -9\n9 9\n-9 9\n'), open('b.txt', 'w').write('-9 -9\n18 -9\n18 9\n-9 9\n')
 open('in.obj', 'w').write('v 0 0 5\nv 1 0 5\nv 0 1 5\nvn 0 0 1\nvn 0.6 0.8 0\nf 1//1 2//1 3//2\n')

@@ -61,7 +61,7 @@ says 'libicc: l.npy: a mask cannot be a target'
 run 1 map -s l.txt -t l.npy -p points.txt
 says 'libicc: l.npy: a mask cannot be a target'
 run 1 check -s l.txt --boundary out.txt
-says 'libicc: l.txt: this is no mask'
+says 'libicc: l.txt: this is not a mask'
 
 # A boundary whose columns are swapped is the cage of a picture that is laid out like the mask; the mask itself is not, and says so.
 { npy 1 "{'descr': '|u1', 'fortran_order': False, 'shape': (3, 4), }" && bytes 1 1 1 0 1 1 1 0 0 0 0 0; } >wide.npy
@@ -128,7 +128,7 @@ for type in '|u3' 'u' '|b2' '|S1' '<c8' '|u1x' ''; do
 done
 for entry in "'descr': [('a', 'u1')]|has fields" "'descr': 7|no name or type" "'shape': 4|lacks a '('" \
     "'shape': ()|no axes" "'shape': (0, 5)|axis 0 of the array has no cells" "'shape': (1,1,1,1,1,1,1)|more than 6 axes" \
-    "'shape': (2 2)|no list of numbers" "'shape': (-2, 2)|no list of numbers" "'shape': (,)|no list of numbers" \
+    "'shape': (2 2)|not a list of numbers" "'shape': (-2, 2)|not a list of numbers" "'shape': (,)|not a list of numbers" \
     "'fortran_order': 1|neither True nor False" "'colour': 1|'colour' in it, which is unknown"; do
     { npy 1 "{${entry%|*}, }" && bytes 1 1 1 1; } | rejects "${entry#*|}"
 done

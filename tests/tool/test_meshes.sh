@@ -97,7 +97,7 @@ types='CELL_TYPES 1\n10\n'
     printf "$medit${vertices}Triangles 1\n1 2 3 0\nTriangles 1\n1 2 3 0\n" | refused mesh 10 'a second section Triangles'
 
     printf 'OFF\n3 1 0\n0.1 0.1 0.1\n0.9 0.1 0.1\n0.1 0.9 0.1\n3 0 1 2\n\n# end\nOFF\n3 1 0\n' |
-        refused off 9 'there is more behind the last of 1 faces'
+        refused off 9 'there is more after the last of 1 faces'
     printf 'v 0.1 0.1 0.1\nf 1 2 3\nv 0.2 0.1 0.1\n' | refused obj 2 'the face has the vertex 2; there are 1 so far'
 }
 finish

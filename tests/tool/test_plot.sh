@@ -48,7 +48,7 @@ done
 same 'drawn--triangles.svg' drawn.svg
 if cmp -s 'drawn--improve 0.svg' drawn.svg; then complain "--improve changes nothing"; fi
 run 2 plot -s source.txt -t target.txt --lines 7 drawing.svg
-says '--lines are integral curves, and this map is a mesh; with --map curves they are drawn'
+says '--lines draws integral curves, which a mesh map does not have; add --map curves'
 
 run 0 plot -s source.txt -t target.txt -m gradient --elevation --compression --y-down --lines 20 drawing.svg
 for part in 'source: checkerboard' 'target: uv map' 'target: elevation' 'source: function'; do
@@ -118,11 +118,11 @@ cubes='-s cube.obj -t moved.obj'
     refuses 2 '--view must be X,Y,Z, and not 0,0,0' $cubes --view 0,0,0
     refuses 2 '--view must be X,Y,Z, and not 0,0,0' $cubes --view 1,1
     refuses 2 '--view must be in front of the plane' $cubes --slice 0,0,1 --view 1,1,-0.1
-    refuses 2 '--triangles is for pictures of the plane' $cubes --triangles
-    refuses 2 '--lines is for pictures of the plane' $cubes --lines 7
-    refuses 2 '--y-down is for pictures of the plane' $cubes --y-down
+    refuses 2 '--triangles is for drawings in the plane' $cubes --triangles
+    refuses 2 '--lines is for drawings in the plane' $cubes --lines 7
+    refuses 2 '--y-down is for drawings in the plane' $cubes --y-down
 }
-refuses 2 'a picture in space is of a map: --target FILE' -s cube.obj
+refuses 2 'a drawing in space shows a map: add --target FILE' -s cube.obj
 refuses 2 "'rsvg-convert OUT.svg -o OUT.png' makes a PNG of OUT.svg" -s source.txt
 if command -v rsvg-convert >/dev/null; then
     rsvg-convert drawing.svg -o remedy.png

@@ -153,7 +153,7 @@ run 0 map -s bell.txt -t near.txt --triangulation far.json --require certified <
 run 1 map -s source.txt -t target.txt -p some.txt --outside fail --triangulation mesh.json
 run 1 map -s source.txt -t target.txt -p nowhere --triangulation mesh.json
 run 2 map -s source.txt -t target.txt -p points.txt -m gradient --triangulation mesh.json
-says '--triangulation needs a map of kind mesh'
+says '--triangulation needs a mesh map'
 run 2 map -s source.txt -t target.txt -p points.txt --triangulation -
 says '--triangulation goes to a file'
 run 2 map -s source.txt -t target.txt -p points.txt --triangulation mesh.png

@@ -123,7 +123,7 @@ refuses 'target: polygon 2: 3 vertices, but the source' "$(two source 15)" \
 refuses 'target: polygon 2 has other holes than in the source' \
     "$(feature source MultiPolygon "[[$(square 5 5 4)], [$(square 15 5 4), $(square 15 5 2)]]")" \
     "$(feature target MultiPolygon "[[$(square 5 5 4)], [$(square 15 5 4)]]")"
-refuses 'ties are for cages of a single polygon' "$(two source 15)" "$(two target 15)" "$(feature source Point '[5, 5]' 1)" \
+refuses 'ties need a cage of a single polygon' "$(two source 15)" "$(two target 15)" "$(feature source Point '[5, 5]' 1)" \
     "$(feature target Point '[5, 5]' 1)" "$(feature source-tie LineString '[[1, 1], [5, 5]]' 1)" \
     "$(feature target-tie LineString '[[1, 1], [5, 5]]' 1)"
 refuses 'polygon 2 has 2 vertices; it has at least 3' "$(two target 15)" \
@@ -135,7 +135,7 @@ says 'the shape has 2 parts; only maps take several, and --target FILE is missin
 run 1 info -s case.geojson -t case.geojson
 says 'the shape has 3 parts; make one map per part for libicc info'
 run 1 map -s case.geojson -p points.txt --ties ties.geojson
-says '--ties is for cages of a single polygon'
+says '--ties needs a cage of a single polygon'
 run 1 check -s case.geojson --repair mended.geojson
 says '--repair is for cages'
 printf '0 0\n4 0\n4 4\n0 4\n' >text.txt

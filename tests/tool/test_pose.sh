@@ -180,7 +180,7 @@ echo '{"handles": [[1, 1], [9, 1], [5, 9]], "regions": [[[0, 0], [9, 0], [9, 9]]
 run 1 pose -s cage.txt -a two.json -t rest.json --certified at.txt images
 says 'two.json: --certified poses one region, but there are 2'
 run 2 pose -b bound -t rest.json --certified images
-says '--certified needs shape and handles'
+says '--certified needs the shape and the handles'
 pose 2 rest.json --tolerance 1 at.txt images
 says '--tolerance goes with --certified'
 
@@ -260,7 +260,7 @@ wrong '{"transforms": [[[1, 0, 0], [0, 1, 0]], [[1, 0, 0]], [], [], []]}' 'trans
 wrong '{"transforms": [[[1, 0, 0], [0, 1]], 1, 2, 3, 4]}' 'transforms[0][1] is not a list of 3 finite numbers'
 wrong '{"moves": {}}' 'moves is not a list'
 wrong '{"moves": [{"move": [1, 1]}]}' 'moves[0].handle must be a handle, a whole number from 0 to 4'
-wrong '{"moves": [{"handle": 0}, {"handle": 0}]}' 'moves[1] moves handle 0 once more'
+wrong '{"moves": [{"handle": 0}, {"handle": 0}]}' 'moves[1] moves handle 0 again'
 wrong '{"moves": [{"handle": 1, "move": [1]}]}' 'moves[0].move is not a list of 2 finite numbers'
 wrong '{"moves": [{"handle": 1, "turn": "left"}]}' 'moves[0].turn is not a finite number'
 wrong '{"moves": [{"handle": 1, "turn": 9, "axis": [0, 0, 1]}]}' 'moves[0].axis goes with a turn in space'
@@ -284,7 +284,7 @@ says 'usage: libicc pose'
 run 2 pose -b bound -s cage.txt -t rest.json out
 says '--source and --handles do not go with --binding'
 run 2 pose -b bound -t rest.json in out
-says 'it takes one file, OUT'
+says 'give one file, OUT'
 run 2 pose -b bound -t rest.json
 says 'usage: libicc pose'
 run 2 pose -s cage.txt -a handles.json -t - - -

@@ -23,7 +23,7 @@ cp out images.geo
 holds mesh.json '"input_crs": "EPSG:2056"'
 holds mesh.json '"output_crs": "a \"local\" system"'
 run 2 map -s source.geo -t target.geo -p points.geo --source-crs EPSG:2056
-says '--source-crs is written into the file of --triangulation'
+says '--source-crs needs --triangulation'
 run 0 map -s source.geo -t target.geo -p points.geo --triangulation mesh.json \
     --source-crs EPSG:2056 --target-crs EPSG:2056
 tin="+proj=tinshift +file=$PWD/mesh.json"
@@ -89,7 +89,7 @@ close_to theirs expected 1e-9
 run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --source-crs EPSG:3035 --target-crs EPSG:4326
 grep -q 'pipeline +step +proj=axisswap +order=2,1 +step +proj=tinshift' err || complain "no swap before: $(cat err)"
 run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --target-crs 'a local system'
-grep -q 'the order of the axes of a local system is not known here' err || complain "not said: $(cat err)"
+grep -q 'libicc does not know the order of the axes of a local system' err || complain "not said: $(cat err)"
 for crs in EPSG:2056 EPSG:32632 EPSG:3857 OGC:CRS84; do
     run 0 map -s sheet.txt -t degrees.txt -p place.txt --triangulation degrees.json --target-crs $crs
     [ ! -s err ] || complain "words about $crs: $(cat err)"

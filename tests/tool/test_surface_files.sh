@@ -42,7 +42,7 @@ run 1 map -s cube.text.stl -t moved.text.stl -m field -n 8 -p points.txt
 says '28 vertices coincide with others, as those of STL do: --weld joins them'
 printf '0 0\n1 0\n1 1\n' >plane.txt
 run 1 map -s plane.txt -t plane.txt --weld -p points.txt
-says 'libicc: plane.txt: not a surface in space; --weld joins vertices of such'
+says 'libicc: plane.txt: this is not a surface in space; --weld needs one'
 run 2 map -s plane.txt -t plane.txt --weld=-1 -p points.txt
 run 2 map -s plane.txt -t plane.txt --weld=x -p points.txt
 
@@ -209,7 +209,7 @@ refuses() { # MESSAGE CHANGE
     says 'libicc: bad.glb: '
     says "$1"
 }
-refuses 'byte 4: glTF of version 1; 2 is read' 'version = 1'
+refuses 'byte 4: this is glTF version 1; libicc reads version 2' 'version = 1'
 refuses "nodes[0].matrix has a last row that is not 0 0 0 1" "nodes[0]['matrix'] = [2] + 15 * [0]"
 refuses 'accessors[0], for POSITION, is not of three floats' "accessors[0]['componentType'] = 5123"
 refuses 'accessors[2], for indices, is not of whole numbers' "accessors[2]['type'] = 'VEC2'"
@@ -222,12 +222,12 @@ refuses 'a mesh is compressed (Draco)' "parts[0]['extensions'] = {'KHR_draco_mes
 refuses 'a primitive has no POSITION' "del parts[1]['attributes']['POSITION']"
 refuses 'a primitive of triangles has 17 corners' "accessors[2]['count'] = 17"
 refuses 'POSITION must be a glTF accessor, a whole number from 0 to 3' "parts[0]['attributes']['POSITION'] = 4"
-refuses 'accessors[0] and accessors[1] lie among each other' "parts[1]['attributes']['POSITION'] = 1"
+refuses 'accessors[0] and accessors[1] overlap' "parts[1]['attributes']['POSITION'] = 1"
 refuses 'index 0 of accessors[2] is 65535; there are 8' "data = data[:at] + b'\377\377' + data[at + 2:]"
 refuses 'vertex 0 of accessors[0] is not finite' "data = data[:8] + struct.pack('<f', np.inf) + data[12:]"
 head -c 300 cube.glb >bad.glb
 run 1 info -s bad.glb
-says 'byte 8: the file shall have'
+says 'byte 8: the file should have'
 printf '{"asset":{"version":"2.0"},"meshes":[]}' >bad.gltf
 run 1 info -s bad.gltf
 says 'this is a glTF file'

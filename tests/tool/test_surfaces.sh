@@ -94,7 +94,7 @@ sed '$d' cube.ply | rejects '' 'the file ends early'
 sed 's/ascii/asci/' cube.ply | rejects 2: "'asci' is not a form of PLY"
 sed 's/uchar red/byte red/' cube.ply | rejects 8: "'byte' is not a type of PLY"
 sed 's/element vertex 8/element vertex -8/' cube.ply | rejects 4: "'-8' is not a number of items"
-sed '/^format/d' cube.ply | rejects 12: 'the header names no format'
+sed '/^format/d' cube.ply | rejects 12: 'the header does not name a format'
 sed '/^end_header/d' cube.ply | rejects 13: "'0' does not belong in the header"
 sed 's/^3 0 1 2$/3 0 1 8/' cube.ply | rejects 22: 'the face has the vertex 8; there are 8'
 sed 's/^3 0 1 2$/2 0 1/' cube.ply | rejects 22: 'the face has 2 corners'
@@ -105,8 +105,8 @@ sed 's/^property float y$/property float x/' cube.ply | rejects 6: 'the property
 sed '/^property float y$/d' cube.ply | rejects 12: 'the vertices have no property y'
 sed 's/^end_header/element vertex 1\n&/' cube.ply | rejects 13: 'the element vertex is declared twice'
 sed 's/^end_header/format ascii 1.0\n&/' cube.ply | rejects 13: 'the format is named twice'
-printf '3 0 1 2\n' | cat cube.ply - | rejects 34: 'there is more behind the last element'
-printf 'x' | cat little.ply - | rejects ' ' 'there is more behind the last element'
+printf '3 0 1 2\n' | cat cube.ply - | rejects 34: 'there is more after the last element'
+printf 'x' | cat little.ply - | rejects ' ' 'there is more after the last element'
 
 # Faces that do not share their vertices: the hint, and what it says mends them.
 awk '/^v/ { v[++n] = $0 } /^f/ { for (i = 2; i <= 4; i++) print v[$i]; m += 3; print "f", m - 2, m - 1, m }' cube.obj >loose.obj

@@ -129,12 +129,12 @@ run 0 match -s small.txt -t large.svg --flatten .01 -o c.txt --target-output d.t
 same c.txt a.txt 'edges of the source are those it has by itself'
 same d.txt b.txt 'the target does not depend on them'
 run 1 match -s corners.txt -t corners.txt --flatten 1 -o a.txt --target-output b.txt
-says "libicc: corners.txt: no curves to flatten; only SVG has such"
+says "libicc: corners.txt: there are no curves to flatten; only SVG has them"
 
 run 1 check -s circle.svg --flatten 1e-9
 says "libicc: circle.svg:2: --flatten makes more than 1024 edges of a curve"
 run 1 check -s corners.txt --flatten 1
-says "libicc: corners.txt: no curves to flatten; only SVG has such"
+says "libicc: corners.txt: there are no curves to flatten; only SVG has them"
 
 # Among several: by the role, by id, by label, by another attribute; one path or polygon counts before other shapes.
 printf '<rect width="9" height="9"/><path d="M0 0H5V5z"/>' | draw before
@@ -165,7 +165,7 @@ printf '<rect width="9mm" height="9"/>' | rejects "2: width is '9mm"
 printf '<rect width="9"/>' | rejects '2: the rectangle has no width or no height'
 printf '<circle cx="9"/>' | rejects '2: the circle has no radius'
 for list in 'turn(3)' 'rotate(3' 'rotate(1 2)' 'scale(x)' 'matrix(1 2 3 4 5 6 7)'; do
-    printf '<path transform="%s" d="M0 0H5V5z"/>' "$list" | rejects "2: the shape has, or is in, a transform that is none of SVG's"
+    printf '<path transform="%s" d="M0 0H5V5z"/>' "$list" | rejects "2: the shape has, or is in, a transform that SVG does not have"
 done
 printf '<g transform="scale(1e300)"><path transform="scale(1e300)" d="M0 0H5V5z"/></g>' | rejects '2: the transform takes the shape beyond'
 finish

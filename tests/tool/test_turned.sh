@@ -141,7 +141,7 @@ says '--y-down needs a value: source|target|both'
 run 2 map -s pixels -t metres --y-down=up
 says 'it may be: source, target, both'
 run 2 plot -s pixels -t metres --y-down=source out.vtk
-says '--y-down is for pictures of the plane'
+says '--y-down is for drawings in the plane'
 make_cubes
 run 1 check -s cube.obj -t moved.obj --y-down=source
 says '--y-down is for cages with vertices in the plane'
@@ -198,7 +198,7 @@ printf '3 2\n' >inside
 for command in check 'map -p inside' 'match'; do
     # shellcheck disable=SC2086 # words
     run 1 $command -s jumps.geojson -t jumps.geojson
-    says 'target: the longitude jumps from 177.1 to -179.9 behind vertex 0: to cross the antimeridian write 180.1'
+    says 'target: the longitude jumps from 177.1 to -179.9 after vertex 0: to cross the antimeridian write 180.1'
 done
 sed 's/-179.9/180.1/; s/-179.8/180.2/' jumps.geojson >goes_on.geojson
 run 0 map -s goes_on.geojson -t goes_on.geojson -p inside
@@ -207,7 +207,7 @@ printf '178.6 -17.7\n' >expected
 close_to out expected 0.3
 islands Polygon '[[[-170, -30], [170, -30], [170, 40], [-170, 40], [-170, -30]]]' >round.geojson
 run 1 check -s round.geojson -t round.geojson
-says 'the longitude jumps from -170 to 170 behind vertex 0: to cross the antimeridian write -190'
+says 'the longitude jumps from -170 to 170 after vertex 0: to cross the antimeridian write -190'
 sed 's/\[170, -30\]/[0, -30], &/; s/40\], \[-170/40], [0, 40], [-170/; s/\[6, 0\], \[6, 4\]/[3, 0], [6, 0], [6, 4], [3, 4]/' \
     round.geojson >between.geojson
 run 0 check -s between.geojson -t between.geojson

@@ -166,7 +166,7 @@ says "it may be: keep, null, clip, fail"
 run 2 mesh -s source.txt -t target.txt --outside null in.obj out.obj
 says "--outside null would leave vertices without a place"
 run 2 warp -s source.txt -t target.txt --outside keep --background 00ff00 in.png out.png
-says "--background clears what --outside keep would not"
+says "--background clears pixels, but --outside keep does not"
 for value in -1 nan inf x; do
     run 2 map -s source.txt -t target.txt --snap "$value"
     says "--snap '$value' must be a number of at least 0"
@@ -180,9 +180,9 @@ done
 run 2 map -s source.txt -t target.txt -m gradient --map mesh
 says "--map mesh needs a method that can be certified"
 run 2 plot -s source.txt --triangles out.svg
-says "--triangles needs a map of kind mesh"
+says "--triangles needs a mesh map"
 run 2 plot -s source.txt -t target.txt --map curves --triangles out.svg
-says "--triangles needs a map of kind mesh"
+says "--triangles needs a mesh map"
 run 2 info -s source.txt --method magic
 says "it may be: foliation, disc, gradient"
 for pair in "--function distance" "--function laplace" "--tree paper" "--constrained " "--unconstrained " \
@@ -201,7 +201,7 @@ for names in magic laplace,magic '' 'laplace,' ',laplace' laplac; do
 done
 for names in laplace:loose laplace: decay:constrained distance:unconstrained clamped:constrainedly; do
     run 2 info -s source.txt -m gradient --function "$names"
-    says "--function '$names': behind the colon"
+    says "--function '$names': after the colon"
 done
 run 2 info -s source.txt -m gradient --function laplace,decay
 says "only plot takes several"

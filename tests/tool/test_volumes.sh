@@ -85,7 +85,7 @@ sed 's/^1 2 3 4 0/1 2 7 4 0/' in.mesh | rejects 20: '7 where a whole number belo
 sed '8s/.*/0.1 x 0.2 7/' in.mesh | rejects 8: "'x' is not a finite number"
 sed '20,$d' in.mesh | rejects 20: 'the file ends early'
 sed 's/ASCII/BINARY/' in.vtk | rejects ' ' 'byte 196'
-sed 's/UNSTRUCTURED_GRID/POLYDATA/' in.vtk | rejects 4: "'POLYDATA': an UNSTRUCTURED_GRID is read"
+sed 's/UNSTRUCTURED_GRID/POLYDATA/' in.vtk | rejects 4: "this is a 'POLYDATA'; libicc reads an UNSTRUCTURED_GRID"
 sed 's/^4 0 1 2 3/4 0 1 2 6/' in.vtk | rejects 8: '6 where a whole number below 6'
 sed 's/^4 0 1 2 3/30 0 1 2 3/' in.vtk | rejects 8: '30 where a whole number below'
 sed 's/^CELLS 4 18/CELLS 4000000 18/' in.vtk | rejects 8: 'the file has no room for so many cells'
@@ -119,6 +119,6 @@ run 1 mesh --fill open.obj none.mesh
 [ ! -e none.mesh ] || complain "a mesh of an open surface was written"
 printf '0 0\n1 0\n0 1\n' >flat.txt
 run 1 mesh --fill flat.txt none.mesh
-holds err 'only these are filled'
+holds err 'only such a surface can be filled'
 
 finish

@@ -37,7 +37,7 @@ run 0 warp -s cage.txt -t left.txt in.png out.png
 holds err 'left.txt: the target cage covers 0 pixels'
 square 4 40 >beyond.txt
 run 0 warp -s cage.txt -t beyond.txt in.png out.png
-holds err 'beyond.txt: the target cage reaches beyond the picture of 32 x 30; what comes to lie there is cut off'
+holds err 'beyond.txt: the target cage reaches beyond the picture of 32 x 30; parts that land there are cut off'
 printf '0 0\n32 0\n32 30\n0 30\n' >frame.txt
 run 0 warp -s frame.txt -t frame.txt in.png out.png
 [ ! -s err ] || complain "a cage on the picture: $(cat err)"
@@ -124,7 +124,7 @@ holds out '"without_image": 0'
 printf 'no picture\n' >bad.png
 echo old >out.png
 run 1 warp -s cage.txt -t cage.txt bad.png out.png
-says 'libicc: bad.png: this is no PNG, JPEG, PNM or .npy picture'
+says 'libicc: bad.png: this is not a PNG, JPEG, PNM or .npy picture'
 for size in 20 60 100; do
     head -c "$size" in.png >bad.png
     run 1 warp -s cage.txt -t cage.txt bad.png out.png
@@ -171,7 +171,7 @@ while IFS='|' read -r text message; do
     says "bad.ppm: $message"
 done <<'END'
 P6\n2 2\n255\n0123456789|the PNM picture of 2 x 2 is damaged: the file ends early
-P6\n2 2\n255\n0123456789abP6\n|more follows on the PNM picture
+P6\n2 2\n255\n0123456789abP6\n|more follows after the PNM picture
 P6\n2 0\n255\n|the header of the PNM picture is damaged
 P6\n2 2\n65536\n0123456789ab|the header of the PNM picture is damaged
 P6\n99999999 99999999\n255\n0123456789ab|the PNM picture of 99999999 x 99999999 is damaged

@@ -83,7 +83,8 @@ static bool read_length(header *h, size_t *length)
     skip_spaces(h);
     for (*length = 0; h->at < h->end && *h->at >= '0' && *h->at <= '9'; h->at++, n_digits++)
         *length = n_digits < 18 ? *length * 10 + (size_t)(*h->at - '0') : SIZE_MAX;
-    return n_digits > 0 || spoilt(h->wrong, 0, "the shape of the .npy file is no list of numbers");
+    return n_digits > 0 ||
+           spoilt(h->wrong, 0, "the shape of the .npy file is not a list of numbers");
 }
 
 /* Reads a tuple in Python's syntax as numpy writes it: a number of cells for each axis, and a comma
@@ -103,10 +104,10 @@ static bool read_shape(header *h)
             return spoilt(h->wrong, 0, "axis %zu of the array has no cells", a->dim);
         a->shape[a->dim++] = length;
         if (!take(h, ',') && (skip_spaces(h), h->at == h->end || *h->at != ')'))
-            return spoilt(h->wrong, 0, "the shape of the .npy file is no list of numbers");
+            return spoilt(h->wrong, 0, "the shape of the .npy file is not a list of numbers");
     }
     return a->dim > 0 ||
-           spoilt(h->wrong, 0, "the array has no axes; 1 to %d are read", NPY_MOST_AXES);
+           spoilt(h->wrong, 0, "the array has no axes; it needs 1 to %d", NPY_MOST_AXES);
 }
 
 static bool read_entry(header *h)
@@ -148,7 +149,8 @@ static bool find_header(header *h, const char *text, size_t n)
     const unsigned char *bytes = (const unsigned char *)text;
     unsigned version = n >= 12 ? bytes[6] : 0;
     if (version < 1 || version > 3)
-        return spoilt(h->wrong, 0, "a .npy file of version %u; 1 to 3 are read", version);
+        return spoilt(h->wrong, 0, "this .npy file has version %u; libicc reads versions 1 to 3",
+                      version);
     size_t start = version == 1 ? 10 : 12, length = bytes[8] + 256u * (size_t)bytes[9];
     if (version > 1)
         length += 65536u * (size_t)bytes[10] + 16777216u * (size_t)bytes[11];

@@ -25,12 +25,12 @@ static bool goes_on(size_t n, const double *points, bool closed, const char *of,
     for (size_t i = 0; i + !closed < n; i++) {
         double x = points[2 * i], y = points[2 * ((i + 1) % n)];
         if (longitudes_jump(x, y))
-            return spoilt(
-                wrong, 0,
-                "the longitude jumps from %.9g to %.9g behind vertex %zu%s: to cross the "
-                "antimeridian write %.9g, and so on for all behind it; to go the long way round "
-                "add a vertex",
-                x, y, i, of, y + (x > 0 ? 360 : -360));
+            return spoilt(wrong, 0,
+                          "the longitude jumps from %.9g to %.9g after vertex %zu%s: to cross the "
+                          "antimeridian write %.9g, and shift all later vertices in the same way; "
+                          "to go the long way round "
+                          "add a vertex",
+                          x, y, i, of, y + (x > 0 ? 360 : -360));
     }
     return true;
 }

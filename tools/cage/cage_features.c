@@ -130,7 +130,7 @@ bool cage_sort_features(cage *c, problem *wrong)
     c->ties = need(c->n_ties, sizeof *c->ties);
     memcpy(c->ties, c->features + c->n_features, c->n_ties * sizeof *c->ties);
     return cage_circles(c) == 0 || c->n_ties == 0 ||
-           spoilt(wrong, 0, "points with a radius and ties do not go together");
+           spoilt(wrong, 0, "points with a radius cannot be combined with ties");
 }
 
 /* ----------------------------------------------------------------- pairing */

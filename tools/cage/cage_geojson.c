@@ -123,7 +123,7 @@ static bool read_geometry(cage *out, const json_item *geometry, problem *wrong)
     char shown[32];
     if (*type == '\0')
         return spoilt(wrong, 0,
-                      "this JSON is no GeoJSON: it has no member \"type\"; a cage is a Polygon");
+                      "this JSON is not GeoJSON: it has no member \"type\"; a cage is a Polygon");
     return spoilt(wrong, 0, "the geometry is a '%s'; a cage is a Polygon, or a closed LineString",
                   quoted(shown, type));
 }
@@ -165,7 +165,7 @@ static bool read_radius(double *out, const json_item *feature, const char *name,
         return true;
     *out = radius->number;
     return (json_is(radius, JSON_NUMBER) && *out >= 0 && isfinite(*out)) ||
-           spoilt(wrong, 0, "the radius of %s is no number from 0 up", name);
+           spoilt(wrong, 0, "the radius of %s must be a number of at least 0", name);
 }
 
 /* Reads a Point, a LineString or a tie, with the number that pairs it. */
@@ -288,11 +288,11 @@ static const json_item *choose_feature(const geojson *file, cage_role role, prob
     if (n_chosen == 0 && json_size(features) == 1)
         return json_first(features);
     if (n_chosen == 0 && are_links(features)) {
-        spoilt(
-            wrong, 0,
-            "these are links from one place to another, no outline; 'jq -r "
-            "\".features[].geometry.coordinates | flatten | @csv\" FILE > OUT.csv' makes pairs of "
-            "points of them, which --landmarks takes beside the outlines");
+        spoilt(wrong, 0,
+               "these are links from one place to another, not an outline; 'jq -r "
+               "\".features[].geometry.coordinates | flatten | @csv\" FILE > OUT.csv' makes pairs "
+               "of points "
+               "from them, which --landmarks takes beside the outlines");
         return NULL;
     }
     if (n_chosen != 1) {
@@ -318,7 +318,7 @@ static bool read_file(cage *out, const cage_choice *choice, const geojson *file,
             return false;
     } else if (choice->named != NULL) {
         char shown[64];
-        return spoilt(wrong, 0, "there is no list of features in which to look for %s",
+        return spoilt(wrong, 0, "there is no list of features to look for %s in",
                       choice_text(shown, choice->named));
     }
     if (strcmp(type_of(object), "Feature") == 0)

@@ -279,7 +279,7 @@ bool cage_read_svg(cage *out, const cage_choice *choice, const char *text, size_
         return false;
     size_t line = line_of(text, s->tag.name);
     if (s->frame.unclear)
-        return spoilt(wrong, line, "the shape has, or is in, a transform that is none of SVG's");
+        return spoilt(wrong, line, "the shape has, or is in, a transform that SVG does not have");
     flattening flat = choice->flat;
     flat.length /= transform_stretch(&s->frame.all);
     return read_shape(out, &s->tag, text, &flat, wrong) &&

@@ -176,6 +176,6 @@ bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong)
     next_is(&r, ';');
     r.at += strspn(r.at, blanks);
     if (r.at != text + n)
-        return spoilt(wrong, line_of(text, r.at), "there is more text behind the polygon");
+        return spoilt(wrong, line_of(text, r.at), "there is more text after the polygon");
     return true;
 }

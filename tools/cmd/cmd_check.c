@@ -121,7 +121,7 @@ static int check_options(const check *c)
     const args *a = c->job.args;
     bool mask = c->job.cages[0].cells != NULL;
     if (a->boundary != NULL && !mask)
-        return failed(a->source, 0, "this is no mask; --boundary needs one");
+        return failed(a->source, 0, "this is not a mask; --boundary needs one");
     if (a->repair != NULL && !in_plane(c) && !check_is_alone(c))
         return failed(a->source, 0,
                       "--repair is for cages in the plane, and for surfaces and masks without a "

@@ -97,7 +97,8 @@ static int fill_surface(job *j)
     icc_error err = {.size = sizeof err, .index = -1};
     icc_domain *filled = NULL;
     if (job_dim(j) != 3 || j->cages[0].cells != NULL)
-        return failed(j->args->source, 0, "not a surface in space; only these are filled");
+        return failed(j->args->source, 0,
+                      "this is not a surface in space; only such a surface can be filled");
     const icc_status status = icc_domain_fill(&filled, j->domains[0], NULL, &j->env, &err);
     progress_end(&j->bar);
     err.side = 1;

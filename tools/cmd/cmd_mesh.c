@@ -139,15 +139,15 @@ static int tell_outside(job *j, const mesh_file *m, const icc_status *status, si
              : "%s: %zu of %zu vertices have no image, so nothing was written; the first is vertex "
                "%zu (from 0), %s; --outside keep leaves them where they are",
          j->args->operands[0], n_failed, m->n_vertices, first,
-         status[first] == ICC_ERR_OUTSIDE ? "outside the cage" : "where the curves do not reach");
+         status[first] == ICC_ERR_OUTSIDE ? "outside the cage" : "where no curve reaches it");
     return PARTIAL;
 }
 
 /* Why elements with a corner inside are inverted. */
 static const char *why_inner(const job *j, const icc_certificate *certificate)
 {
-    return j->args->inverse        ? "the mesh is too coarse for what the map does there"
-           : !j->args->repair_mesh ? "the mesh is too coarse for what the map does there; "
+    return j->args->inverse        ? "the mesh is too coarse for the map there"
+           : !j->args->repair_mesh ? "the mesh is too coarse for the map there; "
                                      "--untangle moves inner vertices"
            : certificate->size > 0 && !certificate->boundary_simple
                ? certificate->message

@@ -261,13 +261,13 @@ static int plot_plane(plot *x)
                                    "'rsvg-convert OUT.svg -o OUT.png' makes a PNG of OUT.svg");
     int result = job_read_plane(&x->job, "an SVG (unlike OUT.vtk)");
     if (result == DONE && a->triangles && a->target == NULL)
-        result =
-            misused(a->command, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+        result = misused(a->command, "--triangles needs a mesh map: --target FILE --map mesh");
     if (result == DONE)
         result = make_columns(x);
     if (result == DONE && a->lines > 0 && shows_triangles(&x->columns[0].stages, &x->job))
-        result = misused(a->command, "--lines are integral curves, and this map is a mesh; with "
-                                     "--map curves they are drawn");
+        result = misused(
+            a->command,
+            "--lines draws integral curves, which a mesh map does not have; add --map curves");
     if (result == DONE)
         result = make_drawing(x);
     return result == DONE ? write_drawing(x) : result;
@@ -278,7 +278,7 @@ int run_plot(const args *a)
     const char *dot = strrchr(a->operands[0], '.');
     bool vtk = dot != NULL && strcmp(dot, ".vtk") == 0;
     if (vtk && a->y_down)
-        return misused(a->command, "--y-down is for pictures of the plane");
+        return misused(a->command, "--y-down is for drawings in the plane");
     if (vtk)
         return plot_vtk(a);
     plot x = {0};

@@ -131,7 +131,7 @@ static int tell_mesh(const pose *p, const mesh_file *m, const tally *t)
 {
     const args *a = p->kernel.job.args;
     tally_tell(t, m, a->operands[0],
-               a->certified ? "the mesh is too coarse for what the map does there"
+               a->certified ? "the mesh is too coarse for the map there"
                             : "the pose folds there, or the mesh is too coarse for it");
     return tally_spoilt(t) == 0 ? DONE
            : a->require == 0

@@ -26,11 +26,11 @@ static int check_method(const args *a, const command *c)
     if (a->map == ICC_MAP_MESH && a->method == ICC_METHOD_GRADIENT)
         return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
     if (a->triangles && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
-        return misused(c->name, "--triangles needs a map of kind mesh: --target FILE --map mesh");
+        return misused(c->name, "--triangles needs a mesh map: --target FILE --map mesh");
     if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
-        return misused(c->name, "--triangulation needs a map of kind mesh, which is the default");
+        return misused(c->name, "--triangulation needs a mesh map, which is the default");
     if (a->triangulation == NULL && (a->source_crs != NULL || a->target_crs != NULL))
-        return misused(c->name, "--%s-crs is written into the file of --triangulation",
+        return misused(c->name, "--%s-crs needs --triangulation, whose file notes it",
                        a->source_crs != NULL ? "source" : "target");
     if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
@@ -79,7 +79,7 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "usage: libicc %s %.*s", c->name, (int)strcspn(c->usage, "\n"),
                        c->usage);
     if (a->n_operands > n_operands && has_bound(a, c))
-        return misused(c->name, "--binding has its points; it takes one file, OUT");
+        return misused(c->name, "the --binding file holds the points; give one file, OUT");
     if (a->n_operands > n_operands + c->n_operands_more)
         return misused(c->name, "'%.60s' is one argument too many without --geojson",
                        a->operands[0]);
@@ -93,9 +93,9 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "--outside clip goes with --geojson only");
     if (a->outside == OUTSIDE_NULL && c->bit & FOR_MESH)
         return misused(c->name,
-                       "--outside null would leave vertices without a place; keep or fail");
+                       "--outside null would leave vertices without a place; use keep or fail");
     if (a->outside != 0 && a->outside != OUTSIDE_NULL && a->has_background && c->bit & FOR_WARP)
-        return misused(c->name, "--background clears what --outside %s would not",
+        return misused(c->name, "--background clears pixels, but --outside %s does not",
                        choice_name(outsides, a->outside));
     return DONE;
 }
@@ -111,7 +111,7 @@ static int check_kernel(const args *a, const command *c)
     if (bound && (a->handles != NULL || a->source != NULL))
         return misused(c->name, "--source and --handles do not go with --binding");
     if (bound && a->certified)
-        return misused(c->name, "--certified needs shape and handles, and no --binding");
+        return misused(c->name, "--certified needs the shape and the handles, not --binding");
     if (a->tolerance > 0 && !a->certified)
         return misused(c->name, "--tolerance goes with --certified");
     if (a->n_along > 0 && a->points != NULL)
@@ -181,7 +181,7 @@ static int check_match(const args *a, const command *c)
     if (a->match != NULL && (a->mesh != NULL || a->target_mesh != NULL))
         return misused(c->name, "--match is for outlines, not for --mesh");
     if (a->match != NULL && a->repair != NULL)
-        return misused(c->name, "--repair does not go with --match; mend each cage by itself");
+        return misused(c->name, "--repair does not go with --match; repair each cage by itself");
     return DONE;
 }
 

@@ -163,8 +163,8 @@ int attached_beyond(const job *j, const mesh_carried *c)
 {
     if (c->n_beyond == 0)
         return DONE;
-    note("%s: morph targets displace %zu vertices to where there is no image, %s",
-         j->args->operands[0], c->n_beyond,
+    note("%s: morph targets move %zu vertices to places without an image, %s", j->args->operands[0],
+         c->n_beyond,
          j->args->outside == OUTSIDE_KEEP
              ? "and these stay there"
              : "so nothing was written; --outside keep leaves them there");
@@ -174,18 +174,19 @@ int attached_beyond(const job *j, const mesh_carried *c)
 void attached_tell(const char *file, const mesh_carried *c)
 {
     if (c->n_stay > 0)
-        note("%s: %zu of %zu normals and tangents lie where the map has no derivative, and stay",
+        note("%s: %zu of %zu normals and tangents stay as they are, because the map has no "
+             "derivative there",
              file, c->n_stay, c->n_vectors);
     if (c->shared >= 0.05)
         note("%s: normals of several vertices become the mean of their images, off by up to %.1f "
              "degrees; save with a normal for each vertex",
              file, c->shared);
     if (c->other)
-        note("%s: there are normals or tangents that are not carried: they stay", file);
+        note("%s: some normals or tangents stay as they are", file);
     if (c->skins)
-        note("%s: skins stay: joints, and their inverse bind matrices", file);
+        note("%s: skins stay as they are (joints and inverse bind matrices)", file);
     if (c->animations)
-        note("%s: animations of nodes stay", file);
+        note("%s: animations of nodes stay as they are", file);
 }
 
 bool attached_left(mesh_file *m, const char *file, problem *wrong)
@@ -194,7 +195,7 @@ bool attached_left(mesh_file *m, const char *file, problem *wrong)
     if (!mesh_carry(m, NULL, NULL, &c, wrong))
         return false;
     if (c.n_morphed > 0)
-        note("%s: morph targets are not carried: their displacements stay", file);
+        note("%s: morph targets stay as they are", file);
     c.other = c.other || c.n_vectors > 0;
     attached_tell(file, &c);
     return true;

@@ -54,8 +54,8 @@ int correspond(job *j)
         return DONE;
     if (target->cells != NULL)
         return failed(j->args->target, 0,
-                      "a mask cannot be a target; that of a mask is its boundary with the vertices "
-                      "moved ('libicc check --boundary' writes them)");
+                      "a mask cannot be a target; use its boundary with the vertices moved "
+                      "('libicc check --boundary' writes it)");
     if (source->dim != target->dim)
         return failed(j->args->target, 0, "%zu dimensions, but the source %s has %zu", target->dim,
                       j->args->source, source->dim);
@@ -67,7 +67,7 @@ int correspond(job *j)
                       job_side(where, j, 2), target->n,
                       source->cells != NULL ? "boundary of the mask" : "source", j->args->source,
                       source->n,
-                      source->dim == 2 ? " (outlines that do not are paired by --match auto)" : "");
+                      source->dim == 2 ? " (--match auto pairs outlines that do not)" : "");
     problem wrong;
     if (!features_correspond(source, target, &wrong))
         return failed(j->args->target, wrong.line, "%s%s", job_side(where, j, 2), wrong.text);

@@ -37,11 +37,11 @@ static int check(const job *j)
     if (job_dim(j) != 2 && job_dim(j) != 3)
         return failed(j->args->source, 0, "%zu dimensions; meshes have 2 or 3", job_dim(j));
     if (j->cages[0].cells != NULL)
-        return failed(j->args->source, 0, "a mask; --mesh is for cages");
+        return failed(j->args->source, 0, "this is a mask; --mesh is for polygons and surfaces");
     if (j->cages[0].n_features > 0)
         return failed(j->args->source, 0,
-                      "holes, lines or points inside; --mesh is for cages without (--source takes "
-                      "the boundary of a mesh alone)");
+                      "there are holes, lines or points inside; --mesh needs a cage without "
+                      "(--source takes the boundary of a mesh alone)");
     if (j->args->target_mesh != NULL && j->args->target == NULL)
         return misused(j->args->command, "--target-mesh needs --target");
     return DONE;
@@ -122,10 +122,11 @@ static int make_filled(icc_domain **out, job *j, size_t side)
     if (mesh_name(j, side) != NULL || (job_dim(j) == 3 && by_tetgen(j)))
         return make_from(out, j, side);
     if (job_dim(j) != 3)
-        return failed(job_file(j, (int)side + 1), 0,
-                      "no mesh of its inside: there is one of the other cage; give one with "
-                      "--%smesh",
-                      side == 0 ? "" : "target-");
+        return failed(
+            job_file(j, (int)side + 1), 0,
+            "the other cage has a mesh of its inside, but this one has none; give it with "
+            "--%smesh",
+            side == 0 ? "" : "target-");
     if (icc_domain_fill(out, j->domains[side], NULL, &j->env, &err) == ICC_OK)
         return DONE;
     err.side = (int32_t)side + 1;

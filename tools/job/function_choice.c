@@ -39,8 +39,8 @@ static bool parse_one(function_choice *out, const char *text, size_t n, problem 
     out->constraints = choice_value(constraints, text + name + 1, n - name - 1);
     if (out->constraints == 0 || !function_solves(out->function))
         return spoilt(wrong, 0,
-                      "--function '%.*s': behind the colon of laplace, bilaplace, clamped or "
-                      "harmonic stands constrained or unconstrained",
+                      "--function '%.*s': after the colon of laplace, bilaplace, clamped or "
+                      "harmonic write constrained or unconstrained",
                       (int)(n < 40 ? n : 40), text);
     return true;
 }

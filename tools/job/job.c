@@ -145,7 +145,7 @@ int job_make_chart(job *j)
         return result;
     if (j->cages[0].n_features > 0)
         return failed(j->args->source, 0,
-                      "cages with holes, lines or points inside have maps, but no charts%s",
+                      "a cage with holes, lines or points inside has maps, but no chart%s",
                       j->args->may_pair ? "; --target FILE is missing" : "");
     double began = seconds_now();
     icc_chart_options options = chart_options(j);

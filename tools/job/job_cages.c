@@ -22,7 +22,7 @@ static int join_vertices(job *j, size_t side)
     cage *c = &j->cages[side];
     if (j->args->welds && side == 0 && c->n_facets == 0)
         return failed(job_file(j, (int)side + 1), 0,
-                      "not a surface in space; --weld joins vertices of such");
+                      "this is not a surface in space; --weld needs one");
     if (j->args->welds && c->n_facets > 0)
         weld(c, j->args->weld);
     return DONE;
@@ -101,7 +101,7 @@ static int read_source_again(job *j, const char *named, const char *text, size_t
 static int check_curves(const job *j)
 {
     return j->args->flatten > 0 && j->cages[0].n_curves + j->cages[1].n_curves == 0
-               ? failed(job_file(j, 1), 0, "no curves to flatten; only SVG has such")
+               ? failed(job_file(j, 1), 0, "there are no curves to flatten; only SVG has them")
                : DONE;
 }
 

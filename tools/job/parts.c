@@ -42,7 +42,7 @@ static int check_cages(const job *j)
                       "the shape has %zu parts; make one map per part for libicc %s%s", n[0],
                       a->command, cage_cut_text(&j->cages[0]));
     if (j->cages[0].n_ties > 0)
-        return failed(a->source, 0, "ties are for cages of a single polygon");
+        return failed(a->source, 0, "ties need a cage of a single polygon");
     return DONE;
 }
 

@@ -45,12 +45,12 @@ int ties_check(job *j)
         return DONE;
     int result = job_read_plane(j, "--ties");
     if (result == DONE && j->n_parts > 0)
-        return failed(j->args->source, 0, "--ties is for cages of a single polygon");
+        return failed(j->args->source, 0, "--ties needs a cage of a single polygon");
     if (result == DONE && cage_circles(&j->cages[0]) > 0)
-        return failed(j->args->source, 0, "points with a radius and ties do not go together");
+        return failed(j->args->source, 0, "points with a radius cannot be combined with ties");
     return result == DONE && j->cages[0].n_features == 0
                ? failed(j->args->source, 0,
-                        "nothing is inside the cage, so that there are no ties to write")
+                        "nothing lies inside the cage, so there are no ties to write")
                : result;
 }
 
@@ -94,7 +94,8 @@ int ties_write(const job *j)
         return DONE;
     icc_map_get_info(j->map, &info);
     if (info.n_ties == 0)
-        return failed(j->args->source, 0, "rounding is in the way of the map's ties");
+        return failed(j->args->source, 0,
+                      "the ties of this map cannot be written in double precision");
     if (!outfile_open(&file, j->args->ties))
         return FAILED;
     fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", file.stream);

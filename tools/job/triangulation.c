@@ -109,7 +109,8 @@ static void note_axes(const args *a)
     }
     for (int k = 0; k < 2; k++)
         if (unknown[k])
-            note("%s: the order of the axes of %s is not known here; if latitude or northing comes "
+            note("%s: libicc does not know the order of the axes of %s; if latitude or northing "
+                 "comes "
                  "first, GDAL's -ct needs '%s' %s the step tinshift",
                  a->triangulation, crs[k], swap + 1, k == 0 ? "before" : "after");
     if (first[0] || first[1])
@@ -142,8 +143,8 @@ int triangulation_write(const job *j)
         all = all && is_mesh(&j->parts[i]);
     if (!all)
         return failed(j->args->source, 0,
-                      "the map is not of kind mesh: its repair failed; without --triangulation its "
-                      "curves map points");
+                      "no mesh map was found, so there are no triangles to write; without "
+                      "--triangulation a curve map moves the points");
     size_t n_all, n_spoilt = count_spoilt(j, &n_all);
     if (n_spoilt > 0 && j->args->require != 0)
         return failed(j->args->triangulation, 0, SPOILT ", so nothing is written", n_spoilt, n_all);

@@ -61,8 +61,9 @@ static int read_shape(kernel_job *k)
         if (result != DONE)
             return result;
         if (j->cages[0].n_features > 0)
-            return failed(j->args->source, 0,
-                          "holes, lines or points inside; weights and poses are for cages without");
+            return failed(
+                j->args->source, 0,
+                "there are holes, lines or points inside; weights and poses need a shape without");
         if (job_dim(j) != set->dim)
             return failed(j->args->handles, 0, "the handles have %zu coordinates, but the cage %zu",
                           set->dim, job_dim(j));

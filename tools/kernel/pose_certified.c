@@ -31,7 +31,7 @@ int pose_certified_check(const pose *p)
     if (set->dim != 2)
         return failed(name, 0, "the handles are in space; --certified is for the plane");
     if (set->n_segments > 0)
-        return failed(name, 0, "--certified poses one region, and does without curves");
+        return failed(name, 0, "--certified poses one region; leave the curves out");
     if (n_regions != 1)
         return failed(name, 0, "--certified poses one region, but there are %zu", n_regions);
     return DONE;

@@ -112,7 +112,7 @@ static bool read_move(const pose_file *p, const json_item *move, size_t i, bool 
         !json_index(json_get(move, "handle"), name, "handle", p->n_handles, &handle, p->wrong))
         return false;
     if (moved[handle])
-        return spoilt(p->wrong, 0, "%s moves handle %lu once more", where, (unsigned long)handle);
+        return spoilt(p->wrong, 0, "%s moves handle %lu again", where, (unsigned long)handle);
     moved[handle] = true;
     const double *at = p->handles + p->dim * handle;
     double *transform = p->transforms + p->dim * (p->dim + 1) * handle;

@@ -46,9 +46,9 @@ static bool read_chunks(glb *g, size_t n, problem *wrong)
         return spoilt(wrong, 0, "the file ends early");
     unsigned version = little_endian(g->text + 4, 4), total = little_endian(g->text + 8, 4);
     if (version != 2)
-        return spoilt(wrong, 0, "byte 4: glTF of version %u; 2 is read", version);
+        return spoilt(wrong, 0, "byte 4: this is glTF version %u; libicc reads version 2", version);
     if (total != n)
-        return spoilt(wrong, 0, "byte 8: the file shall have %u bytes, but it has %zu", total, n);
+        return spoilt(wrong, 0, "byte 8: the file should have %u bytes, but it has %zu", total, n);
     if (!take_chunk(g->text, n, &at, "JSON", &g->json_at, &length, wrong) ||
         !read_json(g, length, wrong))
         return false;
@@ -212,7 +212,7 @@ static bool number_sets(glb *g, problem *wrong)
     for (size_t i = 0; i < g->n_sets; i++) {
         glb_positions *set = &g->sets[i];
         if (set->items.at < end)
-            return spoilt(wrong, 0, "accessors[%zu] and accessors[%zu] lie among each other",
+            return spoilt(wrong, 0, "accessors[%zu] and accessors[%zu] overlap",
                           g->sets[i - 1].accessor, set->accessor);
         end = set->items.at + (set->items.n - 1) * set->items.stride + set->items.size;
         set->first = first;

@@ -71,7 +71,7 @@ static bool read_parts(node *x, size_t index, problem *wrong)
         return false;
     double length = sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0 && isfinite(length)))
-        return spoilt(wrong, 0, "nodes[%zu].rotation is no rotation", index);
+        return spoilt(wrong, 0, "nodes[%zu].rotation is not a rotation", index);
     double i = q[0] / length, j = q[1] / length, k = q[2] / length, r = q[3] / length;
     const double turn[9] = {
         1 - 2 * (j * j + k * k), 2 * (i * j - k * r),     2 * (i * k + j * r),

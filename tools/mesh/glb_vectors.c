@@ -135,8 +135,8 @@ static bool claim(bool *taken, size_t accessor, const glb_items *items, problem 
             bool *byte = &taken[items->at + i * items->stride + k];
             if (*byte)
                 return spoilt(wrong, 0,
-                              "accessors[%zu] has bytes of another one, but what they hold becomes "
-                              "different; save each with its own",
+                              "accessors[%zu] shares bytes with another one, but their values will "
+                              "differ; save each with its own",
                               accessor);
             *byte = true;
         }
@@ -157,8 +157,7 @@ static bool leaves_indices(const glb *g, const uint32_t *before, problem *wrong)
             continue;
         if (before[x.at] != before[x.at + (x.n - 1) * x.stride + x.size])
             return spoilt(wrong, 0,
-                          "accessors[%zu], for indices, has bytes of vertices, which become "
-                          "different",
+                          "accessors[%zu], for indices, shares bytes with vertices, which change",
                           accessor);
     }
     return true;

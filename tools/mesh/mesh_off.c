@@ -34,6 +34,6 @@ bool mesh_read_off(lines *r)
             return false;
     while (lines_skip_blanks(r), r->at == r->end && lines_next(r))
         ;
-    return r->at == r->end || spoilt(r->wrong, r->line, "there is more behind the last of %u faces",
-                                     (unsigned)n_faces);
+    return r->at == r->end ||
+           spoilt(r->wrong, r->line, "there is more after the last of %u faces", (unsigned)n_faces);
 }

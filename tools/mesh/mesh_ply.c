@@ -210,7 +210,7 @@ static bool end_header(ply *p, bool formed)
 {
     static const char *const names[] = {"x", "y", "z"};
     if (!formed)
-        return spoilt(p->r->wrong, p->r->line, "the header names no format");
+        return spoilt(p->r->wrong, p->r->line, "the header does not name a format");
     for (size_t k = 0; k < p->r->mesh->dim; k++)
         if (!p->used[k])
             return spoilt(p->r->wrong, p->r->line, "the vertices have no property %s", names[k]);
@@ -384,7 +384,7 @@ static bool is_at_end(ply *p)
     while (p->r->at < p->end && strchr(" \t\r\n", *p->r->at) != NULL)
         p->r->at++;
     return p->r->at == p->end ||
-           spoilt(p->r->wrong, p->r->line, "there is more behind the last element");
+           spoilt(p->r->wrong, p->r->line, "there is more after the last element");
 }
 
 bool mesh_read_ply(lines *r)

@@ -44,7 +44,8 @@ static bool read_head(lines *r)
     if (!starts_with(r, "DATASET") || !lines_word(r))
         return false;
     return lines_take(r, "UNSTRUCTURED_GRID") ||
-           spoilt(r->wrong, r->line, "'%s': an UNSTRUCTURED_GRID is read", quoted(shown, r->at));
+           spoilt(r->wrong, r->line, "this is a '%s'; libicc reads an UNSTRUCTURED_GRID",
+                  quoted(shown, r->at));
 }
 
 /* Continues in the line that begins after bytes. */

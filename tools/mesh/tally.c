@@ -376,6 +376,6 @@ void tally_tell(const tally *t, const mesh_file *m, const char *name, const char
             tell_group(t, m, k, (group)g, name,
                        is_made_of_simplices(k->kind)
                            ? inner
-                           : "the mesh is too coarse for what the map does there; elements of this "
+                           : "the mesh is too coarse for the map there; elements of this "
                              "kind are not untangled");
 }

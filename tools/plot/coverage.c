@@ -61,6 +61,6 @@ void coverage_tell(job *j, size_t width, size_t height)
         else if (box.lower[0] < -0.5 || box.lower[1] < -0.5 || box.upper[0] > (double)width + 0.5 ||
                  box.upper[1] > (double)height + 0.5)
             note("%s: the %s cage reaches beyond the picture of %zu x %zu%s", file, role, width,
-                 height, side == 0 ? "" : "; what comes to lie there is cut off");
+                 height, side == 0 ? "" : "; parts that land there are cut off");
     }
 }

@@ -41,7 +41,8 @@ static bool fits(const npy *a, problem *wrong)
                       "channels",
                       a->dim, a->dim == 1 ? "axis" : "axes");
     if (a->dim == 3 && a->shape[2] > PICTURE_MOST_CHANNELS)
-        return spoilt(wrong, 0, "the array has %zu channels, in its last axis; 1 to %d are taken",
+        return spoilt(wrong, 0,
+                      "the array has %zu channels, in its last axis; there may be 1 to %d",
                       a->shape[2], PICTURE_MOST_CHANNELS);
     return (a->shape[0] <= most_pixels && a->shape[1] <= most_pixels) ||
            spoilt(wrong, 0, "the picture of %zu x %zu is too large", a->shape[1], a->shape[0]);

@@ -54,7 +54,7 @@ bool picture_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     if (format == PICTURE_NONE)
         return !foreign_told(bytes, n, wrong) &&
                spoilt(wrong, 0,
-                      "this is no PNG, JPEG, PNM or .npy picture; convert it to PNG first");
+                      "this is not a PNG, JPEG, PNM or .npy picture; convert it to PNG first");
     if (!(format == PICTURE_PNG    ? png_decode(out, bytes, n, wrong)
           : format == PICTURE_JPEG ? jpeg_decode(out, bytes, n, wrong)
           : format == PICTURE_NPY  ? npy_decode(out, bytes, n, wrong)
@@ -137,8 +137,8 @@ int picture_begin(picture *to, picture_style *style, picture *from, const args *
         return misused(a->command, "--background is a colour, and the picture is an array of %s",
                        from->values != NULL ? "floats" : "more than four channels");
     if (clears && from->values == NULL && !picture_is_plain(from))
-        return misused(a->command, "whole numbers of more than four channels have no value for "
-                                   "what has no image");
+        return misused(a->command, "an array of whole numbers with more than four channels has no "
+                                   "value for pixels without an image");
     *to = picture_canvas(from, clears ? a->background : NULL);
     return choose(style, to, from, a, name);
 }

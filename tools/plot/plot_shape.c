@@ -322,8 +322,7 @@ static int draw_triangles(const panel *p)
     icc_map_get_info(map, &info);
     if (info.kind != ICC_MAP_MESH)
         return failed(NULL, 0,
-                      "the map is not of kind mesh: its repair failed; plot without "
-                      "--triangles");
+                      "no mesh map was found, so there are no triangles; plot without --triangles");
     double *points = need(info.n_vertices, 2 * sizeof *points);
     uint32_t *triangles = need(info.n_simplices, 3 * sizeof *triangles);
     icc_mesh mesh = {.size = sizeof mesh,

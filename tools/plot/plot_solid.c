@@ -210,10 +210,10 @@ static int check_options(const args *a)
                        : a->lines > 0   ? "lines"
                                         : NULL;
     if (flat != NULL)
-        return misused(a->command, "--%s is for pictures of the plane", flat);
+        return misused(a->command, "--%s is for drawings in the plane", flat);
     if (a->target == NULL)
         return misused(a->command,
-                       "a picture in space is of a map: --target FILE (or write OUT.vtk)");
+                       "a drawing in space shows a map: add --target FILE (or write OUT.vtk)");
     return DONE;
 }
 

@@ -301,8 +301,9 @@ static int make(vtk *v)
     if (result == DONE && job_dim(j) != 2 && job_dim(j) != 3)
         result = failed(j->args->source, 0, "%zu dimensions; a .vtk file has 2 or 3", job_dim(j));
     if (result == DONE && j->cages[0].n_features > 0)
-        result = failed(j->args->source, 0,
-                        "holes, lines or points inside; OUT.svg draws them, OUT.vtk does not");
+        result =
+            failed(j->args->source, 0,
+                   "there are holes, lines or points inside; OUT.svg draws them, OUT.vtk does not");
     if (result == DONE)
         result = j->args->target != NULL ? job_make_map(j) : job_make_chart(j);
     if (result == DONE)

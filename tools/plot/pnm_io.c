@@ -163,7 +163,7 @@ bool pnm_decode(picture *out, const char *bytes, size_t n, problem *wrong)
     if (r.at == r.end)
         return true;
     picture_free(out);
-    return spoilt(wrong, 0, "more follows on the PNM picture; only one at a time is taken");
+    return spoilt(wrong, 0, "more follows after the PNM picture; a file may hold only one");
 }
 
 /* Writes PGM or PPM by the number of channels, or PAM. Grey may be written as PPM on request. */

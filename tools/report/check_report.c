@@ -93,10 +93,9 @@ static void print_chart(const char *file, const char *name, const chart_facts *c
     const int32_t method = chart->common.method;
     printf("%s: %s%s chart certified: ", file, name, choice_name(methods, method));
     if (method == ICC_METHOD_FIELD)
-        printf(
-            "every one of %zu grid vertices has a vector that points uphill all round, and curves "
-            "enter all over the boundary",
-            chart->field.n_inside);
+        printf("every one of %zu grid vertices has a vector that points uphill on all sides, and "
+               "curves enter everywhere along the boundary",
+               chart->field.n_inside);
     else
         printf("%zu %s, none of them inverted", chart->mesh.n_simplices,
                elements_name(chart->common.dim));
@@ -151,7 +150,7 @@ void check_print_certificates(const check *c)
                    reason_of_chart(text, &c->charts[side]));
     }
     if (c->made.n_unrepaired > 0)
-        printf("map: %zu %s of the mesh stay inverted, so it is of kind curves\n",
+        printf("map: %zu %s of the mesh stay inverted, so it is a curve map\n",
                c->made.n_unrepaired, elements_name(c->map.dim));
     if (c->map.kind != 0 && !c->map.certified)
         printf("map: %s, not certified: %s\n", choice_name(maps, c->map.kind),

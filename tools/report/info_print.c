@@ -181,7 +181,9 @@ static void print_mesh_map(const icc_map_info *m, const icc_map_report *made)
            m->energy, made->n_iterations, (int)made->n_levels);
     if (m->n_ties > 0)
         printf("ties        %zu, %.4g times as long as straight lines%s\n", m->n_ties, m->detour,
-               m->class_kept ? "" : "; not known to go round features as those that it began with");
+               m->class_kept
+                   ? ""
+                   : "; they may pass features on another side than those that it began with");
 }
 
 /* The map, its certificate or why there is none, and how it distorts the source. */
@@ -195,7 +197,7 @@ static void print_map(const info *x)
     if (!m->certified)
         printf("            because %s\n", reason_of_map(reason, m, &x->made));
     if (x->made.n_unrepaired > 0)
-        printf("            of kind curves because %zu %s stay inverted\n", x->made.n_unrepaired,
+        printf("            a curve map, because %zu %s stay inverted\n", x->made.n_unrepaired,
                elements_name(m->dim));
     if (m->kind == ICC_MAP_MESH)
         print_mesh_map(m, &x->made);

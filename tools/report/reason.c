@@ -25,7 +25,7 @@ const char *reason_of_chart(char text[REASON_LENGTH], const chart_facts *chart)
     text[0] = '\0';
     if (chart->common.method == ICC_METHOD_GRADIENT)
         add(text, 1, "the curves of method gradient merge");
-    add(text, f->n_infeasible, "at %zu of %zu grid vertices no vector points uphill all round",
+    add(text, f->n_infeasible, "at %zu of %zu grid vertices no vector points uphill on all sides",
         f->n_infeasible, f->n_inside);
     add(text, f->n_not_inward,
         "at %zu of %zu contacts with the boundary (%.3g %%) the curves do not enter",
@@ -41,10 +41,11 @@ const char *reason_of_map(char text[REASON_LENGTH], const icc_map_info *map,
     text[0] = '\0';
     if (map->reason_side != 0)
         add(text, 1, "the %s's chart is not", map->reason_side == 1 ? "source" : "target");
-    add(text, made->n_lost, "%zu of %zu sample points do not come back, for want of digits",
-        made->n_lost, made->n_samples);
+    add(text, made->n_lost,
+        "%zu of %zu sample points do not come back, because they need more digits", made->n_lost,
+        made->n_samples);
     if (map->reason == ICC_REASON_FLAT || made->n_lost > 0)
-        add(text, made->n_flat, "it flattens what lies around %zu of %zu sample points",
+        add(text, made->n_flat, "it flattens the surroundings of %zu of %zu sample points",
             made->n_flat, made->n_samples);
     return text;
 }

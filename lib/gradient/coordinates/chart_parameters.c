@@ -121,7 +121,6 @@ icc_status iccp_chart_check_rebuilt(icc_chart **chart, icc_status status, uint64
     iccp_chart_release(*chart);
     *chart = NULL;
     return iccp_fail(err, ICC_ERR_VERSION,
-                     status == ICC_OK
-                         ? "the chart comes out otherwise here than where it was saved"
-                         : "the chart cannot be made here as it was where it was saved");
+                     status == ICC_OK ? "the chart differs from the one that was saved"
+                                      : "the saved chart cannot be made again here");
 }

@@ -304,8 +304,9 @@ static icc_status create(iccp_node_set *set, size_t n_handles, const double *han
                          const icc_weights_options *options, const iccp_env *env, icc_error *err)
 {
     if (!(options->sigma > LEAST_SIGMA * set->sampling->info.spacing))
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "sigma is %g where samples are %g apart",
-                         options->sigma, set->sampling->info.spacing);
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "sigma is %g, which is too small for samples %g apart", options->sigma,
+                         set->sampling->info.spacing);
     icc_status status = make_room(set, n_handles, options, err);
     iccp_env part[3];
     iccp_split(part, 3, (const double[]){1, 1, 8}, env);

@@ -182,10 +182,9 @@ static icc_status check_order(const iccp_cuts *cuts, const iccp_domain_pair *dom
         size_t tie = tie_between(cuts, domains->n, from, *to);
         if (tie == cuts->n)
             tie = tie_between(cuts, domains->n, from, polygon[1].vertex[i]);
-        return iccp_fail_at(err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, tie < cuts->n ? (int64_t)tie : -1,
-                            "tie %zu leaves a vertex between other neighbours in the target than "
-                            "in the source",
-                            tie);
+        return iccp_fail_at(
+            err, ICC_ERR_TOPOLOGY, ICC_ITEM_TIE, tie < cuts->n ? (int64_t)tie : -1,
+            "tie %zu leaves a vertex between different neighbours in source and target", tie);
     }
     return ICC_OK;
 }

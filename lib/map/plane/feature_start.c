@@ -205,8 +205,8 @@ icc_status iccp_feature_start(iccp_plmap *map, const icc_domain *source, const i
     }
     if (status == ICC_ERR_RESOLUTION)
         status = iccp_fail(err, status,
-                           "the features are too close together, or too entangled, for "
-                           "doubles: no start was found");
+                           "no map was found: the features are too close together, or too "
+                           "entangled, for double precision");
     return status == ICC_OK ? relax(map, relaxing, &part[1]) : status;
 }
 

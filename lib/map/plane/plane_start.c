@@ -99,7 +99,7 @@ static icc_status find_all_images(start_job *job, const iccp_env *env, icc_error
     if (status == ICC_OK)
         status = iccp_for_chunks(env, "trace", job->source->mesh->n_vertices, 256, find_images, &c);
     if (iccp_is_point_status(status) && status != ICC_OK)
-        (void)iccp_fail(err, status, "vertex %zu of the mesh has no image by the charts",
+        (void)iccp_fail(err, status, "the charts give no image to vertex %zu of the mesh",
                         atomic_load(&c.first_lost));
     return status;
 }

@@ -78,8 +78,8 @@ icc_status iccp_paired_crossings_create(iccp_paired_crossings *paired,
             list_crossings(paired, drawing, walk, side, keys[side]);
         if (!pair_crossings(paired, walk, keys[0], keys[1]))
             status = iccp_fail(err, ICC_ERR_CERTIFICATE,
-                               "two drawings on the sphere cross %zu times seen from one and %zu "
-                               "times, or elsewhere, seen from the other",
+                               "two drawings on the sphere cross %zu times seen from one, and %zu "
+                               "times or elsewhere seen from the other",
                                walk[0].n_crossed, walk[1].n_crossed);
     }
     iccp_free(memory, keys[0]);

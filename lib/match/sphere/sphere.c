@@ -239,7 +239,7 @@ icc_status iccp_sphere_check(const iccp_half_edges *m, const double *directions,
     if (c.n_faces > 0 || c.n_stars > 0)
         return iccp_fail(err, ICC_ERR_CERTIFICATE,
                          "the drawing on the sphere is not one-to-one: %zu faces are not positive, "
-                         "round %zu vertices the faces do not go once",
+                         "around %zu vertices the faces do not turn exactly once",
                          c.n_faces, c.n_stars);
     return ICC_OK;
 }

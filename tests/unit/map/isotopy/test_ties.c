@@ -103,7 +103,7 @@ START_TEST(order)
                               .target = above},
                              {.size = sizeof *ties, .vertex = {3, 10}},
                              {.size = sizeof *ties, .vertex = {2, 11}}};
-    check_refused(N, ties, ICC_ERR_TOPOLOGY, 0, 0, "leaves a vertex between other neighbours");
+    check_refused(N, ties, ICC_ERR_TOPOLOGY, 0, 0, "leaves a vertex between different neighbours");
 }
 END_TEST
 
