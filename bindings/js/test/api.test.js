@@ -100,6 +100,25 @@ test('a map takes points there and back, follows its target, and is saved', () =
   assert.ok(a * d - b * c > 0);
 });
 
+// An outline of 1000 vertices with petals.
+const flower = (petals, depth, phase) => Array.from({ length: 1000 }, (_, k) => {
+  const angle = 2 * Math.PI * k / 1000, radius = 1 + depth * Math.cos(petals * angle + phase);
+  return [radius * Math.cos(angle), radius * Math.sin(angle)];
+});
+
+test('a map that is overlaid in patches is saved, follows its target and is improved', () => {
+  const map = new icc.Map(flower(5, 0.4, 0), flower(4, 0.4, 1)), moved = flower(4, 0.38, 1.05);
+  assert.ok(map.report.nInverted > 0 && map.info.nVertices > 2000);
+  const loaded = icc.Map.load(map.save());
+  for (const goOn of [(m) => m, (m) => m.retarget(moved), (m) => m.improve()]) {
+    const one = goOn(map), two = goOn(loaded), mesh = one.mesh();
+    assert.equal(one.certified && two.certified, true);
+    assert.deepEqual(two.mesh(), mesh);
+    assert.equal(two.info.energy, one.info.energy);
+    assert.deepEqual(two.certify(mesh.vertices, mesh.simplices), one.certify(mesh.vertices, mesh.simplices));
+  }
+});
+
 test('a surface that is matched keeps its mesh if asked', () => {
   const corners = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1];
   const faces = [0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5];

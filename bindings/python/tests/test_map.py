@@ -158,6 +158,28 @@ def test_improve_follow_and_mesh(before, after, inside):
     assert certificate.certified == 1 and np.abs(checked - images).max() < 1e-12
 
 
+def flower(petals, depth, phase):
+    """An outline of 1000 vertices with petals."""
+    angle = 2 * np.pi * np.arange(1000) / 1000
+    radius = 1 + depth * np.cos(petals * angle + phase)
+    return np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
+
+
+def test_a_map_that_is_overlaid_in_patches():
+    mapping = libicc.Map(flower(5, 0.4, 0), flower(4, 0.4, 1))
+    assert mapping.report.n_inverted > 0 and mapping.info.n_vertices > 2000
+    loaded = libicc.Map.from_bytes(mapping.to_bytes())
+    moved = flower(4, 0.38, 1.05)
+    for go_on in (lambda m: m, lambda m: m.retarget(moved), lambda m: m.improve()[0]):
+        one, two = go_on(mapping), go_on(loaded)
+        assert one.certified and two.certified and one.info.energy == two.info.energy
+        assert all(map(np.array_equal, one.mesh(), two.mesh()))
+        vertices, _, triangles = one.mesh()
+        images, certificate = one.certify(vertices, triangles)
+        again, same = two.certify(vertices, triangles)
+        assert np.array_equal(images, again) and certificate == same
+
+
 def test_masks_and_surfaces(cube):
     domain = libicc.Domain.from_mask(np.ones((2, 3, 4), bool))
     assert domain.dim == 3 and domain.info.measure == 24

@@ -53,6 +53,36 @@ fn maps_go_on_as_they_would_have() {
     same(&one.apply(&points(), env).unwrap(), &two.apply(&points(), env).unwrap());
 }
 
+/// An outline of 1000 vertices with petals.
+fn flower(petals: f64, depth: f64, phase: f64) -> Domain {
+    let vertex = |k: u32| {
+        let angle = 2.0 * std::f64::consts::PI * f64::from(k) / 1000.0;
+        let radius = 1.0 + depth * (petals * angle + phase).cos();
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    domain(&(0..1000).flat_map(vertex).collect::<Vec<f64>>())
+}
+
+#[test]
+fn maps_overlaid_in_patches_go_on_as_they_would_have() {
+    let env = &mut Env::new();
+    let (source, target, moved) = (flower(5.0, 0.4, 0.0), flower(4.0, 0.4, 1.0), flower(4.0, 0.38, 1.05));
+    let map = Map::new(&source, &target, &MapOptions::default(), env).unwrap();
+    assert!(map.report().n_inverted > 0 && map.info().n_vertices > 2000);
+    let again = Map::from_bytes(&map.to_bytes().unwrap(), env).unwrap();
+    let improved = |map: &Map| map.improve(&ImproveOptions::default(), &mut Env::new()).unwrap().0;
+    let followed = |map: &Map| map.retarget(&moved, 0, &mut Env::new()).unwrap();
+    let pairs = [(improved(&map), improved(&again)), (followed(&map), followed(&again)), (map, again)];
+    for (one, two) in &pairs {
+        let (mesh, other) = (one.mesh().unwrap(), two.mesh().unwrap());
+        assert_eq!((one.info().certified, two.info().certified), (1, 1));
+        assert_eq!(bits(&mesh.images), bits(&other.images));
+        let (images, certificate) = one.certify(&mesh.vertices, &mesh.simplices, env).unwrap();
+        let (again, other) = two.certify(&mesh.vertices, &mesh.simplices, env).unwrap();
+        assert_eq!((bits(&images), certificate.certified), (bits(&again), other.certified));
+    }
+}
+
 #[test]
 fn charts_answer_as_they_did() {
     let env = &mut Env::new();
