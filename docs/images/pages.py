@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+"""Draws the pictures of the tutorials and how-to pages that no block of these pages draws.
+
+    python3 docs/images/pages.py FOLDER [NAME..]      FOLDER: where the pictures go; NAME: only these
+
+Needs the program `libicc` in PATH, libicc for Python, NumPy, Pillow and Matplotlib; for old_map also `gdalwarp`.
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from PIL import Image, ImageDraw
+
+import libicc
+from libicc import stages
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt                                 # noqa: E402
+from matplotlib.collections import LineCollection               # noqa: E402
+from mpl_toolkits.mplot3d.art3d import Poly3DCollection         # noqa: E402
+
+TOP = Path(__file__).resolve().parents[2]
+INK, SHAPE, RED = "#334455", "#e8eef6", "#dd2222"
+
+
+def run(*words):
+    subprocess.run([str(word) for word in words], check=True, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+
+
+def block(page, name):
+    """A file that a page shows."""
+    text = (TOP / "docs" / page).read_text(encoding="utf-8")
+    return re.search(rf"<!-- file: {name} -->\n```\w+\n(.*?)```", text, re.S)[1]
+
+
+def beside(pictures, width, gap=16):
+    """Pictures of one height side by side, on white."""
+    whole = Image.new("RGB", (sum(p.width + gap for p in pictures) - gap, pictures[0].height), "white")
+    at = 0
+    for picture in pictures:
+        whole.paste(picture, (at, 0))
+        at += picture.width + gap
+    return whole.resize((width, round(whole.height * width / whole.width)), Image.LANCZOS).quantize(200, dither=0)
+
+
+def twice(name):
+    picture = Image.open(name).convert("RGB")
+    return picture.resize((2 * picture.width, 2 * picture.height), Image.LANCZOS)
+
+
+def dot(pen, place, radius, line=(40, 70, 90)):
+    pen.ellipse([*(place - radius), *(place + radius)], fill="white", outline=line, width=radius // 5 + 1)
+
+
+def fish_pair():
+    """The demo's fish before and after, in its cages."""
+    run("libicc", "demo", "fish")
+    run("libicc", "warp", "-s", "fish/before.txt", "-t", "fish/after.txt", "--background", "78b9d7", "fish/fish.png", "bent.png")
+    pictures = [twice("fish/fish.png"), twice("bent.png")]
+    for picture, cage in zip(pictures, ("before", "after")):
+        corners, pen = 2 * np.loadtxt(f"fish/{cage}.txt"), ImageDraw.Draw(picture)
+        pen.line([tuple(c) for c in [*corners, corners[0]]], fill="white", width=4)
+        for corner in corners:
+            dot(pen, corner, 9)
+    return beside(pictures, 900)
+
+
+def pins():
+    """The fish, posed by the handles of the page."""
+    for name in ("pins.json", "wag.json"):
+        Path(name).write_text(block("howto/handles.md", name), encoding="utf-8")
+    run("libicc", "demo", "fish")
+    run("libicc", "pose", "-s", "fish/before.txt", "--handles", "pins.json", "--pose", "wag.json", "--certified",
+        "--background", "78b9d7", "fish/fish.png", "posed.png")
+    rest = np.array(json.load(open("pins.json"))["handles"], float)
+    posed, turns = rest.copy(), np.zeros(len(rest))
+    for move in json.load(open("wag.json"))["moves"]:
+        posed[move["handle"]] += move["move"]
+        turns[move["handle"]] = np.radians(move["turn"])
+    pictures = [twice("fish/fish.png"), twice("posed.png")]
+    for picture, places, angles in zip(pictures, (rest, posed), (0 * turns, turns)):
+        pen = ImageDraw.Draw(picture)
+        for place, angle in zip(2 * places, angles):
+            pen.line([*place, *(place + 44 * np.array([np.cos(angle), np.sin(angle)]))], fill="white", width=6)
+            dot(pen, place, 15, (20, 40, 60))
+    return beside(pictures, 900)
+
+
+def chessboard():
+    """The page of the browser: the board at rest, and its corner dragged to two places."""
+    row, column = np.indices((400, 400))
+    board = np.where(((row // 20 + column // 20) % 2 == 1)[..., None], [70, 130, 180], [240, 230, 140]).astype(np.uint8)
+    square = np.array([[100, 100], [300, 100], [300, 300], [100, 300]], float)
+    pictures = []
+    for corner in ([300, 300], [360, 350], [180, 190]):
+        moved = square.copy()
+        moved[2] = corner
+        warped = libicc.warp_image(board, libicc.Map(square, square).retarget(moved), out=np.full_like(board, 255))
+        pictures.append(Image.fromarray(warped[80:370, 80:380]))
+    return beside(pictures, 900, 0)
+
+
+def old_map():
+    """The scan, and the scan fitted to the survey, with the known places."""
+    run(sys.executable, TOP / "examples/cadastre.py", ".")
+    run("libicc", "map", "-s", "parish.geojson", "--y-down=source", "--triangulation", "parish.json")
+    left, upper, step = 2683080, 1247980, 0.6
+    run("gdalwarp", "-q", "-t_srs", "EPSG:2056", "-te", left, 1247380, 2683880, upper, "-tr", step, step, "-dstnodata", 255, "-r",
+        "cubic", "-to", "SRC_METHOD=NO_GEOTRANSFORM", "-ct", "+proj=tinshift +file=parish.json", "sheet.png", "sheet.tif")
+    pictures = {"source": Image.open("sheet.png").convert("RGB"), "target": Image.open("sheet.tif").convert("RGB")}
+    for feature in json.load(open("parish.geojson"))["features"]:
+        role, places = feature["properties"]["role"], np.reshape(feature["geometry"]["coordinates"], (-1, 2))
+        if role == "target":
+            places = (places - [left, upper]) / [step, -step]
+        for place in places:
+            ImageDraw.Draw(pictures[role]).ellipse([*(place - 14), *(place + 14)], outline=RED, width=6)
+    heights = [p.resize((round(p.width * 600 / p.height), 600), Image.LANCZOS) for p in pictures.values()]
+    return beside(heights, 1000, 30)
+
+
+def panels(n, size, **more):
+    figure, axes = plt.subplots(1, n, figsize=size, **more)
+    for ax in axes:
+        ax.set_aspect("equal")
+        ax.set_axis_off()
+    return figure, axes
+
+
+def island():
+    """The island of the page with its layer, before and after."""
+    for name in ("island.geojson", "data.geojson"):
+        Path(name).write_text(block("howto/geojson.md", name), encoding="utf-8")
+    subprocess.run(["libicc", "map", "-s", "island.geojson", "--tolerance", "0.01", "--geojson", "data.geojson", "moved.geojson"],
+                   stderr=subprocess.DEVNULL, check=False)      # the buoy lies outside: exit code 4
+    shores = [np.array(f["geometry"]["coordinates"][0]) for f in json.load(open("island.geojson"))["features"]]
+    figure, axes = plt.subplots(1, 2, figsize=(9, 3.36))
+    for ax, shore, layer in zip(axes, shores, ("data.geojson", "moved.geojson")):
+        ax.set_facecolor("#cfe3f1")
+        ax.fill(*shore.T, fc="#dfe8c8", ec="#4b5a2a", lw=2)
+        if layer == "moved.geojson":
+            ax.plot(*shores[0].T, color="#7a8a99", ls=":", lw=1.5)
+        draw_layer(ax, json.load(open(layer))["features"])
+        ax.set(xlim=(-2, 15.5), ylim=(-2, 11), xticks=[], yticks=[], aspect="equal")
+    figure.subplots_adjust(.01, .01, .99, .99, .03)
+    return figure
+
+
+def draw_layer(ax, features):
+    def say(place, text, colour="#222222"):
+        ax.text(*place, text, color=colour, ha="right", fontsize=15)
+    for feature in features:
+        name, geometry = feature["properties"]["name"], feature["geometry"]
+        places = np.reshape(geometry["coordinates"], (-1, 2)) if geometry else []
+        if name == "road":
+            ax.plot(*places.T, color="#b3401a", lw=3)
+            say(places[0] + [2.6, 2.3], name, "#b3401a")
+        elif name == "lake":
+            ax.fill(*places.T, fc="#5b97c4", ec="#27557a")
+            say(places.mean(0) + [3.2, -1.1], name, "#27557a")
+        elif geometry:
+            ax.plot(*places.T, "^" if name == "buoy" else "o", color="#222222", ms=9)
+            say(places[0] + ([.8, .6] if name == "buoy" else [-.4, .35]), name)
+
+
+def matched():
+    """Two outlines that do not correspond, with equal numbers at places that go together."""
+    before, after = (np.loadtxt(TOP / f"examples/data/tripus.{side}.txt") for side in ("src", "tgt"))
+    after = np.array([after[(i + 20) % len(after)] for i in range(len(after), 0, -1) if i % 3])
+    source, target, _ = libicc.match(before, after)
+    figure, axes = panels(2, (9, 4.4))
+    chosen = range(2, len(source), 6)
+    for ax, own, common in zip(axes, (before, after), (source, target)):
+        ax.fill(*common.T, fc=SHAPE, ec=INK, lw=1.5)
+        ax.plot(*own.T, "o", color=INK, ms=4)
+        for number, k in enumerate(chosen, 1):
+            along = common[(k + 1) % len(common)] - common[k - 1]
+            out = np.array([along[1], -along[0]]) / np.hypot(*along)
+            ax.plot(*common[k], "o", color=plt.cm.turbo(.9 * number / len(chosen)), ms=9)
+            ax.text(*(common[k] + .17 * out), str(number), ha="center", va="center", fontsize=17)
+        (left, lower), (right, upper) = common.min(0) - .3, common.max(0) + .3
+        ax.set(xlim=(left, right), ylim=(lower, upper))
+    figure.subplots_adjust(0, 0, 1, 1, .02)
+    return figure
+
+
+def stages_of_the_papers():
+    """Grid, tree, function and integral curves of a shape with three legs."""
+    shape = np.loadtxt(TOP / "examples/data/tripus.src.txt")
+    grid = stages.Grid(shape, cells=24)
+    root, _ = grid.maximum()
+    tree = stages.Tree(grid, root)
+    flat = [a.ravel(order="F") for a in (grid.inside, tree.generations, tree.parents, stages.Function(tree, "laplace").values)]
+    inside = np.flatnonzero(flat[0])
+    generations, parents, values = (a[inside] for a in flat[1:])
+    places, up = grid.position(inside), (parents != inside) & (parents < len(flat[0]))
+    figure, axes = panels(4, (12, 3.5))
+    axes[0].plot(*places.T, "o", color="#5b97c4", ms=3)
+    axes[1].add_collection(LineCollection(np.stack([places[up], grid.position(parents[up])], 1), array=generations[up],
+                                          cmap="viridis_r", lw=1.6))
+    axes[2].scatter(*places.T, c=np.log(np.maximum(values, 1e-6 * values.max())), s=26, marker="s")
+    chart = libicc.Chart(shape, "gradient", cells=24)
+    for start, end in zip(shape, np.roll(shape, -1, axis=0)):
+        for share in (.25, .75):
+            edge = (1 - share) * start + share * end
+            axes[3].plot(*chart.trace(edge + .02 * (chart.info.maximum - edge)).T, color="#2b5fc2", lw=1)
+    for ax, title in zip(axes, ("grid, maximum", "tree", "function", "integral curves")):
+        ax.plot(*np.vstack([shape, shape[:1]]).T, color=INK, lw=1.5)
+        ax.plot(*grid.position(root), "o", color=RED, ms=8)
+        ax.set_title(title, fontsize=18)
+    figure.subplots_adjust(0, 0, 1, .86, .03)
+    return figure
+
+
+def mesh():
+    """The beam of the page before and after, its surface in stripes."""
+    lines = (TOP / "examples/data/beam.mesh").read_text(encoding="utf-8").split("\n")
+
+    def table(word, width, kind):
+        at = lines.index(word) + 2
+        return np.array([line.split()[:width] for line in lines[at:at + int(lines[at - 1])]], kind)
+    nodes, tetrahedra = table("Vertices", 3, float), table("Tetrahedra", 4, int) - 1
+    source = libicc.Domain.from_mesh(nodes, tetrahedra)
+    rest, faces = source.vertices, source.facets
+    angle, radius = rest[:, 0] / 12 * np.pi / 2, 8.4 - rest[:, 2]
+    bent = np.column_stack([radius * np.sin(angle), rest[:, 1], 8.4 - radius * np.cos(angle)])
+    stripe = (rest[faces].mean(1)[:, 0].astype(int) % 2 == 0)[:, None]
+    colours = np.where(stripe, [.98, .80, .45], [.55, .70, .85])
+    figure = plt.figure(figsize=(9, 3.6))
+    for k, places in enumerate((rest, bent)):
+        corners = places[faces]
+        normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        light = np.clip(.62 + .38 * normals @ [.1, -.6, .8] / np.linalg.norm(normals, axis=1), .3, 1)[:, None]
+        ax = figure.add_subplot(1, 2, k + 1, projection="3d")
+        ax.add_collection3d(Poly3DCollection(corners, facecolors=colours * light, edgecolors=(.2, .25, .3), linewidths=.6))
+        ax.auto_scale_xyz(*places.T)
+        ax.set_box_aspect(np.ptp(places, axis=0), zoom=(1.05, 1.3)[k])
+        ax.set_axis_off()
+        ax.view_init(22, -75)
+    figure.subplots_adjust(0, 0, 1, 1, 0)
+    return figure
+
+
+PICTURES = {"fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
+            "matched": matched, "stages": stages_of_the_papers, "mesh": mesh}
+
+
+def main():
+    folder, names = Path(sys.argv[1]).resolve(), sys.argv[2:] or list(PICTURES)
+    for name in names:
+        with tempfile.TemporaryDirectory() as scratch:
+            os.chdir(scratch)
+            picture, file = PICTURES[name](), folder / f"{name}.png"
+            if isinstance(picture, Image.Image):
+                picture.save(file, optimize=True)
+            else:
+                picture.savefig(file)
+            os.chdir(TOP)
+        print(file)
+
+
+if __name__ == "__main__":
+    main()
