@@ -105,7 +105,21 @@ icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from
     return status;
 }
 
-/* Starts uphill into the domain. gradient_state.h has the version for the plane. */
+/* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
+static icc_status depart_in_plane(const icc_chart *chart, uint32_t facet, const double point[2],
+                                  iccp_walk2 *walk, iccp_jet2 *jet)
+{
+    const iccp_gradient_state *state = chart->state;
+    double p[2], inward[2];
+    iccp_gradient_to_lattice(state, point, p);
+    iccp_facet_inward(chart->domain, facet, inward);
+    const icc_status status = iccp_walk2_start(walk, state->field, ICCP_UPHILL, p[0], p[1], jet);
+    if (status == ICC_OK)
+        iccp_walk2_face(walk, inward);
+    return status;
+}
+
+/* The same in other dimensions. */
 static icc_status depart(const icc_chart *chart, uint32_t facet, const double *point,
                          iccp_walkn *walk, iccp_jetn *jet)
 {
@@ -122,7 +136,7 @@ icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const d
     icc_status status;
     if (is_plane(chart->state)) {
         iccp_walk2 walk;
-        status = iccp_gradient_depart(chart, facet, point, &walk, NULL);
+        status = depart_in_plane(chart, facet, point, &walk, NULL);
         return status == ICC_OK ? climb_in_plane(&walk, path, line) : status;
     }
     iccp_walkn walk;
@@ -140,7 +154,7 @@ icc_status iccp_gradient_up_again(const icc_chart *chart, uint32_t facet, const 
     iccp_jet2 flat;
     replay->end = *jet;
     to_plane(jet, &flat);
-    icc_status status = plane ? iccp_gradient_depart(chart, facet, point, &walk2, &flat)
+    icc_status status = plane ? depart_in_plane(chart, facet, point, &walk2, &flat)
                               : depart(chart, facet, point, &walk, &replay->end);
     for (size_t k = 0; status == ICC_OK && k < n_steps; ++k) {
         if (k == piece)

@@ -32,8 +32,4 @@ static inline void iccp_gradient_to_local(const iccp_gradient_state *state, cons
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
-/* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
-icc_status iccp_gradient_depart(const icc_chart *chart, uint32_t facet, const double point[2],
-                                iccp_walk2 *walk, iccp_jet2 *jet);
-
 #endif
