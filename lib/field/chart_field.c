@@ -17,7 +17,7 @@
 #include "gradient/function/make_function.h"
 #include "gradient/grid/grassfire.h"
 #include "gradient/grid/rasterise.h"
-#include "gradient/tree/create_ranked.h"
+#include "gradient/tree/grow.h"
 #include "gradient/tree/verify.h"
 #include "math/elementary.h"
 

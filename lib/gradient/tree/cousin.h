@@ -10,7 +10,7 @@
  * - grow, thin: to find an order with one critical vertex, by adding vertices from the root or by
  *   removing them from the end (grow.h).
  *
- * Ways: cousin.c grows a tree. grow.h finds an order, by queue.h. create_ranked.h gives up a few
+ * Ways: cousin.c grows a tree. grow.h finds an order, by queue.h, and gives up a few
  * vertices if there is none. verify.h and ranks.h check.
  *
  * Invariants: parents come before children in `order`, and inside vertices before outside ones.

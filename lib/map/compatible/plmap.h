@@ -22,7 +22,7 @@
  *   both and refines the mesh.
  * - To another mesh: coarsen.h, density.h. What new triangles are worth: triangle_quality.h.
  * - To bytes: plmap_file.h.
- * - To another target: move_targets.h, improve_moving.h.
+ * - To another target: move_targets.h.
  *
  * Begin with this file, then overlay.c. */
 #ifndef ICCP_PLMAP_H

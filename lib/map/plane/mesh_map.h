@@ -15,7 +15,7 @@
  *   (plane_start.h).
  * - With features: the overlay of the domains, cut open along paths (feature_start.h).
  * - To another target: plane_retarget.h. How far it moves at a time: map/energy/continuation.h; how
- *   the mesh gives way: map/compatible/improve_moving.h.
+ *   the mesh gives way: map/compatible/move_targets.h.
  * - To less distortion: plane_improve.h. Points: plane_apply.h. Proof: plane_certificate.h.
  *
  * Begin with plane_kind.c, which lists the operations, and plane_start.c. */

@@ -7,7 +7,6 @@
 #include "base/error.h"
 #include "domain/features.h"
 #include "map/compatible/density.h"
-#include "map/compatible/improve_moving.h"
 #include "map/compatible/move_targets.h"
 #include "map/plane/feature_start.h"
 #include "map/plane/plane_improve.h"

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "gradient/grid/kuhn.h"
 #include "gradient/tree/cousin.h"
-#include "gradient/tree/create_ranked.h"
+#include "gradient/tree/grow.h"
 #include "gradient/tree/queue.h"
 #include "gradient/tree/ranks.h"
 
