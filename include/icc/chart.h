@@ -340,7 +340,7 @@ ICC_API icc_status icc_chart_get_timings(const icc_chart *chart, icc_chart_timin
 ICC_API const icc_domain *icc_chart_domain(const icc_chart *chart);
 
 /**
- * Estimates what the coordinates miss. Deterministic.
+ * Estimates which part of the domain the coordinates miss. Deterministic.
  *
  * @param chart         the chart
  * @param n_points      number of points inside, and as many on the boundary; 0: 4096

@@ -774,10 +774,10 @@ pub struct icc_match_options {
     /// without landmarks: pairings whose `icc_match_info.sure` is less are refused. 0: 1.06. 1: none is
     /// refused
     pub least_sure: f64,
-    /// in the plane: a share of the perimeter, at most 0.01. If a vertex of each outline lies within this
-    /// distance of the partner that was added for the other one, the two vertices become one pair. The two
-    /// added points are dropped, unless an edge next to them would become three times longer or shorter. 0:
-    /// join only vertices within 0.3 of the shorter edge at them
+    /// in the plane: a share of the perimeter, at most 0.01. If the pairing brings a vertex of the source and
+    /// one of the target within this distance of each other, they become one common vertex instead of two.
+    /// This is not done where an edge next to them would become three times longer or shorter. 0: only
+    /// vertices within 0.3 of the shorter edge at them are joined
     pub drop: f64,
     /// in space: how far the common surfaces may be off the given ones, as a share of the diagonal of each
     /// one's bounding box. At most 0.1; 0: 1e-3. A negative value means not at all: the result then has four
@@ -828,7 +828,8 @@ pub struct icc_match_info {
     /// no length changes
     pub energy: f64,
     /// in space: largest distance between the common and the given surfaces. It is measured both ways, from
-    /// vertices and from middles of edges and triangles, in the unit of `icc_match_options.tolerance`
+    /// vertices and from middles of edges and triangles, as a share of the diagonal, like
+    /// `icc_match_options.tolerance`
     pub off: f64,
     /// in space: smallest angle of the common triangles on either surface, in degrees
     pub least_angle: f64,
@@ -847,10 +848,11 @@ opaque!(
 pub const ICC_MAP_CURVES: i32 = 1;
 /// A *mesh map* is piecewise linear on an internal mesh. It is always certified and has the fastest queries:
 /// less than 0.1 us a point in 2-D, 1 to 5 us in 3-D. On the boundary it agrees with the given facets up to
-/// rounding. Samples of a side lie on it to one unit in the last place.
+/// rounding: images of points on a facet lie on the target's facet to one unit in the last place.
 ///
 /// In 2-D the mesh is made of triangles that fill the source. Every vertex has an image, chosen for low
-/// distortion. Every triangle is exactly positive before and after, and both boundaries are exactly simple.
+/// distortion. Every triangle is exactly positive before and after, which means that it keeps its
+/// orientation. Both boundaries are exactly simple.
 ///
 /// In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The map uses the
 /// source's mesh, with images that are chosen and certified as in 2-D. The target's mesh only serves its
@@ -926,16 +928,16 @@ pub struct icc_map_info {
     /// with features, 1: the map is isotopic to the expected one, so it can be moved there while it stays
     /// one-to-one. After `icc_map_create()` the expected map is the one that the ties describe, or else the
     /// cuts that libicc chose. After `icc_map_retarget()` it is the previous map, carried along while every
-    /// vertex of the target moves straight to its new place. 0: not so, or undecided because of rounding or
-    /// of the way of the vertices
+    /// vertex of the target moves straight to its new place. 0: not so, or undecided, because rounding or the
+    /// paths of the vertices leave it open
     pub class_kept: i32,
     /// mesh map: vertices
     pub n_vertices: usize,
     /// mesh map: triangles, or tetrahedra in 3-D
     pub n_simplices: usize,
-    /// mesh map: its distortion, the mean symmetric Dirichlet energy |J|^2 + |J^-1|^2 with the target scaled
-    /// to the source's area or volume. The least possible value, 4 in 2-D and 6 in 3-D, means that no length
-    /// changes
+    /// mesh map: its distortion, the mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, where J is the
+    /// derivative of the map, with the target scaled to the source's area or volume. The least possible
+    /// value, 4 in 2-D and 6 in 3-D, means that no length changes
     pub energy: f64,
     /// features: holes
     pub n_holes: usize,
@@ -960,15 +962,15 @@ pub struct icc_map_report {
     pub size: usize,
     /// time to make the map, including the charts; or to load it
     pub seconds: f64,
-    /// mesh map: part of that, time to make all simplices positive
+    /// mesh map: of `seconds`, the time for repair, until all simplices keep their orientation
     pub seconds_repair: f64,
-    /// mesh map: part of that, time to improve the map
+    /// mesh map: of `seconds`, the time to improve the map
     pub seconds_improve: f64,
-    /// part of that, time to certify a mesh map or a curve map of method field
+    /// of `seconds`, the time to certify a mesh map or a curve map of method field
     pub seconds_certify: f64,
     /// mesh map: `icc_map_info.energy` before the improvement
     pub energy_start: f64,
-    /// mesh map: simplices that were not positive at first
+    /// mesh map: simplices that were inverted or flat at first
     pub n_inverted: usize,
     /// curve map, if a mesh map was tried first: simplices that stayed inverted; in 3-D by the best of
     /// several ways
@@ -1537,7 +1539,7 @@ extern "C" {
     /// The domain that the chart was made on; borrowed.
     pub fn icc_chart_domain(chart: *const icc_chart) -> *const icc_domain;
 
-    /// Estimates what the coordinates miss. Deterministic.
+    /// Estimates which part of the domain the coordinates miss. Deterministic.
     ///
     /// - `chart`: the chart
     /// - `n_points`: number of points inside, and as many on the boundary; 0: 4096
@@ -1698,8 +1700,8 @@ extern "C" {
     /// Every vertex of the two domains is in the result, bit for bit and in its order. The vertices that one
     /// outline lacks are added on its edges, rounded. The result begins with the source's vertex 0 and runs
     /// in the source's direction. It passes the checks of `icc_domain_create()`. If two outlines have the
-    /// same number of vertices and are clearly in step, they are paired vertex by vertex, except by arc
-    /// length. So the result of a match passes through another match unchanged.
+    /// same number of vertices, and vertex i clearly belongs to vertex i + k for some k, they are paired
+    /// vertex by vertex (not by arc length). So the result of a match passes through another match unchanged.
     ///
     /// *Features.* Each hole, line and point is paired with one of its kind. The outer rings' pairing
     /// predicts where each should lie in the target, by mean value coordinates. The assignment minimises the
@@ -1842,8 +1844,8 @@ extern "C" {
     ) -> icc_status;
 
     /// Reads a match back, as `icc_chart_load()` does a chart. Its domains are checked as they were when they
-    /// were made, and must correspond. The contents of `icc_match_info` and `icc_match_get_origins()` are
-    /// taken from the bytes unchecked.
+    /// were made, and must correspond. The contents of `icc_match_info` and `icc_match_get_origins()` come
+    /// from the bytes.
     pub fn icc_match_load(
         out: *mut *mut icc_match,
         n_bytes: usize,
@@ -1958,7 +1960,7 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes the map to a target that has moved. Use it to drag a cage or a surface, where each frame
+    /// Makes the map to a target that has moved. Use it to drag an outline or a surface, where each frame
     /// continues from the one before. The source stays. The new map starts from the mesh and the images of
     /// `map`, moves them along and improves them by a few steps. It does not refine the mesh further. Frames
     /// with the same mesh and allocator share data about it.
@@ -1966,10 +1968,10 @@ extern "C" {
     /// Without features, any target in the plane is reached, however far away. The mesh may change on the
     /// way.
     ///
-    /// Features move straight to their new places. The map passes them on the same sides as before
-    /// (`icc_map_info.class_kept`), and the mesh changes as needed. If features would meet on the way, the
-    /// call fails with `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a very
-    /// different size or is far away, the features first move along with the whole shape.
+    /// Features move straight to their new places. On the way they pass one another on the same sides as
+    /// before (`icc_map_info.class_kept`), and the mesh changes as needed. If features would meet on the way,
+    /// the call fails with `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a
+    /// very different size or is far away, the features first move along with the whole shape.
     ///
     /// In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew by
     /// `icc_map_create()`, which fills a target without a mesh; `icc_env.log` then says so. There is no
