@@ -1,4 +1,4 @@
-"""docs/papers.md has each figure, table and algorithm of the papers once, and what its rows name is there.
+"""docs/papers.md has each figure, table and algorithm of the papers once, each with a command that can be run.
 
 usage: papers.py ROOT
 """
@@ -20,7 +20,14 @@ WANTED = (
     {"Figure": [*numbers(3, 9), *numbers(4, 6), *numbers(5, 2), *numbers(6, 40)],
      "Table": ["4.1", *numbers(6, 7)], "Algorithm": []},
 )
-ROW = re.compile(r"\| (Figure|Table|Algorithm)s? ([^|]*) \|[^|]*\| ([^|]*) \|[^|]*\|$")
+ROW = re.compile(r"\| (Figure|Table|Algorithm)s? ([^|]*) \|[^|]*\| `([^|`]*)` \|[^|]*\|$")
+# What a command runs, and the file that it is made of.
+SOURCES = (
+    (r"build/release/tests/bench/(bench_\w+)$", "tests/bench/{}.c"),
+    (r"build/examples/programs/(\w+)( |$)", "examples/{}.c"),
+    (r"ctest --test-dir build/release -R (\S+)$", "tests/{}.c"),
+    (r"(?:python3|sh) (\S+)", "{}"),
+)
 
 
 def listed(text):
@@ -36,19 +43,28 @@ def listed(text):
             yield ".".join([*chapter, str(k)])
 
 
-def missing(root, named):
-    """What is wrong with the file, benchmark or command that a row names; None: nothing."""
-    if named.startswith("bench_"):
-        return None if (root / "tests/bench" / f"{named}.c").is_file() else "no such benchmark"
-    if not named.startswith("libicc "):
-        return None if (root / named).is_file() else "no such file"
-    manual = "".join(page.read_text(encoding="utf-8") for page in (root / "docs/man").glob("*.1")).replace("\\-", "-")
-    return next((f"the manual has no {word}" for word in named.split()[1:] if word not in manual), None)
+def missing(root, command):
+    """What a command needs and the tree has not; None: nothing."""
+    lost = [name for name in re.findall(r"\bexamples/[\w./-]+", command)
+            if not name.startswith("examples/programs/") and not (root / name).is_file()]
+    if lost:
+        return f"there is no {lost[0]}"
+    for pattern, source in SOURCES:
+        if found := re.match(pattern, command):
+            return None if (root / source.format(found[1])).is_file() else f"there is no {source.format(found[1])}"
+    name, verb, *words = command.split()
+    page = root / f"docs/man/libicc-{verb}.1"
+    if name != "libicc" or not page.is_file():
+        return "no such command"
+    manual = page.read_text(encoding="utf-8").replace("\\-", "-")
+    return next((f"the manual has no {word}" for word in words
+                 if word.startswith("--") and not re.search(rf"{word}\b", manual)), None)
 
 
 def main():
     root = Path(sys.argv[1])
-    sections = (root / "docs/papers.md").read_text(encoding="utf-8").split("\n## ")[1:]
+    sections = (root / "docs/papers.md").read_text(encoding="utf-8").split("\n## ")
+    sections = [section for section in sections if "\n| Figure" in section]
     wrong = [] if len(sections) == len(WANTED) else [f"{len(sections)} sections"]
     for section, wanted in zip(sections, WANTED):
         title, found = section.split("\n")[0], {kind: [] for kind in wanted}
@@ -56,13 +72,11 @@ def main():
         for line in rows:
             row = ROW.match(line)
             if not row:
-                wrong.append(f"not a row of four: {line}")
+                wrong.append(f"not a row of four with a command: {line}")
                 continue
             found[row[1]] += listed(row[2])
-            names = re.findall("`([^`]*)`", row[3])
-            if not names and row[3] != "-":
-                wrong.append(f"neither a name nor -: {line}")
-            wrong += [f"{row[1]} {row[2]}: {name}: {fault}" for name in names if (fault := missing(root, name))]
+            if fault := missing(root, row[3]):
+                wrong.append(f"{row[1]} {row[2]}: {row[3]}: {fault}")
         for kind, numbers_ in wanted.items():
             if sorted(found[kind]) != sorted(numbers_):
                 odd = sorted(set(found[kind]) ^ set(numbers_)) or "one is there twice"
