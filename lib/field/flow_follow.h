@@ -18,8 +18,11 @@ typedef struct iccp_flow_curve {
     uint32_t facet; /* where a curve downhill leaves the domain */
     double bary[ICC_MAX_DIM];
     /* Logarithm of the volume that a bundle of curves fills, per area on the boundary and per
-     * length. It is taken at `place` if uphill, or at the start if downhill. Two factors jump
-     * where the vectors do and are left out. */
+     * length. It is taken at `place` if uphill, or at the start if downhill. Vectors jump at the
+     * facets of the simplices at the root, where curves become straight. Where a curve comes in
+     * through such a facet, with the normal m, the volume has two more factors, u . m and
+     * 1 / (x . m), for the curve's direction u inside and the vector x outside. These are left
+     * out. Only points in the simplices at the root need them. */
     double volume;
 } iccp_flow_curve;
 
