@@ -26,7 +26,7 @@
  * - Equal surfaces: equal_surfaces.h. Then common_mesh/sphere_overlay.h makes common triangles.
  * - common_mesh/simplify_apart.h removes vertices that are not needed.
  * - Drawing, in sphere/: sphere.h shrinks by decimate.h and grows, by the stars of drawn_star.h,
- *   within kernel_room.h. relax.h moves by composed_star.h; close_vertices.h joins what is left.
+ *   within kernel_room.h. relax.h moves by composed_star.h; sphere_pair.c joins what is left.
  * - Landmarks, in sphere/: landmark_paths.h joins them (landmark_web.h, on a split_surface.h).
  *   landmark_guesses.h and likely_pairs.h add pairs where there are few.
  * - Overlay, in common_mesh/: arc_walk.h walks edges, paired_crossings.h and shared_vertices.h
