@@ -5,6 +5,7 @@
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <icc/icc.h>
 
@@ -17,9 +18,10 @@
 
 /* ---- shapes ---- */
 
-typedef enum shape_kind { SPHERE, CUBE, BODY } shape_kind;
+typedef enum shape_kind { SPHERE, CUBE, BODY, PLATE } shape_kind;
 
-/* Six limbs of that length along the axes of a ball, twisted by so many radians a unit of z. */
+/* Six limbs of that length along the axes of a ball, twisted by so many radians a unit of z. Or a
+ * cube, flattened to that thickness and turned. */
 typedef struct test_shape {
     shape_kind kind;
     double length, twist;
@@ -52,6 +54,18 @@ static void place_on_body(double *x, const test_shape *shape)
     x[1] = s * first + c * x[1];
 }
 
+static void place_on_plate(double *x, double thickness)
+{
+    const double c = cos(0.7), s = sin(0.7);
+    place_on_cube(x);
+    x[2] *= thickness;
+    for (size_t k = 0; k < 2; ++k) {
+        const double first = x[k];
+        x[k] = c * first - s * x[k + 1];
+        x[k + 1] = s * first + c * x[k + 1];
+    }
+}
+
 /* An octahedron's faces in 4^splits each, on the unit sphere and then on the shape. */
 static icc_domain *domain_of(int splits, const test_shape *shape)
 {
@@ -70,6 +84,8 @@ static icc_domain *domain_of(int splits, const test_shape *shape)
             place_on_cube(x);
         else if (shape->kind == BODY)
             place_on_body(x, shape);
+        else if (shape->kind == PLATE)
+            place_on_plate(x, shape->length);
     }
     ck_assert_msg(icc_domain_create(&domain, 3, s.n_vertices, s.vertices, s.n_faces, s.faces, NULL,
                                     &err) == ICC_OK,
@@ -248,6 +264,30 @@ START_TEST(random_pairs)
 }
 END_TEST
 
+/* Doubles hardly tell points in a plate from one another, so no map of kind mesh is found. Who asks
+ * for that kind is told of kind 0. */
+START_TEST(kinds_that_cannot_be_had)
+{
+    icc_domain *const d[2] = {domain_of(2, &(test_shape){PLATE, 1e-13, 0}),
+                              domain_of(2, &(test_shape){BODY, 8, 0.6})};
+    const icc_map_options mesh = {.size = sizeof mesh, .kind = ICC_MAP_MESH};
+    icc_error err = {.size = sizeof err};
+    icc_map_info info = {.size = sizeof info};
+    icc_map *map;
+    ck_assert_int_eq(icc_map_create(&map, d[0], d[1], NULL, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(icc_map_get_info(map, &info), ICC_OK);
+    ck_assert_int_eq(info.kind, ICC_MAP_CURVES);
+    ck_assert_uint_gt(report_of(map).n_unrepaired, 0);
+    icc_map_free(map);
+    ck_assert_int_eq(icc_map_create(&map, d[0], d[1], &mesh, NULL, &err), ICC_ERR_CERTIFICATE);
+    ck_assert_ptr_null(map);
+    ck_assert_msg(strstr(err.message, "tetrahedra") && strstr(err.message, "kind 0"), "%s",
+                  err.message);
+    icc_domain_free(d[0]);
+    icc_domain_free(d[1]);
+}
+END_TEST
+
 /* Inverses and points, on their way back: here and there from the first allocation and report to the
  * last. */
 START_TEST(failures)
@@ -290,6 +330,7 @@ int main(void)
     tcase_add_test(tcase, in_pockets);
     tcase_add_test(tcase, in_a_coat);
     tcase_add_test(tcase, random_pairs);
+    tcase_add_test(tcase, kinds_that_cannot_be_had);
     tcase_add_test(tcase, failures);
     suite_add_tcase(suite, tcase);
     return suite_run(suite);
