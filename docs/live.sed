@@ -12,3 +12,4 @@
 /images\/bar\.png/a @htmlonly <iframe src="studio.html#space" title="The studio: a bar to bend" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /^<!-- live: parish -->/a @htmlonly <iframe src="studio.html#parish" title="The studio: the parish of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
 /^<!-- live: square -->/a @htmlonly <iframe src="studio.html#square" title="The studio: the square of this page" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
+/^<!-- live: tripus -->/a @htmlonly <iframe src="studio.html#tripus" title="The studio: the papers' steps on the shape with three legs" loading="lazy" style="width:100%;height:760px;border:0"></iframe> @endhtmlonly
