@@ -68,12 +68,19 @@ check_linux_arm64() {
 }
 
 check_windows() {
-    need wine wine64 python3
+    need wine wine64 python3 binutils-mingw-w64-x86-64
     fresh windows
     export WINEPREFIX="$work/windows/wine" WINEDEBUG=-all
     wine wineboot --init
     /usr/bin/python3 -m zipfile -e "$dist/$release-windows-x86_64.zip" .
     mv "$release-windows-x86_64/libicc.exe" .
+    # Debian's Wine has libraries that Windows lacks.
+    for file in libicc.exe "$release-windows-x86_64/libicc.dll"; do
+        x86_64-w64-mingw32-objdump -p "$file" | sed -n 's/.*DLL Name: //p' >needs.txt
+        if grep -ivx -e 'kernel32\.dll' -e 'msvcrt\.dll' needs.txt; then
+            return 1
+        fi
+    done
     use wine ./libicc.exe
     tr -d '\r' <fish/there.txt >fish/unix.txt
     mv fish/unix.txt fish/there.txt

@@ -7,6 +7,8 @@ set(CMAKE_RC_COMPILER x86_64-w64-mingw32-windres)
 if(NOT DEFINED CMAKE_FIND_ROOT_PATH)
   set(CMAKE_FIND_ROOT_PATH /usr/x86_64-w64-mingw32)
 endif()
+# CMake would take the zlib that needs zlib1.dll beside the program.
+set(ZLIB_LIBRARY_RELEASE /usr/x86_64-w64-mingw32/lib/libz.a CACHE FILEPATH "zlib, to be linked in")
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

@@ -93,9 +93,11 @@ build_windows() {
     # The targets are a list of words.
     # shellcheck disable=SC2086
     cmake --build "$work/build" --parallel "$jobs" --target $targets
-    # Windows alone: no library of the compiler's has to lie beside it.
-    x86_64-w64-mingw32-objdump -p "$work/build/lib/libicc.dll" >"$work/libicc.txt"
-    [ "$(sed -n 's/.*DLL Name: //p' "$work/libicc.txt" | grep -civ -e '^kernel32\.dll$' -e '^msvcrt\.dll$')" = 0 ]
+    # Windows alone: no library of the compiler's, or of Debian's, has to lie beside them.
+    for file in tools/libicc.exe lib/libicc.dll; do
+        x86_64-w64-mingw32-objdump -p "$work/build/$file" >"$work/libicc.txt"
+        [ "$(sed -n 's/.*DLL Name: //p' "$work/libicc.txt" | grep -civ -e '^kernel32\.dll$' -e '^msvcrt\.dll$')" = 0 ]
+    done
     ! grep -q iccp_ "$work/libicc.txt"
 }
 
