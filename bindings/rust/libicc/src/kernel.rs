@@ -26,6 +26,6 @@
 pub use crate::binding::{Binding, Counts, Pose};
 pub use crate::sampling::{Sampling, SamplingInfo, SamplingKind, SamplingOptions, Shape};
 pub use crate::weights::{
-    InitialWeights, KernelForm, Line, Nodes, WeightValues, Weights, WeightsInfo, WeightsMethod, WeightsTimings,
-    WeightsOptions, WeightsReport,
+    InitialWeights, KernelForm, Line, Nodes, WeightValues, Weights, WeightsInfo, WeightsMethod,
+    WeightsOptions, WeightsReport, WeightsTimings,
 };

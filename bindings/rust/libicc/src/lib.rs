@@ -55,8 +55,8 @@ mod triangulate;
 mod weights;
 
 pub use chart::{
-    Chart, ChartInfo, ChartOptions, ChartReport, ChartTimings, Codes, Constraints, DiscInfo, FieldInfo, FoliationInfo,
-    FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
+    Chart, ChartInfo, ChartOptions, ChartReport, ChartTimings, Codes, Constraints, DiscInfo, FieldInfo,
+    FoliationInfo, FunctionKind, GradientInfo, Images, Method, ShellingInfo, Solver, TreeForm,
 };
 pub use domain::{
     boundary_defects, repair_mask, BoundaryPoints, Defect, Domain, DomainInfo, Feature, FeatureInfo, Place,

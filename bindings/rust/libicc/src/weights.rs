@@ -8,8 +8,8 @@ use crate::sys;
 use std::ptr;
 
 pub use crate::sys::icc_weights_info as WeightsInfo;
-pub use crate::sys::icc_weights_timings as WeightsTimings;
 pub use crate::sys::icc_weights_report as WeightsReport;
+pub use crate::sys::icc_weights_timings as WeightsTimings;
 
 object!(
     /// Handles, and the weight of each handle everywhere in a shape. Changes make new weights, which share what has not
@@ -307,7 +307,17 @@ impl Weights {
         let mut values = vec![0.0; n];
         env.call(|env, err| {
             // SAFETY: n points, and room for n values.
-            unsafe { sys::icc_weights_get_dual(self.as_ptr(), node, n, points.as_ptr(), values.as_mut_ptr(), env, err) }
+            unsafe {
+                sys::icc_weights_get_dual(
+                    self.as_ptr(),
+                    node,
+                    n,
+                    points.as_ptr(),
+                    values.as_mut_ptr(),
+                    env,
+                    err,
+                )
+            }
         })?;
         Ok(values)
     }
