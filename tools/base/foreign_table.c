@@ -4,7 +4,7 @@
 const char *const foreign_remedies[] = {
     [MAKE_GEOJSON] =
         "'ogr2ogr -f GeoJSON OUT.geojson FILE' makes GeoJSON of it (of several layers, "
-        "name one behind FILE)",
+        "name one after FILE)",
     [MAKE_GEOJSON_OF_TRACKS] = "'ogr2ogr -f GeoJSON OUT.geojson FILE tracks' makes GeoJSON of it "
                                "(or routes, waypoints)",
     [MAKE_GEOJSON_OF_AREAS] =
@@ -74,7 +74,8 @@ const foreign_format foreign_formats[] = {
     {JSON("rings"), "an Esri JSON geometry; its `rings` are the coordinates of a GeoJSON Polygon",
      NO_REMEDY},
     {BEGINS("mapX,mapY,"),
-     "a list of control points (QGIS), no outline; --landmarks takes it, beside the outlines of "
+     "a list of control points (QGIS), not an outline; --landmarks takes it, beside the outlines "
+     "of "
      "both sheets (-s, -t)",
      NO_REMEDY},
     /* surfaces and scenes */
@@ -143,8 +144,8 @@ const foreign_format foreign_formats[] = {
     {BEGINS("[gd_scene"), "a Godot scene", WRITE_VERTICES},
     {BEGINS("[gd_resource"), "a Godot resource", WRITE_VERTICES},
     /* pictures and documents */
-    {AT(0, "\xff\xd8\xff"), "a JPEG picture, which only warp and pose take", NO_REMEDY},
-    {AT(0, "\x89PNG"), "a PNG picture, which only warp and pose take", NO_REMEDY},
+    {AT(0, "\xff\xd8\xff"), "a JPEG picture, which only warp, animate and pose read", NO_REMEDY},
+    {AT(0, "\x89PNG"), "a PNG picture, which only warp, animate and pose read", NO_REMEDY},
     {AT(0, "II*\0"), "a TIFF picture", MAKE_PNG_OR_KEEP},
     {AT(0, "MM\0*"), "a TIFF picture", MAKE_PNG_OR_KEEP},
     {AT(0, "II+\0"), "a TIFF picture", MAKE_PNG_OR_KEEP},

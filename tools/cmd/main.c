@@ -190,7 +190,8 @@ static const command commands[] = {
          "                                    or \"centre\" and \"radius\" for a region\n"
          "\n"
          "The shape consists of the source, the regions and the curves. With --picture or "
-         "--binding the weights are written only if you give -o.\n"},
+         "--binding the weights are written only if you give -o. libicc-files(5) lists all "
+         "members.\n"},
     {.name = "encode",
      .bit = FOR_ENCODE,
      .run = run_encode,
