@@ -31,7 +31,8 @@ icc_status icc_binding_create(icc_binding **out, const icc_weights *weights, siz
     if (status != ICC_OK)
         return status;
     if (derivatives < 0 || derivatives > 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld", (long)derivatives);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "derivatives is %ld; it must be 0 or 1",
+                         (long)derivatives);
     for (size_t i = 0, dim = weights->nodes->dim; i < n; ++i)
         if (!are_finite(dim, points + dim * i))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,

@@ -40,14 +40,21 @@ static icc_status check_choice(int32_t value, int32_t first, int32_t last, const
 {
     if (value >= first && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %ld", member, (long)value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT,
+                     "icc_weights_options.%s is %ld; it must lie in %ld..%ld", member, (long)value,
+                     (long)first, (long)last);
 }
 
 static icc_status check_amount(double value, double most, const char *member, icc_error *err)
 {
     if (value >= 0 && value <= most && isfinite(value))
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g", member, value);
+    if (isinf(most))
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_weights_options.%s is %g; it must be finite and at least 0", member,
+                         value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_weights_options.%s is %g; it must lie in [0, %g]",
+                     member, value, most);
 }
 
 /* Refuses options that are wrong for any sampling. */
@@ -362,7 +369,8 @@ icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights
     if (status != ICC_OK)
         return status;
     if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld", (long)method);
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld; it must lie in %d..%d",
+                         (long)method, (int)ICC_WEIGHTS_QP, (int)ICC_WEIGHTS_L1);
     return iccp_end_weights(
         iccp_explain(err, iccp_weights_with_method(out, weights, method, &full_env)), out,
         &full_env, err);
@@ -386,8 +394,8 @@ icc_status icc_weights_stiffen(icc_weights **out, const icc_weights *weights, si
     for (size_t k = 0; rigidity != NULL && k < n; ++k)
         if (!(rigidity[k] > 0) || !isfinite(rigidity[k]))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_NODE, (int64_t)k,
-                                "the rigidity of node %lu is %g", (unsigned long)nodes[k],
-                                rigidity[k]);
+                                "the rigidity of node %lu is %g; it must be positive and finite",
+                                (unsigned long)nodes[k], rigidity[k]);
     return iccp_end_weights(iccp_explain(err, iccp_weights_stiffen(out, weights, n, nodes, rigidity,
                                                                    energy, &full_env, err)),
                             out, &full_env, err);

@@ -17,7 +17,8 @@ static icc_status read_options(icc_map_options *full, const icc_map_options *opt
 {
     const icc_status status = iccp_read_struct(full, sizeof *full, options, "icc_map_options", err);
     if (status == ICC_OK && full->iterations < -1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_map_options.iterations is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_map_options.iterations is %ld; it must be at least -1",
                          (long)full->iterations);
     return status;
 }
@@ -303,7 +304,8 @@ icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain 
     if (status == ICC_OK)
         status = iccp_read_struct(&full, sizeof full, options, "icc_retarget_options", err);
     if (status == ICC_OK && full.iterations < -1)
-        status = iccp_fail(err, ICC_ERR_ARGUMENT, "icc_retarget_options.iterations is %ld",
+        status = iccp_fail(err, ICC_ERR_ARGUMENT,
+                           "icc_retarget_options.iterations is %ld; it must be at least -1",
                            (long)full.iterations);
     return status == ICC_OK
                ? iccp_end_map(iccp_map_retarget(out, map, target, full.iterations, &full_env, err),

@@ -16,11 +16,13 @@ static const double max_drop = .01, max_tolerance = .1;
 static icc_status check_options(const icc_match_options *options, icc_error *err)
 {
     if (options->turning < 0 || options->turning > ICC_TURNING_FREE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.turning is %ld",
-                         (long)options->turning);
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.turning is %ld; it must lie in 0..%d",
+                         (long)options->turning, (int)ICC_TURNING_FREE);
     if (options->between < 0 || options->between > ICC_BETWEEN_ARC)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.between is %ld",
-                         (long)options->between);
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.between is %ld; it must lie in 0..%d",
+                         (long)options->between, (int)ICC_BETWEEN_ARC);
     if (!(options->least_sure >= 0 && isfinite(options->least_sure)))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_match_options.least_sure is %g; it must be finite and not negative",
@@ -34,7 +36,8 @@ static icc_status check_options(const icc_match_options *options, icc_error *err
                          "icc_match_options.tolerance is %g; it must be at most %g",
                          options->tolerance, max_tolerance);
     if (options->keep_source < 0 || options->keep_source > 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_match_options.keep_source is %ld",
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_match_options.keep_source is %ld; it must be 0 or 1",
                          (long)options->keep_source);
     return ICC_OK;
 }

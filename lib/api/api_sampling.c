@@ -87,7 +87,10 @@ static icc_status check_spread(const icc_sampling_options *o, const icc_shape *s
                                icc_error *err)
 {
     if (o->kind != ICC_SAMPLING_GRID && o->kind != ICC_SAMPLING_BLUE)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_sampling_options.kind is %ld", (long)o->kind);
+        return iccp_fail(
+            err, ICC_ERR_ARGUMENT,
+            "icc_sampling_options.kind is %ld; it must be ICC_SAMPLING_BLUE or ICC_SAMPLING_GRID",
+            (long)o->kind);
     if (o->kind == ICC_SAMPLING_GRID && shape->n_regions == 0)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "a grid samples regions, but there are none");
     if (o->steps < -1 || o->steps > MAX_STEPS)

@@ -194,7 +194,10 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
     if (full->form == 0)
         full->form = ICC_TREE_THESIS;
     if (full->form != ICC_TREE_THESIS && full->form != ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_tree_options.form is %ld", (long)full->form);
+        return iccp_fail(
+            err, ICC_ERR_ARGUMENT,
+            "icc_tree_options.form is %ld; it must be ICC_TREE_THESIS or ICC_TREE_PAPER",
+            (long)full->form);
     return check_axis_order(full->axis_order, dim, err);
 }
 

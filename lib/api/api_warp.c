@@ -13,7 +13,8 @@ static icc_status read_picture(icc_picture *full, const icc_picture *given, icc_
     if (status != ICC_OK)
         return status;
     if (full->width < 1 || full->height < 1)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "the picture has %ld x %ld pixels",
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "the picture has %ld x %ld pixels; it must have at least 1 x 1",
                          (long)full->width, (long)full->height);
     if (full->channels < 1 || full->channels > ICCP_MOST_CHANNELS)
         return iccp_fail(err, ICC_ERR_ARGUMENT,

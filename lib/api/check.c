@@ -86,7 +86,8 @@ static icc_status check_choice(int32_t value, int32_t last, const char *name, co
 {
     if (value >= 0 && value <= last)
         return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.%s is %ld", name, member, (long)value);
+    return iccp_fail(err, ICC_ERR_ARGUMENT, "%s.%s is %ld; it must lie in 0..%ld", name, member,
+                     (long)value, (long)last);
 }
 
 /* Checks a small relative amount. 0 stands for a default, and NaN is refused. */
@@ -127,7 +128,9 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
     if (iccp_check_function(&function, "icc_chart_options", err) != ICC_OK)
         return ICC_ERR_ARGUMENT;
     if (full->tree < 0 || full->tree > ICC_TREE_PAPER)
-        return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_chart_options.tree is %ld", (long)full->tree);
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_chart_options.tree is %ld; it must lie in 0..%d", (long)full->tree,
+                         (int)ICC_TREE_PAPER);
     if (full->cells != 0 && (full->cells < ICCP_MIN_CELLS || full->cells > ICCP_MAX_CELLS))
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "icc_chart_options.cells is %ld; it must lie in %ld..%ld",
