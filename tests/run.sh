@@ -137,6 +137,7 @@ if [ "$tier" = plain ]; then
 elif [ "$sanitized" = no ]; then
     also "nothing is left out" test -z "$left_out"
     also "reference documentation" reference
+    [ "$preset" != release ] || also "examples" sh examples/run.sh
     also "Debian packages" packages
     if [ "$tier" = long ]; then
         also "JavaScript" sh bindings/js/test.sh --long
@@ -149,6 +150,7 @@ elif [ "$sanitized" = no ]; then
     fi
 fi
 if [ "$tier-$sanitized" = long-no ]; then
+    also "all examples" sh examples/run.sh --all
     also "a hundred times the fuzzers' variations" fuzz
     also "address and undefined-behaviour sanitizers" env CC=clang sh tests/run.sh --long asan
     also "thread sanitizer" env CC=clang sh tests/run.sh --long tsan
