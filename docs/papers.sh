@@ -54,7 +54,7 @@ sed -n 's/^| [FTA][^|]*|[^|]*| `\([^`]*\)` |.*/\1/p' "$page" | grep -v '^sh exam
 [ -s "$out/commands" ] || { echo "$page has no commands" >&2; exit 1; }
 
 # The programs of benchmarks and tests are called as their files are.
-targets=$(sed -n 's,^build/release/tests/bench/\([a-z_]*\).*,\1,p; s,^ctest .* -R \(.*\),\1,p' "$out/commands" | tr / _)
+targets=$(sed -n 's,^build/release/tests/bench/\([a-z_]*\).*,\1,p; s,^ctest .* -R \([^$]*\).*,\1,p' "$out/commands" | tr / _)
 made configure cmake -S . -B "$build" -DICC_BUILD_BENCHMARKS=ON
 # The names are words.
 # shellcheck disable=SC2086

@@ -25,7 +25,7 @@ ROW = re.compile(r"\| (Figure|Table|Algorithm)s? ([^|]*) \|[^|]*\| `([^|`]*)` \|
 SOURCES = (
     (r"build/release/tests/bench/(bench_\w+)$", "tests/bench/{}.c"),
     (r"build/examples/programs/(\w+)( |$)", "examples/{}.c"),
-    (r"ctest --test-dir build/release -R (\S+)$", "tests/{}.c"),
+    (r"ctest --test-dir build/release -R (\S+?)\$?$", "tests/{}.c"),
     (r"(?:python3|sh) (\S+)", "{}"),
 )
 
