@@ -91,7 +91,10 @@ enum {
     ICC_FUNCTION_CLAMPED = 5,
     /** like Laplace, but 0 where the grid's edges cross the boundary: it follows the shape, not
      *  a staircase */
-    ICC_FUNCTION_HARMONIC = 6
+    ICC_FUNCTION_HARMONIC = 6,
+    /** reported of a function that has the caller's values: icc_function_create_values(). Not for
+     *  options */
+    ICC_FUNCTION_VALUES = 7
 };
 
 /** Whether f(parent) >= (1 + min_fall) f(child) is imposed on the edges of the tree inside. This

@@ -46,7 +46,7 @@ static tally climb(const icc_function *field)
         pick(field->tree->grid, &r, p);
         icc_status status = iccp_walkn_start(&walk, field, ICCP_UPHILL, p, NULL, NULL);
         const size_t budget = walk.steps_left;
-        status = iccp_walkn_uphill(&walk, NULL, NULL);
+        status = iccp_walkn_uphill(&walk, NULL);
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }
@@ -75,7 +75,7 @@ static tally climb_plane(const icc_function *field)
         pick(field->tree->grid, &r, p);
         icc_status status = iccp_walk2_start(&walk, field, ICCP_UPHILL, p[0], p[1], NULL);
         const size_t budget = walk.steps_left;
-        status = iccp_trace_uphill(&walk, NULL, NULL);
+        status = iccp_trace_uphill(&walk, NULL);
         t.n_steps += budget - walk.steps_left;
         t.n_ends += status == ICC_OK;
     }

@@ -169,14 +169,6 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
     return status;
 }
 
-static icc_status make_boundary(iccp_gradient_state *state, const icc_domain *domain,
-                                const iccp_env *env)
-{
-    const icc_grid *grid = state->tree->grid;
-    return domain->dim == 2 ? iccp_boundary_cells2_create(&state->cells2, domain, grid, env)
-                            : iccp_boundary_cellsn_create(&state->cellsn, domain, grid, env);
-}
-
 static void place_maximum(iccp_gradient_state *state, icc_chart *chart)
 {
     const icc_grid *grid = state->tree->grid;
@@ -231,7 +223,7 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     double boundary[ICC_MAX_DIM], p[ICC_MAX_DIM], share;
     iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, boundary);
     iccp_gradient_line line;
-    const icc_status status = iccp_gradient_up_from(chart, coords->facet, boundary, path, &line);
+    const icc_status status = iccp_gradient_up_from(state, coords->facet, boundary, path, &line);
     if (status != ICC_OK)
         return status;
     if (path->n < 2)
@@ -278,7 +270,7 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
     iccp_gradient_line line;
     icc_status status;
     if (boundary != NULL) {
-        status = iccp_gradient_up_from(chart, boundary->facet, point, path, &line);
+        status = iccp_gradient_up_from(state, boundary->facet, point, path, &line);
     } else {
         iccp_gradient_to_lattice(state, point, p);
         status = trace_below(state, p, path, emit, argument);
@@ -293,12 +285,7 @@ static icc_status trace(const icc_chart *chart, const double *point, const iccp_
 static void free_state(icc_chart *chart)
 {
     iccp_gradient_state *state = chart->state;
-    if (chart->domain->dim == 2)
-        iccp_boundary_cells2_free(&state->cells2);
-    else
-        iccp_boundary_cellsn_free(&state->cellsn);
-    iccp_function_release(state->field);
-    iccp_tree_release(state->tree);
+    iccp_gradient_state_clear(state);
     iccp_free(&chart->memory, state);
 }
 
@@ -329,7 +316,7 @@ static icc_status create(icc_chart **out, const icc_domain *domain,
     if (status == ICC_OK)
         status = make_field(state, chart, options, &part[1], err);
     if (status == ICC_OK)
-        status = make_boundary(state, domain, &part[2]);
+        status = iccp_gradient_meet_boundary(state, &part[2]);
     if (status == ICC_OK) {
         place_maximum(state, chart);
         iccp_chart_parameters_set(&state->parameters, options, options->maximum, domain->dim);

@@ -92,8 +92,8 @@ icc_status iccp_gradient_decode_jet(const icc_chart *chart, const iccp_coords *c
     for (int32_t k = 0; k < dim; ++k)
         for (int32_t c = 0; c + 1 < dim; ++c)
             moving.x[k][c] = edge[c][k] / h;
-    const icc_status status =
-        iccp_gradient_up_again(chart, coords->facet, boundary, &moving, piece, path->n - 1, &line);
+    const icc_status status = iccp_gradient_up_again(chart->state, coords->facet, boundary, &moving,
+                                                     piece, path->n - 1, &line);
     if (status != ICC_OK)
         return status;
     const double *a = iccp_path_at(path, piece), *b = iccp_path_at(path, piece + 1);

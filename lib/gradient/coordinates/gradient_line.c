@@ -39,10 +39,12 @@ static icc_status down_in_plane(const iccp_gradient_state *state, const double *
     icc_status status = iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, from[0], from[1],
                                          jet != NULL ? &flat : NULL);
     if (status == ICC_OK)
-        status = iccp_trace_downhill(&walk, &state->cells2, path, &hit);
+        status = iccp_trace_downhill(&walk, state->cells2.first != NULL ? &state->cells2 : NULL,
+                                     path, &hit);
     if (status == ICC_OK)
         *line = (iccp_gradient_line){.s = walk.s,
                                      .merged = walk.merged,
+                                     .alone = walk.alone,
                                      .facet = hit.facet,
                                      .bary = {1 - hit.along, hit.along}};
     if (status == ICC_OK && jet != NULL)
@@ -59,27 +61,27 @@ icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *fr
     iccp_boundary_hitn hit;
     icc_status status = iccp_walkn_start(&walk, state->field, ICCP_DOWNHILL, from, NULL, jet);
     if (status == ICC_OK)
-        status = iccp_walkn_downhill(&walk, &state->cellsn, path, &hit);
+        status = iccp_walkn_downhill(&walk, state->cellsn.domain != NULL ? &state->cellsn : NULL,
+                                     path, &hit);
     if (status != ICC_OK)
         return status;
-    *line = (iccp_gradient_line){.s = walk.s, .merged = walk.merged, .facet = hit.facet};
+    *line = (iccp_gradient_line){
+        .s = walk.s, .merged = walk.merged, .alone = walk.alone, .facet = hit.facet};
     memcpy(line->bary, hit.bary, sizeof line->bary);
     return ICC_OK;
 }
 
 static icc_status climb_in_plane(iccp_walk2 *walk, iccp_path *path, iccp_gradient_line *line)
 {
-    double alone;
-    const icc_status status = iccp_trace_uphill(walk, path, &alone);
-    *line = (iccp_gradient_line){.s = walk->s, .merged = walk->merged, .alone = alone};
+    const icc_status status = iccp_trace_uphill(walk, path);
+    *line = (iccp_gradient_line){.s = walk->s, .merged = walk->merged, .alone = walk->alone};
     return status;
 }
 
 static icc_status climb(iccp_walkn *walk, iccp_path *path, iccp_gradient_line *line)
 {
-    double alone;
-    const icc_status status = iccp_walkn_uphill(walk, path, &alone);
-    *line = (iccp_gradient_line){.s = walk->s, .merged = walk->merged, .alone = alone};
+    const icc_status status = iccp_walkn_uphill(walk, path);
+    *line = (iccp_gradient_line){.s = walk->s, .merged = walk->merged, .alone = walk->alone};
     return status;
 }
 
@@ -106,13 +108,12 @@ icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from
 }
 
 /* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
-static icc_status depart_in_plane(const icc_chart *chart, uint32_t facet, const double point[2],
-                                  iccp_walk2 *walk, iccp_jet2 *jet)
+static icc_status depart_in_plane(const iccp_gradient_state *state, uint32_t facet,
+                                  const double point[2], iccp_walk2 *walk, iccp_jet2 *jet)
 {
-    const iccp_gradient_state *state = chart->state;
     double p[2], inward[2];
     iccp_gradient_to_lattice(state, point, p);
-    iccp_facet_inward(chart->domain, facet, inward);
+    iccp_facet_inward(state->tree->grid->domain, facet, inward);
     const icc_status status = iccp_walk2_start(walk, state->field, ICCP_UPHILL, p[0], p[1], jet);
     if (status == ICC_OK)
         iccp_walk2_face(walk, inward);
@@ -120,42 +121,41 @@ static icc_status depart_in_plane(const icc_chart *chart, uint32_t facet, const 
 }
 
 /* The same in other dimensions. */
-static icc_status depart(const icc_chart *chart, uint32_t facet, const double *point,
+static icc_status depart(const iccp_gradient_state *state, uint32_t facet, const double *point,
                          iccp_walkn *walk, iccp_jetn *jet)
 {
-    const iccp_gradient_state *state = chart->state;
     double from[ICC_MAX_DIM], inward[ICC_MAX_DIM];
     iccp_gradient_to_lattice(state, point, from);
-    iccp_facet_inward(chart->domain, facet, inward);
+    iccp_facet_inward(state->tree->grid->domain, facet, inward);
     return iccp_walkn_start(walk, state->field, ICCP_UPHILL, from, inward, jet);
 }
 
-icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const double *point,
-                                 iccp_path *path, iccp_gradient_line *line)
+icc_status iccp_gradient_up_from(const iccp_gradient_state *state, uint32_t facet,
+                                 const double *point, iccp_path *path, iccp_gradient_line *line)
 {
     icc_status status;
-    if (is_plane(chart->state)) {
+    if (is_plane(state)) {
         iccp_walk2 walk;
-        status = depart_in_plane(chart, facet, point, &walk, NULL);
+        status = depart_in_plane(state, facet, point, &walk, NULL);
         return status == ICC_OK ? climb_in_plane(&walk, path, line) : status;
     }
     iccp_walkn walk;
-    status = depart(chart, facet, point, &walk, NULL);
+    status = depart(state, facet, point, &walk, NULL);
     return status == ICC_OK ? climb(&walk, path, line) : status;
 }
 
-icc_status iccp_gradient_up_again(const icc_chart *chart, uint32_t facet, const double *point,
-                                  const iccp_jetn *jet, size_t piece, size_t n_steps,
-                                  iccp_gradient_replay *replay)
+icc_status iccp_gradient_up_again(const iccp_gradient_state *state, uint32_t facet,
+                                  const double *point, const iccp_jetn *jet, size_t piece,
+                                  size_t n_steps, iccp_gradient_replay *replay)
 {
-    const bool plane = is_plane(chart->state);
+    const bool plane = is_plane(state);
     iccp_walkn walk;
     iccp_walk2 walk2;
     iccp_jet2 flat;
     replay->end = *jet;
     to_plane(jet, &flat);
-    icc_status status = plane ? depart_in_plane(chart, facet, point, &walk2, &flat)
-                              : depart(chart, facet, point, &walk, &replay->end);
+    icc_status status = plane ? depart_in_plane(state, facet, point, &walk2, &flat)
+                              : depart(state, facet, point, &walk, &replay->end);
     for (size_t k = 0; status == ICC_OK && k < n_steps; ++k) {
         if (k == piece)
             replay->before = replay->end;

@@ -9,7 +9,7 @@
 typedef struct iccp_gradient_line {
     double s;       /* arc length in lattice units */
     bool merged;    /* other lines have joined it */
-    double alone;   /* uphill: arc length until others joined it */
+    double alone;   /* arc length until others joined it */
     uint32_t facet; /* downhill: the facet where it ends */
     double bary[ICC_MAX_DIM];
 } iccp_gradient_line;
@@ -25,8 +25,8 @@ icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from
                             iccp_jetn *jet, iccp_gradient_line *line);
 
 /* Follows the line to the maximum from a local point of a facet, into the domain. */
-icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const double *point,
-                                 iccp_path *path, iccp_gradient_line *line);
+icc_status iccp_gradient_up_from(const iccp_gradient_state *state, uint32_t facet,
+                                 const double *point, iccp_path *path, iccp_gradient_line *line);
 
 /* Repeats a line with derivatives with respect to the point where it starts. Goes to the end of the
  * step numbered `piece`, and on to the end of the line, which has n_steps. `jet` holds the
@@ -34,9 +34,9 @@ icc_status iccp_gradient_up_from(const icc_chart *chart, uint32_t facet, const d
 typedef struct iccp_gradient_replay {
     iccp_jetn before, after, end; /* before and after that step, and at the end of the line */
 } iccp_gradient_replay;
-icc_status iccp_gradient_up_again(const icc_chart *chart, uint32_t facet, const double *point,
-                                  const iccp_jetn *jet, size_t piece, size_t n_steps,
-                                  iccp_gradient_replay *replay);
+icc_status iccp_gradient_up_again(const iccp_gradient_state *state, uint32_t facet,
+                                  const double *point, const iccp_jetn *jet, size_t piece,
+                                  size_t n_steps, iccp_gradient_replay *replay);
 
 /* Returns the sign of the derivative of f at a point along a direction, both in lattice
  * coordinates. Not exact. */

@@ -151,7 +151,8 @@ static void check_boundary_point(const boundary_samples *samples, size_t index)
     samples->inward[index] = iccp_gradient_slope_sign(state, lattice, inward) > 0;
     samples->collapsed[index] = NAN;
     iccp_gradient_line line;
-    if (iccp_gradient_up_from(samples->chart, (uint32_t)facet, point, NULL, &line) == ICC_OK &&
+    if (iccp_gradient_up_from(samples->chart->state, (uint32_t)facet, point, NULL, &line) ==
+            ICC_OK &&
         line.s > 0)
         samples->collapsed[index] = 1 - line.alone / line.s;
 }

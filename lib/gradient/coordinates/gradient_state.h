@@ -32,4 +32,10 @@ static inline void iccp_gradient_to_local(const iccp_gradient_state *state, cons
         local[k] = lattice[k] * grid->spacing + grid->origin[k];
 }
 
+/* Finds the cells that the boundary passes through. The tree is set, and its grid has a domain. */
+icc_status iccp_gradient_meet_boundary(iccp_gradient_state *state, const iccp_env *env);
+
+/* Frees everything but the struct itself, which may be all zero. */
+void iccp_gradient_state_clear(iccp_gradient_state *state);
+
 #endif

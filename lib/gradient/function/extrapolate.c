@@ -97,30 +97,33 @@ static uint32_t highest_behind(const icc_function *function, uint32_t v, uint32_
  * third less area uncovered, and the gradient fails to point inward at fewer boundary points
  * (tests/bench/bench_collapse). If the layer between is not 0, the three values lie on a line, or
  * on a plane with the fourth corner of a square. */
-static void mirror(icc_function *function, bool has_zeros)
+static void mirror(icc_function *function, uint32_t v, bool has_zeros)
 {
-    const icc_tree *tree = function->tree;
-    for (size_t i = tree->n_inside; i < tree->n_reached; ++i) {
-        uint32_t between = ICCP_NONE;
-        const uint32_t v = tree->order[i], behind = highest_behind(function, v, &between);
-        if (behind == ICCP_NONE)
-            continue;
-        const uint32_t at[3] = {behind, between, behind + v - between};
-        double local[3];
-        iccp_function_local(function, 3, at, local);
-        function->values[v] = has_zeros ? -local[0] : local[1] + local[2] - local[0];
-        if (function->exponent != NULL)
-            function->exponent[v] = highest_exponent(function, 3, at);
-        if (function->plain != NULL)
-            function->plain[v] = has_zeros ? -function->plain[behind]
-                                           : ldexp(function->values[v], function->exponent[v]);
-    }
+    uint32_t between = ICCP_NONE;
+    const uint32_t behind = highest_behind(function, v, &between);
+    if (behind == ICCP_NONE)
+        return;
+    const uint32_t at[3] = {behind, between, behind + v - between};
+    double local[3];
+    iccp_function_local(function, 3, at, local);
+    function->values[v] = has_zeros ? -local[0] : local[1] + local[2] - local[0];
+    if (function->exponent != NULL)
+        function->exponent[v] = highest_exponent(function, 3, at);
+    if (function->plain != NULL)
+        function->plain[v] = has_zeros ? -function->plain[behind]
+                                       : ldexp(function->values[v], function->exponent[v]);
+}
+
+void iccp_function_extend_line(icc_function *function, uint32_t vertex)
+{
+    mirror(function, vertex, false);
 }
 
 icc_status iccp_function_extrapolate(icc_function *function, const iccp_unknowns *unknowns)
 {
     const icc_status status = unknowns->reach != NULL ? go_on(function, unknowns) : ICC_OK;
-    if (status == ICC_OK)
-        mirror(function, unknowns->reach == NULL);
+    const icc_tree *tree = function->tree;
+    for (size_t i = tree->n_inside; status == ICC_OK && i < tree->n_reached; ++i)
+        mirror(function, tree->order[i], unknowns->reach == NULL);
     return status;
 }

@@ -10,4 +10,8 @@
  * behind them. */
 icc_status iccp_function_extrapolate(icc_function *function, const iccp_unknowns *unknowns);
 
+/* Sets the value of an outside vertex behind one that is next to the inside: linearly from there.
+ * Has no effect on other vertices. */
+void iccp_function_extend_line(icc_function *function, uint32_t vertex);
+
 #endif

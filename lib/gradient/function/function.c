@@ -6,6 +6,7 @@
 #include "math/elementary.h"
 
 #include <stdbool.h>
+#include <string.h>
 
 /* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
 enum { LEAST_EXPONENT = -900 };
@@ -127,6 +128,56 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
     if (positive && least < LEAST_EXPONENT)
         status = assign_exponents(function, unknowns, f);
     return status == ICC_OK ? iccp_function_extrapolate(function, unknowns) : status;
+}
+
+void iccp_function_find_highest(icc_function *function)
+{
+    const icc_tree *tree = function->tree;
+    uint32_t ends[2] = {tree->root, tree->root};
+    double local[2];
+    for (size_t i = 1; i < tree->n_inside; ++i)
+        if (iccp_function_compare(function, tree->order[i], ends[1]) > 0)
+            ends[1] = tree->order[i];
+    function->info.highest = ends[1];
+    function->info.beside = ends[1] != tree->root;
+    if (function->info.beside) {
+        iccp_function_local(function, 2, ends, local);
+        function->info.excess = (local[1] - local[0]) / fabs(local[0]);
+    }
+}
+
+static bool copy_values(icc_function *copy, double **to, const double *from)
+{
+    const size_t n = copy->tree->grid->n_vertices;
+    if (from == NULL)
+        return true;
+    if (*to == NULL)
+        *to = iccp_alloc(&copy->memory, n, sizeof **to);
+    if (*to != NULL)
+        memcpy(*to, from, n * sizeof **to);
+    return *to != NULL;
+}
+
+icc_status iccp_function_copy(icc_function **out, const icc_function *function, const iccp_env *env)
+{
+    icc_status status = iccp_function_new(out, function->tree, env);
+    if (status != ICC_OK)
+        return status;
+    icc_function *copy = *out;
+    const size_t n = function->tree->grid->n_vertices;
+    copy->info = function->info;
+    copy->has_logs = function->has_logs;
+    if (function->exponent != NULL)
+        copy->exponent = iccp_alloc(&copy->memory, n, sizeof *copy->exponent);
+    if (copy->exponent != NULL)
+        memcpy(copy->exponent, function->exponent, n * sizeof *copy->exponent);
+    if (copy_values(copy, &copy->values, function->values) &&
+        copy_values(copy, &copy->plain, function->plain) &&
+        (copy->exponent != NULL || function->exponent == NULL))
+        return ICC_OK;
+    iccp_function_release(copy);
+    *out = NULL;
+    return ICC_ERR_MEMORY;
 }
 
 void iccp_function_release(icc_function *function)

@@ -11,7 +11,7 @@
  * - load: the point at which a bi-Laplace equation is driven. move_maximum.h moves it.
  *
  * Ways: make_function.c sets functions of the generation and of the distance along the tree, and
- * asks laplace.h for the others. extrapolate.h gives values outside.
+ * asks laplace.h for the others. given_function.h takes the caller's values. extrapolate.h gives values outside.
  *
  * Invariants: values are NaN where the tree does not reach, until gradient/coordinates extends
  * them. Otherwise only the cached logarithms are made after make_function.h. */
@@ -44,6 +44,14 @@ icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const icc
  * again. After ICC_ERR_MEMORY, the function is only good for iccp_function_release(). */
 icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unknowns,
                                 const iccp_scaled *f);
+
+/* Finds the highest vertex: the root, unless the function is greater elsewhere. Of several greatest
+ * vertices, it is the one that the tree reaches first. Sets it in `info`. */
+void iccp_function_find_highest(icc_function *function);
+
+/* Makes a copy with the same tree. */
+icc_status iccp_function_copy(icc_function **out, const icc_function *function,
+                              const iccp_env *env);
 
 /* Returns the logarithm at a vertex of a function that has logarithms: -HUGE_VAL outside, NaN where
  * the tree does not reach. */

@@ -23,24 +23,6 @@ static icc_function_options complete(const icc_function_options *options)
     return full;
 }
 
-/* Finds the highest vertex: the root, unless the function is greater elsewhere. Of several greatest
- * vertices, it is the one that the tree reaches first. */
-static void find_highest(icc_function *function)
-{
-    const icc_tree *tree = function->tree;
-    uint32_t ends[2] = {tree->root, tree->root};
-    double local[2];
-    for (size_t i = 1; i < tree->n_inside; ++i)
-        if (iccp_function_compare(function, tree->order[i], ends[1]) > 0)
-            ends[1] = tree->order[i];
-    function->info.highest = ends[1];
-    function->info.beside = ends[1] != tree->root;
-    if (function->info.beside) {
-        iccp_function_local(function, 2, ends, local);
-        function->info.excess = (local[1] - local[0]) / fabs(local[0]);
-    }
-}
-
 /* ---- functions of the generation ---- */
 
 /* Returns the value one generation further from the root. */
@@ -104,7 +86,7 @@ icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
     else
         status = iccp_laplace(function, &full, env, err);
     if (status == ICC_OK) {
-        find_highest(function);
+        iccp_function_find_highest(function);
         *out = function;
     } else {
         iccp_function_release(function);

@@ -437,9 +437,12 @@ icc_status iccp_walk2_step(iccp_walk2 *walk)
         walk->steps_left = 0;
         return ICC_ERR_TRACE;
     }
-    if (walk->at_vertex)
-        return step_from_vertex(walk);
-    return walk->edge < 0 ? step_from_inside(walk) : step_from_edge(walk);
+    const icc_status status = walk->at_vertex  ? step_from_vertex(walk)
+                              : walk->edge < 0 ? step_from_inside(walk)
+                                               : step_from_edge(walk);
+    if (!walk->merged)
+        walk->alone = walk->s;
+    return status;
 }
 
 bool iccp_walk2_at_root(const iccp_walk2 *walk)
@@ -463,19 +466,14 @@ static icc_status begin_path(const iccp_walk2 *walk, iccp_path *path)
     return iccp_path_append(path, p, walk->s);
 }
 
-icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge)
+icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path)
 {
     icc_status status = begin_path(walk, path);
-    double free_length = walk->s;
     while (status == ICC_OK && !iccp_walk2_at_root(walk)) {
         status = iccp_walk2_step(walk);
         if (status == ICC_OK && path != NULL)
             status = iccp_path_append(path, walk->to, walk->s);
-        if (!walk->merged)
-            free_length = walk->s;
     }
-    if (merge != NULL)
-        *merge = free_length;
     return status;
 }
 
@@ -487,6 +485,8 @@ static void end_at_boundary(iccp_walk2 *w, double s_before, const iccp_jet2 *jet
     const double dy = hit->share * (w->to[1] - w->from[1]);
     const double length = sqrt(dx * dx + dy * dy);
     w->s = s_before + length;
+    if (w->alone > s_before)
+        w->alone = w->s;
     w->to[0] = w->from[0] + dx;
     w->to[1] = w->from[1] + dy;
     if (w->jet == NULL)
@@ -522,8 +522,9 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_boundary_cells2 *cel
         /* A step that leaves the grid may have passed the boundary first. */
         if (walk->s <= s_before && status != ICC_OK)
             return status;
-        hit_boundary = iccp_boundary_cells2_first(cells, walk->cell[0], walk->cell[1], walk->from,
-                                                  walk->to, hit);
+        hit_boundary =
+            cells != NULL && iccp_boundary_cells2_first(cells, walk->cell[0], walk->cell[1],
+                                                        walk->from, walk->to, hit);
         if (hit_boundary)
             end_at_boundary(walk, s_before, &jet_before, cells, hit);
         if (path != NULL && (hit_boundary || status == ICC_OK)) {

@@ -48,6 +48,7 @@ typedef struct iccp_walk2 {
     size_t i, j;
     double u, v;           /* position within the cell, in [0, 1] */
     double s;              /* arc length so far */
+    double alone;          /* arc length until other lines joined the walk */
     size_t cell[2];        /* cell of the last step */
     double from[2], to[2]; /* the last step */
     size_t steps_left;     /* far more than a line can need; then ICC_ERR_TRACE */
@@ -74,12 +75,12 @@ bool iccp_walk2_at_root(const iccp_walk2 *walk);
 void iccp_walk2_position(const iccp_walk2 *walk, double p[2]);
 
 /* Algorithm 4: walks to the maximum. Clears `path`, unless NULL, and appends every point including
- * the first. On success walk->s is the length. `merge`, unless NULL, becomes the arc length at
- * which the line first merges with others, or walk->s if it never does. */
-icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path, double *merge);
+ * the first. On success walk->s is the length. */
+icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path);
 
 /* Algorithm 5: walks to the boundary. The walk must have started inside. The last step ends on the
- * boundary, and walk->s and the jet include it. */
+ * boundary, and walk->s and the jet include it. If `cells` is NULL, there is no boundary, and the
+ * walk ends with ICC_ERR_TRACE where there are no values. */
 icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_boundary_cells2 *cells, iccp_path *path,
                                iccp_boundary_hit2 *hit);
 

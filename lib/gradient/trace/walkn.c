@@ -142,11 +142,13 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
     record_step(walk, &m);
     walk->place.face = left;
     walk->ahead = false;
-    for (int i = 0; i <= grid_of(walk)->dim; ++i)
-        if ((left | 1u << i) == all_corners(walk))
-            return cross_facet(walk, i);
-    walk->merged = true;
-    return ICC_OK;
+    int crossed = 0;
+    while (crossed <= grid_of(walk)->dim && (left | 1u << crossed) != all_corners(walk))
+        ++crossed;
+    walk->merged = walk->merged || crossed > grid_of(walk)->dim;
+    if (!walk->merged)
+        walk->alone = walk->s;
+    return crossed <= grid_of(walk)->dim ? cross_facet(walk, crossed) : ICC_OK;
 }
 
 bool iccp_walkn_at_root(const iccp_walkn *walk)
@@ -246,19 +248,14 @@ static icc_status begin_path(const iccp_walkn *walk, iccp_path *path)
     return iccp_path_append(path, walk->to, walk->s);
 }
 
-icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge)
+icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path)
 {
     icc_status status = begin_path(walk, path);
-    double free_length = walk->s;
     while (status == ICC_OK && !iccp_walkn_at_root(walk)) {
         status = iccp_walkn_step(walk);
         if (status == ICC_OK && path != NULL)
             status = iccp_path_append(path, walk->to, walk->s);
-        if (!walk->merged)
-            free_length = walk->s;
     }
-    if (merge != NULL)
-        *merge = free_length;
     return status;
 }
 
@@ -289,6 +286,8 @@ static void end_at_boundary(iccp_walkn *w, double s_before, const iccp_jetn *jet
     const double length = hit->share * (w->s - s_before);
     memcpy(w->to, hit->point, sizeof w->to);
     w->s = s_before + length;
+    if (w->alone > s_before)
+        w->alone = w->s;
     if (w->jet == NULL)
         return;
     double normal[ICC_MAX_DIM], along = 0;
@@ -319,12 +318,13 @@ icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cel
             jet_before = *walk->jet;
         status = iccp_walkn_step(walk);
         /* A step that leaves the grid may have passed the boundary first. */
-        if (walk->s > before || status == ICC_OK)
+        if (cells != NULL && (walk->s > before || status == ICC_OK))
             met = iccp_boundary_cellsn_cross(cells, walk->cell, walk->from, walk->to, hit);
         if (met) {
             end_at_boundary(walk, before, &jet_before, cells, hit);
         } else if (status != ICC_OK) {
-            return iccp_boundary_cellsn_touch(cells, walk->to, hit) ? ICC_OK : status;
+            return cells != NULL && iccp_boundary_cellsn_touch(cells, walk->to, hit) ? ICC_OK
+                                                                                     : status;
         }
         if (path != NULL) {
             const icc_status appended = iccp_path_append(path, walk->to, walk->s);

@@ -19,6 +19,7 @@ typedef struct iccp_walkn {
     bool ahead;    /* try the simplex of the place before others */
     bool merged;   /* the walk has followed or met a lower face, so other lines join it */
     double s;      /* arc length so far */
+    double alone;  /* arc length until other lines joined the walk */
     uint32_t cell; /* lowest corner of the cell of the last step */
     double from[ICC_MAX_DIM], to[ICC_MAX_DIM]; /* the last step */
     size_t steps_left; /* far more than a line can need; then ICC_ERR_TRACE */
@@ -40,12 +41,12 @@ icc_status iccp_walkn_step(iccp_walkn *walk);
 bool iccp_walkn_at_root(const iccp_walkn *walk);
 
 /* Algorithm 4: walks to the maximum. Restarts `path`, unless NULL, and appends every point
- * including the first. On success walk->s is the length. `merge`, unless NULL, becomes the arc
- * length at which the line first merges with others, or walk->s if it never does. */
-icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path, double *merge);
+ * including the first. On success walk->s is the length. */
+icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path);
 
 /* Algorithm 5: walks to the boundary. The walk must have started inside. The last step ends on the
- * boundary, and walk->s and the jet include it. */
+ * boundary, and walk->s and the jet include it. If `cells` is NULL, there is no boundary, and the
+ * walk ends with ICC_ERR_TRACE where there are no values. */
 icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cells, iccp_path *path,
                                iccp_boundary_hitn *hit);
 

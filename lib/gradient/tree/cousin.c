@@ -40,14 +40,17 @@ static int32_t generation_due(const icc_tree *tree, uint32_t vertex)
     return due;
 }
 
-/* Expands the generation order[begin..end) along one axis into the inside. */
-static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis)
+/* Expands the generation order[begin..end) along one axis into the inside. With given parents, a
+ * vertex expands only to its children. */
+static void expand_inside(icc_tree *tree, size_t begin, size_t end, int32_t axis,
+                          const uint32_t *parents)
 {
     for (size_t i = begin; i < end; ++i)
         for (int32_t step = -1; step <= 1; step += 2) {
             const uint32_t v = tree->order[i];
             const uint32_t u = iccp_grid_neighbour(tree->grid, v, axis, step);
-            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] < 0)
+            if (u != ICCP_NONE && tree->grid->inside[u] && tree->generation[u] < 0 &&
+                (parents == NULL || parents[u] == v))
                 visit(tree, v, u);
         }
 }
@@ -96,7 +99,7 @@ static icc_status report(const icc_tree *tree, size_t done, size_t *next, const 
     return iccp_progress(env, "tree", 0.5 * (double)done / (double)tree->grid->n_vertices);
 }
 
-static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
+static icc_status grow_inside(icc_tree *tree, const uint32_t *parents, const iccp_env *env)
 {
     size_t next_report = 0, begin = 0;
     tree->generation[tree->root] = 0;
@@ -106,7 +109,7 @@ static icc_status grow_inside(icc_tree *tree, const iccp_env *env)
             return ICC_ERR_CANCELLED;
         const size_t end = tree->n_reached;
         for (int32_t a = 0; a < tree->grid->dim; ++a)
-            expand_inside(tree, begin, end, tree->axis_order[a]);
+            expand_inside(tree, begin, end, tree->axis_order[a], parents);
         begin = end;
     }
     tree->n_inside = tree->n_reached;
@@ -156,8 +159,25 @@ static icc_tree *new_tree(const icc_grid *grid, const iccp_memory *memory)
     return tree;
 }
 
-icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
-                            const int32_t *axis_order, const iccp_env *env, icc_error *err)
+/* Checks that the tree reaches all vertices that were given a parent. */
+static icc_status check_parents(const icc_tree *tree, const uint32_t *parents, icc_error *err)
+{
+    if (parents[tree->root] != ICCP_NONE)
+        return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->root,
+                            "the root, vertex %lu, has a parent: give it UINT32_MAX",
+                            (unsigned long)tree->root);
+    for (uint32_t v = 0; v < tree->grid->n_vertices; ++v)
+        if (tree->grid->inside[v] && parents[v] != ICCP_NONE && tree->generation[v] < 0)
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, v,
+                                "the parents of vertex %lu do not lead to the root: each must be "
+                                "a neighbour inside",
+                                (unsigned long)v);
+    return ICC_OK;
+}
+
+icc_status iccp_tree_create_parents(icc_tree **out, const icc_grid *grid, uint32_t root,
+                                    const uint32_t *parents, int32_t form,
+                                    const int32_t *axis_order, const iccp_env *env, icc_error *err)
 {
     assert(root < grid->n_vertices && grid->inside[root]);
     *out = NULL;
@@ -168,7 +188,9 @@ icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     tree->form = form;
     for (int32_t k = 0; k < grid->dim; ++k)
         tree->axis_order[k] = axis_order != NULL ? axis_order[k] : k;
-    icc_status status = grow_inside(tree, env);
+    icc_status status = grow_inside(tree, parents, env);
+    if (status == ICC_OK && parents != NULL)
+        status = check_parents(tree, parents, err);
     if (status == ICC_OK)
         status = grow_outside(tree, env);
     if (status != ICC_OK) {
@@ -177,6 +199,12 @@ icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root,
     }
     *out = tree;
     return ICC_OK;
+}
+
+icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
+                            const int32_t *axis_order, const iccp_env *env, icc_error *err)
+{
+    return iccp_tree_create_parents(out, grid, root, NULL, form, axis_order, env, err);
 }
 
 icc_tree *iccp_tree_retain(const icc_tree *tree)

@@ -45,6 +45,11 @@ struct icc_tree {
 icc_status iccp_tree_create(icc_tree **out, const icc_grid *grid, uint32_t root, int32_t form,
                             const int32_t *axis_order, const iccp_env *env, icc_error *err);
 
+/* See icc_tree_create_parents(). Vertices inside get the given parents. */
+icc_status iccp_tree_create_parents(icc_tree **out, const icc_grid *grid, uint32_t root,
+                                    const uint32_t *parents, int32_t form,
+                                    const int32_t *axis_order, const iccp_env *env, icc_error *err);
+
 /* Adds a reference that keeps a tree alive. To its users the tree stays const. */
 icc_tree *iccp_tree_retain(const icc_tree *tree);
 void iccp_tree_release(icc_tree *tree);

@@ -148,7 +148,8 @@ START_TEST(curves_from_a_grid_line_go_into_the_domain)
             iccp_gradient_to_lattice(state, p, lattice);
             n_on_line += lattice[1] <= floor(lattice[1]) && lattice[0] > floor(lattice[0]);
             iccp_walk2 walk;
-            if (iccp_gradient_depart(chart, facet, p, &walk, NULL) == ICC_OK && !walk.at_vertex)
+            if (iccp_gradient_depart(chart->state, facet, p, &walk, NULL) == ICC_OK &&
+                !walk.at_vertex)
                 ck_assert(lattice[1] > floor(lattice[1]) || walk.v > 0);
         }
     ck_assert_int_gt(n_on_line, 20);

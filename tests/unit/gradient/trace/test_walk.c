@@ -143,12 +143,11 @@ START_TEST(lines_merge_on_a_compression_edge)
         const double x = random_between(&r, 1, 9), y = random_between(&r, 0.5, 3);
         iccp_walk2 walk;
         iccp_path path;
-        double merge;
         iccp_path_init(&path, &iccp_memory_default);
         ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, x, y, NULL), ICC_OK);
-        ck_assert_int_eq(iccp_trace_uphill(&walk, &path, &merge), ICC_OK);
+        ck_assert_int_eq(iccp_trace_uphill(&walk, &path), ICC_OK);
         const double across = fabs(x - 5), length = across * slope_sum(1, slope);
-        ck_assert_double_eq_tol(merge, length, 1e-12);
+        ck_assert_double_eq_tol(walk.alone, length, 1e-12);
         ck_assert_double_eq_tol(walk.s, length + 7 - (y + slope * across), 1e-12);
         ck_assert(walk.merged && iccp_walk2_at_root(&walk));
         ck_assert_double_eq(iccp_path_at(&path, 0)[0], x);
@@ -181,11 +180,10 @@ START_TEST(lines_merge_on_a_diagonal)
                 *value(&w, i, j) = slope * (double)(i + j) - fabs((double)i - (double)j);
         const double x = random_between(&r, 1, 3), y = random_between(&r, 1, 3);
         iccp_walk2 walk;
-        double merge;
         ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, x, y, NULL), ICC_OK);
-        ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, &merge), ICC_OK);
+        ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_OK);
         const double across = fabs(x - y) / sqrt(2), length = across * slope_sum(1, slope);
-        ck_assert_double_eq_tol(merge, length, 1e-12);
+        ck_assert_double_eq_tol(walk.alone, length, 1e-12);
         const double rest = (16 - x - y) / sqrt(2) - across * slope;
         ck_assert_double_eq_tol(walk.s, length + rest, 1e-12);
     }
@@ -231,10 +229,10 @@ START_TEST(flat_functions_end)
     }
     iccp_walk2 walk;
     ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, 3, 4, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_OK);
     w.tree.root = 0;
     ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_DOWNHILL, 3, 4, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
+    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_OK);
 }
 END_TEST
 
@@ -314,7 +312,7 @@ START_TEST(every_ascent_ends_at_the_only_maximum)
             }
             iccp_walk2 walk;
             (void)iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL);
-            (void)iccp_trace_uphill(&walk, NULL, NULL);
+            (void)iccp_trace_uphill(&walk, NULL);
             ck_assert_uint_gt(walk.steps_left, 2 * w.grid.n_vertices);
         }
     }
@@ -336,7 +334,7 @@ START_TEST(tiny_values_are_values)
             iccp_walk2 walk;
             ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, p[0], p[1], NULL),
                              ICC_OK);
-            ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_OK);
             lengths[tiny] = walk.s;
             for (size_t v = 0; v < w.grid.n_vertices; ++v)
                 w.values[v] = (w.values[v] + 1e4) * 0x1p-900;
@@ -360,7 +358,7 @@ START_TEST(tiny_rises_count_beside_deep_falls)
             iccp_walk2 walk;
             ck_assert_int_eq(
                 iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, (double)i, (double)j, NULL), ICC_OK);
-            ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_OK);
         }
 }
 END_TEST
@@ -440,7 +438,7 @@ START_TEST(starts_without_values_are_refused)
         ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, bad[k][0], bad[k][1], NULL),
                          ICC_ERR_TRACE);
     ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, 1.5, 1.25, NULL), ICC_OK);
-    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL, NULL), ICC_ERR_TRACE);
+    ck_assert_int_eq(iccp_trace_uphill(&walk, NULL), ICC_ERR_TRACE);
     /* The number of steps is bounded whatever happens. */
     ck_assert_int_eq(iccp_walk2_start(&walk, &w.field, ICCP_UPHILL, 0.5, 0.5, NULL), ICC_OK);
     walk.steps_left = 1;
@@ -668,7 +666,7 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
             iccp_walk2 up;
             ck_assert_int_eq(iccp_walk2_start(&up, &f.w.field, ICCP_UPHILL, end[0], end[1], NULL),
                              ICC_OK);
-            ck_assert_int_eq(iccp_trace_uphill(&up, &path, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_trace_uphill(&up, &path), ICC_OK);
             double nearest = HUGE_VAL;
             for (size_t m = 0; m + 1 < path.n; ++m)
                 nearest = fmin(nearest,
@@ -677,7 +675,7 @@ START_TEST(ascending_from_the_end_of_a_descent_comes_back)
             iccp_walk2 rest;
             ck_assert_int_eq(iccp_walk2_start(&rest, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL),
                              ICC_OK);
-            ck_assert_int_eq(iccp_trace_uphill(&rest, NULL, NULL), ICC_OK);
+            ck_assert_int_eq(iccp_trace_uphill(&rest, NULL), ICC_OK);
             ck_assert_double_eq_tol(up.s, d.walk.s + rest.s, 1e-8);
             ++n_alone;
         }
@@ -734,7 +732,7 @@ START_TEST(jets_are_derivatives)
             for (int m = 0; m < 3; ++m) {
                 (void)iccp_walk2_start(&up[m], &f.w.field, ICCP_UPHILL, from[m][0], from[m][1],
                                        m == 1 ? &jet : NULL);
-                ck_assert_int_eq(iccp_trace_uphill(&up[m], NULL, NULL), ICC_OK);
+                ck_assert_int_eq(iccp_trace_uphill(&up[m], NULL), ICC_OK);
             }
             n_up += agrees(up[0].s, up[1].s, up[2].s, h, jet.s[c]);
             ck_assert(fabs(jet.x[0]) + fabs(jet.x[1]) + fabs(jet.y[0]) + fabs(jet.y[1]) <= 0);
@@ -788,7 +786,7 @@ START_TEST(running_out_of_memory_is_reported)
     ck_assert_int_eq(descend(&f, p, &path).status, ICC_ERR_MEMORY);
     iccp_walk2 walk;
     (void)iccp_walk2_start(&walk, &f.w.field, ICCP_UPHILL, p[0], p[1], NULL);
-    ck_assert_int_eq(iccp_trace_uphill(&walk, &path, NULL), ICC_ERR_MEMORY);
+    ck_assert_int_eq(iccp_trace_uphill(&walk, &path), ICC_ERR_MEMORY);
     /* Room for 1024, 2048 and 4096 doubles, three of which make a point. */
     left = 3;
     iccp_path_start(&path, 2);

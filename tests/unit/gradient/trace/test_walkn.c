@@ -374,7 +374,7 @@ START_TEST(every_ascent_ends_at_the_only_maximum)
             iccp_walkn walk;
             ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
             const size_t budget = walk.steps_left;
-            const icc_status status = iccp_walkn_uphill(&walk, NULL, NULL);
+            const icc_status status = iccp_walkn_uphill(&walk, NULL);
             /* Of several vertices as high as their neighbours, one may be a maximum by its
              * index. */
             ck_assert(levels || status == ICC_OK);
@@ -454,11 +454,10 @@ START_TEST(lines_merge_in_lower_and_lower_faces)
         }
         length += 4 - (p[dim - 1] + slope * at);
         iccp_walkn walk;
-        double found;
         ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, &found), ICC_OK);
+        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL), ICC_OK);
         ck_assert_double_eq_tol(walk.s, length, 1e-11);
-        ck_assert_double_eq_tol(found, merge, 1e-11);
+        ck_assert_double_eq_tol(walk.alone, merge, 1e-11);
         ck_assert(walk.merged);
     }
 }
@@ -582,7 +581,7 @@ START_TEST(lines_that_leave_what_has_values_end)
             p[i] = random_between(&r, 0, 3);
         iccp_walkn walk;
         ck_assert_int_eq(iccp_walkn_start(&walk, &W.field, ICCP_UPHILL, p, NULL, NULL), ICC_OK);
-        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL, NULL), ICC_ERR_TRACE);
+        ck_assert_int_eq(iccp_walkn_uphill(&walk, NULL), ICC_ERR_TRACE);
         ck_assert_double_eq(walk.to[0], 4);
     }
 }

@@ -1,0 +1,201 @@
+/* Checks the arguments of the functions on functions of a tree. */
+#include "api/check.h"
+#include "base/error.h"
+#include "base/options.h"
+#include "gradient/function/critical_points.h"
+#include "gradient/function/edges.h"
+#include "gradient/function/given_function.h"
+#include "gradient/function/make_function.h"
+#include "icc/stages.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+ICCP_END(function)
+
+/* Makes the logarithms of a new function, so that icc_function_logs() cannot fail. */
+static icc_status with_logs(icc_function **out, icc_status status, icc_error *err)
+{
+    if (status != ICC_OK || !(*out)->has_logs || iccp_function_logs(*out) != NULL)
+        return iccp_explain(err, status);
+    iccp_function_release(*out);
+    *out = NULL;
+    return iccp_fail_memory(err);
+}
+
+icc_status icc_function_create(icc_function **out, const icc_tree *tree,
+                               const icc_function_options *options, const icc_env *env,
+                               icc_error *err)
+{
+    ICCP_ENTER;
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL ? "out" : tree == NULL ? "tree" : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_function_options full;
+    status = iccp_read_struct(&full, sizeof full, options, "icc_function_options", err);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_check_function(&full, "icc_function_options", err);
+    if (status != ICC_OK)
+        return status;
+    status = with_logs(out, iccp_function_create(out, tree, &full, &full_env, err), err);
+    return iccp_end_function(status, out, &full_env, err);
+}
+
+/* Logarithms beyond this have no exponent of 32 bits. */
+static const double LARGEST_LOG = 1e8;
+
+/* Checks the caller's values or logarithms. Only those of the tree's vertices inside count, in its
+ * order. */
+static icc_status check_given(const icc_tree *tree, const double *given, double largest,
+                              const char *what, icc_error *err)
+{
+    for (size_t i = 0; i < tree->n_inside; ++i)
+        if (!(fabs(given[tree->order[i]]) <= largest))
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->order[i],
+                                "the %s of vertex %lu is %g; it must be finite and at most %g in "
+                                "size",
+                                what, (unsigned long)tree->order[i], given[tree->order[i]],
+                                largest);
+    return ICC_OK;
+}
+
+typedef icc_status (*create_given)(icc_function **out, const icc_tree *tree, const double *given,
+                                   const iccp_env *env);
+
+static icc_status take_given(icc_function **out, const icc_tree *tree, const double *given,
+                             create_given create, const icc_env *env, icc_error *err)
+{
+    const bool logs = create == iccp_function_create_logs;
+    if (out != NULL)
+        *out = NULL;
+    iccp_env full_env;
+    const char *missing = out == NULL     ? "out"
+                          : tree == NULL  ? "tree"
+                          : given == NULL ? (logs ? "logs" : "values")
+                                          : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status == ICC_OK)
+        status = check_given(tree, given, logs ? LARGEST_LOG : DBL_MAX,
+                             logs ? "logarithm" : "value", err);
+    if (status != ICC_OK)
+        return status;
+    status = with_logs(out, create(out, tree, given, &full_env), err);
+    return iccp_end_function(status, out, &full_env, err);
+}
+
+icc_status icc_function_create_values(icc_function **out, const icc_tree *tree,
+                                      const double *values, const icc_env *env, icc_error *err)
+{
+    ICCP_ENTER;
+    return take_given(out, tree, values, iccp_function_create_values, env, err);
+}
+
+icc_status icc_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,
+                                    const icc_env *env, icc_error *err)
+{
+    ICCP_ENTER;
+    return take_given(out, tree, logs, iccp_function_create_logs, env, err);
+}
+
+void icc_function_free(icc_function *function)
+{
+    iccp_function_release(function);
+}
+
+const double *icc_function_values(const icc_function *function)
+{
+    ICCP_ENTER;
+    if (function == NULL)
+        return NULL;
+    return function->plain != NULL ? function->plain : function->values;
+}
+
+const double *icc_function_logs(const icc_function *function)
+{
+    ICCP_ENTER;
+    return function != NULL ? iccp_function_logs(function) : NULL;
+}
+
+icc_status icc_function_get_info(const icc_function *function, icc_function_info *info)
+{
+    ICCP_ENTER;
+    if (function == NULL || info == NULL)
+        return ICC_ERR_ARGUMENT;
+    const iccp_solution *s = &function->info;
+    /* Zeros the bytes behind the last member, too, so that equal infos have equal bytes. */
+    icc_function_info full;
+    memset(&full, 0, sizeof full);
+    full.function = s->function;
+    full.constrained = s->constrained;
+    full.solver = s->solver;
+    full.beside = s->beside;
+    full.n_unknowns = s->n_unknowns;
+    full.n_violated = s->n_violated;
+    full.n_active = s->n_active;
+    full.residual = s->residual;
+    full.least_log = s->least_log;
+    full.excess = s->excess;
+    full.highest = s->highest;
+    return iccp_write_struct(info, &full, sizeof full, "icc_function_info", NULL);
+}
+
+icc_status icc_function_get_solver_report(const icc_function *function, icc_solver_report *report)
+{
+    ICCP_ENTER;
+    if (function == NULL || report == NULL)
+        return ICC_ERR_ARGUMENT;
+    const iccp_solution *s = &function->info;
+    const icc_solver_report full = {.n_iterations = s->n_iterations,
+                                    .n_inner = s->n_inner,
+                                    .work = s->work,
+                                    .residual_before = s->residual_before,
+                                    .seconds_setup = s->seconds_setup,
+                                    .seconds_order = s->seconds_order,
+                                    .seconds_factor = s->seconds_factor,
+                                    .seconds_solve = s->seconds_solve,
+                                    .seconds_verify = s->seconds_verify};
+    return iccp_write_struct(report, &full, sizeof full, "icc_solver_report", NULL);
+}
+
+const icc_tree *icc_function_tree(const icc_function *function)
+{
+    return function != NULL ? function->tree : NULL;
+}
+
+icc_status icc_function_get_report(const icc_function *function, icc_function_report *report,
+                                   const icc_env *env, icc_error *err)
+{
+    ICCP_ENTER;
+    iccp_env full_env;
+    const char *missing = function == NULL ? "function" : report == NULL ? "report" : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    icc_function_report full;
+    status =
+        iccp_explain(err, iccp_finish(&full_env, iccp_function_verify(function, &full, &full_env)));
+    if (status != ICC_OK)
+        return status;
+    return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
+}
+
+icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
+                                  int32_t *kinds, size_t *n_edges, size_t *n_tested)
+{
+    ICCP_ENTER;
+    if (function == NULL || n_edges == NULL || (capacity > 0 && (edges == NULL || kinds == NULL)))
+        return ICC_ERR_ARGUMENT;
+    if (function->tree->grid->dim != 2)
+        return ICC_ERR_UNSUPPORTED;
+    const iccp_edge_count count = iccp_function_edges(function, capacity, edges, kinds);
+    *n_edges = count.n_compression + count.n_expansion;
+    if (n_tested != NULL)
+        *n_tested = count.n_tested;
+    return ICC_OK;
+}

@@ -1,0 +1,15 @@
+/* Functions of the caller's: values or logarithms at the vertices of a tree. */
+#ifndef ICCP_GIVEN_FUNCTION_H
+#define ICCP_GIVEN_FUNCTION_H
+
+#include "gradient/function/function.h"
+
+/* See icc_function_create_values(). The values inside are finite. */
+icc_status iccp_function_create_values(icc_function **out, const icc_tree *tree,
+                                       const double *values, const iccp_env *env);
+
+/* See icc_function_create_logs(). The logarithms inside are finite. */
+icc_status iccp_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,
+                                     const iccp_env *env);
+
+#endif
