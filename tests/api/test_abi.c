@@ -88,6 +88,7 @@ IS(ICC_FUNCTION_LAPLACE, 3);
 IS(ICC_FUNCTION_BILAPLACE, 4);
 IS(ICC_FUNCTION_CLAMPED, 5);
 IS(ICC_FUNCTION_HARMONIC, 6);
+IS(ICC_FUNCTION_VALUES, 7);
 
 IS(ICC_CONSTRAINTS_NEEDED, 1);
 IS(ICC_CONSTRAINTS_NONE, 2);
@@ -101,6 +102,15 @@ IS(ICC_TREE_PAPER, 2);
 
 IS(ICC_MAP_CURVES, 1);
 IS(ICC_MAP_MESH, 2);
+
+IS(ICC_WAY_UP, 1);
+IS(ICC_WAY_DOWN, 2);
+
+IS(ICC_END_NONE, 0);
+IS(ICC_END_MAXIMUM, 1);
+IS(ICC_END_BOUNDARY, 2);
+IS(ICC_END_CRITICAL, 3);
+IS(ICC_END_VALUES, 4);
 
 IS(ICC_EDGE_COMPRESSION, 1);
 IS(ICC_EDGE_EXPANSION, 2);
@@ -489,6 +499,14 @@ AT(icc_function_report, n_maxima, 8);
 AT(icc_function_report, n_minima, 16);
 AT(icc_function_report, n_saddles, 24);
 AT(icc_function_report, critical, 32);
+
+SIZE(icc_curves_info, 40);
+AT(icc_curves_info, size, 0);
+AT(icc_curves_info, dim, 8);
+AT(icc_curves_info, way, 12);
+AT(icc_curves_info, n_curves, 16);
+AT(icc_curves_info, n_vertices, 24);
+AT(icc_curves_info, n_merged, 32);
 
 SIZE(icc_grow_report, 64);
 AT(icc_grow_report, size, 0);

@@ -1,9 +1,10 @@
-// The stages of Integral Curve Coordinates one by one: grid, tree, function. See icc/stages.h.
+// The stages of Integral Curve Coordinates one by one: grid, tree, function, curves. See icc/stages.h.
 import { Handle } from './core.js';
 import { flat } from './points.js';
 import { Address } from './memory.js';
+import { constantNames, constantOf } from './names.js';
 
-/** The classes Grid, Tree and GridFunction of an instance. */
+/** The classes Grid, Tree, GridFunction and Curves of an instance. */
 export function stagesOf(core) {
   const copied = (Type, address, n) => (address === 0 ? null : core.memory.array(Type, address, n).slice());
 
@@ -32,6 +33,14 @@ export function stagesOf(core) {
       return { vertex: vertex[0], rounds: rounds[0] };
     }
 
+    /** Positions of vertices, flat; of all without an argument. */
+    points(vertices = null) {
+      const { nVertices, dim } = this.info, n = vertices === null ? nVertices : vertices.length;
+      const points = new Float64Array(n * dim);
+      core.call('icc_grid_get_points', this, n, vertices === null ? null : Uint32Array.from(vertices), points);
+      return points;
+    }
+
     findNearest(point) {
       const vertex = new Uint32Array(1);
       core.call('icc_grid_find_nearest', this, flat(point), vertex);
@@ -43,6 +52,11 @@ export function stagesOf(core) {
     /** options as in icc_tree_options: { form: 'thesis', axisOrder }. */
     constructor(grid, root, options = null, lender = null) {
       super(core, grid, () => core.call('icc_tree_create', grid, root, options), 'icc_tree_free', lender);
+    }
+
+    /** A tree with parents of your own, one number per vertex: 4294967295 for the root and vertices to leave out. */
+    static fromParents(grid, root, parents, options = null) {
+      return new Tree(core.made('icc_tree_create_parents', grid, root, Uint32Array.from(parents), options), root);
     }
 
     get grid() { return new Grid(core.made('icc_tree_grid', this), 0, this); }
@@ -68,6 +82,16 @@ export function stagesOf(core) {
     /** options as in icc_function_options: { function: 'laplace', constraints: 'all', ... }. */
     constructor(tree, options = null, lender = null) {
       super(core, tree, () => core.call('icc_function_create', tree, options), 'icc_function_free', lender);
+    }
+
+    /** A function with values of your own, one per vertex; NaN outside lets it go on as it falls inside. */
+    static fromValues(tree, values) {
+      return new GridFunction(core.made('icc_function_create_values', tree, Float64Array.from(values)));
+    }
+
+    /** The same from natural logarithms, for values that doubles cannot hold. */
+    static fromLogs(tree, logs) {
+      return new GridFunction(core.made('icc_function_create_logs', tree, Float64Array.from(logs)));
     }
 
     /** The function of a chart of method gradient or field, or null. */
@@ -96,5 +120,35 @@ export function stagesOf(core) {
     }
   }
 
-  return { Grid, Tree, GridFunction };
+  class Curves extends Handle {
+    /** The integral curves of a function through points; way: 'up' or 'down'. */
+    constructor(gridFunction, points, way = 'up', lender = null) {
+      super(core, gridFunction, () => {
+        const { dim } = gridFunction.tree.grid.info, p = flat(points, dim);
+        return core.call('icc_curves_create', gridFunction, p.length / dim, p, constantOf('ICC_WAY_', way));
+      }, 'icc_curves_free', lender);
+    }
+
+    get info() { return core.info('icc_curves_get_info', this); }
+
+    /** Flat coordinates of each curve, beginning with its point. */
+    vertices() {
+      const { nCurves, nVertices, dim } = this.info;
+      const first = new Uint32Array(nCurves + 1), all = new Float64Array(nVertices * dim);
+      core.call('icc_curves_get_vertices', this, first, all);
+      return Array.from({ length: nCurves }, (_, i) => all.slice(dim * first[i], dim * first[i + 1]));
+    }
+
+    /** How they end: { end, length, alone, facet, bary }, arrays with an entry for each curve. */
+    ends() {
+      const { nCurves: n, dim } = this.info;
+      const out = { end: new Int32Array(n), length: new Float64Array(n), alone: new Float64Array(n),
+        facet: new Uint32Array(n), bary: new Float64Array(n * dim) };
+      core.call('icc_curves_get_ends', this, out.end, out.length, out.alone, out.facet, out.bary);
+      const names = constantNames('ICC_END_');
+      return { ...out, end: Array.from(out.end, (end) => names.get(end).toLowerCase()) };
+    }
+  }
+
+  return { Grid, Tree, GridFunction, Curves };
 }

@@ -197,6 +197,18 @@ test('charts, and the stages by themselves', () => {
   const laplace = new icc.GridFunction(tree, { function: 'laplace' });
   assert.equal(laplace.values()[tree.root], 1);
   assert.equal(laplace.report().nMaxima, 1);
+
+  const again = icc.Tree.fromParents(grid, vertex, tree.parents());
+  assert.deepEqual(again.generations(), tree.generations());
+  const inside = grid.inside(), values = laplace.values();
+  const own = icc.GridFunction.fromValues(again, values.map((value, v) => (inside[v] ? value : NaN)));
+  assert.equal(own.info.function, 'values');
+  near(icc.GridFunction.fromLogs(tree, laplace.logs()).values().filter((_, v) => inside[v]), values.filter((_, v) => inside[v]), 1e-12);
+  const down = new icc.Curves(own, [[1, 1], [-9, 0]], 'down');
+  assert.deepEqual(down.ends().end, ['boundary', 'none']);
+  near(down.vertices()[0].slice(0, 2), [1, 1]);
+  near(new icc.Curves(own, [[1, 1]]).vertices()[0].slice(-2), grid.points([vertex]));
+  assert.throws(() => new icc.Curves(own, [[1, 1]], 'sideways'), /'sideways' is none of 'up', 'down'/);
 });
 
 test('kernel coordinates: weights, poses, painting', () => {

@@ -132,6 +132,7 @@ export interface Grid extends Handle {
   restrict(keep: Uint8Array): Grid;
   inside(): Uint8Array;
   findMaximum(): { vertex: number; rounds: number };
+  points(vertices?: ArrayLike<number> | null): Float64Array;
   findNearest(point: Points): number;
 }
 export interface Tree extends Handle {
@@ -151,6 +152,12 @@ export interface GridFunction extends Handle {
   logs(): Float64Array | null;
   report(): Info;
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
+}
+export type CurveEnd = 'none' | 'maximum' | 'boundary' | 'critical' | 'values';
+export interface Curves extends Handle {
+  readonly info: Info;
+  vertices(): Float64Array[];
+  ends(): { end: CurveEnd[]; length: Float64Array; alone: Float64Array; facet: Uint32Array; bary: Float64Array };
 }
 
 /** Progress, diagnostics and cancelling of calls. */
@@ -180,11 +187,17 @@ export interface Instance {
   };
   readonly Pose: new (handles: Points, dim?: number) => Pose;
   readonly Grid: { new (domain: Domain, cells?: number): Grid; mask(shape: readonly number[], inside: Uint8Array): Grid };
-  readonly Tree: new (grid: Grid, root: number, options?: Options | null) => Tree;
+  readonly Tree: {
+    new (grid: Grid, root: number, options?: Options | null): Tree;
+    fromParents(grid: Grid, root: number, parents: ArrayLike<number>, options?: Options | null): Tree;
+  };
   readonly GridFunction: {
     new (tree: Tree, options?: Options | null): GridFunction;
+    fromValues(tree: Tree, values: ArrayLike<number>): GridFunction;
+    fromLogs(tree: Tree, logs: ArrayLike<number>): GridFunction;
     ofChart(chart: Chart): GridFunction | null;
   };
+  readonly Curves: new (gridFunction: GridFunction, points: Points, way?: 'up' | 'down') => Curves;
   boundaryDefects(outline: Points): { kind: string; a: number; b: number }[];
   repairMask(shape: readonly number[], cells: Uint8Array): number;
   triangulate(nBoundary: number, points: Points): Uint32Array;
@@ -214,7 +227,7 @@ export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
 type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
 export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
   ? { create(...args: Given<A>): Promise<Far<T>> } : {});
-type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction';
+type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction' | 'Curves';
 type AwayFunctions = { [K in 'boundaryDefects' | 'triangulate' | 'statusName' | 'codeOf']:
   Instance[K] extends (...args: infer A) => infer R ? (...args: A) => Promise<R> : never };
 

@@ -48,6 +48,7 @@ tree_options form:i32 axis_order:ptr
 tree_report n_inside:size n_outside:size n_unreachable:size n_pairs:size n_cousin_violations:size violation:u32[2]
 function_options function:i32 constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
 function_info function:i32 constrained:i32 solver:i32 beside:i32 n_unknowns:size n_violated:size n_active:size residual:f64 least_log:f64 excess:f64 highest:u32
+curves_info dim:i32 way:i32 n_curves:size n_vertices:size n_merged:size
 solver_report n_iterations:size n_inner:size work:f64 residual_before:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
 function_report n_maxima:size n_minima:size n_saddles:size critical:u32
 grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
@@ -132,12 +133,16 @@ grid_get_info grid* grid_info*
 u8*:grid_inside grid*
 grid_find_maximum grid* u32* u32* env* error*
 grid_find_nearest grid* f64* u32*
+grid_get_points grid* size u32* f64*
 tree_create tree** grid* u32 tree_options* env* error*
+tree_create_parents tree** grid* u32 u32* tree_options* env* error*
 void:tree_free tree*
 u32*:tree_parents tree*
 i32*:tree_generations tree*
 tree_get_report tree* tree_report* env* error*
 function_create function** tree* function_options* env* error*
+function_create_values function** tree* f64* env* error*
+function_create_logs function** tree* f64* env* error*
 function*:chart_function chart*
 tree*:function_tree function*
 grid*:tree_grid tree*
@@ -149,6 +154,11 @@ f64*:function_values function*
 f64*:function_logs function*
 function_get_report function* function_report* env* error*
 function_get_edges function* size u32* i32* size* size*
+curves_create curves** function* size f64* i32 env* error*
+void:curves_free curves*
+curves_get_info curves* curves_info*
+curves_get_vertices curves* size* f64*
+curves_get_ends curves* i32* f64* f64* u32* f64*
 tree_grow tree* f64* u32* grow_report* env* error*
 tree_get_rank_report tree* u32* function_report* env* error*
 triangulate size size f64* u32* env* error*

@@ -1,4 +1,4 @@
-"""The stages of the papers one by one: grid, tree, function, triangulation."""
+"""The stages of the papers one by one: grid, tree, function, curves, triangulation."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ._errors import check
 if TYPE_CHECKING:
     from ._types import Array, ArrayLike, Bools, Floats, Indices, Ints, ShapeLike
 
-__all__ = ["Function", "Grid", "Tree", "triangulate"]
+__all__ = ["Curves", "Function", "Grid", "Tree", "triangulate"]
 
 
 def _view(pointer: Optional[int], n: int, dtype: Any, owner: Handle) -> Optional[Array]:
@@ -102,9 +102,23 @@ class Grid(Handle):
 
     def position(self, vertex: ArrayLike) -> Floats:
         """Coordinates (n, dim) of vertices that are given by their numbers (n,)."""
-        info = self.info
-        at = np.unravel_index(np.asarray(vertex), self.shape, order="F")
-        return info.origin + info.spacing * np.stack(at, -1)
+        numbers = np.ascontiguousarray(vertex, dtype=np.uint32)
+        points = np.empty((*numbers.shape, len(self.shape)))
+        check(lib.grid_get_points(self, numbers.size, address(numbers), address(points)))
+        return points
+
+
+def _tree_options(grid: Grid, form: Optional[str],
+                  axis_order: Optional[Sequence[int]]) -> Tuple[Any, Any]:
+    """The options, and the array that they point to."""
+    options = new("tree_options", form=choose(form, TREES, "form"))
+    if axis_order is None:
+        return options, None
+    order = np.ascontiguousarray(axis_order, dtype=np.int32)
+    if sorted(order.tolist()) != list(range(len(grid.shape))):
+        raise ValueError("axis_order must be a permutation of the axes")
+    options.axis_order = order.ctypes.data
+    return options, order
 
 
 class Tree(Handle):
@@ -122,14 +136,22 @@ class Tree(Handle):
     def __init__(self, grid: Grid, root: Optional[int] = None, *, form: Optional[str] = None,
                  axis_order: Optional[Sequence[int]] = None, progress: Optional[Progress] = None):
         root = grid.maximum()[0] if root is None else root
-        options = new("tree_options", form=choose(form, TREES, "form"))
-        if axis_order is not None:
-            order = np.ascontiguousarray(axis_order, dtype=np.int32)
-            if sorted(order.tolist()) != list(range(len(grid.shape))):
-                raise ValueError("axis_order must be a permutation of the axes")
-            options.axis_order = order.ctypes.data
+        options, _order = _tree_options(grid, form, axis_order)
         self._take(create(lib.tree_create, grid, root, ctypes.addressof(options),
                           progress=progress))
+
+    @classmethod
+    def from_parents(cls, grid: Grid, root: int, parents: ArrayLike, *, form: Optional[str] = None,
+                     axis_order: Optional[Sequence[int]] = None,
+                     progress: Optional[Progress] = None) -> "Tree":
+        """A tree with parents of your own: for each vertex inside the number of a neighbour inside, or 2**32 - 1
+        for the root and for vertices to leave out. An array of the grid's shape."""
+        options, _order = _tree_options(grid, form, axis_order)
+        parents = np.asfortranarray(np.asarray(parents, dtype=np.uint32))
+        if parents.shape != grid.shape:
+            raise ValueError(f"parents must have the shape {grid.shape}, not {parents.shape}")
+        return cls._wrap(create(lib.tree_create_parents, grid, root, parents.ctypes.data,
+                                ctypes.addressof(options), progress=progress))
 
     @property
     def grid(self) -> Grid:
@@ -210,6 +232,22 @@ class Function(Handle):
                           progress=progress, threads=threads))
 
     @classmethod
+    def from_values(cls, tree: Tree, values: ArrayLike, *, progress: Optional[Progress] = None) -> "Function":
+        """A function with values of your own, an array of the grid's shape. Values of vertices outside may be NaN:
+        the function then goes on as it falls inside."""
+        return cls._given(lib.function_create_values, tree, values, progress)
+
+    @classmethod
+    def from_logs(cls, tree: Tree, logs: ArrayLike, *, progress: Optional[Progress] = None) -> "Function":
+        """The same from natural logarithms, for values that doubles cannot hold. The function is 0 just outside."""
+        return cls._given(lib.function_create_logs, tree, logs, progress)
+
+    @classmethod
+    def _given(cls, create_it: Any, tree: Tree, given: ArrayLike, progress: Optional[Progress]) -> "Function":
+        array = np.asfortranarray(_floats_of(given, tree.grid.shape))
+        return cls._wrap(create(create_it, tree, array.ctypes.data, progress=progress))
+
+    @classmethod
     def of(cls, chart: Chart) -> Optional["Function"]:
         """The function of a chart of method gradient or field; None for others."""
         return cls._borrow(lib.chart_function(chart), owner=chart)
@@ -223,7 +261,7 @@ class Function(Handle):
     def info(self) -> SimpleNamespace:
         """The members of ``icc_function_info``. Function and solver are given by name."""
         result = fields(self._info("function_get_info", "function_info"))
-        result.function = name_of(result.function, FUNCTIONS)
+        result.function = name_of(result.function, {**FUNCTIONS, "values": 7})
         result.solver = name_of(result.solver, SOLVERS)
         return result
 
@@ -257,6 +295,59 @@ class Function(Handle):
         check(lib.function_get_edges(self, n.value, address(edges), address(kinds),
                               ctypes.addressof(n), None))
         return edges, kinds
+
+
+WAYS = {"up": 1, "down": 2}
+ENDS = {"none": 0, "maximum": 1, "boundary": 2, "critical": 3, "values": 4}
+
+
+class Curves(Handle):
+    """The integral curves of a function through points, as polylines: ``curves[i]`` has the vertices (m, dim) of
+    the curve through point i.
+
+    Args:
+        function: a Function
+        points: (n, dim)
+        way: "up" to the maximum, or "down" to the boundary
+    """
+
+    _free = "curves_free"
+
+    def __init__(self, function: Function, points: ArrayLike, way: str = "up", *,
+                 progress: Optional[Progress] = None, threads: Optional[int] = None):
+        points = points_of(points, len(function.tree.grid.shape))
+        self._take(create(lib.curves_create, function, len(points), address(points),
+                          choose(way, WAYS, "way"), progress=progress, threads=threads))
+        info = self._info("curves_get_info", "curves_info")
+        self._first = np.empty(info.n_curves + 1, dtype=np.uintp)
+        self._vertices = np.empty((info.n_vertices, info.dim))
+        check(lib.curves_get_vertices(self, address(self._first), address(self._vertices)))
+
+    @property
+    def info(self) -> SimpleNamespace:
+        """The members of ``icc_curves_info``; the way by its name."""
+        result = fields(self._info("curves_get_info", "curves_info"))
+        result.way = name_of(result.way, WAYS)
+        return result
+
+    def __len__(self) -> int:
+        return len(self._first) - 1
+
+    def __getitem__(self, i: int) -> Floats:
+        if not -len(self) <= i < len(self):
+            raise IndexError(i)
+        i %= len(self)
+        return self._vertices[self._first[i]:self._first[i + 1]]
+
+    def ends(self) -> SimpleNamespace:
+        """How the curves end: ``end`` (n,) names, ``length`` (n,), ``alone`` (n,) up to where others join, ``facet``
+        (n,) and ``bary`` (n, dim) of curves that end on the boundary."""
+        n, dim = len(self), self._vertices.shape[1]
+        end, facet = np.empty(n, np.int32), np.empty(n, np.uint32)
+        length, alone, bary = np.empty(n), np.empty(n), np.empty((n, dim))
+        check(lib.curves_get_ends(self, address(end), address(length), address(alone), address(facet), address(bary)))
+        names = np.array([name for name, _ in sorted(ENDS.items(), key=lambda item: item[1])])
+        return SimpleNamespace(end=names[end], length=length, alone=alone, facet=facet, bary=bary)
 
 
 def triangulate(points: ArrayLike, n_boundary: int, *,

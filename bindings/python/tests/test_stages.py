@@ -22,6 +22,29 @@ def test_papers_pipeline(before):
     assert np.allclose(grid.position(grid.nearest([2, 3])), [2, 3], atol=grid.info.spacing)
 
 
+def test_own_stages(before):
+    grid = stages.Grid(before, 40)
+    tree = stages.Tree(grid)
+    again = stages.Tree.from_parents(grid, tree.root, tree.parents)
+    assert (again.generations == tree.generations).all()
+    laplace = stages.Function(tree, "laplace")
+    values = np.where(grid.inside, laplace.values, np.nan)
+    own = stages.Function.from_values(again, values)
+    assert own.info.function == "values" and own.report().n_maxima == 1
+    logs = stages.Function.from_logs(tree, laplace.logs)
+    assert np.allclose(logs.values, laplace.values, rtol=1e-12, equal_nan=True)
+    points = [[2, 3], [-99, 0]]
+    up, down = stages.Curves(own, points), stages.Curves(own, points, "down")
+    assert up.info.way == "up" and len(up) == 2 and len(up[1]) == 0
+    assert np.allclose(up[0][0], points[0]) and np.allclose(up[0][-1], grid.position(tree.root))
+    ends = down.ends()
+    assert ends.end.tolist() == ["boundary", "none"] and np.isclose(ends.bary[0].sum(), 1)
+    assert 0 < ends.alone[0] <= ends.length[0]
+    chart = libicc.Chart(before, method="gradient", function="laplace", cells=40)
+    exact = stages.Curves(stages.Function.of(chart), points[:1], "down").ends()
+    assert exact.facet[0] == chart.encode(points[:1])[0][0]
+
+
 def test_views_keep_their_owner(before):
     values = stages.Function(stages.Tree(stages.Grid(before, 30))).values
     assert np.isfinite(values).any()

@@ -3,6 +3,7 @@ use crate::chart::{Constraints, FunctionKind, Solver};
 use crate::env::Env;
 use crate::error::{check, Result};
 use crate::object::{object, Borrowed};
+use crate::slices::exactly;
 use crate::sys;
 use crate::tree::{FunctionReport, Tree};
 use std::ptr;
@@ -55,6 +56,25 @@ impl Function {
         Function::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_function_create(out, tree.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// A function with values of your own, one per grid vertex, finite at the vertices inside that the tree reaches.
+    /// Where a value outside is NaN, the function goes on as it falls inside.
+    pub fn from_values(tree: &Tree, values: &[f64], env: &mut Env<'_>) -> Result<Function> {
+        exactly(values, tree.grid().info().n_vertices, "values")?;
+        Function::make(env, |out, env, err| {
+            // SAFETY: a value for each vertex.
+            unsafe { sys::icc_function_create_values(out, tree.as_ptr(), values.as_ptr(), env, err) }
+        })
+    }
+
+    /// The same from natural logarithms, for values that doubles cannot hold. The function is 0 just outside.
+    pub fn from_logs(tree: &Tree, logs: &[f64], env: &mut Env<'_>) -> Result<Function> {
+        exactly(logs, tree.grid().info().n_vertices, "logs")?;
+        Function::make(env, |out, env, err| {
+            // SAFETY: a logarithm for each vertex.
+            unsafe { sys::icc_function_create_logs(out, tree.as_ptr(), logs.as_ptr(), env, err) }
         })
     }
 

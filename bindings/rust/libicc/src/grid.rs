@@ -91,6 +91,19 @@ impl Grid {
         Ok((vertex, rounds))
     }
 
+    /// Positions of vertices, dim coordinates each.
+    ///
+    /// # Errors
+    /// [`Status::ARGUMENT`](crate::Status::ARGUMENT) for a number that is not that of a vertex.
+    pub fn points(&self, vertices: &[u32]) -> Result<Vec<f64>> {
+        let mut points = vec![0.0; vertices.len() * self.info().dim as usize];
+        // SAFETY: as many vertices, and room for their coordinates.
+        check(unsafe {
+            sys::icc_grid_get_points(self.as_ptr(), vertices.len(), vertices.as_ptr(), points.as_mut_ptr())
+        })?;
+        Ok(points)
+    }
+
     /// The vertex inside that is nearest to a point of dim coordinates.
     pub fn nearest(&self, point: &[f64]) -> Result<u32> {
         exactly(point, self.info().dim as usize, "point")?;

@@ -36,6 +36,7 @@ pub use libicc_sys as sys;
 
 mod binding;
 mod chart;
+mod curves;
 mod domain;
 mod env;
 mod error;

@@ -63,6 +63,32 @@ impl std::error::Error for Stuck {}
 impl Tree {
     /// Grows the tree from a vertex inside, such as [`Grid::maximum`].
     pub fn new(grid: &Grid, root: u32, options: &TreeOptions<'_>, env: &mut Env<'_>) -> Result<Tree> {
+        Tree::create(grid, root, None, options, env)
+    }
+
+    /// A tree with parents of your own, one number per grid vertex: a neighbour inside, or `u32::MAX` for the root and
+    /// for vertices to leave out. Numbers of vertices outside are ignored.
+    ///
+    /// # Errors
+    /// [`Status::ARGUMENT`], whose `index` is a vertex whose parents do not lead to the root.
+    pub fn from_parents(
+        grid: &Grid,
+        root: u32,
+        parents: &[u32],
+        options: &TreeOptions<'_>,
+        env: &mut Env<'_>,
+    ) -> Result<Tree> {
+        exactly(parents, grid.info().n_vertices, "parents")?;
+        Tree::create(grid, root, Some(parents), options, env)
+    }
+
+    fn create(
+        grid: &Grid,
+        root: u32,
+        parents: Option<&[u32]>,
+        options: &TreeOptions<'_>,
+        env: &mut Env<'_>,
+    ) -> Result<Tree> {
         let axis_order: Option<Vec<i32>> =
             options.axis_order.map(|order| order.iter().map(|&axis| int(axis)).collect());
         if let Some(order) = &axis_order {
@@ -74,8 +100,15 @@ impl Tree {
             ..Default::default()
         };
         Tree::make(env, |out, env, err| {
-            // SAFETY: the options are valid during the call.
-            unsafe { sys::icc_tree_create(out, grid.as_ptr(), root, &raw, env, err) }
+            // SAFETY: the options are valid during the call, and there is a parent for each vertex.
+            unsafe {
+                match parents {
+                    None => sys::icc_tree_create(out, grid.as_ptr(), root, &raw, env, err),
+                    Some(p) => {
+                        sys::icc_tree_create_parents(out, grid.as_ptr(), root, p.as_ptr(), &raw, env, err)
+                    }
+                }
+            }
         })
     }
 
