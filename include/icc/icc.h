@@ -22,7 +22,8 @@
  *   if every point failed. Check `n_failed`, or the status of each point.
  * - These calls have no `err`, because the statuses say what happened to each point.
  * - A chart or a map may exist without a certificate. `reason` in icc_chart_info and icc_map_info
- *   says why. For method field, icc_field_info counts what is wrong.
+ *   says why. For method field, the counts n_infeasible, n_not_inward and n_stray of
+ *   icc_field_info tell more.
  * - Saving takes two calls: with a capacity of 0 for the number of bytes, then for the bytes.
  * - icc_domain_create_mask() takes a mask of cells, icc_grid_create_mask() a mask of grid vertices.
  *

@@ -107,9 +107,8 @@ icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from
     return status;
 }
 
-/* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
-static icc_status depart_in_plane(const iccp_gradient_state *state, uint32_t facet,
-                                  const double point[2], iccp_walk2 *walk, iccp_jet2 *jet)
+icc_status iccp_gradient_depart(const iccp_gradient_state *state, uint32_t facet,
+                                const double point[2], iccp_walk2 *walk, iccp_jet2 *jet)
 {
     double p[2], inward[2];
     iccp_gradient_to_lattice(state, point, p);
@@ -120,7 +119,7 @@ static icc_status depart_in_plane(const iccp_gradient_state *state, uint32_t fac
     return status;
 }
 
-/* The same in other dimensions. */
+/* iccp_gradient_depart() in other dimensions. */
 static icc_status depart(const iccp_gradient_state *state, uint32_t facet, const double *point,
                          iccp_walkn *walk, iccp_jetn *jet)
 {
@@ -136,7 +135,7 @@ icc_status iccp_gradient_up_from(const iccp_gradient_state *state, uint32_t face
     icc_status status;
     if (is_plane(state)) {
         iccp_walk2 walk;
-        status = depart_in_plane(state, facet, point, &walk, NULL);
+        status = iccp_gradient_depart(state, facet, point, &walk, NULL);
         return status == ICC_OK ? climb_in_plane(&walk, path, line) : status;
     }
     iccp_walkn walk;
@@ -154,7 +153,7 @@ icc_status iccp_gradient_up_again(const iccp_gradient_state *state, uint32_t fac
     iccp_jet2 flat;
     replay->end = *jet;
     to_plane(jet, &flat);
-    icc_status status = plane ? depart_in_plane(state, facet, point, &walk2, &flat)
+    icc_status status = plane ? iccp_gradient_depart(state, facet, point, &walk2, &flat)
                               : depart(state, facet, point, &walk, &replay->end);
     for (size_t k = 0; status == ICC_OK && k < n_steps; ++k) {
         if (k == piece)

@@ -24,6 +24,10 @@ icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *fr
 icc_status iccp_gradient_up(const iccp_gradient_state *state, const double *from, iccp_path *path,
                             iccp_jetn *jet, iccp_gradient_line *line);
 
+/* In the plane, starts uphill at a local point of a facet, into the domain. `jet` may be NULL. */
+icc_status iccp_gradient_depart(const iccp_gradient_state *state, uint32_t facet,
+                                const double point[2], iccp_walk2 *walk, iccp_jet2 *jet);
+
 /* Follows the line to the maximum from a local point of a facet, into the domain. */
 icc_status iccp_gradient_up_from(const iccp_gradient_state *state, uint32_t facet,
                                  const double *point, iccp_path *path, iccp_gradient_line *line);

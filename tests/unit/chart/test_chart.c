@@ -1,7 +1,7 @@
 /* What the tests of the public functions cannot reach: corners of charts and maps. */
 #include "chart/encode_points.h"
 #include "foliation/chart_foliation.h"
-#include "gradient/coordinates/gradient_state.h"
+#include "gradient/coordinates/gradient_line.h"
 #include "map/map.h"
 #include "method/chart_create.h"
 
