@@ -411,8 +411,8 @@ ICC_API icc_status icc_function_create_values(icc_function **out, const icc_tree
  *
  * @param[out] out as for icc_function_create_values()
  * @param tree     the tree
- * @param logs     one natural logarithm per grid vertex, at most 1e8 in size at the vertices inside
- *                 that the tree reaches; others are ignored
+ * @param logs     one natural logarithm per grid vertex, at most 2^28 in size at the vertices
+ *                 inside that the tree reaches; others are ignored
  * @param env      may be NULL
  * @param err      may be NULL; `index` is a vertex inside whose logarithm is not finite
  * @return as for icc_function_create_values()
@@ -484,8 +484,8 @@ ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t c
 
 /* ------------------------------------------------------------------ curves */
 
-/** Integral curves of a function through given points, uphill or downhill. The function is linear in
- *  every simplex of the grid's Kuhn triangulation, so each curve is a polyline. */
+/** Integral curves of a function through given points, uphill or downhill. The function is linear
+ *  in every simplex of the grid's Kuhn triangulation, so each curve is a polyline. */
 typedef struct icc_curves icc_curves;
 
 /** The two ways along a curve: icc_curves_create(). */
@@ -517,8 +517,8 @@ typedef struct icc_curves_info {
 } icc_curves_info;
 
 /**
- * Traces the curves through points (Algorithms 3 to 5). The signs of differences of f decide exactly
- * which simplex comes next. Doubles give the place where the curve enters it.
+ * Traces the curves through points (Algorithms 3 to 5). The signs of differences of f decide
+ * exactly which simplex comes next. Doubles give the place where the curve enters it.
  *
  * @param[out] out  the curves; owned by the caller; they do not need the function any more
  * @param function  the function

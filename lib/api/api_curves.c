@@ -2,7 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "gradient/coordinates/curves.h"
+#include "gradient/coordinates/integral_curves.h"
 #include "icc/stages.h"
 
 #include <math.h>

@@ -47,10 +47,7 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree,
     return iccp_end_function(status, out, &full_env, err);
 }
 
-/* Logarithms beyond this have no exponent of 32 bits. */
-static const double LARGEST_LOG = 1e8;
-
-/* Checks the caller's values or logarithms. Only those of the tree's vertices inside count, in its
+/* Checks the caller's values or logarithms. Logarithms must have exponents of 32 bits. Only those of the tree's vertices inside count, in its
  * order. */
 static icc_status check_given(const icc_tree *tree, const double *given, double largest,
                               const char *what, icc_error *err)
@@ -81,7 +78,7 @@ static icc_status take_given(icc_function **out, const icc_tree *tree, const dou
                                           : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = check_given(tree, given, logs ? LARGEST_LOG : DBL_MAX,
+        status = check_given(tree, given, logs ? -ICCP_ZERO_EXPONENT / 2 : DBL_MAX,
                              logs ? "logarithm" : "value", err);
     if (status != ICC_OK)
         return status;

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
 METHODS = {"gradient": 1, "foliation": 2, "field": 3, "disc": 4}
-FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5, "harmonic": 6}
+FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5, "harmonic": 6, "values": 7}
 CONSTRAINTS = {"needed": 1, "none": 2, "all": 3}
 SOLVERS = {"direct": 1, "iterative": 2}
 TREES = {"thesis": 1, "paper": 2}

@@ -261,7 +261,7 @@ class Function(Handle):
     def info(self) -> SimpleNamespace:
         """The members of ``icc_function_info``. Function and solver are given by name."""
         result = fields(self._info("function_get_info", "function_info"))
-        result.function = name_of(result.function, {**FUNCTIONS, "values": 7})
+        result.function = name_of(result.function, FUNCTIONS)
         result.solver = name_of(result.solver, SOLVERS)
         return result
 

@@ -105,9 +105,8 @@ icc_status iccp_function_create_values(icc_function **out, const icc_tree *tree,
 /* e^log as a fraction in [0.5, 1) and an exponent. */
 static void set_scaled(const iccp_scaled *f, size_t k, double log)
 {
-    static const double LN_2 = 0.69314718055994530942;
-    const double power = floor(log / LN_2);
-    iccp_scaled_set(f, k, iccp_exp(log - power * LN_2), (int32_t)power);
+    const double ln_2 = iccp_ln(2), power = floor(log / ln_2);
+    iccp_scaled_set(f, k, iccp_exp(log - power * ln_2), (int32_t)power);
 }
 
 icc_status iccp_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,

@@ -2783,7 +2783,7 @@ extern "C" {
     ///
     /// - `out` (out): as for `icc_function_create_values()`
     /// - `tree`: the tree
-    /// - `logs`: one natural logarithm per grid vertex, at most 1e8 in size at the vertices inside that the
+    /// - `logs`: one natural logarithm per grid vertex, at most 2^28 in size at the vertices inside that the
     ///   tree reaches; others are ignored
     /// - `env`: may be NULL
     /// - `err`: may be NULL; `index` is a vertex inside whose logarithm is not finite

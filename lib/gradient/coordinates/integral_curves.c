@@ -1,7 +1,7 @@
 /* Follows the integral curves of a function. Based on: L. Huynh, thesis, 2013, Algorithms 3 to 5.
  * Chunks of points are followed side by side. Each keeps its vertices in a list of its own, and the
  * lists are joined in the order of the points. */
-#include "gradient/coordinates/curves.h"
+#include "gradient/coordinates/integral_curves.h"
 
 #include "base/threads.h"
 #include "gradient/coordinates/gradient_boundary.h"
@@ -9,9 +9,6 @@
 
 #include <math.h>
 #include <string.h>
-
-/* Points per chunk. */
-enum { GRAIN = 64 };
 
 /* The vertices of the curves of one chunk. */
 typedef struct list {
@@ -129,7 +126,7 @@ static icc_status follow_chunk(void *argument, size_t begin, size_t end)
         iccp_gradient_line line;
         status = follow(w, w->points + dim * i, &path, &line, &curves->end[i]);
         if (status == ICC_OK)
-            status = append(w, &w->lists[begin / GRAIN], &path);
+            status = append(w, &w->lists[begin / ICCP_CHART_MANY], &path);
         curves->first[i + 1] = path.n;
         curves->length[i] = path.n > 0 ? w->unit * iccp_path_length(&path) : 0;
         curves->alone[i] = path.n > 0 ? w->unit * line.alone : 0;
@@ -191,7 +188,7 @@ icc_status iccp_curves_create(icc_curves **out, const icc_function *function, si
                               const double *points, int32_t way, const iccp_env *env)
 {
     const icc_grid *grid = function->tree->grid;
-    const size_t n_chunks = (n + GRAIN - 1) / GRAIN;
+    const size_t n_chunks = (n + ICCP_CHART_MANY - 1) / ICCP_CHART_MANY;
     icc_curves *curves = iccp_alloc_zero(&env->memory, 1, sizeof *curves);
     *out = curves;
     if (curves == NULL)
@@ -204,7 +201,7 @@ icc_status iccp_curves_create(icc_curves **out, const icc_function *function, si
     if (status == ICC_OK)
         status = prepare(&w, function, env);
     if (status == ICC_OK)
-        status = iccp_for_chunks(env, "trace", n, GRAIN, follow_chunk, &w);
+        status = iccp_for_chunks(env, "trace", n, ICCP_CHART_MANY, follow_chunk, &w);
     if (status == ICC_OK)
         status = join(&w, n_chunks);
     for (size_t c = 0; w.lists != NULL && c < n_chunks; ++c)

@@ -1,6 +1,6 @@
 /* Integral curves of a function through given points, without a chart. */
-#ifndef ICCP_CURVES_H
-#define ICCP_CURVES_H
+#ifndef ICCP_INTEGRAL_CURVES_H
+#define ICCP_INTEGRAL_CURVES_H
 
 #include "gradient/function/function.h"
 
