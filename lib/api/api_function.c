@@ -47,8 +47,8 @@ icc_status icc_function_create(icc_function **out, const icc_tree *tree,
     return iccp_end_function(status, out, &full_env, err);
 }
 
-/* Checks the caller's values or logarithms. Logarithms must have exponents of 32 bits. Only those of the tree's vertices inside count, in its
- * order. */
+/* Checks the caller's values, or logarithms, whose exponents must fit into 32 bits. Only those of
+ * the tree's vertices inside count, in its order. */
 static icc_status check_given(const icc_tree *tree, const double *given, double largest,
                               const char *what, icc_error *err)
 {
