@@ -39,6 +39,18 @@ awk 'NR == 17 { print "0.9 0.02 0.05 0"; next } { print }' b.mesh >tangled.mesh
 run 0 mesh -s a.mesh -t tangled.mesh a.mesh out.mesh
 grep '^[-0-9.e]* [-0-9.e]* [-0-9.e]* 0$' out.mesh | sed '14d' >got
 close_to got expected 1e-12
+# The order of the elements does not matter, nor do the elements inside.
+awk 'NF == 5 { row[++n] = $0; next } { for (; n > 0; n--) print row[n]; print }' b.mesh >shuffled.mesh
+run 0 mesh -s a.mesh -t shuffled.mesh a.mesh out.mesh
+grep '^[-0-9.e]* [-0-9.e]* [-0-9.e]* 0$' out.mesh | sed '14d' >got
+close_to got expected 1e-12
+data=$here/../../examples/data
+run 0 mesh -s "$data/beam.mesh" -t "$data/bent.mesh" "$data/beam.mesh" out.mesh
+holds out '648 tetrahedra: 648 keep their orientation'
+echo '5 1 1' >points
+run 0 map -s "$data/beam.mesh" -t "$data/bent.mesh" -p points
+run 0 check -s "$data/beam.mesh" -t "$data/bent.mesh"
+holds out 'one-to-one: yes, certified'
 # What has no such boundary is refused by name.
 printf 'MeshVersionFormatted 2\nDimension 3\nVertices 8\n0 0 0 0\n1 0 0 0\n1 1 0 0\n0 1 0 0\n0 0 1 0\n1 0 1 0\n1 1 1 0\n0 1 1 0\n' >hex.mesh
 printf 'Hexahedra 1\n1 2 3 4 5 6 7 8 0\nEnd\n' >>hex.mesh

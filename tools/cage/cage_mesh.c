@@ -72,6 +72,19 @@ static int simplex_sign(const mesh_file *m, size_t i)
 
 /* ------------------------------------------------------------------------- space */
 
+/* Takes a face as seen from outside, the smallest vertex first. */
+static void take_face(uint32_t *out, const uint32_t *facet, const uint32_t *place, bool turned)
+{
+    size_t least = 0;
+    for (size_t k = 1; k < 3; k++)
+        if (facet[k] < facet[least])
+            least = k;
+    for (size_t k = 0; k < 3; k++)
+        out[k] = place[facet[(least + (turned ? 3 - k : k)) % 3]];
+}
+
+/* Faces have the library's order: sorted by their vertices. So two meshes with the same boundary
+ * correspond, however they list their elements. */
 static void take_facets(cage *c, const mesh_file *m, const mesh_boundary *b)
 {
     bool *on = mesh_boundary_vertices(b, m->n_vertices);
@@ -86,8 +99,7 @@ static void take_facets(cage *c, const mesh_file *m, const mesh_boundary *b)
     c->facet_lines = need(b->n, sizeof *c->facet_lines);
     for (size_t i = 0; i < b->n; i++) {
         bool turned = simplex_sign(m, b->elements[i]) < 0;
-        for (size_t k = 0; k < 3; k++)
-            c->facets[3 * i + k] = place[b->facets[3 * i + (turned ? 2 - k : k)]];
+        take_face(c->facets + 3 * i, b->facets + 3 * i, place, turned);
     }
     free(place);
     free(on);

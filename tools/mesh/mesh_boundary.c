@@ -26,13 +26,6 @@ static int by_vertices(const void *a, const void *b)
                                     : (p->corner > q->corner) - (p->corner < q->corner);
 }
 
-static int by_element(const void *a, const void *b)
-{
-    const facet *p = a, *q = b;
-    return p->element != q->element ? (p->element < q->element ? -1 : 1)
-                                    : (p->corner > q->corner) - (p->corner < q->corner);
-}
-
 static bool is_same(const facet *a, const facet *b)
 {
     return memcmp(a->sorted, b->sorted, sizeof a->sorted) == 0;
@@ -73,7 +66,6 @@ void mesh_boundary_find(mesh_boundary *out, size_t dim, size_t n, const uint32_t
     qsort(all, n * (dim + 1), sizeof *all, by_vertices);
     *out = (mesh_boundary){.dim = dim};
     out->n = keep_single(all, n * (dim + 1), &out->n_shared);
-    qsort(all, out->n, sizeof *all, by_element);
     out->facets = need(out->n, dim * sizeof *out->facets);
     out->elements = need(out->n, sizeof *out->elements);
     for (size_t i = 0; i < out->n; i++) {

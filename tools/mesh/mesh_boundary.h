@@ -9,8 +9,8 @@
 
 typedef struct mesh_boundary {
     size_t n, dim;
-    uint32_t *facets; /* n * dim vertices, in the order in which the elements list them */
-    size_t *elements; /* the element of each facet, ascending */
+    uint32_t *facets; /* n * dim vertices; facets are sorted by their vertices, in any order */
+    size_t *elements; /* the element of each facet */
     size_t n_shared;  /* facets that belong to more than two elements */
 } mesh_boundary;
 
