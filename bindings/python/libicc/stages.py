@@ -212,7 +212,10 @@ def _floats_of(values: ArrayLike, shape: Tuple[int, ...]) -> Floats:
 
 
 class Function(Handle):
-    """A function on the vertices of a tree that falls from parent to child.
+    """A function on the vertices of a tree.
+
+    `decay` and `distance` fall from parent to child. The other functions solve an equation. By default the tree's
+    inequalities are imposed on these only if they would have other critical points than the maximum (`constraints`).
 
     Args:
         tree: a Tree
