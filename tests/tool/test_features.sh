@@ -276,12 +276,22 @@ holds err 'feature 2 (line 1): null, feature 3'
 [ "$(grep -oF ', [[2,2], [2,4], [4,4], [4,2], [2,2]]]' out.geojson | wc -l)" -eq 2 ] || complain "a hole is missing: $(cat out.geojson)"
 run 0 map -s same.geojson --geojson in.geojson out.geojson --outside fail --tolerance 100
 
-# A file with both sides needs no target; without features check, info and plot go on as they did.
+# A file with both sides needs no target, also for check, info and plot; a name chooses one side alone.
 collection "$(feature source Polygon "[$square]")" "$(feature target Polygon "[$square]")" >both.geojson
 run 0 map -s both.geojson -p points.txt
 close_to out points.txt 1e-12
 run 0 check -s both.geojson
-[ "$(grep -c 'a simple polygon' out)" -eq 1 ] || complain "check took a target that nobody named"
+[ "$(grep -c 'a simple polygon' out)" -eq 2 ] || complain "check did not take both cages"
+run 0 info -s both.geojson
+holds out 'map         mesh, certified'
+run 0 plot -s both.geojson --triangles both-plot.svg
+run 0 check -s both.geojson#role=target
+[ "$(grep -c 'a simple polygon' out)" -eq 1 ] || complain "check took a target beside a named cage"
+collection "$(feature source Polygon "[$square]")" "$(feature target Polygon '[[[0,0],[10,10],[10,0],[0,10],[0,0]]]')" >crossed.geojson
+run 1 check -s crossed.geojson
+holds out 'one-to-one: not proved: 1 defect'
+run 1 info -s crossed.geojson
+run 1 plot -s crossed.geojson both-plot.svg
 printf '<svg><path id="source" d="M0 0H10V10H0z"/><path id="target" d="M0 0H10V10H0z"/></svg>' >both.svg
 run 0 map -s both.svg -p points.txt
 close_to out points.txt 1e-12

@@ -89,6 +89,10 @@ holds out 'paired by arc length'
 awk '{ print -$1, $2 }' key.txt >mirrored.txt
 run 0 match -s key.txt -t mirrored.txt --landmarks /dev/null
 holds out 'the mirror image fits better'
+run 0 check -s key.txt -t mirrored.txt --match /dev/null
+holds out 'mirrored: the mirror image fits better'
+run 0 check -s key.txt -t mirrored.txt --match /dev/null --json
+holds out '"mirrored": true'
 
 # Holes, lines and points inside go together, whatever their order and vertices; results can be mapped.
 printf '{"type": "FeatureCollection", "features": [%s]}\n' \
@@ -102,11 +106,18 @@ printf '{"type": "FeatureCollection", "features": [%s]}\n' \
      {"type": "Feature", "properties": {"role": "target", "feature": 2}, "geometry": {"type": "Point", "coordinates": [3.1, 3]}}' >inside.geojson
 run 0 match -s inside.geojson -t inside.geojson -o common.geojson
 holds out 'common      18 vertices; 15 of them are of both outlines'
+[ "$(grep -c '"feature": [47]' common.geojson)" -eq 4 ] || complain 'Points and LineStrings are not written with their numbers'
+run 0 match -s inside.geojson --json
+holds out '"vertices": 18'
+run 1 match -s inside.geojson -o a.txt --target-output b.geojson
+says 'a.txt: text holds no holes, lines or points'
 run 0 check -s common.geojson -t common.geojson
 holds out 'one-to-one: yes, certified'
 printf '3 3\n1 1\n3 1\n4 3\n5 1\n' >points.txt
 printf '3.1 3\n1 1.1\n3 1.1\n4 3\n5.1 1\n' >expected
 run 0 map -s inside.geojson --match auto -p points.txt
+close_to out expected 1e-12
+run 0 map -s common.geojson -p points.txt
 close_to out expected 1e-12
 run 0 plot -s inside.geojson --match auto out.svg
 [ "$(grep -c 'hsl(' out.svg)" -eq $((2 * (5 + 4))) ] || complain 'plot does not number features'

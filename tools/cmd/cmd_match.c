@@ -30,6 +30,18 @@ static int check_outputs(const args *a)
                          "in one file");
 }
 
+/* Text has no place for holes, lines and points. */
+static int check_text(const job *j)
+{
+    const char *names[] = {j->args->output, j->args->target_output};
+    for (size_t i = 0; i < 2; i++)
+        if (names[i] != NULL && j->cages[0].n_features > 0 && !output_is_json(names[i]))
+            return failed(names[i], 0,
+                          "text holds no holes, lines or points, so nothing is written; give a "
+                          "name that ends in .geojson");
+    return DONE;
+}
+
 static int write_cages(const job *j)
 {
     const args *a = j->args;
@@ -98,6 +110,8 @@ int run_match(const args *a)
     job_start(&j, a);
     result = job_read_cages(&j);
     progress_end(&j.bar);
+    if (result == DONE)
+        result = check_text(&j);
     if (result == DONE)
         result = write_cages(&j);
     if (result == DONE)

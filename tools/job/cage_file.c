@@ -32,14 +32,43 @@ void cage_write_polygon(FILE *stream, const cage *c, cage_role role)
     fputs("]}}", stream);
 }
 
+/* Writes the lines and points inside, with the numbers that pair them. */
+static void write_inside(FILE *stream, const cage *c, cage_role role)
+{
+    for (size_t i = 0; i < c->n_features; i++) {
+        const cage_feature *f = &c->features[i];
+        bool line = f->kind == ICC_FEATURE_LINE;
+        if (!line && f->kind != ICC_FEATURE_POINT)
+            continue;
+        fprintf(stream,
+                ",\n{\"type\": \"Feature\", \"properties\": {\"role\": \"%s\", \"feature\": %lld",
+                cage_role_name(role), (long long)f->number);
+        if (f->radius > 0)
+            fprintf(stream, ", \"radius\": %.17g", f->radius);
+        fprintf(stream, "}, \"geometry\": {\"type\": \"%s\", \"coordinates\": ",
+                line ? "LineString" : "Point");
+        if (line)
+            positions_write(stream, c, f->n, f->points, false);
+        else
+            fprintf(stream, "[%.17g, %.17g]", f->points[0], cage_given_y(c, f->points));
+        fputs("}}", stream);
+    }
+}
+
+static void write_cage(FILE *stream, const cage *c, cage_role role)
+{
+    cage_write_polygon(stream, c, role);
+    write_inside(stream, c, role);
+}
+
 static void write_collection(FILE *stream, const cage *source, const cage *target)
 {
     fputs("{\"type\": \"FeatureCollection\", \"features\": [\n", stream);
     if (source != NULL)
-        cage_write_polygon(stream, source, CAGE_SOURCE);
+        write_cage(stream, source, CAGE_SOURCE);
     fputs(source != NULL && target != NULL ? ",\n" : "", stream);
     if (target != NULL)
-        cage_write_polygon(stream, target, CAGE_TARGET);
+        write_cage(stream, target, CAGE_TARGET);
     fputs("\n]}\n", stream);
 }
 

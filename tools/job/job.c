@@ -226,6 +226,12 @@ int job_partial(job *j, size_t n, const icc_status *status, const char *what)
     return PARTIAL;
 }
 
+/* The vertices of the source. The command match counts those of features, too. */
+static size_t n_vertices(const job *j)
+{
+    return strcmp(j->args->command, "match") == 0 ? j->matched.n_vertices : j->cages[0].n;
+}
+
 bool report_open(report *r, const job *j)
 {
     if (!outfile_open(&r->file, j->args->json_file))
@@ -242,7 +248,7 @@ bool report_open(report *r, const job *j)
         json_text(&r->json, "target", j->args->target);
     if (job_dim(j) > 0) {
         json_count(&r->json, "dimension", job_dim(j));
-        json_count(&r->json, "vertices", j->cages[0].n);
+        json_count(&r->json, "vertices", n_vertices(j));
     }
     if (j->n_parts > 0)
         json_count(&r->json, "polygons", 1 + j->n_parts);

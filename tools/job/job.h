@@ -74,7 +74,8 @@ void job_end(job *j);
 
 /* Reads the source and the target, if there is one, and matches them on request. Then they
  * correspond, unless the source is a mask. The source's file may have both cages. That applies if
- * no target was named and one is needed, or if the source has features, which only maps use. */
+ * no target was named. A source without features that was chosen by name stays alone if the command
+ * needs no target. */
 int job_read_cages(job *j);
 
 /* The number of coordinates of a point. The cages must have been read. */

@@ -63,12 +63,12 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
 }
 
 /* Reads the target from its own file. If none is given, reads it from the source's file, if that
- * has one. A source without features may stay without a target even so. */
-static int read_target(job *j, const char *text, size_t n)
+ * has one. A shape without features that was chosen by name stays alone if it may. */
+static int read_target(job *j, const char *chosen, const char *text, size_t n)
 {
     args *a = &j->own;
     if (a->target == NULL && !a->needs_target &&
-        !(a->may_pair && j->cages[0].n_features + j->cages[0].n_more > 0))
+        !(a->may_pair && (chosen == NULL || j->cages[0].n_features + j->cages[0].n_more > 0)))
         return DONE;
     if (a->target == NULL && cage_is_named(CAGE_TARGET, text, n)) {
         a->target = a->source;
@@ -211,7 +211,7 @@ int job_read_cages(job *j)
     if (result == DONE)
         result = check_points(j);
     if (result == DONE)
-        result = read_target(j, s->text, s->n);
+        result = read_target(j, s->named, s->text, s->n);
     if (result == DONE)
         result = read_source_again(j, s->named, s->text, s->n);
     free(own.text);
