@@ -51,7 +51,7 @@ static const command commands[] = {
      .run = run_warp,
      .usage = "--source FILE --target FILE [OPTION]... IN OUT",
      .summary = "Warps a picture inside its cage",
-     .example = "-s before.txt -t after.txt fish.png bent.png",
+     .example = "-s before.txt -t after.txt --background 78b9d7 fish.png bent.png",
      .details = "Cages are in pixels: x to the right, y down, and pixel (i, j) covers [i, i+1] x "
                 "[j, j+1]. A pixel whose centre lies in the target cage gets the colour that the "
                 "map brings there. All other pixels stay as they are.\n"
@@ -67,11 +67,13 @@ static const command commands[] = {
      .run = run_animate,
      .usage = "--source FILE [OPTION]... IN OUT CAGE...",
      .summary = "Warps a picture along a path of cages, frame by frame",
-     .example = "-s before.txt --steps 24 fish.png film.png before.txt after.txt",
+     .example = "-s before.txt --steps 24 --background 78b9d7 \\\n"
+                "      fish.png film.png before.txt after.txt",
      .details =
          "The source is the cage in the picture IN. The cages are the places that it goes to, one "
          "after the other. Between two cages corners move straight, in as many frames as --steps "
-         "says. OUT gets the number of the frame: film.png becomes film-0000.png, film-0001.png "
+         "says. The first cage is a frame as well. A GeoJSON cage is read in the role target. "
+         "OUT gets the number of the frame: film.png becomes film-0000.png, film-0001.png "
          "and so on. Each map follows the one before and is certified like those of warp.\n"},
     {.name = "mesh",
      .bit = FOR_MESH,
