@@ -47,6 +47,13 @@ close_to got expected 1e-12
 data=$here/../../examples/data
 run 0 mesh -s "$data/beam.mesh" -t "$data/bent.mesh" "$data/beam.mesh" out.mesh
 holds out '648 tetrahedra: 648 keep their orientation'
+run 4 mesh -s "$data/beam.mesh" -t "$data/bent.mesh" --map curves "$data/beam.mesh" out.mesh
+n=$(sed -n 's/.*orientation, \([0-9]*\) inverted.*/\1/p' out)
+run 0 mesh -s "$data/beam.mesh" -t "$data/bent.mesh" --map curves --untangle "$data/beam.mesh" out.mesh
+holds out "; $n were inverted before untangling, $n repaired; mesh and image are certified"
+run 0 mesh -s "$data/beam.mesh" -t "$data/bent.mesh" --map curves --untangle --json "$data/beam.mesh" out.mesh
+holds out "\"inverted_before\": $n"
+holds out "\"repaired\": $n"
 echo '5 1 1' >points
 run 0 map -s "$data/beam.mesh" -t "$data/bent.mesh" -p points
 run 0 check -s "$data/beam.mesh" -t "$data/bent.mesh"

@@ -10,6 +10,7 @@
 #include "mesh/mesh_file.h"
 #include "mesh/tally.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -66,15 +67,19 @@ static const char *verdict(const mesh_file *m, const icc_certificate *certificat
 static void print_tally(const job *j, const mesh_file *m, const tally *t,
                         const icc_certificate *certificate)
 {
-    char text[512];
+    char text[512], repaired[128] = "";
+    if (t->n_tangled > 0)
+        snprintf(repaired, sizeof repaired, "; %zu were inverted before untangling, %zu repaired",
+                 t->n_tangled, t->n_repaired);
     for (size_t i = 0; tally_line(t, m, i, text, sizeof text); i++) {
+        const char *mended = i == 0 ? repaired : "";
         const char *more = i == 0 ? verdict(m, certificate) : "";
         const char *why = i == 0 && !certificate->boundary_simple ? certificate->message : "";
         const char *colon = why[0] != 0 ? ": " : "";
         if (strcmp(j->args->operands[1], "-") == 0)
-            note("%s%s%s%s", text, more, colon, why);
+            note("%s%s%s%s%s", text, mended, more, colon, why);
         else
-            printf("%s%s%s%s\n", text, more, colon, why);
+            printf("%s%s%s%s%s\n", text, mended, more, colon, why);
     }
 }
 
@@ -201,10 +206,12 @@ static int finish(job *j, const mesh_file *m, const double *images, const icc_st
  * cancels it. */
 static int count_and_finish(job *j, const mesh_file *m, const double *images,
                             const icc_status *status, size_t n_failed, icc_certificate *certificate,
-                            const mesh_carried *attached)
+                            const mesh_carried *attached, const tally *plain)
 {
     tally t;
     tally_make(&t, m, images);
+    if (j->args->repair_mesh && plain->fates != NULL)
+        tally_compare(&t, plain, m);
     certificate->certified = certificate->certified && tally_spoilt(&t) == 0;
     int result = finish(j, m, images, status, n_failed, &t, certificate, attached);
     tally_free(&t);
@@ -221,6 +228,9 @@ static int map_mesh(job *j, mesh_file *m)
     icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
         j->map, n, m->points, images, status, &n_failed, &j->env);
     icc_certificate certificate = {0};
+    tally plain = {0};
+    if (ran == ICC_OK && j->args->repair_mesh)
+        tally_make(&plain, m, images);
     int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
     if (result == DONE)
         result = round_images(j, m, images, &certificate);
@@ -229,7 +239,8 @@ static int map_mesh(job *j, mesh_file *m)
     if (result == DONE && (n_failed == 0 || j->args->outside == OUTSIDE_KEEP))
         result = attached_carry(j, m, images, status, &attached);
     if (result == DONE)
-        result = count_and_finish(j, m, images, status, n_failed, &certificate, &attached);
+        result = count_and_finish(j, m, images, status, n_failed, &certificate, &attached, &plain);
+    tally_free(&plain);
     free(images);
     free(status);
     return result;

@@ -90,8 +90,9 @@ static const command commands[] = {
                 "\n"
                 "The command then says how many elements of each kind keep their orientation, and "
                 "whether the mesh and its image are one-to-one. The signs are exact. The exit code "
-                "is 4 if an element is inverted, collapsed or undecided. A coarse mesh can invert "
-                "although its map is one-to-one; --untangle repairs it where that is possible.\n"},
+                "is 4 if an element is inverted, collapsed or undecided; OUT is written all the "
+                "same. A coarse mesh can invert although its map is one-to-one; --untangle repairs "
+                "it where that is possible.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,

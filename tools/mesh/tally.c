@@ -155,6 +155,16 @@ void tally_make(tally *out, const mesh_file *m, const double *images)
         out->on_boundary = boundary_vertices(m);
 }
 
+void tally_compare(tally *t, const tally *before, const mesh_file *m)
+{
+    t->untangled = true;
+    for (size_t i = 0; i < m->n_elements; i++)
+        if (before->fates[i] == INVERTED || before->fates[i] == COLLAPSED) {
+            t->n_tangled++;
+            t->n_repaired += t->fates[i] == KEPT;
+        }
+}
+
 void tally_free(tally *t)
 {
     free(t->kinds);
@@ -306,6 +316,12 @@ void tally_report(const tally *t, const mesh_file *m, json *out)
     for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
         if (k->kind->dim == m->dim && (k->all > 0 || is_simplex(k->kind)))
             report_kind(t, m, k, out);
+    if (t->untangled) {
+        json_open(out, "untangled", '{');
+        json_count(out, "inverted_before", t->n_tangled);
+        json_count(out, "repaired", t->n_repaired);
+        json_close(out, '}');
+    }
     json_open(out, "carried", '{');
     for (const tally_kind *k = t->kinds; k < t->kinds + n_element_kinds; k++)
         if (k->kind->dim != m->dim && k->all > 0)

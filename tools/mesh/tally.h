@@ -21,10 +21,16 @@ typedef struct tally {
     unsigned char *fates;
     bool *on_boundary; /* of each vertex: true if it is on the boundary of the triangles or
                           tetrahedra */
+    bool untangled;    /* true after tally_compare() */
+    size_t n_tangled, n_repaired; /* inverted or collapsed before untangling; those that keep their
+                                     orientation after it */
 } tally;
 
 void tally_make(tally *out, const mesh_file *m, const double *images);
 void tally_free(tally *t);
+
+/* Counts what untangling has repaired. `before` is about the same mesh. */
+void tally_compare(tally *t, const tally *before, const mesh_file *m);
 
 /* How many elements are inverted, collapsed or undecided. */
 size_t tally_spoilt(const tally *t);
