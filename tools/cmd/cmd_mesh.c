@@ -69,8 +69,8 @@ static void print_tally(const job *j, const mesh_file *m, const tally *t,
 {
     char text[512], repaired[128] = "";
     if (t->n_tangled > 0)
-        snprintf(repaired, sizeof repaired, "; %zu were inverted before untangling, %zu repaired",
-                 t->n_tangled, t->n_repaired);
+        snprintf(repaired, sizeof repaired, "; %zu %s inverted before untangling, %zu repaired",
+                 t->n_tangled, t->n_tangled == 1 ? "was" : "were", t->n_repaired);
     for (size_t i = 0; tally_line(t, m, i, text, sizeof text); i++) {
         const char *mended = i == 0 ? repaired : "";
         const char *more = i == 0 ? verdict(m, certificate) : "";
