@@ -128,4 +128,4 @@ for (const file of fs.readdirSync(html).filter((name) => name.endsWith('.html'))
   if (made !== text) fs.writeFileSync(path.join(html, file), made);
 }
 console.log(`${given.size} of ${Object.keys(STATES).length} shapes are in the pages`);
-if (count < Object.keys(STATES).length) process.exit(1);
+if (given.size < Object.keys(STATES).length) process.exit(1);
