@@ -27,7 +27,7 @@ LEFT_OUT = {
     "Rust": {"icc_map_create_polygons": SHAPES},
     "JavaScript": {"icc_map_create_polygons": SHAPES},
 }
-OF_OTHER_HEADERS = re.compile("icc_(binding|function|grid|pose|sampling|shape|tree|weights)_")
+OF_OTHER_HEADERS = re.compile("icc_(binding|curves|function|grid|pose|sampling|shape|tree|weights)_")
 
 
 def used_in(top, patterns):

@@ -103,7 +103,7 @@ class Grid(Handle):
     def position(self, vertex: ArrayLike) -> Floats:
         """Coordinates (n, dim) of vertices that are given by their numbers (n,)."""
         numbers = np.ascontiguousarray(vertex, dtype=np.uint32)
-        points = np.empty((*numbers.shape, len(self.shape)))
+        points = np.empty((*np.shape(vertex), len(self.shape)))
         check(lib.grid_get_points(self, numbers.size, address(numbers), address(points)))
         return points
 
