@@ -195,6 +195,55 @@ START_TEST(curves_of_points_anywhere)
 }
 END_TEST
 
+/* A plane over a mask: curves are straight, and end where the values do. No other curve joins them,
+ * except along the last edges that have values. */
+START_TEST(curves_of_a_plane_stay_alone)
+{
+    random_source r = {7};
+    for (int32_t dim = 2; dim <= 3; ++dim) {
+        const size_t side = 9, sides[3] = {side, side, side};
+        const size_t n = dim == 2 ? side * side : side * side * side;
+        double *values = malloc(n * sizeof *values), *xyz = malloc((size_t)dim * n * sizeof *xyz);
+        uint8_t *inside = calloc(n, 1);
+        double points[3 * N_POINTS];
+        uint32_t root = 0;
+        size_t n_alone = 0;
+        icc_grid *grid;
+        icc_tree *tree;
+        icc_function *function;
+        ends e;
+        for (size_t v = 0; v < n; ++v) {
+            inside[v] = 1;
+            for (size_t k = v, axis = 0; axis < (size_t)dim; k /= side, ++axis)
+                inside[v] = inside[v] && k % side > 1 && k % side < side - 2;
+            root = inside[v] ? (uint32_t)v : root;
+        }
+        ck_assert_int_eq(icc_grid_create_mask(&grid, dim, sides, inside, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_grid_get_points(grid, n, NULL, xyz), ICC_OK);
+        for (size_t v = 0; v < n; ++v)
+            for (int k = (int)(values[v] = 0); k < dim; ++k)
+                values[v] += (1 + 0.37 * k) * xyz[(size_t)dim * v + (size_t)k];
+        ck_assert_int_eq(icc_tree_create(&tree, grid, root, NULL, NULL, NULL), ICC_OK);
+        ck_assert_int_eq(icc_function_create_values(&function, tree, values, NULL, NULL), ICC_OK);
+        for (size_t i = 0; i < (size_t)dim * N_POINTS; ++i)
+            points[i] = random_between(&r, 2.1, 5.9);
+        icc_curves_free(curves_of(function, points, ICC_WAY_DOWN, &e));
+        for (size_t i = 0; i < N_POINTS; ++i) {
+            ck_assert_int_eq(e.end[i], ICC_END_VALUES);
+            ck_assert(e.alone[i] > 0 && e.alone[i] <= e.length[i]);
+            n_alone += e.alone[i] >= e.length[i];
+        }
+        ck_assert_uint_ge(n_alone, N_POINTS / 2);
+        icc_function_free(function);
+        icc_tree_free(tree);
+        icc_grid_free(grid);
+        free(values);
+        free(xyz);
+        free(inside);
+    }
+}
+END_TEST
+
 /* ---- trees ---- */
 
 START_TEST(a_tree_is_made_again_from_its_parents)
@@ -501,6 +550,7 @@ int main(void)
     tcase_add_test(tests, curves_give_the_coordinates_of_charts);
     tcase_add_test(tests, curves_are_polylines_of_their_length);
     tcase_add_test(tests, curves_of_points_anywhere);
+    tcase_add_test(tests, curves_of_a_plane_stay_alone);
     tcase_add_test(tests, a_tree_is_made_again_from_its_parents);
     tcase_add_test(tests, parents_that_are_none_are_refused);
     tcase_add_test(tests, values_of_a_function_give_its_curves);

@@ -110,7 +110,7 @@ typedef struct command {
                             blank */
 } command;
 
-/* What the user wants to read instead of running the command. */
+/* The help that the user asked for. A command that prints help does nothing else. */
 enum { HELP_NONE, HELP_USUAL, HELP_ALL };
 
 /* Reads argv[2..argc) for a command. Returns DONE, or MISUSED with a message on stderr. If --help

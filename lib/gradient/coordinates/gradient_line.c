@@ -32,21 +32,21 @@ static icc_status down_in_plane(const iccp_gradient_state *state, const double *
                                 iccp_path *path, iccp_jetn *jet, iccp_gradient_line *line)
 {
     iccp_walk2 walk;
-    iccp_boundary_hit2 hit;
+    iccp_boundary_hit2 hit = {0};
     iccp_jet2 flat;
     if (jet != NULL)
         to_plane(jet, &flat);
     icc_status status = iccp_walk2_start(&walk, state->field, ICCP_DOWNHILL, from[0], from[1],
                                          jet != NULL ? &flat : NULL);
-    if (status == ICC_OK)
-        status = iccp_trace_downhill(&walk, state->cells2.first != NULL ? &state->cells2 : NULL,
-                                     path, &hit);
-    if (status == ICC_OK)
-        *line = (iccp_gradient_line){.s = walk.s,
-                                     .merged = walk.merged,
-                                     .alone = walk.alone,
-                                     .facet = hit.facet,
-                                     .bary = {1 - hit.along, hit.along}};
+    if (status != ICC_OK)
+        return status;
+    status =
+        iccp_trace_downhill(&walk, state->cells2.first != NULL ? &state->cells2 : NULL, path, &hit);
+    *line = (iccp_gradient_line){.s = walk.s,
+                                 .merged = walk.merged,
+                                 .alone = walk.alone,
+                                 .facet = hit.facet,
+                                 .bary = {1 - hit.along, hit.along}};
     if (status == ICC_OK && jet != NULL)
         from_plane(&flat, jet);
     return status;
@@ -58,17 +58,16 @@ icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *fr
     if (is_plane(state))
         return down_in_plane(state, from, path, jet, line);
     iccp_walkn walk;
-    iccp_boundary_hitn hit;
+    iccp_boundary_hitn hit = {0};
     icc_status status = iccp_walkn_start(&walk, state->field, ICCP_DOWNHILL, from, NULL, jet);
-    if (status == ICC_OK)
-        status = iccp_walkn_downhill(&walk, state->cellsn.domain != NULL ? &state->cellsn : NULL,
-                                     path, &hit);
     if (status != ICC_OK)
         return status;
+    status = iccp_walkn_downhill(&walk, state->cellsn.domain != NULL ? &state->cellsn : NULL, path,
+                                 &hit);
     *line = (iccp_gradient_line){
         .s = walk.s, .merged = walk.merged, .alone = walk.alone, .facet = hit.facet};
     memcpy(line->bary, hit.bary, sizeof line->bary);
-    return ICC_OK;
+    return status;
 }
 
 static icc_status climb_in_plane(iccp_walk2 *walk, iccp_path *path, iccp_gradient_line *line)

@@ -16,7 +16,8 @@ typedef struct iccp_gradient_line {
 
 /* Follows the line from a point in lattice coordinates to the boundary. `path`, in lattice
  * coordinates, may be NULL. `jet` may be NULL, too; it holds the derivative of the point and
- * becomes that of the line's end and length. */
+ * becomes that of the line's end and length. Returns ICC_ERR_TRACE for a line that does not reach
+ * the boundary; `line` and `path` then hold the part up to where it ends. */
 icc_status iccp_gradient_down(const iccp_gradient_state *state, const double *from, iccp_path *path,
                               iccp_jetn *jet, iccp_gradient_line *line);
 

@@ -470,9 +470,13 @@ icc_status iccp_trace_uphill(iccp_walk2 *walk, iccp_path *path)
 {
     icc_status status = begin_path(walk, path);
     while (status == ICC_OK && !iccp_walk2_at_root(walk)) {
+        const double before = walk->s;
         status = iccp_walk2_step(walk);
-        if (status == ICC_OK && path != NULL)
-            status = iccp_path_append(path, walk->to, walk->s);
+        /* A step may lead to the end of the values, and fail there. */
+        if (path == NULL || (status != ICC_OK && walk->s <= before))
+            continue;
+        const icc_status appended = iccp_path_append(path, walk->to, walk->s);
+        status = appended != ICC_OK ? appended : status;
     }
     return status;
 }
@@ -527,7 +531,7 @@ icc_status iccp_trace_downhill(iccp_walk2 *walk, const iccp_boundary_cells2 *cel
                                                         walk->from, walk->to, hit);
         if (hit_boundary)
             end_at_boundary(walk, s_before, &jet_before, cells, hit);
-        if (path != NULL && (hit_boundary || status == ICC_OK)) {
+        if (path != NULL) {
             const icc_status appended = iccp_path_append(path, walk->to, walk->s);
             if (appended != ICC_OK)
                 return appended;

@@ -252,9 +252,13 @@ icc_status iccp_walkn_uphill(iccp_walkn *walk, iccp_path *path)
 {
     icc_status status = begin_path(walk, path);
     while (status == ICC_OK && !iccp_walkn_at_root(walk)) {
+        const double before = walk->s;
         status = iccp_walkn_step(walk);
-        if (status == ICC_OK && path != NULL)
-            status = iccp_path_append(path, walk->to, walk->s);
+        /* A step may lead to the end of the values, and fail there. */
+        if (path == NULL || (status != ICC_OK && walk->s <= before))
+            continue;
+        const icc_status appended = iccp_path_append(path, walk->to, walk->s);
+        status = appended != ICC_OK ? appended : status;
     }
     return status;
 }
@@ -323,8 +327,12 @@ icc_status iccp_walkn_downhill(iccp_walkn *walk, const iccp_boundary_cellsn *cel
         if (met) {
             end_at_boundary(walk, before, &jet_before, cells, hit);
         } else if (status != ICC_OK) {
-            return cells != NULL && iccp_boundary_cellsn_touch(cells, walk->to, hit) ? ICC_OK
-                                                                                     : status;
+            if (cells != NULL && iccp_boundary_cellsn_touch(cells, walk->to, hit))
+                return ICC_OK;
+            if (path != NULL && walk->s > before &&
+                iccp_path_append(path, walk->to, walk->s) != ICC_OK)
+                return ICC_ERR_MEMORY;
+            return status;
         }
         if (path != NULL) {
             const icc_status appended = iccp_path_append(path, walk->to, walk->s);
