@@ -4,6 +4,8 @@ inside and gives an image for each of its vertices; none is tuned.
 Boundary vertices come with their images; a cage is what these are corners of.
 """
 
+from types import SimpleNamespace
+
 import numpy as np
 
 
@@ -73,7 +75,7 @@ def injective(mesh, cage, target, steps=400):
 
     def energy(places, pull, gradient=False):
         """Its value, infinite where a triangle is turned over, and its gradient."""
-        jacobians = np.einsum("tic,tid->tcd", places[mesh.triangles], mesh.gradients)
+        jacobians = mesh.jacobians(places)
         determinants = np.linalg.det(jacobians)
         if not np.all(determinants > 0):
             return (np.inf, None) if gradient else np.inf
@@ -82,12 +84,9 @@ def injective(mesh, cage, target, steps=400):
         value = mesh.areas @ (squares * (1 + determinants ** -2)) / 4 + pull / 2 * (away ** 2).sum()
         if not gradient:
             return value
-        cofactors = jacobians[:, ::-1, ::-1].copy()
-        cofactors[:, 0, 1], cofactors[:, 1, 0] = -jacobians[:, 1, 0], -jacobians[:, 0, 1]
         slopes = (jacobians * (1 + determinants ** -2)[:, None, None]
-                  - (squares / determinants ** 3)[:, None, None] * cofactors) / 2 * mesh.areas[:, None, None]
-        out = np.zeros_like(places)
-        np.add.at(out, mesh.triangles, np.einsum("tcd,tid->tic", slopes, mesh.gradients))
+                  - (squares / determinants ** 3)[:, None, None] * cofactors(jacobians)) / 2
+        out = mesh.gather(slopes)
         out[rows] += pull * away
         return value, out
 
@@ -104,6 +103,71 @@ def injective(mesh, cage, target, steps=400):
                 break
             images -= length * step
     return images
+
+
+def repaired(mesh, images, rounds=60, steps=4):
+    """Turns triangles back by moving inner vertices, from the images of any method (foldover-free maps, V. Garanzha et al.
+    2021). The boundary goes to its images. A barrier in the energy stands behind the worst triangle and comes nearer round
+    by round. Newton steps, without the terms that are not convex. Returns what it has at the end."""
+    images = images.copy()
+    images[mesh.on_boundary] = mesh.boundary_images[mesh.on_boundary]
+    inner = np.flatnonzero(~mesh.on_boundary)
+    # Determinants are 1 on average.
+    scale = np.linalg.det(mesh.jacobians(images)) @ mesh.areas / mesh.areas.sum()
+
+    def energy(places, behind):
+        """What each triangle contributes, with what its derivatives are made of; `behind` is where the barrier stands."""
+        jacobians = mesh.jacobians(places) / np.sqrt(scale)
+        determinants = np.linalg.det(jacobians)
+        roots = np.hypot(determinants, behind)
+        # The same as (determinants + roots) / 2, without cancellation.
+        barrier = np.where(determinants > 0, determinants + roots, behind ** 2 / (roots + abs(determinants))) / 2
+        terms = (jacobians ** 2).sum(axis=(1, 2)) + determinants ** 2 + 1
+        return mesh.areas @ (terms / barrier), (jacobians, determinants, roots, barrier, terms)
+
+    def newton(parts, behind):
+        """A step downhill for the inner vertices, and how fast the energy falls along it."""
+        jacobians, determinants, roots, barrier, terms = parts
+        turns = cofactors(jacobians)
+        along = (2 * determinants - terms / roots) / barrier
+        bend = 2 / barrier * (1 - 2 * determinants / roots) + terms / barrier / roots ** 2 * (1 + determinants / roots)
+        slopes = 2 * jacobians / barrier[:, None, None] + along[:, None, None] * turns
+        gradient = mesh.gather(slopes)[inner].ravel()
+        spread = np.einsum("tid,tjd,t->tij", mesh.gradients, mesh.gradients, 2 * mesh.areas / barrier)
+        sides = np.einsum("tcd,tid->tic", turns, mesh.gradients) * np.sqrt(mesh.areas * np.maximum(bend, 0))[:, None, None]
+        blocks = spread[:, :, None, :, None] * np.eye(2)[:, None, :] + sides[:, :, :, None, None] * sides[:, None, None]
+        rows = (2 * mesh.triangles[:, :, None] + [0, 1]).reshape(len(turns), 6)
+        matrix = np.zeros((2 * len(mesh.points), 2 * len(mesh.points)))
+        np.add.at(matrix, (rows[:, :, None], rows[:, None, :]), blocks.reshape(-1, 6, 6))
+        free = (2 * inner[:, None] + [0, 1]).ravel()
+        step = np.linalg.solve(matrix[np.ix_(free, free)], gradient)
+        return step.reshape(-1, 2) * np.sqrt(scale), step @ gradient
+
+    for _ in range(rounds):
+        worst = np.linalg.det(mesh.jacobians(images)).min() / scale
+        if worst > 1e-3:
+            break
+        behind = np.sqrt(1e-4 + .04 * min(worst, 0) ** 2)
+        for _ in range(steps):
+            value, parts = energy(images, behind)
+            step, slope = newton(parts, behind)
+            length, moved = 1.0, images.copy()
+            while length > 1e-9:
+                moved[inner] = images[inner] - length * step
+                if energy(moved, behind)[0] <= value - 1e-4 * length * slope:
+                    break
+                length /= 2
+            else:
+                break
+            images = moved
+    return images
+
+
+def cofactors(matrices):
+    """The derivative of each determinant."""
+    out = matrices[:, ::-1, ::-1].copy()
+    out[:, 0, 1], out[:, 1, 0] = -matrices[:, 1, 0], -matrices[:, 0, 1]
+    return out
 
 
 def cross(a, b):
@@ -140,6 +204,26 @@ class Mesh:
         np.add.at(counts, self.triangles, 1)
         self.middles = sums / counts[:, None]
 
+    def jacobians(self, places):
+        """The derivative of each triangle's map."""
+        return np.einsum("tic,tid->tcd", places[self.triangles], self.gradients)
+
+    def gather(self, slopes):
+        """The gradient, at vertices, of an energy whose density has these derivatives by the entries of `jacobians`."""
+        out = np.zeros_like(self.points)
+        np.add.at(out, self.triangles, np.einsum("tcd,tid,t->tic", slopes, self.gradients, self.areas))
+        return out
+
+
+def with_points(mesh, points):
+    """What a formula asks of a mesh, with further points inside behind the vertices."""
+    empty = np.full_like(points, np.nan)
+    return SimpleNamespace(points=np.vstack([mesh.points, points]), middles=np.vstack([mesh.middles, points]),
+                           boundary_images=np.vstack([mesh.boundary_images, empty]),
+                           on_boundary=np.append(mesh.on_boundary, np.zeros(len(points), bool)))
+
 
 METHODS = {"mean value": mean_value, "harmonic": harmonic, "biharmonic": biharmonic, "Cauchy-Green": cauchy,
            "thin plate": thin_plate, "injective": injective}
+# Methods that give an image to any point. The others give them to the vertices of a mesh.
+FORMULAS = ("mean value", "Cauchy-Green", "thin plate")

@@ -1,8 +1,11 @@
 #!/usr/bin/env python3
 """libicc beside what the papers compare themselves with: mean value, harmonic, biharmonic, complex (Cauchy, Green)
 coordinates, thin-plate splines and a locally injective map (baselines.py), on a square that is pushed in from two sides,
-a frog, a long thin shape and the shape with three legs (shapes.py). Triangles that are turned over or flat are counted
-exactly: libicc's by icc_map_certify, those of the others by rational numbers where doubles do not decide.
+a frog, a long thin shape and the shape with three legs (shapes.py).
+
+Each method gives images to the vertices of the same mesh. It is judged three times: by the triangles that are folded,
+which are turned over or flat, counted exactly; by those still folded when one program (baselines.repaired) has moved the
+inner vertices; and by its derivatives, as the shares of the area that it turns over and that it collapses.
 
     python3 examples/compare/compare.py [--cells N] [--steps N] [--shapes NAMES] [OUT.svg]
 
@@ -11,6 +14,7 @@ Needs libicc for Python and NumPy.
 
 import argparse
 from fractions import Fraction
+from typing import NamedTuple
 
 import baselines
 import libicc
@@ -31,26 +35,66 @@ def folds(images, triangles):
     return wrong
 
 
+class Result(NamedTuple):
+    """What a method made of a mesh."""
+    name: str
+    images: np.ndarray
+    folded: int      # triangles as mapped
+    repaired: int    # triangles still folded after repair
+    inverted: float  # shares of the area by derivatives
+    collapsed: float
+    missed: float    # how far the boundary is missed, as a share of the size
+    lost: int        # vertices without an image
+
+
+def shares(derivatives, weights):
+    """The weighted shares of derivatives that turn over, and that have no area."""
+    determinants = np.linalg.det(derivatives)
+    flat = abs(determinants) <= 1e-9 * (derivatives ** 2).sum(axis=(1, 2)) + 1e-24
+    return weights[~flat & (determinants < 0)].sum() / weights.sum(), weights[flat].sum() / weights.sum()
+
+
+def differences(method, mesh, source, target, points):
+    """A formula's derivatives at points, by central differences."""
+    step = 1e-5 * np.ptp(source, axis=0).max()
+    moved = np.vstack([points + way for way in (np.array([[step, 0], [-step, 0], [0, step], [0, -step]])[:, None])])
+    images = method(baselines.with_points(mesh, moved), source, target)[len(mesh.points):].reshape(4, -1, 2)
+    return np.stack([images[0] - images[1], images[2] - images[3]], axis=2) / (2 * step)
+
+
+def judge(name, mesh, images, missed, derivatives, weights):
+    """The result of a method with these images and derivatives."""
+    lost = int((~np.isfinite(images).all(axis=1)).sum())
+    start = np.where(np.isfinite(images), images, mesh.boundary_images)
+    has_all = np.isfinite(images[mesh.triangles]).all(axis=(1, 2))
+    return Result(name, images, folds(images, mesh.triangles[has_all]),
+                  folds(baselines.repaired(mesh, start), mesh.triangles), *shares(derivatives, weights), missed, lost)
+
+
 def compare(source, target, cells, steps):
-    """The mesh, and for each method its name, the images, the number of folds, how far the boundary is missed and how many
-    vertices have no image."""
+    """The mesh, and the result of each method."""
     points, _, triangles = libicc.Map(source, source, cells=cells).mesh()
     mapping = libicc.Map(source, target)
-    images, _ = mapping.repair(points, triangles)
-    mesh = baselines.Mesh(points, triangles, images)
+    mesh = baselines.Mesh(points, triangles, mapping(points))
+    inside = np.random.default_rng(3).uniform(source.min(axis=0), source.max(axis=0), (3000, 2))
+    inside = inside[libicc.Domain(source).locate(inside) == libicc.INSIDE][:1000]
+    even = np.ones(len(inside))
     size = np.ptp(target, axis=0).max()
     results = []
     for name, method in baselines.METHODS.items():
         placed = method(mesh, source, target, steps) if name == "injective" else method(mesh, source, target)
-        missed = np.hypot(*(placed - images)[mesh.on_boundary].T).max() / size
-        results.append((name, placed, folds(placed, mesh.triangles), missed, 0))
+        missed = np.hypot(*(placed - mesh.boundary_images)[mesh.on_boundary].T).max() / size
+        by_formula = name in baselines.FORMULAS
+        results.append(judge(name, mesh, placed, missed,
+                             differences(method, mesh, source, target, inside) if by_formula else mesh.jacobians(placed),
+                             even if by_formula else mesh.areas))
     maximum = libicc.Chart(source, method="gradient", cells=100).info.maximum
-    papers = libicc.Map(source, target, kind="curves", method="gradient", function="harmonic", cells=100, maximum=maximum,
-                        target_maximum=mapping(np.array([maximum]))[0])
-    for name, ask in (("papers' method", papers.certify), ("libicc", mapping.repair)):
-        placed, certificate = ask(points, triangles)
-        results.append((name, placed, certificate.n_inverted + certificate.n_flat, 0.0,
-                        certificate.n_no_image))
+    same = {"kind": "curves", "maximum": maximum, "target_maximum": mapping(np.array([maximum]))[0]}
+    for name, own in (("papers' method", libicc.Map(source, target, method="gradient", function="harmonic", cells=100, **same)),
+                      ("leaves", libicc.Map(source, target, **same)), ("libicc", mapping)):
+        derivatives = own.jacobian(inside)
+        known = np.isfinite(derivatives).all(axis=(1, 2))
+        results.append(judge(name, mesh, own(points), 0.0, derivatives[known], even[known]))
     return mesh, results
 
 
@@ -76,20 +120,24 @@ def panel(out, mesh, placed, left, top, frame):
 
 def caption(result):
     """The name of a method, and what is wrong with what it made."""
-    name, _, n_folds, missed, n_lost = result
-    return name, f"misses {100 * missed:.0f} %" if missed > .02 else f"{n_folds + n_lost} folded"
+    lines = [result.name, f"{result.folded} folded"]
+    if result.missed > .02:
+        lines.append(f"misses {100 * result.missed:.0f} %")
+    elif result.collapsed > .005:
+        lines.append(f"{100 * result.collapsed:.0f} % collapsed")
+    return lines
 
 
 def draw(name, rows):
     """For each shape the source, then each method, five to a line."""
-    height = SIDE + 3 * FONT + GAP
+    height = SIDE + 4 * FONT + GAP
     lines = -(-(1 + len(rows[0][2])) // COLUMNS)
     width, total = COLUMNS * (SIDE + GAP) + GAP, len(rows) * lines * height + GAP
     with open(name, "w", encoding="utf-8") as out:
         out.write(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {total}" font-family="sans-serif"'
                   f' font-size="{FONT}"><rect width="{width}" height="{total}" fill="white"/>\n')
         for j, (title, mesh, results) in enumerate(rows):
-            panels = [((title, "at rest"), mesh.points)] + [(caption(result), result[1]) for result in results]
+            panels = [((title, "at rest"), mesh.points)] + [(caption(result), result.images) for result in results]
             for i, (text, placed) in enumerate(panels):
                 around = mesh.points if i == 0 else mesh.boundary_images[mesh.on_boundary]
                 low, size = around.min(axis=0), np.ptp(around, axis=0).max()
@@ -102,7 +150,7 @@ def draw(name, rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n", maxsplit=1)[0])
-    parser.add_argument("--cells", type=int, default=24, help="of the mesh, along the longest side (default: 24)")
+    parser.add_argument("--cells", type=int, default=12, help="of the mesh, along the longest side (default: 12)")
     parser.add_argument("--steps", type=int, default=400, help="of the locally injective map (default: 400)")
     parser.add_argument("--shapes", help="parts of the names of shapes, with commas between them (default: all)")
     parser.add_argument("out", nargs="?", metavar="OUT.svg")
@@ -113,9 +161,11 @@ def main():
         mesh, results = compare(source, target, options.cells, options.steps)
         rows.append((title, mesh, results))
         print(f"{title}: {len(mesh.triangles)} triangles")
-        for name, _, n_folds, missed, n_lost in results:
-            print(f"  {name:15}{n_folds:6} folded" + (f", boundary missed by {100 * missed:.1f} %" if missed > 1e-4 else "")
-                  + (f", {n_lost} vertices without image" if n_lost > 0 else ""))
+        print(f"  {'':15}{'folded':>8}{'repaired':>10}{'inverted':>10}{'collapsed':>11}")
+        for result in results:
+            print(f"  {result.name:15}{result.folded:8}{result.repaired:10}{100 * result.inverted:8.2f} %{100 * result.collapsed:9.1f} %"
+                  + (f"  boundary missed by {100 * result.missed:.1f} %" if result.missed > 1e-4 else "")
+                  + (f"  {result.lost} vertices without image" if result.lost > 0 else ""))
     if options.out is not None:
         draw(options.out, rows)
 
