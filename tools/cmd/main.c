@@ -72,7 +72,9 @@ static const command commands[] = {
      .details =
          "The source is the cage in the picture IN. The cages are the places that it goes to, one "
          "after the other. Between two cages corners move straight, in as many frames as --steps "
-         "says. The first cage is a frame as well. A GeoJSON cage is read in the role target. "
+         "says. A limb that turns far gets short on the way, so give a cage every 15 to 20 "
+         "degrees. "
+         "The first cage is a frame as well. A GeoJSON cage is read in the role target. "
          "OUT gets the number of the frame: film.png becomes film-0000.png, film-0001.png "
          "and so on. Each map follows the one before and is certified like those of warp.\n"},
     {.name = "mesh",
@@ -157,7 +159,7 @@ static const command commands[] = {
      .run = run_pose,
      .usage = "[--source FILE] --handles FILE --pose FILE [OPTION]... IN OUT\n"
               "--binding FILE --pose FILE [OPTION]... OUT",
-     .summary = "Moves points, meshes and pictures along with handles, such as joints",
+     .summary = "Moves points, meshes and pictures along with a few handles",
      .example = "-s cat.txt -a handles.json --pose pose.json cat.png posed.png",
      .details = "IN is a list of points, a mesh (as for 'libicc mesh') or a picture (as for "
                 "'libicc warp'). Its content tells which. 'libicc weights --help' describes the "
