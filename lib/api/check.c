@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/options.h"
+#include "domain/domain.h"
 #include "gradient/coordinates/chart_parameters.h"
 
 #include <math.h>
@@ -13,6 +14,20 @@ icc_status iccp_begin(iccp_env *full, const icc_env *env, const char *missing, i
     if (missing != NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "%s is NULL", missing);
     return iccp_env_read(full, env, err);
+}
+
+icc_status iccp_check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
+                             const uint32_t *facets, icc_error *err)
+{
+    if (vertices == NULL && n_vertices > 0)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "vertices is NULL");
+    if (n_vertices > ICCP_MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu vertices are too many; at most %zu",
+                         n_vertices, ICCP_MAX_COUNT);
+    if (facets != NULL && n_facets > ICCP_MAX_COUNT)
+        return iccp_fail(err, ICC_ERR_ARGUMENT, "%zu facets are too many; at most %zu", n_facets,
+                         ICCP_MAX_COUNT);
+    return ICC_OK;
 }
 
 /* VTK's numbers of the simplex of this dimension; 0 beyond space, where it has none. */

@@ -33,6 +33,10 @@ icc_status iccp_check_function(const icc_function_options *options, const char *
 /* Checks a maximum that the caller wants. NULL is accepted. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 
+/* Checks the arrays of a boundary, but not what stands in them. `facets` may be NULL. */
+icc_status iccp_check_counts(size_t n_vertices, const double *vertices, size_t n_facets,
+                             const uint32_t *facets, icc_error *err);
+
 /* Reads the caller's mesh, in which only simplices are supported. Checks the struct itself, but no
  * vertex and no index. */
 icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err);

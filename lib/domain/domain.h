@@ -17,9 +17,11 @@
  * - locator: the search structure of a polygon without features (geometry/locate.h).
  *
  * Ways
- * - Making: domain.c from a boundary, features.h with features, mesh_domain.h from a mesh,
+ * - Making: polygon_domain.h from a polygon, simplicial_domain.h from other boundaries,
+ *   domain_create.c from either. features.h with features, mesh_domain.h from a mesh,
  *   mask_boundary.h from a mask, which solid.h checks and mask_repair.h repairs.
- * - Asking: domain_query.c. Bytes: domain_file.h, features_file.h.
+ * - Asking: iccp_domain_ops. tree_locate.h locates points, tree_cross.h crosses the boundary,
+ *   scan_polygon.h and scan_surface.h scan rasters. Bytes: domain_file.h, features_file.h.
  * - Boundaries of meshes that are no domains: boundary_parts.h, in the plane by outlines.h.
  *
  * Invariants: a domain is checked when it is made and when it is read from bytes, and then never
@@ -30,7 +32,6 @@
 
 #include "base/env.h"
 #include "geometry/band.h"
-#include "geometry/crossings.h"
 #include "geometry/facet_tree.h"
 #include "geometry/frame.h"
 #include "icc/icc.h"
@@ -50,9 +51,36 @@ struct iccp_locator;
 struct iccp_mask;
 struct iccp_simplices;
 
+/* Number of vertices between progress reports of a loop. */
+#define ICCP_VERTICES_PER_REPORT ((size_t)1 << 16)
+
+/* A regular lattice of points, first axis fastest. Positions are origin + spacing * i, rounded, in
+ * local coordinates. */
+typedef struct iccp_raster {
+    size_t shape[ICC_MAX_DIM]; /* points along each axis, at least 1 */
+    double origin[ICC_MAX_DIM];
+    double spacing;
+} iccp_raster;
+
+/* How a domain answers, which depends on how it keeps its boundary. Whoever makes a domain chooses
+ * the table. So a program links the answers only for those domains that it makes. The functions of
+ * the same names below describe the operations. */
+typedef struct iccp_domain_ops {
+    const iccp_facet_tree *(*tree)(const icc_domain *domain);
+    int32_t (*locate)(const icc_domain *domain, const double *point, bool boundary_only,
+                      uint32_t *facet, double *bary);
+    bool (*cross)(const icc_domain *domain, const double *from, const double *to, double *share,
+                  uint32_t *facet, double *bary);
+    icc_status (*scan)(const icc_domain *domain, const iccp_raster *raster, uint8_t *inside,
+                       const iccp_env *env);
+    /* Frees the tree, the locator and the features. */
+    void (*clear)(icc_domain *domain);
+} iccp_domain_ops;
+
 struct icc_domain {
     iccp_memory memory;
     atomic_size_t references;
+    const iccp_domain_ops *ops;
     int32_t dim;
     /* +1 or -1 as in icc_domain_info, the same in the caller's and in local coordinates */
     int32_t orientation;
@@ -87,49 +115,60 @@ icc_status iccp_domain_create(icc_domain **out, int32_t dim, size_t n_vertices,
                               const double *vertices, size_t n_facets, const uint32_t *facets,
                               const iccp_env *env, icc_error *err);
 
-/* ---- making a domain ---- */
-
-/* Returns an empty domain of this dimension; NULL if there is no memory. */
-icc_domain *iccp_domain_new(int32_t dim, const iccp_memory *memory);
-
-/* Fills in the bounding box and the band from the frame and the local vertices. */
-void iccp_domain_measure_box(icc_domain *domain);
-
 /* Adds a reference that keeps a domain alive. To its users the domain stays const. */
 icc_domain *iccp_domain_retain(const icc_domain *domain);
 void iccp_domain_release(icc_domain *domain);
 
-/* Returns the tree with its boxes. In 2-D the first call makes the boxes; they are missing if there
- * is no memory. Any number of threads may call it at the same time. */
-const iccp_facet_tree *iccp_domain_tree(const icc_domain *domain);
-
 /* Returns a vertex as the caller gave it. */
 void iccp_domain_given(const icc_domain *domain, size_t vertex, double *point);
-
-/* Returns ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, in the sense of
- * icc_domain_locate(). If `facet` is not NULL, it also writes the nearest facet and the barycentric
- * coordinates of the nearest point on it. That takes longer for points far from the boundary; with
- * `boundary_only` it is done only for ICC_BOUNDARY. The coordinates are not negative and have sum
- * 1. A point that is a vertex gets exactly 1 and 0. */
-int32_t iccp_domain_locate(const icc_domain *domain, const double *point, bool boundary_only,
-                           uint32_t *facet, double *bary);
 
 /* Computes the local point with these barycentric coordinates on a facet. It is exact at the
  * vertices, and in a coordinate that all vertices of the facet share. */
 void iccp_domain_facet_point(const icc_domain *domain, uint32_t facet, const double *bary,
                              double *point);
 
+/* Returns ICC_ERR_UNSUPPORTED for a domain with features, which only maps of kind mesh support.
+ * `what` names the object that does not, such as "a chart". */
+icc_status iccp_domain_refuse_features(const icc_domain *domain, const char *what, icc_error *err);
+
+/* ---- questions ---- */
+
+/* Returns the tree with its boxes. In 2-D the first call makes the boxes; they are missing if there
+ * is no memory. Any number of threads may call it at the same time. */
+static inline const iccp_facet_tree *iccp_domain_tree(const icc_domain *domain)
+{
+    return domain->ops->tree(domain);
+}
+
+/* Returns ICC_INSIDE, ICC_BOUNDARY or ICC_OUTSIDE for a local point, in the sense of
+ * icc_domain_locate(). If `facet` is not NULL, it also writes the nearest facet and the barycentric
+ * coordinates of the nearest point on it. That takes longer for points far from the boundary; with
+ * `boundary_only` it is done only for ICC_BOUNDARY. The coordinates are not negative and have sum
+ * 1. A point that is a vertex gets exactly 1 and 0. */
+static inline int32_t iccp_domain_locate(const icc_domain *domain, const double *point,
+                                         bool boundary_only, uint32_t *facet, double *bary)
+{
+    return domain->ops->locate(domain, point, boundary_only, facet, bary);
+}
+
 /* Finds the first boundary point on the way from one local point to another, both included. Returns
  * its position as a share of the way, the facet (the smallest number if there are several) and the
  * barycentric coordinates there. Returns false and writes nothing if there is none. A segment never
  * slips through between two facets. If it runs within a facet, it meets only the facets at its
  * ends. */
-bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to,
-                       double *share, uint32_t *facet, double *bary);
+static inline bool iccp_domain_cross(const icc_domain *domain, const double *from, const double *to,
+                                     double *share, uint32_t *facet, double *bary)
+{
+    return domain->ops->cross(domain, from, to, share, facet, bary);
+}
 
-/* Finds all crossings of the boundary with the line through a local point along an axis, sorted;
- * see iccp_line_crossings(). The inside lies between each even one and the next. */
-size_t iccp_domain_line(const icc_domain *domain, int32_t axis, const double *point,
-                        size_t capacity, iccp_line_crossing *crossings);
+/* Sets inside[i], which is 0, to 1 for the points of a raster that lie strictly inside the domain.
+ * That is exact up to 3-D. The raster contains the bounding box. Returns ICC_OK, ICC_ERR_MEMORY or
+ * ICC_ERR_CANCELLED. */
+static inline icc_status iccp_domain_scan(const icc_domain *domain, const iccp_raster *raster,
+                                          uint8_t *inside, const iccp_env *env)
+{
+    return domain->ops->scan(domain, raster, inside, env);
+}
 
 #endif

@@ -2,26 +2,26 @@
 #include "domain/features.h"
 
 #include "base/error.h"
+#include "domain/domain_make.h"
 #include "domain/features_check.h"
+#include "domain/polygon_domain.h"
+#include "domain/scan_polygon.h"
+#include "domain/tree_cross.h"
+#include "domain/tree_locate.h"
 #include "geometry/polygon_check.h"
 
 #include <string.h>
 
-void iccp_features_free(iccp_features *features, const iccp_memory *memory)
+static void clear(icc_domain *domain)
 {
-    if (features == NULL)
-        return;
-    iccp_free(memory, features->item);
-    iccp_free(memory, features);
+    if (domain->features != NULL)
+        iccp_free(&domain->memory, domain->features->item);
+    iccp_free(&domain->memory, domain->features);
+    iccp_facet_tree_free(&domain->tree, &domain->memory);
 }
 
-icc_status iccp_features_refuse(const icc_domain *domain, const char *what, icc_error *err)
-{
-    if (domain->features == NULL)
-        return ICC_OK;
-    return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                     "%s cannot have holes, lines or points inside: only mesh maps can", what);
-}
+static const iccp_domain_ops OPS = {iccp_tree_own, iccp_tree_locate, iccp_tree_cross,
+                                    iccp_scan_polygon, clear};
 
 static size_t count_facets(const icc_feature *feature)
 {
@@ -166,7 +166,7 @@ static icc_status create(icc_domain **out, size_t n_outer, const double *outer, 
     icc_status status = iccp_polygon_check_counts(n_outer, 0, NULL, err);
     if (status != ICC_OK)
         return status;
-    icc_domain *domain = iccp_domain_new(2, &env->memory);
+    icc_domain *domain = iccp_domain_new(2, &OPS, &env->memory);
     if (domain == NULL)
         return iccp_fail_memory(err);
     status = lay_out(domain, n_outer, n_features, features, err);
@@ -204,7 +204,7 @@ icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const d
 {
     size_t n_rims = 0, n = n_features;
     if (n_features == 0)
-        return iccp_domain_create(out, 2, n_outer, outer, 0, NULL, env, err);
+        return iccp_polygon_domain_create(out, n_outer, outer, 0, NULL, env, err);
     *out = NULL;
     for (size_t f = 0; f < n_features; ++f)
         n_rims += features[f].radius > 0;

@@ -42,11 +42,4 @@ icc_status iccp_domain_create_features(icc_domain **out, size_t n_outer, const d
                                        size_t n_features, const icc_feature *features,
                                        const iccp_env *env, icc_error *err);
 
-/* Returns ICC_ERR_UNSUPPORTED for a domain with features, which only maps of kind mesh support.
- * `what` names the object that does not, such as "a chart". */
-icc_status iccp_features_refuse(const icc_domain *domain, const char *what, icc_error *err);
-
-/* Accepts NULL. */
-void iccp_features_free(iccp_features *features, const iccp_memory *memory);
-
 #endif

@@ -58,11 +58,11 @@ static bool names_vertices(const iccp_planar *mesh)
 
 static icc_status certify(const iccp_planar *mesh, const iccp_env *env)
 {
+    const iccp_frame frame = iccp_frame_identity();
     iccp_certificate certificate = {0};
     iccp_certify_mesh(mesh, mesh->points, &certificate);
     return iccp_certificate_holds(&certificate)
-               ? iccp_polygon_check_points(mesh->n_boundary, mesh->points, NULL,
-                                           &iccp_frame_identity, env, NULL)
+               ? iccp_polygon_check_points(mesh->n_boundary, mesh->points, NULL, &frame, env, NULL)
                : ICC_ERR_FORMAT;
 }
 

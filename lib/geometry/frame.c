@@ -14,8 +14,6 @@ enum { STRANDS = 8 }; /* numbers of plane points that are handled at a time */
  * apart. */
 static const double ALIKE = 16;
 
-const iccp_frame iccp_frame_identity = {{0}, {1, 1}, {1, 1}};
-
 /* Finds bounds in the plane, in strands that run side by side. */
 static void find_bounds_2d(size_t n, const double *points, double *lowest, double *highest)
 {
@@ -84,7 +82,7 @@ static double shift_of(double lowest, double highest)
 void iccp_frame_fit(iccp_frame *frame, int32_t dim, size_t n, const double *points)
 {
     double lowest[ICC_MAX_DIM], highest[ICC_MAX_DIM], largest = 0;
-    *frame = iccp_frame_identity;
+    *frame = iccp_frame_identity();
     iccp_frame_bounds(dim, n, points, lowest, highest);
     for (int32_t k = 0; k < dim; ++k) {
         frame->shift[k] = shift_of(lowest[k], highest[k]);

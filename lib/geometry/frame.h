@@ -24,7 +24,10 @@ typedef struct iccp_frame {
 } iccp_frame;
 
 /* Shift 0 and scale 1. */
-extern const iccp_frame iccp_frame_identity;
+static inline iccp_frame iccp_frame_identity(void)
+{
+    return (iccp_frame){.in = {1, 1}, .out = {1, 1}};
+}
 
 /* Computes the frame of n >= 1 finite points with dim coordinates each. The largest local magnitude
  * lies in [1/2, 1], unless all are 0. */

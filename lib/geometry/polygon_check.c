@@ -275,7 +275,7 @@ static icc_status localise_finite(double *local, double *scratch, size_t n, cons
             scratch[2 * n_finite + 1] = vertices[2 * i + 1];
             ++n_finite;
         }
-    iccp_frame frame = iccp_frame_identity;
+    iccp_frame frame = iccp_frame_identity();
     if (n_finite > 0)
         iccp_frame_fit(&frame, 2, n_finite, scratch);
     for (size_t i = 0; i < n; ++i) {

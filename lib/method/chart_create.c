@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/threads.h"
-#include "domain/features.h"
+#include "domain/domain.h"
 #include "method/methods.h"
 
 static const char CHART_DOMAIN[] = "the domain of a chart";
@@ -49,7 +49,7 @@ static icc_status create(size_t n, icc_chart **out, const icc_domain *const *dom
         has_mesh = has_mesh && domain[k]->mesh != NULL;
     }
     for (size_t k = 0; k < n && status == ICC_OK; ++k) {
-        status = iccp_features_refuse(domain[k], CHART_DOMAIN, err);
+        status = iccp_domain_refuse_features(domain[k], CHART_DOMAIN, err);
         if (status != ICC_OK && n > 1)
             return iccp_fail_side(err, status, (int32_t)k + 1);
     }

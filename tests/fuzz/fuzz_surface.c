@@ -7,6 +7,7 @@
  * Three bytes a vertex; what is left replaces vertex indices of the faces. */
 #include "bodies.h"
 #include "domain/domain.h"
+#include "domain/tree_cross.h"
 #include "fuzz.h"
 #include "icc/icc.h"
 
@@ -16,7 +17,7 @@ static void check_lines(const icc_domain *domain, const double *local, int32_t w
 {
     iccp_line_crossing crossings[512];
     for (int axis = 0; axis < 3; ++axis) {
-        const size_t n = iccp_domain_line(domain, axis, local, 512, crossings);
+        const size_t n = iccp_tree_line(domain, axis, local, 512, crossings);
         size_t n_before = 0, n_near = 0;
         require(n % 2 == 0 && n <= domain->n_facets);
         for (size_t i = 0; i < n; ++i) {

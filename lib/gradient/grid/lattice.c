@@ -57,7 +57,7 @@ icc_status iccp_grid_new(icc_grid **out, int32_t dim, const size_t *shape, const
         grid->n_vertices *= shape[k];
     }
     grid->spacing = 1.0;
-    grid->frame = iccp_frame_identity;
+    grid->frame = iccp_frame_identity();
     grid->inside = iccp_alloc_zero(&env->memory, n, sizeof *grid->inside);
     if (grid->inside == NULL) {
         iccp_grid_release(grid);

@@ -13,9 +13,8 @@
  * - grassfire: the choice of the maximum farthest from the outside (grassfire.h).
  * - piece: a set of inside vertices connected along the axes. Only the largest is kept (pieces.h).
  *
- * Ways: rasterise.h makes a grid, by scan_polygon.h in the plane, scan_surface.h otherwise, and by
- * itself from a mask. pieces.h keeps the largest piece, grassfire.h chooses the maximum, refine.h
- * halves the spacing.
+ * Ways: rasterise.h makes a grid from a domain, pieces.h keeps the largest piece, grassfire.h
+ * chooses the maximum, refine.h halves the spacing.
  *
  * Invariants: a grid never changes after it is made, and objects share it by reference counts.
  * `n_inside` counts `inside`. Positions are origin + spacing * i, rounded, and inside is exact for
@@ -34,9 +33,6 @@
 
 /* Most vertices of a grid. */
 #define ICCP_MAX_VERTICES ((size_t)1 << 28)
-
-/* Number of vertices between progress reports of a loop. */
-#define ICCP_VERTICES_PER_REPORT ((size_t)1 << 16)
 
 struct icc_grid {
     iccp_memory memory;

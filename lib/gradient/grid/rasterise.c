@@ -5,10 +5,9 @@
 #include "base/minmax.h"
 #include "domain/mask.h"
 #include "gradient/grid/pieces.h"
-#include "gradient/grid/scan_polygon.h"
-#include "gradient/grid/scan_surface.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { MARGIN = 2 }; /* layers of vertices beyond the bounding box */
 
@@ -50,10 +49,14 @@ static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, i
     icc_status status = cover_box(out, domain, cells, env, err);
     if (status != ICC_OK)
         return status;
-    if (domain->dim == 2)
-        return iccp_scan_polygon(*out, domain, env);
-    status = iccp_scan_surface(*out, domain, env);
-    return status == ICC_OK ? iccp_grid_keep_largest(*out, env) : status;
+    icc_grid *grid = *out;
+    iccp_raster raster = {.spacing = grid->spacing};
+    memcpy(raster.shape, grid->shape, sizeof raster.shape);
+    memcpy(raster.origin, grid->origin, sizeof raster.origin);
+    status = iccp_domain_scan(domain, &raster, grid->inside, env);
+    for (size_t v = 0; v < grid->n_vertices && status == ICC_OK; ++v)
+        grid->n_inside += grid->inside[v];
+    return status == ICC_OK && domain->dim != 2 ? iccp_grid_keep_largest(grid, env) : status;
 }
 
 /* ---- masks ---- */

@@ -4,6 +4,7 @@
 
 #include "base/minmax.h"
 #include "geometry/away.h"
+#include "geometry/crossings.h"
 #include "geometry/inside.h"
 #include "geometry/simplex.h"
 #include "math/orient.h"

@@ -2,6 +2,7 @@
  * listed of the others, and where points lie. */
 #include "domain/domain.h"
 #include "geometry/avl.h"
+#include "geometry/crossings.h"
 #include "geometry/locate.h"
 #include "geometry/simple.h"
 #include "geometry/sweep.h"

@@ -7,7 +7,7 @@
 #include "../../surfaces.h"
 #include "base/error.h"
 #include "domain/domain.h"
-#include "geometry/crossings.h"
+#include "domain/tree_cross.h"
 #include "geometry/facet_tree.h"
 #include "geometry/fans.h"
 #include "geometry/needles.h"
@@ -778,7 +778,7 @@ START_TEST(lattice_points_are_placed)
         iccp_frame_in(&domain->frame, 3, p, local);
         for (int axis = 0; axis < 3; ++axis) {
             iccp_line_crossing crossings[64];
-            const size_t n_crossings = iccp_domain_line(domain, axis, local, 64, crossings);
+            const size_t n_crossings = iccp_tree_line(domain, axis, local, 64, crossings);
             ck_assert(n_crossings % 2 == 0 && n_crossings <= 64);
             size_t n_before = 0;
             for (size_t i = 0; i < n_crossings; ++i) {
@@ -787,7 +787,7 @@ START_TEST(lattice_points_are_placed)
             }
             if (expect != ICC_BOUNDARY)
                 ck_assert((n_before % 2 == 1) == (expect == ICC_INSIDE));
-            ck_assert(iccp_domain_line(domain, axis, local, 1, crossings) == n_crossings);
+            ck_assert(iccp_tree_line(domain, axis, local, 1, crossings) == n_crossings);
         }
     }
     icc_domain_free(domain);
@@ -946,7 +946,7 @@ static void check_lines(const icc_domain *domain, int dim, const double *p, int 
     for (int k = 0; k < dim; ++k)
         sum += fabs(p[k]);
     const double half = one - (sum - fabs(p[axis]));
-    const size_t n = iccp_domain_line(domain, axis, p, 2, line);
+    const size_t n = iccp_tree_line(domain, axis, p, 2, line);
     ck_assert(n == 2 || (n == 0 && half < 1e-14));
     if (n == 2 && half > 1e-9)
         ck_assert(fabs(line[0].at + half) < 1e-13 && fabs(line[1].at - half) < 1e-13);
@@ -1141,7 +1141,7 @@ START_TEST(intervals_are_domains)
     iccp_line_crossing line[2];
     for (int i = 0; i < 6; ++i)
         iccp_frame_in(&domain->frame, 1, points + i, local + i);
-    ck_assert_uint_eq(iccp_domain_line(domain, 0, local, 2, line), 2);
+    ck_assert_uint_eq(iccp_tree_line(domain, 0, local, 2, line), 2);
     ck_assert(line[0].at == local[1] && line[0].facet == 1);
     ck_assert(line[1].at == local[4] && line[1].facet == 0);
     ck_assert(iccp_domain_cross(domain, local + 2, local + 5, &share, facet, &one));
@@ -1178,7 +1178,7 @@ START_TEST(polygons_answer_too)
         iccp_line_crossing line[N];
         double share, bary[2];
         uint32_t facet;
-        const size_t n = iccp_domain_line(domain, 0, p, N, line);
+        const size_t n = iccp_tree_line(domain, 0, p, N, line);
         size_t n_before = 0;
         for (size_t k = 0; k < n; ++k)
             n_before += line[k].at < p[0];

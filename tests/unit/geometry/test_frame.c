@@ -215,8 +215,9 @@ START_TEST(test_identity)
 {
     const double x[ICC_MAX_DIM] = {1, -2, 3e300, 0, 5e-324, 6};
     double local[ICC_MAX_DIM], back[ICC_MAX_DIM];
-    iccp_frame_in(&iccp_frame_identity, ICC_MAX_DIM, x, local);
-    iccp_frame_out(&iccp_frame_identity, ICC_MAX_DIM, x, back);
+    const iccp_frame identity = iccp_frame_identity();
+    iccp_frame_in(&identity, ICC_MAX_DIM, x, local);
+    iccp_frame_out(&identity, ICC_MAX_DIM, x, back);
     for (int k = 0; k < ICC_MAX_DIM; ++k)
         ck_assert(local[k] == x[k] && back[k] == x[k]);
 }
