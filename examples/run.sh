@@ -95,6 +95,8 @@ all_others() {
     for name in inspect_stages maximum_and_rotation sparse_points solid_through_time mesh_4d; do
         ran "$name" "$programs/$name"
     done
+    # shellcheck disable=SC2016
+    ran stages sh -euc '"$1" 60 <"$2" >"$3"' sh "$programs/stages" "$data/tripus.src.txt" "$out/stages.svg"
     ran l_to_square "$programs/l_to_square" "$out/l_to_square.svg"
     ran animal_pose "$programs/animal_pose" "$out/animal.vtk"
     ran mesh_morph "$programs/mesh_morph" "$data/beam.mesh" "$data/bent.mesh" "$out/beam.mesh" "$out/beam.vtk"
