@@ -6,7 +6,8 @@
  * - format: the method's number in saved bytes. Every method has its own.
  *
  * This folder is the only one that names all methods. To add a method, write its iccp_chart_ops in
- * a folder of its own and add it to the table in methods.c. Invariant: a method that needs a mesh
+ * a folder of its own and add it to the table in all_methods.c. A library with the papers alone has
+ * papers_methods.c instead. Invariant: a method that needs a mesh
  * is only called if all domains have one.
  *
  * Ways: chart_create.h creates charts, load.h saves and loads them. */
@@ -14,6 +15,9 @@
 #define ICCP_METHODS_H
 
 #include "chart/chart.h"
+
+/* The methods of this library, then NULL. */
+extern const iccp_chart_ops *const iccp_methods[];
 
 /* iccp_method_find() finds a method by its number, and iccp_method_of_format() by its number in
  * saved bytes. Both return NULL if there is none. `has_mesh` means that all domains have a mesh
