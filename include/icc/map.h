@@ -711,7 +711,13 @@ enum {
      *  In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The
      *  map uses the source's mesh, with images that are chosen and certified as in 2-D. The
      *  target's mesh only serves its chart. Where necessary, inner edges of the source's mesh
-     *  between boundary vertices are cut. */
+     *  between boundary vertices are cut.
+     *
+     *  In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the
+     *  cells of either mask, or the cone from one inner vertex to all facets. The cone needs a
+     *  point inside each boundary that sees all of it. Certified then means that every simplex
+     *  is positive before and after. The signs are certain, but a simplex that is nearly flat
+     *  counts as inverted. Whether a boundary meets itself is not checked. */
     ICC_MAP_MESH = 2
 };
 
@@ -737,15 +743,17 @@ typedef struct icc_map_options {
     size_t size; /**< set by the caller: `sizeof(icc_map_options)` */
     /** `ICC_MAP_*`: this kind, or ::ICC_ERR_CERTIFICATE if no such map is found. 0: the best
      *  that is found, see icc_map_info::kind. That is a mesh map for foliation and disc in 2-D,
-     *  unless both domains bring meshes, and for foliation in 3-D. It is a curve map in all
-     *  other cases, or if no mesh map is found */
+     *  unless both domains bring meshes, and for foliation in 3-D. Beyond 3-D it is a mesh map
+     *  unless `chart` names a method or a maximum. It is a curve map in all other cases, or if
+     *  no mesh map is found */
     int32_t kind;
     /** mesh map: at most this many improvement steps on each level of refinement. 0: as long as
      *  they pay off. -1: no improvement */
     int32_t iterations;
     /** For both charts, or NULL. Its `maximum` is the source's. For a mesh map in 2-D, method 0
      *  means disc (foliation if a maximum is given), and cells 0 means 20. In 3-D, method 0
-     *  means foliation, or field for masks. */
+     *  means foliation, or field for masks. Beyond 3-D, a mesh map has no charts, so kind
+     *  ::ICC_MAP_MESH allows neither a method nor a maximum. */
     const struct icc_chart_options *chart;
     const double *target_maximum; /**< the target's maximum; NULL: chosen by the method */
     size_t n_ties;                /**< with features: as many as there are features, or 0 */
@@ -784,10 +792,10 @@ typedef struct icc_map_info {
      *  not so, or undecided, because rounding or the paths of the vertices leave it open */
     int32_t class_kept;
     size_t n_vertices;  /**< mesh map: vertices */
-    size_t n_simplices; /**< mesh map: triangles, or tetrahedra in 3-D */
+    size_t n_simplices; /**< mesh map: triangles, tetrahedra in 3-D, or simplices beyond */
     /** mesh map: its distortion, the mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, where J
      *  is the derivative of the map, with the target scaled to the source's area or volume. The
-     *  least possible value, 4 in 2-D and 6 in 3-D, means that no length changes */
+     *  least possible value, 2 dim, means that no length changes */
     double energy;
     size_t n_holes;  /**< features: holes */
     size_t n_lines;  /**< features: lines */
@@ -843,7 +851,8 @@ typedef struct icc_map_report {
  *
  * In 3-D, surfaces without a mesh are filled by icc_domain_fill() without options, unless the
  * method is gradient or field. Method field needs no mesh. A mesh map is found for most pairs in
- * 3-D, but not for all. docs/theory/solid-maps.md says what is tried.
+ * 3-D, but not for all. docs/theory/solid-maps.md says what is tried. For 4-D to 6-D
+ * docs/theory/higher-maps.md does.
  *
  * @param[out] out the map; owned by the caller, see icc_map_free()
  * @param source   the domain before
@@ -918,6 +927,7 @@ typedef struct icc_improve_report {
  * In 3-D a refinement cuts edges in the middle, and replaces tetrahedra by others that fill the
  * same space, before and after. So the map's mesh (icc_map_get_mesh()) is no longer the source's
  * own mesh. Its surface stays as it is, and every tetrahedron is exactly positive before and after.
+ * Beyond 3-D there are no refinements.
  *
  * @param[out] out    the map; owned by the caller
  * @param map         a mesh map, else ::ICC_ERR_UNSUPPORTED
@@ -956,7 +966,8 @@ typedef struct icc_retarget_options {
  *
  * In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew
  * by icc_map_create(), which fills a target without a mesh; icc_env::log then says so. There is no
- * guarantee that a target is reached, but every map that is returned is certified.
+ * guarantee that a target is reached, but every map that is returned is certified. Beyond 3-D inner
+ * vertices are moved, or the map is made anew.
  *
  * @param[out] out the map; owned by the caller. It has no charts: icc_map_source_chart() returns
  *                 NULL

@@ -11,6 +11,7 @@
 #include "map/correspondence.h"
 #include "map/curves/curves_kind.h"
 #include "map/energy/affine.h"
+#include "map/higher/higher_kind.h"
 #include "map/plane/plane_kind.h"
 #include "map/solid/filled_pair.h"
 #include "map/solid/solid_kind.h"
@@ -23,7 +24,8 @@
 enum { MESH_CELLS = 20 };
 
 /* All kinds, the best first. The last one accepts any two charts. */
-static const iccp_map_kind *const KINDS[] = {&iccp_plane_kind, &iccp_solid_kind, &iccp_curves_kind};
+static const iccp_map_kind *const KINDS[] = {&iccp_plane_kind, &iccp_solid_kind, &iccp_higher_kind,
+                                             &iccp_curves_kind};
 enum { N_KINDS = sizeof KINDS / sizeof *KINDS };
 
 const iccp_map_kind *iccp_map_kind_of(int32_t number, const icc_domain *source)
@@ -134,12 +136,14 @@ static icc_status set_class_kept(icc_map *next, const icc_map *map, bool moved, 
     return status;
 }
 
-/* Makes the state of the kind. If no mesh map is found, kind 0 becomes kind curves, and a caller
- * who asked for kind mesh gets an error. */
+/* Makes the state of the kind. If no mesh map is found, kind 0 becomes kind curves, provided that
+ * there are charts, and a caller who asked for kind mesh gets an error. */
 static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map_options *options,
                           const iccp_env *env, icc_error *err)
 {
-    const char *const items = map->info.dim == 2 ? "triangles" : "tetrahedra";
+    const char *const items = map->info.dim == 2   ? "triangles"
+                              : map->info.dim == 3 ? "tetrahedra"
+                                                   : "simplices";
     map->kind = kind;
     icc_status status = kind->create(map, options, env, err);
     const bool has_none = status == ICC_OK && kind->mesh != NULL && map->state == NULL;
@@ -151,18 +155,20 @@ static icc_status fill_in(icc_map *map, const iccp_map_kind *kind, const icc_map
     if (has_none && options->kind == 0) {
         iccp_log(env, "%zu %s stay inverted, so the map becomes a curve map",
                  map->info.n_unrepaired, items);
-        map->kind = &iccp_curves_kind;
+        if (map->source != NULL)
+            map->kind = &iccp_curves_kind;
     }
     map->info.kind = map->kind->number;
     return status;
 }
 
-/* Makes a map of the given kind. `charts` belong to the two domains, or are NULL for domains with
- * features. */
+/* Makes a map of the given kind. `charts` belong to the two domains, or are NULL for maps without.
+ * *n_left is then the number of simplices that stay inverted. If there are any, *out is NULL, with
+ * ICC_OK, for kind 0. */
 static icc_status create_of_kind(icc_map **out, const icc_domain *source, const icc_domain *target,
                                  const icc_chart *const charts[2], const iccp_map_kind *kind,
-                                 const icc_map_options *options, const iccp_env *env,
-                                 icc_error *err)
+                                 const icc_map_options *options, size_t *n_left,
+                                 const iccp_env *env, icc_error *err)
 {
     const double start = iccp_seconds();
     icc_map *map = NULL;
@@ -171,11 +177,13 @@ static icc_status create_of_kind(icc_map **out, const icc_domain *source, const 
         iccp_map_add_charts(map, charts[0], charts[1]);
     if (status == ICC_OK)
         status = fill_in(map, kind, options, env, err);
-    if (status == ICC_OK)
+    *n_left = status == ICC_OK ? map->info.n_unrepaired : 0;
+    const bool has_none = status == ICC_OK && map->kind->mesh != NULL && map->state == NULL;
+    if (status == ICC_OK && !has_none)
         status = iccp_map_conclude(map, env, err);
-    if (status == ICC_OK)
+    if (status == ICC_OK && !has_none)
         status = make_affine(map, options->iterations, &map->info.energy, env, err);
-    if (status != ICC_OK) {
+    if (status != ICC_OK || has_none) {
         iccp_map_release(map);
         return iccp_explain(err, status);
     }
@@ -189,9 +197,10 @@ static icc_status create_from(icc_map **out, const icc_chart *source, const icc_
 {
     const icc_chart *const charts[2] = {source, target};
     const iccp_map_kind *kind;
+    size_t n_left;
     const icc_status status = iccp_map_choose_kind(&kind, options->kind, source, target, err);
     return status == ICC_OK ? create_of_kind(out, source->domain, target->domain, charts, kind,
-                                             options, env, err)
+                                             options, &n_left, env, err)
                             : iccp_explain(err, status);
 }
 
@@ -226,22 +235,31 @@ static void complete(icc_chart_options chart_options[2], const icc_domain *const
     }
 }
 
+/* True if the options ask for charts of a method or with a maximum. */
+static bool has_wishes(const icc_chart_options chart_options[2])
+{
+    return chart_options[0].method != 0 || chart_options[0].maximum != NULL ||
+           chart_options[1].maximum != NULL;
+}
+
 /* Returns an error if these domains cannot have what the options ask for. */
 static icc_status check_request(const icc_domain *source, const icc_map_options *options,
                                 const icc_chart_options chart_options[2], icc_error *err)
 {
-    if (options->kind == ICC_MAP_MESH &&
-        (source->dim > 3 || (source->dim == 3 && source->mask != NULL)))
+    if (options->kind == ICC_MAP_MESH && source->dim == 3 && source->mask != NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED,
-                         "a mesh map is not available for %s of dimension %ld",
-                         source->mask != NULL ? "masks" : "domains", (long)source->dim);
+                         "a mesh map is not available for masks of dimension 3");
+    if (options->kind == ICC_MAP_MESH && source->dim > 3 && has_wishes(chart_options))
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "a mesh map of dimension %ld is made without charts, so there is no "
+                         "method or maximum to choose",
+                         (long)source->dim);
     if (source->features == NULL)
         return options->n_ties == 0
                    ? ICC_OK
                    : iccp_fail(err, ICC_ERR_ARGUMENT,
                                "ties are between features, of which there are none");
-    if (options->kind == ICC_MAP_CURVES || chart_options[0].method != 0 ||
-        chart_options[0].maximum != NULL || chart_options[1].maximum != NULL)
+    if (options->kind == ICC_MAP_CURVES || has_wishes(chart_options))
         return iccp_fail(
             err, ICC_ERR_UNSUPPORTED,
             "holes, lines or points inside need a mesh map that is made without charts");
@@ -306,14 +324,27 @@ static icc_status create(icc_map **out, const icc_domain *source, const icc_doma
         status = check_request(source, options, chart_options, err);
     if (status != ICC_OK)
         return status;
+    size_t n_left = 0;
     if (source->features != NULL)
-        return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, env, err);
+        return create_of_kind(out, source, target, NULL, &iccp_plane_kind, options, &n_left, env,
+                              err);
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){1, 1}, env);
+    if (source->dim > 3 && options->kind != ICC_MAP_CURVES && !has_wishes(chart_options)) {
+        status = create_of_kind(out, source, target, NULL, &iccp_higher_kind, options, &n_left,
+                                &part[0], err);
+        if (status != ICC_OK || n_left == 0)
+            return status;
+        env = &part[1];
+    }
     if (are_to_be_filled(domains, chart_options))
         status = create_filled(out, domains, options, chart_options, env, err);
     else
         status = create_without_features(out, domains, options, chart_options, env, err);
     if (status == ICC_OK)
         (*out)->info.seconds = iccp_seconds() - start;
+    if (status == ICC_OK && n_left > 0)
+        (*out)->info.n_unrepaired = n_left;
     return status;
 }
 

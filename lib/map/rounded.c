@@ -23,8 +23,8 @@ static bool is_exact(const iccp_frame *frame, size_t dim)
 static bool stays_positive(const iccp_frame *frame, size_t dim, const double *points,
                            const uint32_t *corners)
 {
-    double own[4][3];
-    const double *corner[4];
+    double own[ICC_MAX_DIM + 1][ICC_MAX_DIM];
+    const double *corner[ICC_MAX_DIM + 1];
     for (size_t i = 0; i <= dim; ++i) {
         iccp_frame_out(frame, (int32_t)dim, points + dim * corners[i], own[i]);
         iccp_frame_in(frame, (int32_t)dim, own[i], own[i]);

@@ -5,6 +5,7 @@
 #include "map/energy/affine.h"
 
 #include "base/minmax.h"
+#include "math/inverse.h"
 #include "math/vec.h"
 
 #include <math.h>
@@ -17,7 +18,7 @@ static const double ROUNDING = 1e-13;
 
 void iccp_affine_apply(const iccp_affine *a, const double *x, double *y)
 {
-    double d[3];
+    double d[ICC_MAX_DIM];
     for (size_t k = 0; k < a->dim; ++k)
         d[k] = x[k] - a->from[k];
     for (size_t k = 0; k < a->dim; ++k)
@@ -26,8 +27,16 @@ void iccp_affine_apply(const iccp_affine *a, const double *x, double *y)
 
 /* ---- fitting ---- */
 
+/* Beyond space, the cofactors of a matrix with determinant 0 are left out. */
 static double determinant(size_t dim, const double *matrix, double *cofactor)
 {
+    if (dim > 3) {
+        double inverse[ICC_MAX_DIM * ICC_MAX_DIM], det;
+        if (iccp_invert(dim, matrix, inverse, &det))
+            for (size_t i = 0; i < dim * dim; ++i)
+                cofactor[i] = det * inverse[dim * (i % dim) + i / dim];
+        return det;
+    }
     iccp_cofactors(dim, matrix, cofactor);
     return iccp_vec_dot(dim, matrix, cofactor);
 }
@@ -59,7 +68,8 @@ static void correct(iccp_affine *a, const iccp_simplicial_map *map, size_t n_fix
                     const double *cofactor, double det)
 {
     const size_t dim = a->dim;
-    double mixed[9] = {0}, mean[3] = {0}, place[3];
+    double mixed[ICC_MAX_DIM * ICC_MAX_DIM] = {0}, mean[ICC_MAX_DIM] = {0};
+    double place[ICC_MAX_DIM];
     for (uint32_t v = 0; v < map->n_points; ++v) {
         const double *x = map->points + dim * v, *y = map->images + dim * v;
         if (!iccp_simplicial_is_fixed(map, v))
@@ -80,7 +90,7 @@ static void correct(iccp_affine *a, const iccp_simplicial_map *map, size_t n_fix
 
 bool iccp_affine_fit(iccp_affine *a, const iccp_simplicial_map *map)
 {
-    double second[9] = {0}, cofactor[9];
+    double second[ICC_MAX_DIM * ICC_MAX_DIM] = {0}, cofactor[ICC_MAX_DIM * ICC_MAX_DIM];
     size_t n_fixed = 0;
     for (uint32_t v = 0; v < map->n_points; ++v)
         n_fixed += iccp_simplicial_is_fixed(map, v);
@@ -91,7 +101,7 @@ bool iccp_affine_fit(iccp_affine *a, const iccp_simplicial_map *map)
     if (!(det > 0))
         return false;
     enum { ROUNDS = 2 };
-    double scratch[9];
+    double scratch[ICC_MAX_DIM * ICC_MAX_DIM];
     for (int round = 0; round < ROUNDS; ++round)
         correct(a, map, n_fixed, cofactor, det);
     return determinant(a->dim, a->matrix, scratch) > 0;
@@ -125,7 +135,7 @@ static double tolerance_of(const iccp_affine *a, const icc_domain *source, const
 static bool agrees(const iccp_affine *a, const iccp_simplicial_map *map, bool fixed,
                    double tolerance)
 {
-    double place[3];
+    double place[ICC_MAX_DIM];
     for (uint32_t v = 0; v < map->n_points; ++v) {
         if (iccp_simplicial_is_fixed(map, v) != fixed)
             continue;

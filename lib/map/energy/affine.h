@@ -5,10 +5,10 @@
 #include "domain/domain.h"
 #include "map/energy/simplicial_map.h"
 
-/* y = matrix (x - from) + to, in 2 or 3 dimensions. */
+/* y = matrix (x - from) + to, in any dimension. */
 typedef struct iccp_affine {
     size_t dim;
-    double from[3], to[3], matrix[9];
+    double from[ICC_MAX_DIM], to[ICC_MAX_DIM], matrix[ICC_MAX_DIM * ICC_MAX_DIM];
 } iccp_affine;
 
 void iccp_affine_apply(const iccp_affine *a, const double *x, double *y);

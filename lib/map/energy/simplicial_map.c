@@ -5,8 +5,12 @@
 #include "base/threads.h"
 #include "map/energy/dirichlet.h"
 #include "map/energy/flat_simplex.h"
+#include "math/inverse.h"
+#include "math/orient.h"
 #include "math/predicates.h"
+#include "math/vec.h"
 
+#include <math.h>
 #include <stdatomic.h>
 
 /* GRAIN: simplices that a thread takes at once. BLOCK: simplices whose terms are computed before
@@ -105,10 +109,14 @@ void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, dou
 
 bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex)
 {
-    const double *p[4];
+    const double *p[ICC_MAX_DIM + 1];
     if (map->dim == 2) {
         iccp_simplicial_images(2, map, simplex, p);
         return iccp_orient2d(p[0], p[1], p[2]) > 0;
+    }
+    if (map->dim > 3) {
+        iccp_simplicial_images(map->dim, map, simplex, p);
+        return iccp_orient(map->dim, p) > 0;
     }
     iccp_simplicial_images(3, map, simplex, p);
     return iccp_orient3d(p[0], p[1], p[2], p[3]) > 0;
@@ -116,7 +124,7 @@ bool iccp_simplicial_is_positive(const iccp_simplicial_map *map, size_t simplex)
 
 static bool has_image(const iccp_simplicial_map *map, size_t simplex)
 {
-    const double *p[4];
+    const double *p[ICC_MAX_DIM + 1];
     bool is_finite = true;
     iccp_simplicial_images(map->dim, map, simplex, p);
     for (size_t k = 0; k <= map->dim; ++k)
@@ -173,6 +181,52 @@ bool iccp_simplicial_is_hopeless(const iccp_simplicial_map *map)
     return false;
 }
 
+/* ---- beyond space ---- */
+
+/* Row k leads from corner 0 to corner k + 1. */
+static void set_edges(size_t dim, const double *points, const uint32_t *corners, double *edge)
+{
+    for (size_t i = 0; i < dim; ++i)
+        for (size_t k = 0; k < dim; ++k)
+            edge[dim * i + k] = points[dim * corners[i + 1] + k] - points[dim * corners[0] + k];
+}
+
+/* Computes the Jacobian from the edges before and after. Returns the determinant of the edges
+ * before; if it is 0 for doubles, the Jacobian is NaN. */
+static double find_jacobian(size_t dim, const double *before, const double *after, double *jacobian)
+{
+    double inverse[ICC_MAX_DIM * ICC_MAX_DIM], determinant;
+    if (!iccp_invert(dim, before, inverse, &determinant))
+        for (size_t i = 0; i < dim * dim; ++i)
+            inverse[i] = NAN;
+    for (size_t r = 0; r < dim; ++r)
+        for (size_t c = 0; c < dim; ++c) {
+            double sum = 0;
+            for (size_t k = 0; k < dim; ++k)
+                sum += inverse[dim * c + k] * after[dim * k + r];
+            jacobian[dim * r + c] = sum;
+        }
+    return determinant;
+}
+
+/* The energy and the measure, times the same factor for all simplices. */
+static double energy_beyond(const iccp_simplicial_map *map, size_t simplex, double *measure)
+{
+    const size_t dim = map->dim, n = dim * dim;
+    const uint32_t *corners = map->corners + (dim + 1) * simplex;
+    double before[ICC_MAX_DIM * ICC_MAX_DIM], after[ICC_MAX_DIM * ICC_MAX_DIM];
+    double j[ICC_MAX_DIM * ICC_MAX_DIM], back[ICC_MAX_DIM * ICC_MAX_DIM];
+    set_edges(dim, map->points, corners, before);
+    set_edges(dim, map->images, corners, after);
+    for (size_t i = 0; i < n; ++i)
+        before[i] *= map->stretch;
+    *measure = find_jacobian(dim, before, after, j);
+    const double determinant = find_jacobian(dim, after, before, back);
+    return *measure > 0 && determinant > 0
+               ? *measure * (iccp_vec_dot(n, j, j) + iccp_vec_dot(n, back, back))
+               : HUGE_VAL;
+}
+
 void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size_t simplex,
                               double *jacobian)
 {
@@ -181,6 +235,13 @@ void iccp_simplicial_jacobian(const iccp_simplicial_map *map, bool inverse, size
     const uint32_t *v = map->corners + (map->dim + 1) * simplex;
     const double *from[4], *to[4];
     double element[ICCP_MAX_ELEMENT];
+    if (map->dim > 3) {
+        double before[ICC_MAX_DIM * ICC_MAX_DIM], after[ICC_MAX_DIM * ICC_MAX_DIM];
+        set_edges(map->dim, points, v, before);
+        set_edges(map->dim, images, v, after);
+        (void)find_jacobian(map->dim, before, after, jacobian);
+        return;
+    }
     for (size_t k = 0; k <= map->dim; ++k) {
         from[k] = points + map->dim * v[k];
         to[k] = images + map->dim * v[k];
@@ -209,6 +270,10 @@ static icc_status find_terms(void *argument, size_t begin, size_t end)
         const size_t simplex = t->first + k;
         const double *point[4], *image[4];
         double element[ICCP_MAX_ELEMENT];
+        if (map->dim > 3) {
+            t->energy[k] = energy_beyond(map, simplex, &t->measure[k]);
+            continue;
+        }
         iccp_simplicial_images(map->dim, map, simplex, image);
         const bool is_solid = set_element(map, simplex, element);
         t->energy[k] = iccp_dirichlet_energy(map->dim, element, image);

@@ -1,5 +1,6 @@
-/* A map that is linear in every simplex of a mesh, in the plane or in space. Energies, untangling
- * and improvement work on this view of a map. */
+/* A map that is linear in every simplex of a mesh. Energies, untangling and improvement work on
+ * this view of a map. The functions of this file work in any dimension, unless they say otherwise;
+ * the other files of this folder do in the plane and in space (map/higher continues). */
 #ifndef ICCP_SIMPLICIAL_MAP_H
 #define ICCP_SIMPLICIAL_MAP_H
 
@@ -9,7 +10,7 @@
 
 /* All arrays are borrowed. */
 typedef struct iccp_simplicial_map {
-    size_t dim; /* 2 or 3 */
+    size_t dim;
     size_t n_points, n_simplices;
     const uint32_t *corners; /* dim + 1 points of each simplex, which is positive before the map */
     const double *points;    /* dim of each */
@@ -42,7 +43,7 @@ static ICCP_INLINE void iccp_simplicial_images(size_t dim, const iccp_simplicial
  * then be computed. */
 void iccp_simplicial_round(size_t n, double *coordinates);
 
-/* Computes the element of a simplex before the map, stretched. */
+/* Computes the element of a simplex before the map, stretched. Up to 3-D. */
 void iccp_simplicial_element(const iccp_simplicial_map *map, size_t simplex, double *element);
 
 /* Returns true if the image of a simplex is positive, exactly. The second function counts the

@@ -20,8 +20,7 @@
 
 #include <string.h>
 
-/* The share of the area or volume term. It is small, so that angles decide. */
-static const double MEASURE_SHARE = 1.0 / 128;
+const double iccp_untangling_share = 1.0 / 128;
 
 double iccp_untangling_chi(double epsilon, double det)
 {
@@ -53,8 +52,8 @@ static ICCP_INLINE profile evaluate(size_t dim, double n, double det, double eps
                  chi = iccp_untangling_chi(epsilon, det);
     const double first = chi / root, second = 0.5 * epsilon * epsilon / (root * root * root);
     const double base = dim == 2 ? 1 : iccp_cbrt(chi), power = 1 / (dim == 2 ? chi : base * base);
-    const double shape = (1 - MEASURE_SHARE) / (double)dim * power,
-                 size = 0.5 * MEASURE_SHARE / chi;
+    const double shape = (1 - iccp_untangling_share) / (double)dim * power,
+                 size = 0.5 * iccp_untangling_share / chi;
     const double slope = first / chi, bend = second / chi, square = 1 + det * det;
     return (profile){
         .value = shape * n + size * square,

@@ -11,6 +11,9 @@ double iccp_untangling_energy(size_t dim, const double *element, const double *c
 void iccp_untangling_local(size_t dim, const double *element, const double *const *image,
                            double epsilon, iccp_local *local);
 
+/* The share of the area or volume term. It is small, so that angles decide. */
+extern const double iccp_untangling_share;
+
 /* chi(det) = (det + sqrt(epsilon^2 + det^2)) / 2, which stands for the determinant. */
 double iccp_untangling_chi(double epsilon, double det);
 

@@ -859,6 +859,12 @@ pub const ICC_MAP_CURVES: i32 = 1;
 /// In 3-D the map needs two closed surfaces. They are filled unless they bring a mesh. The map uses the
 /// source's mesh, with images that are chosen and certified as in 2-D. The target's mesh only serves its
 /// chart. Where necessary, inner edges of the source's mesh between boundary vertices are cut.
+///
+/// In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the cells of either
+/// mask, or the cone from one inner vertex to all facets. The cone needs a point inside each boundary that
+/// sees all of it. Certified then means that every simplex is positive before and after. The signs are
+/// certain, but a simplex that is nearly flat counts as inverted. Whether a boundary meets itself is not
+/// checked.
 pub const ICC_MAP_MESH: i32 = 2;
 
 /// A path between two vertices of a domain with features, and its path in the target. Ties tell a map on
@@ -890,14 +896,16 @@ pub struct icc_map_options {
     pub size: usize,
     /// `ICC_MAP_*`: this kind, or `ICC_ERR_CERTIFICATE` if no such map is found. 0: the best that is found,
     /// see `icc_map_info.kind`. That is a mesh map for foliation and disc in 2-D, unless both domains bring
-    /// meshes, and for foliation in 3-D. It is a curve map in all other cases, or if no mesh map is found
+    /// meshes, and for foliation in 3-D. Beyond 3-D it is a mesh map unless `chart` names a method or a
+    /// maximum. It is a curve map in all other cases, or if no mesh map is found
     pub kind: i32,
     /// mesh map: at most this many improvement steps on each level of refinement. 0: as long as they pay off.
     /// -1: no improvement
     pub iterations: i32,
     /// For both charts, or NULL. Its `maximum` is the source's. For a mesh map in 2-D, method 0 means disc
     /// (foliation if a maximum is given), and cells 0 means 20. In 3-D, method 0 means foliation, or field
-    /// for masks.
+    /// for masks. Beyond 3-D, a mesh map has no charts, so kind `ICC_MAP_MESH` allows neither a method nor a
+    /// maximum.
     pub chart: *const icc_chart_options,
     /// the target's maximum; NULL: chosen by the method
     pub target_maximum: *const f64,
@@ -935,11 +943,11 @@ pub struct icc_map_info {
     pub class_kept: i32,
     /// mesh map: vertices
     pub n_vertices: usize,
-    /// mesh map: triangles, or tetrahedra in 3-D
+    /// mesh map: triangles, tetrahedra in 3-D, or simplices beyond
     pub n_simplices: usize,
     /// mesh map: its distortion, the mean symmetric Dirichlet energy |J|^2 + |J^-1|^2, where J is the
     /// derivative of the map, with the target scaled to the source's area or volume. The least possible
-    /// value, 4 in 2-D and 6 in 3-D, means that no length changes
+    /// value, 2 dim, means that no length changes
     pub energy: f64,
     /// features: holes
     pub n_holes: usize,
@@ -1867,7 +1875,7 @@ extern "C" {
     ///
     /// In 3-D, surfaces without a mesh are filled by `icc_domain_fill()` without options, unless the method
     /// is gradient or field. Method field needs no mesh. A mesh map is found for most pairs in 3-D, but not
-    /// for all. docs/theory/solid-maps.md says what is tried.
+    /// for all. docs/theory/solid-maps.md says what is tried. For 4-D to 6-D docs/theory/higher-maps.md does.
     ///
     /// - `out` (out): the map; owned by the caller, see `icc_map_free()`
     /// - `source`: the domain before
@@ -1941,7 +1949,8 @@ extern "C" {
     ///
     /// In 3-D a refinement cuts edges in the middle, and replaces tetrahedra by others that fill the same
     /// space, before and after. So the map's mesh (`icc_map_get_mesh()`) is no longer the source's own mesh.
-    /// Its surface stays as it is, and every tetrahedron is exactly positive before and after.
+    /// Its surface stays as it is, and every tetrahedron is exactly positive before and after. Beyond 3-D
+    /// there are no refinements.
     ///
     /// - `out` (out): the map; owned by the caller
     /// - `map`: a mesh map, else `ICC_ERR_UNSUPPORTED`
@@ -1977,7 +1986,8 @@ extern "C" {
     ///
     /// In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew by
     /// `icc_map_create()`, which fills a target without a mesh; `icc_env.log` then says so. There is no
-    /// guarantee that a target is reached, but every map that is returned is certified.
+    /// guarantee that a target is reached, but every map that is returned is certified. Beyond 3-D inner
+    /// vertices are moved, or the map is made anew.
     ///
     /// - `out` (out): the map; owned by the caller. It has no charts: `icc_map_source_chart()` returns NULL
     /// - `map`: a mesh map, else `ICC_ERR_UNSUPPORTED`. It does not change
@@ -2104,10 +2114,11 @@ extern "C" {
         target: *mut f64,
     ) -> icc_status;
 
-    /// The chart of the source; borrowed. NULL for a map made by `icc_map_retarget()`.
+    /// The chart of the source; borrowed. NULL for a map made by `icc_map_retarget()`, and for a mesh map
+    /// beyond 3-D.
     pub fn icc_map_source_chart(map: *const icc_map) -> *const icc_chart;
 
-    /// The chart of the target; borrowed. NULL for a map made by `icc_map_retarget()`.
+    /// The chart of the target; borrowed. NULL like `icc_map_source_chart()`.
     pub fn icc_map_target_chart(map: *const icc_map) -> *const icc_chart;
 
     /// Maps points from the source to the target. Returns `ICC_OK` even if every point failed: check `status`
