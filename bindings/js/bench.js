@@ -1,4 +1,5 @@
-// Times of the package, of CPU: what a call costs by itself, and small ones; frames of a cage whose corner is dragged.
+// Times of the package, of CPU: what a call costs by itself, and small ones; frames of a cage whose corner is
+// dragged; pictures, poses, and what is made once.
 // usage: node bindings/js/bench.js [PACKAGE]      (bindings/js/parity.sh time: beside the native library)
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -16,16 +17,18 @@ const cases = {
   'Map.apply() of a point, into an array': () => map.apply(point, { out }),
   'Map.info': () => map.info,
 };
-for (const [name, work] of Object.entries(cases)) {
+/** The least time of a call, in microseconds, of REPEATS times that many calls. */
+function leastOf(calls, work) {
   let least = Infinity;
   for (let repeat = 0; repeat < REPEATS; ++repeat) {
     const start = process.cpuUsage();
-    for (let k = 0; k < CALLS; ++k) work();
+    for (let k = 0; k < calls; ++k) work();
     const { user, system } = process.cpuUsage(start);
-    least = Math.min(least, (user + system) / CALLS);
+    least = Math.min(least, (user + system) / calls);
   }
-  console.log(`${name.padEnd(40)} ${least.toFixed(2)} us`);
+  return least;
 }
+for (const [name, work] of Object.entries(cases)) console.log(`${name.padEnd(40)} ${leastOf(CALLS, work).toFixed(2)} us`);
 
 /** A ring of n corners, with a wavy rim. */
 const ring = (n) => Array.from({ length: n }, (_, k) => {
@@ -60,3 +63,23 @@ for (const n of [12, 50, 100, 200]) {
   console.log(`frame of a cage of ${String(n).padStart(3)} corners: median ${at(0.5)} ms, 95 % below ${at(0.95)} ms, `
     + `most ${at(1)} ms; ${uncertified} of ${times.length} not certified`);
 }
+
+// What a page waits for besides: a picture, a pose of bound points, and what is made once.
+const round = ring(50), bent = round.map(([x, y], i) => [x + (i < 10 ? 20 : 0), y]), pixels = new Uint8ClampedArray(4 * 512 * 512);
+const picture = { width: 512, height: 512, data: pixels }, painted = { ...picture, data: new Uint8ClampedArray(pixels.length) };
+const still = new icc.Map(round, bent), places = Float64Array.from({ length: 20000 }, (_, k) => 150 + (k * 7919) % 200);
+const handles = [[200, 256], [256, 200], [300, 256], [256, 300]], shape = new icc.Shape([icc.Domain.polygon(round)]);
+const sampling = new icc.Sampling(shape, { spacing: 15, fixed: handles }), weights = new icc.Weights(sampling, handles);
+const binding = weights.bind(places), turned = new icc.Pose(handles).turn(0, 0.3), posed = new Float64Array(places.length);
+const once = {
+  'Map.warp() of 512 x 512 pixels': [5, () => still.warp(picture, painted)],
+  'Map.apply() of 10,000 points': [20, () => still.apply(places, { out: posed })],
+  'Binding.pose() of 10,000 points': [50, () => binding.pose(turned, { out: posed })],
+  'new Map() of 50 corners': [3, () => new icc.Map(round, bent).free()],
+  'new Weights() of 4 handles': [3, () => new icc.Weights(sampling, handles).free()],
+  'Weights.bind() of 10,000 points': [3, () => weights.bind(places).free()],
+  "new Chart() by 'gradient'": [3, () => new icc.Chart(round, { method: 'gradient', cells: 100 }).free()],
+};
+console.log();
+for (const [name, [calls, work]] of Object.entries(once))
+  console.log(`${name.padEnd(40)} ${(leastOf(calls, work) / 1e3).toFixed(2)} ms`);
