@@ -1,4 +1,5 @@
-/* The version of the library. CMakeLists.txt reads it from here; it is written nowhere else. */
+/* The version of the library. CMakeLists.txt reads it from here. cmake/dist_facts.sh copies it to
+ * the files that repeat it. */
 #ifndef ICCP_VERSION_H
 #define ICCP_VERSION_H
 

@@ -21,7 +21,7 @@ from blocks import HERE, RUN, Mistake, blocks_of
 STRICT = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"]
 CARGO_TOML = """[package]
 name = "{1}"
-version = "0.1.0"
+version = "1.0.0"
 edition = "2021"
 
 [dependencies]
