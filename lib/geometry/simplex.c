@@ -112,7 +112,7 @@ static double distance2_of(const search *s, size_t n, const size_t *list, const 
  * are searched. */
 static void search_face(search *s, unsigned subset)
 {
-    size_t list[MAX];
+    size_t list[MAX] = {0};
     double bary[MAX] = {1}, rest[MAX];
     const size_t n = list_corners(s, subset, list);
     if (n == 1) {
