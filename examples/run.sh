@@ -108,6 +108,7 @@ all_others() {
     ran compare /usr/bin/python3 "$compare/compare.py" --cells 8 --steps 80 "$out/compare.svg"
     ran bounded_biharmonic /usr/bin/python3 "$compare/bounded_biharmonic.py" --cells 16
     ran outlines /usr/bin/python3 "$compare/outlines.py" --cells 25
+    ran facets /usr/bin/python3 "$compare/facets.py" --quick
     ran reparent /usr/bin/python3 "$compare/reparent.py" --cells 16
     ran open_questions /usr/bin/python3 "$compare/open_questions.py" --cells 16
     ran corners /usr/bin/python3 "$compare/corners.py" --cells 12 25 --turns 1

@@ -179,12 +179,14 @@ typedef struct icc_gradient_info {
     size_t n_unreachable; /**< grid vertices inside that the tree does not reach */
     /** pairs of neighbours inside that are neither parent and child nor cousins */
     size_t n_cousin_violations;
-    size_t n_maxima;      /**< maxima of the function inside */
-    size_t n_minima;      /**< minima of the function inside */
-    size_t n_saddles;     /**< saddles of the function inside */
-    size_t n_edges;       /**< 2-D: edges between two triangles that curves pass through */
-    size_t n_compression; /**< 2-D: edges where curves merge on the way up */
-    size_t n_expansion;   /**< 2-D: edges where curves merge on the way down */
+    size_t n_maxima;  /**< maxima of the function inside */
+    size_t n_minima;  /**< minima of the function inside */
+    size_t n_saddles; /**< saddles of the function inside */
+    /** facets (in 2-D: edges) between two simplices that curves pass through, see
+     *  icc_function_get_facets() */
+    size_t n_edges;
+    size_t n_compression; /**< facets where curves merge on the way up */
+    size_t n_expansion;   /**< facets where curves merge on the way down */
     /** bi-Laplace functions without constraints: distance of icc_chart_info::maximum from the
      *  requested vertex, or from the grassfire's. The maximum moves because the function is
      *  greatest beside that vertex. Else 0 */

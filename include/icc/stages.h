@@ -319,11 +319,20 @@ typedef struct icc_function_report {
     uint32_t critical;
 } icc_function_report;
 
-/** Kinds of edges that icc_function_get_edges() lists. */
+/** Kinds of edges that icc_function_get_edges() lists, and of facets that
+ *  icc_function_get_facets() lists. */
 enum {
     ICC_EDGE_COMPRESSION = 1, /**< the gradients on both sides point to the edge */
     ICC_EDGE_EXPANSION = 2    /**< the gradients on both sides point away from it */
 };
+
+/** What icc_function_get_facets() counts. */
+typedef struct icc_facet_report {
+    size_t size;          /**< set by the caller: `sizeof(icc_facet_report)` */
+    size_t n_tested;      /**< facets examined */
+    size_t n_compression; /**< facets where curves merge on the way up */
+    size_t n_expansion;   /**< facets where curves merge on the way down */
+} icc_facet_report;
 
 /**
  * Makes a function: a value for every vertex of a tree.
@@ -476,11 +485,41 @@ ICC_API icc_status icc_function_get_report(const icc_function *function,
  * @param[out] kinds    `capacity` kinds, `ICC_EDGE_*`
  * @param[out] n_edges  number of edges found, which may exceed `capacity`
  * @param[out] n_tested number of edges examined, or NULL
- * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, or ::ICC_ERR_UNSUPPORTED if it is not 2-D
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, or ::ICC_ERR_UNSUPPORTED if it is not
+ *         2-D
  */
 ICC_API icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
                                           uint32_t *edges, int32_t *kinds, size_t *n_edges,
                                           size_t *n_tested);
+
+/**
+ * Lists compression and expansion facets in any dimension. In 2-D these are the edges of
+ * icc_function_get_edges(), in the same order.
+ *
+ * A facet is shared by two simplices of the Kuhn triangulation. It is examined if both have a value
+ * at every corner and at least one corner is inside. Exact signs of differences decide to which
+ * side of it each gradient points, as they do for curves. A gradient parallel to the facet counts
+ * for neither kind. Curves from the other side may merge there, too.
+ *
+ * Curves also run along lower faces (edges in 3-D, for example). These are not listed.
+ *
+ * @param function     the function
+ * @param capacity     number of facets that the arrays have room for; 0: only count
+ * @param[out] facets  `capacity` times dim vertices, or NULL if `capacity` is 0
+ * @param[out] kinds   `capacity` kinds, `ICC_EDGE_*`, or NULL if `capacity` is 0
+ * @param[out] report  its `size` is set by the caller. n_compression + n_expansion is the number of
+ *                     facets found, which may exceed `capacity`
+ * @param env          may be NULL
+ * @param err          may be NULL
+ * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED or ::ICC_ERR_VERSION
+ *
+ * Cost: dim! (dim + 1) / 2 facets a vertex. 60 ns a vertex in 2-D, 0.2 us in 3-D, 0.7 us in 4-D,
+ * and up to 15 us in 6-D.
+ */
+ICC_API icc_status icc_function_get_facets(const icc_function *function, size_t capacity,
+                                           uint32_t *facets, int32_t *kinds,
+                                           icc_facet_report *report, const icc_env *env,
+                                           icc_error *err);
 
 /* ------------------------------------------------------------------ curves */
 

@@ -3,9 +3,9 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "gradient/function/critical_points.h"
-#include "gradient/function/edges.h"
 #include "gradient/function/given_function.h"
 #include "gradient/function/make_function.h"
+#include "gradient/function/merging.h"
 #include "icc/stages.h"
 
 #include <float.h>
@@ -182,6 +182,31 @@ icc_status icc_function_get_report(const icc_function *function, icc_function_re
     return iccp_write_struct(report, &full, sizeof full, "icc_function_report", err);
 }
 
+icc_status icc_function_get_facets(const icc_function *function, size_t capacity, uint32_t *facets,
+                                   int32_t *kinds, icc_facet_report *report, const icc_env *env,
+                                   icc_error *err)
+{
+    ICCP_ENTER;
+    iccp_env full_env;
+    const bool no_room = capacity > 0 && (facets == NULL || kinds == NULL);
+    const char *missing = function == NULL ? "function"
+                          : report == NULL ? "report"
+                          : no_room        ? (facets == NULL ? "facets" : "kinds")
+                                           : NULL;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status != ICC_OK)
+        return status;
+    iccp_facet_count count;
+    status = iccp_function_facets(function, capacity, facets, kinds, &count, &full_env);
+    status = iccp_explain(err, iccp_finish(&full_env, status));
+    if (status != ICC_OK)
+        return status;
+    const icc_facet_report full = {.n_tested = count.n_tested,
+                                   .n_compression = count.n_compression,
+                                   .n_expansion = count.n_expansion};
+    return iccp_write_struct(report, &full, sizeof full, "icc_facet_report", err);
+}
+
 icc_status icc_function_get_edges(const icc_function *function, size_t capacity, uint32_t *edges,
                                   int32_t *kinds, size_t *n_edges, size_t *n_tested)
 {
@@ -190,7 +215,11 @@ icc_status icc_function_get_edges(const icc_function *function, size_t capacity,
         return ICC_ERR_ARGUMENT;
     if (function->tree->grid->dim != 2)
         return ICC_ERR_UNSUPPORTED;
-    const iccp_edge_count count = iccp_function_edges(function, capacity, edges, kinds);
+    iccp_facet_count count;
+    const iccp_env env = {.memory = function->memory};
+    const icc_status status = iccp_function_facets(function, capacity, edges, kinds, &count, &env);
+    if (status != ICC_OK)
+        return status;
     *n_edges = count.n_compression + count.n_expansion;
     if (n_tested != NULL)
         *n_tested = count.n_tested;

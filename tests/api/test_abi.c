@@ -500,6 +500,12 @@ AT(icc_function_report, n_minima, 16);
 AT(icc_function_report, n_saddles, 24);
 AT(icc_function_report, critical, 32);
 
+SIZE(icc_facet_report, 32);
+AT(icc_facet_report, size, 0);
+AT(icc_facet_report, n_tested, 8);
+AT(icc_facet_report, n_compression, 16);
+AT(icc_facet_report, n_expansion, 24);
+
 SIZE(icc_curves_info, 40);
 AT(icc_curves_info, size, 0);
 AT(icc_curves_info, dim, 8);

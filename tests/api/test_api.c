@@ -495,6 +495,11 @@ START_TEST(stages_refuse_bad_arguments)
     REFUSED(icc_function_get_edges(o.field, 1, edges, NULL, &n, NULL));
     ck_assert_int_eq(icc_function_get_edges(o.field, 1, edges, kinds, &n, NULL),
                      ICC_ERR_UNSUPPORTED);
+    icc_facet_report facets = {.size = sizeof facets};
+    EXPLAINED(icc_function_get_facets(NULL, 0, NULL, NULL, &facets, NULL, &err));
+    EXPLAINED(icc_function_get_facets(o.field, 0, NULL, NULL, NULL, NULL, &err));
+    EXPLAINED(icc_function_get_facets(o.field, 1, NULL, kinds, &facets, NULL, &err));
+    EXPLAINED(icc_function_get_facets(o.field, 1, edges, NULL, &facets, NULL, &err));
     const double nowhere[3] = {NAN, 0, 0}, somewhere[3] = {1, 1, 1};
     const double *values = icc_function_values(o.field);
     const uint32_t *parents = icc_tree_parents(o.tree);

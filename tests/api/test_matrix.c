@@ -423,6 +423,12 @@ static void chart_function(const subject *s)
     ck_assert_int_eq(status, field == NULL ? ICC_ERR_ARGUMENT
                              : s->dim == 2 ? ICC_OK
                                            : ICC_ERR_UNSUPPORTED);
+    icc_facet_report facets = {.size = sizeof facets};
+    ck_assert_int_eq(sound(s, "facets",
+                           icc_function_get_facets(field, 0, NULL, NULL, &facets, NULL, &err),
+                           &err),
+                     field != NULL);
+    ck_assert(status != ICC_OK || facets.n_compression + facets.n_expansion == n_edges);
 }
 
 static void chart_points(const subject *s, const icc_domain *domain)

@@ -101,6 +101,9 @@ static void check_field(const icc_tree *tree, const shape *s, int32_t function)
     size_t n_edges = 0, n_tested = 0;
     const icc_status status = icc_function_get_edges(field, 0, NULL, NULL, &n_edges, &n_tested);
     require(status == (s->dim == 2 ? ICC_OK : ICC_ERR_UNSUPPORTED) && n_edges <= n_tested);
+    icc_facet_report facets = {.size = sizeof facets};
+    require(icc_function_get_facets(field, 0, NULL, NULL, &facets, NULL, NULL) == ICC_OK);
+    require(status != ICC_OK || facets.n_tested == n_tested);
     icc_function_free(field);
 }
 

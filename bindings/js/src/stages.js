@@ -118,6 +118,23 @@ export function stagesOf(core) {
       core.call('icc_function_get_edges', this, count[0], edges, kinds, count, tested);
       return { edges, kinds, tested: tested[0] };
     }
+
+    /** The same in any dimension: { facets, kinds, report }, with dim vertices a facet. */
+    facets() {
+      const report = {}, { dim } = this.tree.grid.info;
+      core.call('icc_function_get_facets', this, 0, null, null, report);
+      const n = report.nCompression + report.nExpansion;
+      const facets = new Uint32Array(n * dim), kinds = new Int32Array(n);
+      core.call('icc_function_get_facets', this, n, facets, kinds, report);
+      return { facets, kinds, report };
+    }
+
+    /** Only counts these facets: icc_facet_report. */
+    facetReport() {
+      const report = {};
+      core.call('icc_function_get_facets', this, 0, null, null, report);
+      return report;
+    }
   }
 
   class Curves extends Handle {

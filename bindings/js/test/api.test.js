@@ -208,6 +208,11 @@ test('charts, and the stages by themselves', () => {
   assert.deepEqual(down.ends().end, ['boundary', 'none']);
   near(down.vertices()[0].slice(0, 2), [1, 1]);
   near(new icc.Curves(own, [[1, 1]]).vertices()[0].slice(-2), grid.points([vertex]));
+  const { facets, kinds, report } = laplace.facets(), edges = laplace.edges();
+  assert.deepEqual(facets, edges.edges);
+  assert.deepEqual(kinds, edges.kinds);
+  assert.equal(report.nTested, edges.tested);
+  assert.deepEqual(laplace.facetReport(), report);
   assert.throws(() => new icc.Curves(own, [[1, 1]], 'sideways'), /'sideways' is none of 'up', 'down'/);
 });
 

@@ -152,6 +152,8 @@ export interface GridFunction extends Handle {
   logs(): Float64Array | null;
   report(): Info;
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
+  facets(): { facets: Uint32Array; kinds: Int32Array; report: Info };
+  facetReport(): Info;
 }
 export type CurveEnd = 'none' | 'maximum' | 'boundary' | 'critical' | 'values';
 export interface Curves extends Handle {

@@ -51,6 +51,7 @@ function_info function:i32 constrained:i32 solver:i32 beside:i32 n_unknowns:size
 curves_info dim:i32 way:i32 n_curves:size n_vertices:size n_merged:size
 solver_report n_iterations:size n_inner:size work:f64 residual_before:f64 seconds_setup:f64 seconds_order:f64 seconds_factor:f64 seconds_solve:f64 seconds_verify:f64
 function_report n_maxima:size n_minima:size n_saddles:size critical:u32
+facet_report n_tested:size n_compression:size n_expansion:size
 grow_report method:i32 vertex:u32 n_vertices:size n_deferred:size n_unplaced:size n_remaining:size n_reversed:size n_tests:size
 sampling_options kind:i32 steps:i32 spacing:f64 margin:f64 seed:u64 n_fixed:size fixed:ptr
 sampling_info dim:i32 kind:i32 n_samples:size n_edge:size spacing:f64 nearest:f64 sigma:f64
@@ -154,6 +155,7 @@ f64*:function_values function*
 f64*:function_logs function*
 function_get_report function* function_report* env* error*
 function_get_edges function* size u32* i32* size* size*
+function_get_facets function* size u32* i32* facet_report* env* error*
 curves_create curves** function* size f64* i32 env* error*
 void:curves_free curves*
 curves_get_info curves* curves_info*

@@ -299,6 +299,24 @@ class Function(Handle):
                               ctypes.addressof(n), None))
         return edges, kinds
 
+    def facets(self, *, progress: Optional[Progress] = None) -> Tuple[Indices, Ints]:
+        """Facets (n, dim) of simplices where gradient lines merge, and their kinds (n,) as for `edges`, in any
+        dimension."""
+        report, dim = self.facet_report(progress=progress), len(self.tree.grid.shape)
+        n = report.n_compression + report.n_expansion
+        facets, kinds = np.empty((n, dim), np.uint32), np.empty(n, np.int32)
+        self._facets(n, address(facets), address(kinds), progress)
+        return facets, kinds
+
+    def facet_report(self, *, progress: Optional[Progress] = None) -> SimpleNamespace:
+        """Only counts these facets; see ``icc_facet_report``."""
+        return self._facets(0, None, None, progress)
+
+    def _facets(self, n: int, facets: Any, kinds: Any, progress: Optional[Progress]) -> SimpleNamespace:
+        call, report = Call(progress, None), new("facet_report")
+        call.check(lib.function_get_facets(self, n, facets, kinds, ctypes.addressof(report), call.env, call.err))
+        return fields(report)
+
 
 WAYS = {"up": 1, "down": 2}
 ENDS = {"none": 0, "maximum": 1, "boundary": 2, "critical": 3, "values": 4}

@@ -17,6 +17,8 @@ def test_papers_pipeline(before):
     assert np.nanmax(field.values) == 1
     edges, kinds = stages.Function(tree).edges()
     assert len(edges) == len(kinds) and set(kinds.tolist()) <= {1, 2}
+    facets, again = stages.Function(tree).facets()
+    assert (facets == edges).all() and (again == kinds).all()
     rank, report = tree.grow()
     assert report.n_remaining == 0 and tree.rank_report(rank).n_maxima == 1
     assert np.allclose(grid.position(grid.nearest([2, 3])), [2, 3], atol=grid.info.spacing)
@@ -70,3 +72,12 @@ def test_triangulate(before):
     a, b, c = points[triangles].transpose(1, 0, 2)
     areas = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     assert (areas > 0).all() and np.isclose(areas.sum() / 2, 75)
+
+
+def test_facets_in_space():
+    grid = stages.Grid.from_mask(np.pad(np.ones((3, 4, 5), bool), 2))
+    function = stages.Function(stages.Tree(grid), "laplace")
+    facets, kinds = function.facets()
+    report = function.facet_report()
+    assert facets.shape == (len(kinds), 3) and report.n_tested > len(kinds) > 0
+    assert ((kinds == 1).sum(), (kinds == 2).sum()) == (report.n_compression, report.n_expansion)

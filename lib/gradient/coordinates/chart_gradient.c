@@ -10,8 +10,8 @@
 #include "gradient/coordinates/gradient_jet.h"
 #include "gradient/coordinates/gradient_measure.h"
 #include "gradient/function/critical_points.h"
-#include "gradient/function/edges.h"
 #include "gradient/function/make_function.h"
+#include "gradient/function/merging.h"
 #include "gradient/function/move_maximum.h"
 #include "gradient/grid/grassfire.h"
 #include "gradient/grid/rasterise.h"
@@ -140,13 +140,14 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
 {
     const double start = iccp_seconds(), grown = chart->timings.tree;
     icc_function_report report = {0};
+    iccp_facet_count count = {0};
     const icc_function_options function = {.function = options->function,
                                            .constraints = options->constraints,
                                            .solver = options->solver,
                                            .min_fall = options->min_fall,
                                            .leaf_min = options->leaf_min};
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){8, 2, 1}, env);
+    iccp_env part[4];
+    iccp_split(part, 4, (const double[]){8, 2, 1, 1}, env);
     const bool is_plate =
         options->function == ICC_FUNCTION_BILAPLACE || options->function == ICC_FUNCTION_CLAMPED;
     icc_status status =
@@ -160,11 +161,12 @@ static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
     chart->own.gradient.n_maxima = report.n_maxima;
     chart->own.gradient.n_minima = report.n_minima;
     chart->own.gradient.n_saddles = report.n_saddles;
-    if (chart->domain->dim == 2)
-        iccp_function_count_edges(state->field, &chart->own.gradient.n_edges,
-                                  &chart->own.gradient.n_compression,
-                                  &chart->own.gradient.n_expansion);
     status = iccp_gradient_extend(state->field, &part[2]);
+    if (status == ICC_OK)
+        status = iccp_function_facets(state->field, 0, NULL, NULL, &count, &part[3]);
+    chart->own.gradient.n_edges = count.n_tested;
+    chart->own.gradient.n_compression = count.n_compression;
+    chart->own.gradient.n_expansion = count.n_expansion;
     chart->timings.function = iccp_seconds() - start - (chart->timings.tree - grown);
     return status;
 }

@@ -6,8 +6,8 @@
  * - exponent, plain: f may exceed the range of doubles. Then it is values * 2^exponent, and `plain`
  *   holds the part that fits.
  * - critical point: a vertex at which f has a maximum, a minimum or a saddle (critical_points.h).
- * - compression, expansion edge: an edge to, or from, which the gradient points on both sides
- *   (edges.h).
+ * - compression, expansion facet: a facet to, or from, which the gradient points on both sides
+ *   (merging.h).
  * - load: the point at which a bi-Laplace equation is driven. move_maximum.h moves it.
  *
  * Ways: make_function.c sets functions of the generation and of the distance along the tree, and

@@ -6,6 +6,7 @@
 #include "gradient/grid/lattice.h"
 
 #include "base/compiler.h"
+#include "math/predicates.h"
 
 #include <stdbool.h>
 #include <string.h>
@@ -70,6 +71,14 @@ static ICCP_INLINE bool iccp_kuhn_simplex_cross_in(iccp_kuhn_simplex *simplex, i
     simplex->axis[i - 1] = axis;
     simplex->corner[i] = simplex->corner[i - 1] + (uint32_t)grid->stride[axis];
     return true;
+}
+
+/* Returns the exact sign of the speed at which the gradient of a simplex leads away from the facet
+ * opposite one of its corners. Takes the values at the corners before, at, and after it in the
+ * order of the simplex. At an end of that order, the missing one is that of the corner itself. */
+static inline int iccp_kuhn_leads_away(double before, double at, double after)
+{
+    return iccp_cross_sign(at, before, 1, 0, after, at, 1, 0);
 }
 
 /* Updates barycentric coordinates for a crossing: the remaining corners keep theirs, and the new

@@ -175,6 +175,8 @@ static void record(iccp_walk2 *w, size_t i, size_t j, double u0, double v0, doub
     w->to[0] = (double)i + u;
     w->to[1] = (double)j + v;
     w->s += sqrt(du * du + dv * dv);
+    if (!w->merged)
+        w->alone = w->s;
 }
 
 static void arrive_at_vertex(iccp_walk2 *w, size_t i, size_t j)
@@ -230,6 +232,7 @@ static icc_status follow_edge(iccp_walk2 *w, int k)
     const int by_value = iccp_function_compare(w->function, ib, ia);
     const int order = w->direction * (by_value != 0 ? by_value : ib > ia ? 1 : -1);
     const int *end = order > 0 ? b : a;
+    w->merged = true;
     go_to_corner(w, end[0], end[1]);
     return ICC_OK;
 }
@@ -329,6 +332,7 @@ static void leave_along_edge(iccp_walk2 *w, int m)
     w->j -= dv < 0;
     w->u = du < 0;
     w->v = dv < 0;
+    w->merged = true;
     go_to_corner(w, du > 0 || (du == 0 && w->u > 0), dv > 0 || (dv == 0 && w->v > 0));
 }
 
@@ -437,12 +441,9 @@ icc_status iccp_walk2_step(iccp_walk2 *walk)
         walk->steps_left = 0;
         return ICC_ERR_TRACE;
     }
-    const icc_status status = walk->at_vertex  ? step_from_vertex(walk)
-                              : walk->edge < 0 ? step_from_inside(walk)
-                                               : step_from_edge(walk);
-    if (!walk->merged)
-        walk->alone = walk->s;
-    return status;
+    return walk->at_vertex  ? step_from_vertex(walk)
+           : walk->edge < 0 ? step_from_inside(walk)
+                            : step_from_edge(walk);
 }
 
 bool iccp_walk2_at_root(const iccp_walk2 *walk)

@@ -10,7 +10,6 @@
 #include "gradient/trace/walkn.h"
 
 #include "base/minmax.h"
-#include "math/predicates.h"
 #include "math/vec.h"
 
 #include <assert.h>
@@ -41,12 +40,11 @@ static void find_position(const iccp_walkn *w, double *x)
 
 /* ---- choosing a face ---- */
 
-/* Returns the exact sign of the speed at which the gradient of a simplex with these values leads
- * away from the facet opposite corner i. */
+/* Returns +1 if the gradient of a simplex with these values leads away from the facet opposite
+ * corner i, -1 if it leads to it. */
 static int corner_sign(int dim, const double *f, int i)
 {
-    const double below = i > 0 ? f[i - 1] : f[i], above = i < dim ? f[i + 1] : f[i];
-    return iccp_cross_sign(f[i], below, 1, 0, above, f[i], 1, 0);
+    return iccp_kuhn_leads_away(f[i > 0 ? i - 1 : i], f[i], f[i < dim ? i + 1 : i]);
 }
 
 static bool has_values(const iccp_walkn *w, double *f)
@@ -123,6 +121,8 @@ static void record_step(iccp_walkn *w, const iccp_motion *m)
     memcpy(w->from, w->to, sizeof w->from);
     find_position(w, w->to);
     w->s += iccp_vec_distance((size_t)dim, w->from, w->to);
+    if (!w->merged)
+        w->alone = w->s;
     w->cell = w->place.simplex.corner[0];
 }
 
@@ -139,6 +139,7 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
         return ICC_ERR_TRACE;
     if (walk->jet != NULL)
         iccp_motion_carry(&m, &walk->place, left, walk->jet);
+    walk->merged = walk->merged || corners != all_corners(walk);
     record_step(walk, &m);
     walk->place.face = left;
     walk->ahead = false;
@@ -146,8 +147,6 @@ icc_status iccp_walkn_step(iccp_walkn *walk)
     while (crossed <= grid_of(walk)->dim && (left | 1u << crossed) != all_corners(walk))
         ++crossed;
     walk->merged = walk->merged || crossed > grid_of(walk)->dim;
-    if (!walk->merged)
-        walk->alone = walk->s;
     return crossed <= grid_of(walk)->dim ? cross_facet(walk, crossed) : ICC_OK;
 }
 

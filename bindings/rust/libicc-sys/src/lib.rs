@@ -583,11 +583,11 @@ pub struct icc_gradient_info {
     pub n_minima: usize,
     /// saddles of the function inside
     pub n_saddles: usize,
-    /// 2-D: edges between two triangles that curves pass through
+    /// facets (in 2-D: edges) between two simplices that curves pass through, see `icc_function_get_facets()`
     pub n_edges: usize,
-    /// 2-D: edges where curves merge on the way up
+    /// facets where curves merge on the way up
     pub n_compression: usize,
-    /// 2-D: edges where curves merge on the way down
+    /// facets where curves merge on the way down
     pub n_expansion: usize,
     /// bi-Laplace functions without constraints: distance of `icc_chart_info.maximum` from the requested
     /// vertex, or from the grassfire's. The maximum moves because the function is greatest beside that
@@ -2428,11 +2428,26 @@ pub struct icc_function_report {
 }
 sized!(icc_function_report);
 
-// Kinds of edges that `icc_function_get_edges()` lists.
+// Kinds of edges that `icc_function_get_edges()` lists, and of facets that `icc_function_get_facets()` lists.
 /// the gradients on both sides point to the edge
 pub const ICC_EDGE_COMPRESSION: i32 = 1;
 /// the gradients on both sides point away from it
 pub const ICC_EDGE_EXPANSION: i32 = 2;
+
+/// What `icc_function_get_facets()` counts.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_facet_report {
+    /// set by the caller: `sizeof(icc_facet_report)`
+    pub size: usize,
+    /// facets examined
+    pub n_tested: usize,
+    /// facets where curves merge on the way up
+    pub n_compression: usize,
+    /// facets where curves merge on the way down
+    pub n_expansion: usize,
+}
+sized!(icc_facet_report);
 
 // The two ways along a curve: `icc_curves_create()`.
 /// uphill, to a maximum
@@ -2865,7 +2880,7 @@ extern "C" {
     /// - `n_edges` (out): number of edges found, which may exceed `capacity`
     /// - `n_tested` (out): number of edges examined, or NULL
     ///
-    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, or `ICC_ERR_UNSUPPORTED` if it is not 2-D
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, or `ICC_ERR_UNSUPPORTED` if it is not 2-D
     pub fn icc_function_get_edges(
         field: *const icc_function,
         capacity: usize,
@@ -2873,6 +2888,39 @@ extern "C" {
         kinds: *mut i32,
         n_edges: *mut usize,
         n_tested: *mut usize,
+    ) -> icc_status;
+
+    /// Lists compression and expansion facets in any dimension. In 2-D these are the edges of
+    /// `icc_function_get_edges()`, in the same order.
+    ///
+    /// A facet is shared by two simplices of the Kuhn triangulation. It is examined if both have a value at
+    /// every corner and at least one corner is inside. Exact signs of differences decide to which side of it
+    /// each gradient points, as they do for curves. A gradient parallel to the facet counts for neither kind.
+    /// Curves from the other side may merge there, too.
+    ///
+    /// Curves also run along lower faces (edges in 3-D, for example). These are not listed.
+    ///
+    /// - `function`: the function
+    /// - `capacity`: number of facets that the arrays have room for; 0: only count
+    /// - `facets` (out): `capacity` times dim vertices, or NULL if `capacity` is 0
+    /// - `kinds` (out): `capacity` kinds, `ICC_EDGE_*`, or NULL if `capacity` is 0
+    /// - `report` (out): its `size` is set by the caller. n_compression + n_expansion is the number of facets
+    ///   found, which may exceed `capacity`
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL
+    ///
+    /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED` or `ICC_ERR_VERSION`
+    ///
+    /// Cost: dim! (dim + 1) / 2 facets a vertex. 60 ns a vertex in 2-D, 0.2 us in 3-D, 0.7 us in 4-D, and up
+    /// to 15 us in 6-D.
+    pub fn icc_function_get_facets(
+        function: *const icc_function,
+        capacity: usize,
+        facets: *mut u32,
+        kinds: *mut i32,
+        report: *mut icc_facet_report,
+        env: *const icc_env,
+        err: *mut icc_error,
     ) -> icc_status;
 
     /// Traces the curves through points (Algorithms 3 to 5). The signs of differences of f decide exactly

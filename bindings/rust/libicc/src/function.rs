@@ -8,6 +8,7 @@ use crate::sys;
 use crate::tree::{FunctionReport, Tree};
 use std::ptr;
 
+pub use crate::sys::icc_facet_report as FacetReport;
 pub use crate::sys::icc_function_info as FunctionInfo;
 pub use crate::sys::icc_solver_report as SolverReport;
 
@@ -38,6 +39,15 @@ pub struct FunctionOptions {
 pub struct Edge {
     /// its ends, grid vertices
     pub vertices: [u32; 2],
+    /// true: curves merge on the way up (compression); false: on the way down (expansion)
+    pub compression: bool,
+}
+
+/// A facet between two simplices whose gradients both point to it or both point away from it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Facet {
+    /// its corners, grid vertices
+    pub vertices: Vec<u32>,
     /// true: curves merge on the way up (compression); false: on the way down (expansion)
     pub compression: bool,
 }
@@ -162,5 +172,45 @@ impl Function {
             }
             capacity = n;
         }
+    }
+
+    /// Counts compression and expansion facets in any dimension.
+    pub fn facet_report(&self, env: &mut Env<'_>) -> Result<FacetReport> {
+        self.list_facets(&mut [], &mut [], env)
+    }
+
+    /// Compression and expansion facets in any dimension.
+    pub fn facets(&self, env: &mut Env<'_>) -> Result<Vec<Facet>> {
+        let report = self.facet_report(env)?;
+        let dim = self.tree().grid().info().dim as usize;
+        let n = report.n_compression + report.n_expansion;
+        let (mut facets, mut kinds) = (vec![0; n * dim], vec![0; n]);
+        self.list_facets(&mut facets, &mut kinds, env)?;
+        let all = facets.chunks(dim).zip(kinds);
+        Ok(all
+            .map(|(vertices, kind)| Facet {
+                vertices: vertices.to_vec(),
+                compression: kind == sys::ICC_EDGE_COMPRESSION,
+            })
+            .collect())
+    }
+
+    fn list_facets(&self, facets: &mut [u32], kinds: &mut [i32], env: &mut Env<'_>) -> Result<FacetReport> {
+        let mut report = FacetReport::default();
+        env.call(|env, err| {
+            // SAFETY: `size` is set, and there is room for as many facets as kinds.
+            unsafe {
+                sys::icc_function_get_facets(
+                    self.as_ptr(),
+                    kinds.len(),
+                    facets.as_mut_ptr(),
+                    kinds.as_mut_ptr(),
+                    &mut report,
+                    env,
+                    err,
+                )
+            }
+        })?;
+        Ok(report)
     }
 }

@@ -21,7 +21,7 @@
 //! # Ok::<(), libicc::Error>(())
 //! ```
 pub use crate::curves::{CurveEnd, Curves, CurvesInfo, End, Way};
-pub use crate::function::{Edge, Function, FunctionInfo, FunctionOptions, SolverReport};
+pub use crate::function::{Edge, Facet, FacetReport, Function, FunctionInfo, FunctionOptions, SolverReport};
 pub use crate::grid::{Grid, GridInfo};
 pub use crate::tree::{FunctionReport, GrowReport, Order, Stuck, Tree, TreeOptions, TreeReport};
 pub use crate::triangulate::triangulate;

@@ -111,6 +111,10 @@ fn charts_show_their_field() {
     let edges = field.edges().unwrap();
     let merging = edges.iter().filter(|edge| edge.compression).count();
     assert_eq!((merging, edges.len() - merging), (info.n_compression, info.n_expansion));
+    let facets = field.facets(env).unwrap();
+    assert_eq!(facets.len(), edges.len());
+    assert!(facets.iter().zip(&edges).all(|(facet, edge)| facet.vertices == edge.vertices));
+    assert_eq!(field.facet_report(env).unwrap().n_tested, info.n_edges);
     assert!(chart.report(1000, env).unwrap().collapsed > 0.0);
     let others = (chart.field_info(), chart.foliation_info(), chart.shelling_info(), chart.disc_info());
     assert!(matches!(others, (None, None, None, None)));

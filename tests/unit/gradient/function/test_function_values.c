@@ -1,6 +1,5 @@
 /* Values along the tree, edges where gradients meet or part, and critical points. */
 #include "gradient/function/critical_points.h"
-#include "gradient/function/edges.h"
 #include "icc/stages.h"
 
 #include "../../../faulty.h"
@@ -308,16 +307,17 @@ START_TEST(edges_are_counted_beyond_capacity)
         field->values[v] = random_unit(&r);
     uint32_t edges[20];
     int32_t kinds[10];
-    size_t n_all, n_again, n_tested, n_compression, n_expansion;
+    size_t n_all, n_again, n_tested;
     ck_assert_int_eq(icc_function_get_edges(field, 0, NULL, NULL, &n_all, NULL), ICC_OK);
     ck_assert_uint_gt(n_all, 100);
     memset(edges, 0xff, sizeof edges);
     ck_assert_int_eq(icc_function_get_edges(field, 9, edges, kinds, &n_again, &n_tested), ICC_OK);
     ck_assert_uint_eq(n_again, n_all);
     ck_assert(edges[17] != UINT32_MAX && edges[18] == UINT32_MAX);
-    iccp_function_count_edges(field, &n_again, &n_compression, &n_expansion);
-    ck_assert_uint_eq(n_again, n_tested);
-    ck_assert_uint_eq(n_compression + n_expansion, n_all);
+    icc_facet_report report = {.size = sizeof report};
+    ck_assert_int_eq(icc_function_get_facets(field, 0, NULL, NULL, &report, NULL, NULL), ICC_OK);
+    ck_assert_uint_eq(report.n_tested, n_tested);
+    ck_assert_uint_eq(report.n_compression + report.n_expansion, n_all);
     ck_assert_uint_eq(n_tested, 29 * 29 + 2 * 29 * 28); /* all but those of the rim */
     icc_function_free(field);
 }
