@@ -83,3 +83,19 @@ debian_mirror() {
     fi
     echo "$found"
 }
+
+# foreign_root MACHINE RELEASE PACKAGE,...: headers and libraries of a release of Debian for another machine, in the
+# folder $root. They are unpacked only, so none of their scripts runs. Links to files of the root are made to lead there
+# from outside.
+foreign_root() {
+    [ ! -e "${root:?}/complete" ] || return 0
+    rm -rf "$root"
+    uri=$(debian_mirror)
+    mmdebstrap --variant=extract --architectures="$1" --aptopt='APT::Install-Recommends "false"' \
+        --include="$3" "$2" "$root" "$uri"
+    [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"
+    find "$root" -type l -lname '/*' | while read -r link; do
+        ln -sfn "$root$(readlink "$link")" "$link"
+    done
+    touch "$root/complete"
+}

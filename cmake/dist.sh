@@ -45,13 +45,18 @@ tree=$made/tree
 # step() has a variable `name`.
 release=libicc-$version
 
+# archive ARGUMENT...: the commit as tar. It says who may read the files, because git's settings differ.
+archive() {
+    git -c tar.umask=0022 archive HEAD "$@"
+}
+
 # The tree of the commit. What another commit has left behind goes, except for libraries of other machines.
 prepare() {
     [ "$(cat "$made/commit" 2>/dev/null)" != "$commit" ] || return 0
     [ -z "$(git status --porcelain)" ] || echo "dist: changes that are not committed stay out" >&2
     rm -rf "$dist" "$tree" "$made"/*/build "$made"/*/libicc.so.0
     mkdir -p "$tree" "$dist"
-    git archive HEAD | tar -C "$tree" -x
+    archive | tar -C "$tree" -x
     echo "$commit" >"$made/commit"
 }
 
@@ -80,14 +85,14 @@ licences() {
 # Debian wants the archive of the sources without its own folder.
 make_source() {
     need git xz-utils
-    git archive --prefix="$release/" HEAD -- . ':!debian' | xz -9 -T1 >"$dist/$release.tar.xz"
+    archive --prefix="$release/" -- . ':!debian' | xz -9 -T1 >"$dist/$release.tar.xz"
 }
 
-# linux MACHINE LIBRARIES DOC STRIP OPTION...: the command, with static libraries from the folder LIBRARIES, whose
-# licences are in DOC; and the shared library for Python.
+# linux MACHINE LIBRARIES DOC STRIP GLIBC OPTION...: the command, with static libraries from the folder LIBRARIES, whose
+# licences are in DOC; and the shared library for Python. GLIBC is the version of the GNU C library's source package.
 linux() {
-    machine=$1 libraries=$2 doc=$3 strip=$4
-    shift 4
+    machine=$1 libraries=$2 doc=$3 strip=$4 glibc=${5:?}
+    shift 5
     cmake -S "$tree" -B "$work/build" -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXE_LINKER_FLAGS=-static \
         -DPNG_LIBRARY="$libraries/libpng.a" -DZLIB_LIBRARY="$libraries/libz.a" -DJPEG_LIBRARY="$libraries/libjpeg.a" "$@"
     cmake --build "$work/build" --parallel "$jobs" --target libicc_tool icc
@@ -101,6 +106,16 @@ linux() {
     cp "$tree"/docs/man/*.[15] "$work/$folder/man"
     licences "$work/$folder" glibc="$doc/libc6-dev/copyright" libpng="$doc/libpng-dev/copyright" \
         libjpeg-turbo="$doc/libjpeg62-turbo-dev/copyright" zlib="$doc/zlib1g-dev/copyright"
+    # The LGPL asks where the library's source is, and how to link with another version of it.
+    cat >"$work/$folder/licences/README.txt" <<END
+The program libicc holds parts of the projects whose licences are in this folder.
+
+One of them is the GNU C library, under the LGPL. Its source is Debian's source package glibc, version $glibc:
+    https://snapshot.debian.org/package/glibc/$glibc/
+To link libicc with another version of it, unpack the sources of this release, $release.tar.xz. Then run there
+    cmake -S . -B build -DCMAKE_EXE_LINKER_FLAGS=-static
+    cmake --build build --target libicc_tool
+END
     packed "$folder.tar.gz" "$folder"
 }
 
@@ -110,28 +125,17 @@ make_linux_x86_64() {
         return 1
     fi
     need gcc libc6-dev make cmake libpng-dev libjpeg-dev zlib1g-dev
-    linux x86_64 /usr/lib/x86_64-linux-gnu /usr/share/doc strip
-}
-
-# Headers and libraries of arm64, unpacked into a folder.
-arm64_root() {
-    [ ! -e "$root/complete" ] || return 0
-    rm -rf "$root"
-    uri=$(debian_mirror)
-    mmdebstrap --variant=extract --architectures=arm64 --aptopt='APT::Install-Recommends "false"' \
-        --include=libc6-dev,libpng-dev,libjpeg-dev bookworm "$root" "$uri"
-    [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"
-    find "$root" -type l -lname '/*' | while read -r link; do
-        ln -sfn "$root$(readlink "$link")" "$link"
-    done
-    touch "$root/complete"
+    glibc=$(dpkg-query -W -f '${source:Version}' libc6-dev)
+    linux x86_64 /usr/lib/x86_64-linux-gnu /usr/share/doc strip "$glibc"
 }
 
 make_linux_arm64() {
     need gcc-aarch64-linux-gnu libc6-dev make cmake mmdebstrap
     root=$work/root
-    arm64_root
-    linux arm64 "$root/usr/lib/aarch64-linux-gnu" "$root/usr/share/doc" aarch64-linux-gnu-strip \
+    foreign_root arm64 bookworm libc6-dev,libpng-dev,libjpeg-dev
+    doc=$root/usr/share/doc
+    glibc=$(zcat "$doc/libc6-dev/changelog.Debian.gz" | sed -n '1{s/^glibc (\(.*\)).*/\1/p;q;}')
+    linux arm64 "$root/usr/lib/aarch64-linux-gnu" "$doc" aarch64-linux-gnu-strip "$glibc" \
         -DCMAKE_SYSTEM_NAME=Linux -DCMAKE_SYSTEM_PROCESSOR=aarch64 -DCMAKE_C_COMPILER=aarch64-linux-gnu-gcc \
         -DCMAKE_SYSROOT="$root" -DCMAKE_FIND_ROOT_PATH_MODE_PROGRAM=NEVER -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY \
         -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY
@@ -166,7 +170,7 @@ make_python() {
     for machine in x86_64 arm64; do
         library=$made/linux-$machine/libicc.so.0
         if ! [ -e "$library" ]; then
-            echo "the wheel for $machine is left out: the part linux-$machine has not been made"
+            echo "left out: the wheel for $machine, because the part linux-$machine has not been made"
             continue
         fi
         rm -rf "$work/source"
@@ -236,14 +240,16 @@ make_debian() {
         -o -name '*.orig.tar.*' -o -name '*.changes' -o -name '*.buildinfo' \) -exec cp {} "$dist/debian" \;
 }
 
+# news.md is the first section of NEWS.md for the release page, where relative links would lead nowhere.
 make_notes() {
     rm -f "$dist/SHA256SUMS"
     (
         cd "$dist"
-        find . -type f ! -name release.md ! -name '*.asc' | sed 's|^\./||' | sort | xargs sha256sum
+        find . -type f ! -name '*.md' ! -name '*.asc' | sed 's|^\./||' | sort | xargs sha256sum
     ) >"$work/sums"
     mv "$work/sums" "$dist/SHA256SUMS"
-    sh cmake/dist_notes.sh "$version" >"$dist/release.md"
+    sed -n '/^## /{:line;n;/^## /q;p;b line;}' "$tree/NEWS.md" | sed -z 's/\[\([^]]*\)\]([^):]*)/\1/g' >"$dist/news.md"
+    sh "$tree/cmake/dist_notes.sh" "$dist" "$commit" >"$dist/release.md"
 }
 
 case $1 in
@@ -257,3 +263,4 @@ prepare
 work=$made/$1
 mkdir -p "$work"
 step dist "$1" "make_$(echo "$1" | tr - _)"
+sed -n 's/^left out: /dist: &/p' "$work/$1.log"

@@ -100,7 +100,8 @@ done
 for page in bindings/js/README.md docs/tutorials/browser.md; do
     agree $page ' *npm install \.\./build/wasm/libicc-' "$version" '\.tgz'
 done
-for file in examples/CMakeLists.txt tests/install/find_package/CMakeLists.txt docs/howto/link.md; do
+for file in examples/CMakeLists.txt tests/install/find_package/CMakeLists.txt tests/papers/CMakeLists.txt \
+    docs/howto/link.md; do
     agree $file 'find_package(libicc ' "$minor" ' REQUIRED.*'
 done
 

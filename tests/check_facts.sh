@@ -1,6 +1,7 @@
 #!/bin/sh
 # Rehearses a release in a copy of the tree: the next minor version, another address and other people. Afterwards no file
-# may name the old ones, except for those that tell of them (below). Bad values in cmake/dist.conf are refused.
+# may name the old ones, except for those that tell of them (below). Bad values in cmake/dist.conf are refused, and
+# release.md names what is left to do.
 # usage: check_facts.sh TOP FOLDER      the copy goes to FOLDER
 set -eu
 cd "$1"
@@ -104,7 +105,7 @@ facts || fault "a second --write makes differences: $(cat said.txt)"
 left version "$version" NEWS.md debian/changelog debian/libicc0.symbols include/icc/base.h include/icc/api.json \
     bindings/rust/libicc-sys/src/lib.rs bindings/rust/libicc/src/lib.rs
 left version "libicc ${version%.*}"
-left address "$url" debian/changelog
+left address "$url" debian/changelog tests/check_facts.sh
 left address "$releases" debian/changelog
 for person in "$contact" "$maintainer"; do
     user=${person##*<}
@@ -123,5 +124,33 @@ if [ -e debian ]; then
 fi
 grep -q '^authors = \["A & B <both@host.test>"\]$' bindings/rust/libicc/Cargo.toml || fault "the author is not there"
 grep -q 'name = "A & B", email = "both@host.test"' bindings/python/pyproject.toml || fault "the author is not there"
+
+# The notes of a release say what has to be done before it, and say it no more when it is done.
+stops() {
+    sh cmake/dist_notes.sh "$copy/dist" 0123abc >notes.txt
+    if [ "$(grep -c 'Stop' notes.txt)" -ne "$1" ]; then
+        fault "the notes have to say Stop $1 times: $(grep Stop notes.txt)"
+    fi
+}
+if [ -e debian ]; then
+    mkdir dist
+    : >"dist/libicc-$next-py3-none-manylinux_2_34_x86_64.whl"
+    rm debian/upstream/signing-key.asc
+    set_value url https://example.org/libicc
+    set_value contact 'A <a@b.invalid>'
+    sed -i '1,/^## /s/^\(## .* (\).*/\1not yet released)/' NEWS.md
+    echo "libicc is not released yet." >>README.md
+    stops 6
+    ! grep -q '^\(twine\|npm\).*missing' notes.txt || fault "commands for missing files are not comments"
+    grep -q "^twine upload libicc-$next-py3-none-manylinux_2_34_x86_64.whl\$" notes.txt || fault "the wheel is not uploaded"
+    grep -q "^# npm publish" notes.txt || fault "there is no word about the npm package, which is missing"
+    touch debian/upstream/signing-key.asc
+    set_value url https://host.test/me/libicc
+    set_value contact 'A & B <both@host.test>'
+    sed -i '1,/^## /s/(not yet released)/(2027-01-01)/' NEWS.md
+    sed -i '/not released yet/d' README.md
+    sed -i '1s/UNRELEASED/unstable/' debian/changelog
+    stops 0
+fi
 [ $failed -ne 0 ] || rm -rf "$copy"
 exit $failed

@@ -38,19 +38,8 @@ describe() {
     esac
 }
 
-# Headers and libraries. Packages of `extract` are unpacked only; their scripts do not run. Links to files of the root
-# are made to lead there from outside.
 make_root() {
-    [ ! -e "$root/complete" ] || return 0
-    rm -rf "$root"
-    uri=$(debian_mirror)
-    mmdebstrap --variant=extract --architectures="$1" --aptopt='APT::Install-Recommends "false"' \
-        --include=libc6-dev,check,libgmp-dev "$release" "$root" "$uri"
-    [ -e "$root/lib" ] || ln -s usr/lib "$root/lib"
-    find "$root" -type l -lname '/*' | while read -r link; do
-        ln -sfn "$root$(readlink "$link")" "$link"
-    done
-    touch "$root/complete"
+    foreign_root "$1" "$release" libc6-dev,check,libgmp-dev
 }
 
 build() {
