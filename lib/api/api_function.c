@@ -1,51 +1,17 @@
-/* Checks the arguments of the functions on functions of a tree. */
+/* Checks the arguments of the functions that take a function of a tree from the caller, or ask it
+ * something. */
 #include "api/check.h"
+#include "api/new_function.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "gradient/function/critical_points.h"
 #include "gradient/function/given_function.h"
-#include "gradient/function/make_function.h"
 #include "gradient/function/merging.h"
 #include "icc/stages.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-ICCP_END(function)
-
-/* Makes the logarithms of a new function, so that icc_function_logs() cannot fail. */
-static icc_status with_logs(icc_function **out, icc_status status, icc_error *err)
-{
-    if (status != ICC_OK || !(*out)->has_logs || iccp_function_logs(*out) != NULL)
-        return iccp_explain(err, status);
-    iccp_function_release(*out);
-    *out = NULL;
-    return iccp_fail_memory(err);
-}
-
-icc_status icc_function_create(icc_function **out, const icc_tree *tree,
-                               const icc_function_options *options, const icc_env *env,
-                               icc_error *err)
-{
-    ICCP_ENTER;
-    if (out != NULL)
-        *out = NULL;
-    iccp_env full_env;
-    const char *missing = out == NULL ? "out" : tree == NULL ? "tree" : NULL;
-    icc_status status = iccp_begin(&full_env, env, missing, err);
-    if (status != ICC_OK)
-        return status;
-    icc_function_options full;
-    status = iccp_read_struct(&full, sizeof full, options, "icc_function_options", err);
-    if (status != ICC_OK)
-        return status;
-    status = iccp_check_function(&full, "icc_function_options", err);
-    if (status != ICC_OK)
-        return status;
-    status = with_logs(out, iccp_function_create(out, tree, &full, &full_env, err), err);
-    return iccp_end_function(status, out, &full_env, err);
-}
 
 /* Checks the caller's values, or logarithms, whose exponents must fit into 32 bits. Only those of
  * the tree's vertices inside count, in its order. */
@@ -82,7 +48,7 @@ static icc_status take_given(icc_function **out, const icc_tree *tree, const dou
                              logs ? "logarithm" : "value", err);
     if (status != ICC_OK)
         return status;
-    status = with_logs(out, create(out, tree, given, &full_env), err);
+    status = iccp_with_logs(out, create(out, tree, given, &full_env), err);
     return iccp_end_function(status, out, &full_env, err);
 }
 

@@ -72,7 +72,7 @@ typedef struct iccp_domain_ops {
     bool (*cross)(const icc_domain *domain, const double *from, const double *to, double *share,
                   uint32_t *facet, double *bary);
     icc_status (*scan)(const icc_domain *domain, const iccp_raster *raster, uint8_t *inside,
-                       const iccp_env *env);
+                       size_t *n_inside, const iccp_env *env);
     /* Frees the tree, the locator and the features. */
     void (*clear)(icc_domain *domain);
 } iccp_domain_ops;
@@ -162,13 +162,13 @@ static inline bool iccp_domain_cross(const icc_domain *domain, const double *fro
     return domain->ops->cross(domain, from, to, share, facet, bary);
 }
 
-/* Sets inside[i], which is 0, to 1 for the points of a raster that lie strictly inside the domain.
- * That is exact up to 3-D. The raster contains the bounding box. Returns ICC_OK, ICC_ERR_MEMORY or
- * ICC_ERR_CANCELLED. */
+/* Sets inside[i], which is 0, to 1 for the points of a raster that lie strictly inside the domain,
+ * and counts them. That is exact up to 3-D. The raster contains the bounding box. Returns ICC_OK,
+ * ICC_ERR_MEMORY or ICC_ERR_CANCELLED. */
 static inline icc_status iccp_domain_scan(const icc_domain *domain, const iccp_raster *raster,
-                                          uint8_t *inside, const iccp_env *env)
+                                          uint8_t *inside, size_t *n_inside, const iccp_env *env)
 {
-    return domain->ops->scan(domain, raster, inside, env);
+    return domain->ops->scan(domain, raster, inside, n_inside, env);
 }
 
 #endif

@@ -104,31 +104,33 @@ static icc_status mark_edges(const work *w, const icc_domain *domain, const iccp
     return ICC_OK;
 }
 
-static icc_status fill_rows(const work *w, const iccp_env *env)
+static icc_status fill_rows(const work *w, size_t *n_inside, const iccp_env *env)
 {
-    const size_t *shape = w->raster->shape;
-    size_t next_report = 0;
-    for (size_t j = 0; j < shape[1]; ++j) {
+    const size_t n = w->raster->shape[0], n_rows = w->raster->shape[1];
+    size_t next_report = 0, count = 0;
+    for (size_t j = 0; j < n_rows; ++j) {
         uint8_t *at = row(w, j);
-        if (j * shape[0] >= next_report) {
-            const double share = 0.5 + 0.5 * (double)j / (double)shape[1];
+        if (j * n >= next_report) {
+            const double share = 0.5 + 0.5 * (double)j / (double)n_rows;
             if (iccp_progress(env, "grid", share) != ICC_OK)
                 return ICC_ERR_CANCELLED;
             next_report += ICCP_VERTICES_PER_REPORT;
         }
         uint8_t parity = 0;
-        for (size_t i = 0; i < shape[0]; ++i) {
+        for (size_t i = 0; i < n; ++i) {
             parity ^= at[i] & TOGGLE;
             at[i] = parity && !(at[i] & ON_EDGE);
+            count += at[i];
         }
     }
+    *n_inside = count;
     return ICC_OK;
 }
 
 icc_status iccp_scan_polygon(const icc_domain *polygon, const iccp_raster *raster, uint8_t *inside,
-                             const iccp_env *env)
+                             size_t *n_inside, const iccp_env *env)
 {
     const work w = {raster, inside};
     const icc_status status = mark_edges(&w, polygon, env);
-    return status == ICC_OK ? fill_rows(&w, env) : status;
+    return status == ICC_OK ? fill_rows(&w, n_inside, env) : status;
 }

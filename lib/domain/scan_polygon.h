@@ -6,6 +6,6 @@
 
 /* See iccp_domain_scan(). Exact for the rounded position origin + spacing * i. */
 icc_status iccp_scan_polygon(const icc_domain *polygon, const iccp_raster *raster, uint8_t *inside,
-                             const iccp_env *env);
+                             size_t *n_inside, const iccp_env *env);
 
 #endif

@@ -135,13 +135,18 @@ static icc_status locate_near_facets(const work *w, const iccp_env *env)
 }
 
 icc_status iccp_scan_surface(const icc_domain *domain, const iccp_raster *raster, uint8_t *inside,
-                             const iccp_env *env)
+                             size_t *n_inside, const iccp_env *env)
 {
     work w = {.domain = domain, .raster = raster, .inside = inside};
     size_t n = 1;
     for (int32_t k = 0; k < domain->dim; n *= raster->shape[k++])
         w.stride[k] = n;
-    const icc_status status =
+    icc_status status =
         iccp_for_chunks(env, "grid", n / raster->shape[0], ROWS_PER_CHUNK, scan_rows, &w);
-    return status == ICC_OK ? locate_near_facets(&w, env) : status;
+    if (status == ICC_OK)
+        status = locate_near_facets(&w, env);
+    *n_inside = 0;
+    for (size_t v = 0; v < n && status == ICC_OK; ++v)
+        *n_inside += inside[v];
+    return status;
 }

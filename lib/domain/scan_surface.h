@@ -6,6 +6,6 @@
 
 /* See iccp_domain_scan(). Any dimension, for a domain with a tree of its own. */
 icc_status iccp_scan_surface(const icc_domain *domain, const iccp_raster *raster, uint8_t *inside,
-                             const iccp_env *env);
+                             size_t *n_inside, const iccp_env *env);
 
 #endif

@@ -53,9 +53,7 @@ static icc_status create_in_boundary(icc_grid **out, const icc_domain *domain, i
     iccp_raster raster = {.spacing = grid->spacing};
     memcpy(raster.shape, grid->shape, sizeof raster.shape);
     memcpy(raster.origin, grid->origin, sizeof raster.origin);
-    status = iccp_domain_scan(domain, &raster, grid->inside, env);
-    for (size_t v = 0; v < grid->n_vertices && status == ICC_OK; ++v)
-        grid->n_inside += grid->inside[v];
+    status = iccp_domain_scan(domain, &raster, grid->inside, &grid->n_inside, env);
     return status == ICC_OK && domain->dim != 2 ? iccp_grid_keep_largest(grid, env) : status;
 }
 
