@@ -214,14 +214,31 @@ enum {
     ICC_INITIAL_GIVEN = 4 /**< your own: icc_weights_options::initial_weights */
 };
 
-/** What is minimised at each sample. In all cases the weights sum to 1 and reproduce the sample. */
+/** What is minimised. In all cases the weights sum to 1. Except biharmonic ones, they are found at
+ *  each sample by itself and reproduce the sample. */
 enum {
     /** least squared change of the initial weights, none negative (4.1) */
     ICC_WEIGHTS_QP = 1,
     ICC_WEIGHTS_EQUALITY = 2, /**< least squared change, of any sign (4.2 to 4.6) */
     /** least sum of absolute changes (4.8). Of several solutions, the one with the least sum of
      *  squared changes */
-    ICC_WEIGHTS_L1 = 3
+    ICC_WEIGHTS_L1 = 3,
+    /** Bounded biharmonic weights (Jacobson et al. 2011), for comparison. In the plane only, where
+     *  every handle and sample lies in a region, and every region that encloses none has a handle.
+     *  No two walls may be so close that rounded points on them touch.
+     *
+     *  The weight of each handle lies between 0 and 1 and has the least integral of squared
+     *  Laplacians, by finite elements on a mesh of the nodes. Enclosed regions come first, and the
+     *  region around continues their weights. Then the weights of each node are divided by their
+     *  sum.
+     *
+     *  These weights do not reproduce points: if handles are translated to the places that an
+     *  affine map gives them, the shape does not follow that map. Initial weights have no
+     *  influence, but ::ICC_INITIAL_EDGES keeps edges linear. After painting, negative weights
+     *  become 0 and the weights are divided by their sum.
+     *
+     *  Cost: some 25 sparse factorisations for each handle, more for finer samplings */
+    ICC_WEIGHTS_BIHARMONIC = 4
 };
 
 /**
@@ -286,7 +303,8 @@ typedef struct icc_weights_info {
     double definiteness;
     /** Weights from icc_weights_stiffen(): how far they are from the optimum. It is the step
      *  that is still possible down the energy's projected gradient, divided by the one at the
-     *  start. Else 0 */
+     *  start. Biharmonic weights: the largest change of a single weight that would lower the
+     *  energy, before weights are divided by their sum. Else 0 */
     double residual;
 } icc_weights_info;
 
@@ -314,7 +332,10 @@ typedef struct icc_weights_timings {
  * - ::ICC_ERR_OUTSIDE if a handle or line is outside the shape
  * - ::ICC_ERR_ARGUMENT, for example if two handles coincide, the handles cannot reproduce points,
  *   or weights are not finite
- * - ::ICC_ERR_SOLVER if sigma is too large for a positive definite matrix
+ * - ::ICC_ERR_SOLVER if sigma is too large for a positive definite matrix, or biharmonic weights
+ *   are not found on a mesh with very thin triangles
+ * - ::ICC_ERR_UNSUPPORTED, ::ICC_ERR_ARGUMENT or ::ICC_ERR_RESOLUTION if biharmonic weights do not
+ *   exist for the shape, see ::ICC_WEIGHTS_BIHARMONIC
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
  * Cost for n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) and a
@@ -374,7 +395,8 @@ ICC_API icc_status icc_weights_repaint(icc_weights **out, const icc_weights *wei
                                        const icc_env *env, icc_error *err);
 
 /** Makes weights with the same nodes and initial weights but another method (`ICC_WEIGHTS_*`).
- *  Painting and stiffening are lost, as in the thesis (6.3.1). */
+ *  Painting and stiffening are lost, as in the thesis (6.3.1). Fails if
+ *  icc_weights_create() would. */
 ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights,
                                            int32_t method, const icc_env *env, icc_error *err);
 
@@ -405,6 +427,7 @@ ICC_API icc_status icc_weights_with_method(icc_weights **out, const icc_weights 
  * @return ::ICC_OK, or
  * - ::ICC_ERR_ARGUMENT if a node does not exist or is named twice, or a rigidity is not positive
  * - ::ICC_ERR_SOLVER if it was not solved within the limit of steps
+ * - ::ICC_ERR_UNSUPPORTED for biharmonic weights
  * - ::ICC_ERR_MEMORY or ::ICC_ERR_CANCELLED
  *
  * Cost: some hundred steps, each a product with a matrix of these nodes or two partial solves;

@@ -64,7 +64,7 @@ static icc_status check_choices(const icc_weights_options *o, icc_error *err)
     if (status == ICC_OK)
         status = check_choice(o->initial, 0, ICC_INITIAL_GIVEN, "initial", err);
     if (status == ICC_OK)
-        status = check_choice(o->method, 0, ICC_WEIGHTS_L1, "method", err);
+        status = check_choice(o->method, 0, ICC_WEIGHTS_BIHARMONIC, "method", err);
     if (status == ICC_OK)
         status = check_choice(o->steps, 0, MAX_STEPS, "steps", err);
     if (status == ICC_OK)
@@ -368,11 +368,11 @@ icc_status icc_weights_with_method(icc_weights **out, const icc_weights *weights
     const icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status != ICC_OK)
         return status;
-    if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_L1)
+    if (method < ICC_WEIGHTS_QP || method > ICC_WEIGHTS_BIHARMONIC)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "method is %ld; it must lie in %d..%d",
-                         (long)method, (int)ICC_WEIGHTS_QP, (int)ICC_WEIGHTS_L1);
+                         (long)method, (int)ICC_WEIGHTS_QP, (int)ICC_WEIGHTS_BIHARMONIC);
     return iccp_end_weights(
-        iccp_explain(err, iccp_weights_with_method(out, weights, method, &full_env)), out,
+        iccp_explain(err, iccp_weights_with_method(out, weights, method, &full_env, err)), out,
         &full_env, err);
 }
 

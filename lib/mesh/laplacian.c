@@ -8,24 +8,26 @@
 
 #include <math.h>
 
-/* For comparison: an equilateral mesh has weights of 0.58. */
-static const double LEAST_WEIGHT = 0.02, MOST_WEIGHT = 50;
+static const double LEAST_WEIGHT = 0.02;
 
-/* Returns half the cotangent of the angle at a corner. */
-static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
+double iccp_half_cotangent(const double *p, const double *a, const double *b)
 {
-    const double *p = mesh->points + 2 * (size_t)mesh->triangles[corner];
-    const double *a = mesh->points + 2 * (size_t)mesh->triangles[iccp_after(corner)];
-    const double *b = mesh->points + 2 * (size_t)mesh->triangles[iccp_before(corner)];
     const double ux = a[0] - p[0], uy = a[1] - p[1], vx = b[0] - p[0], vy = b[1] - p[1];
     const double dot = ux * vx + uy * vy, cross = ux * vy - uy * vx;
-    return cross > 0 ? 0.5 * dot / cross : copysign(MOST_WEIGHT, dot);
+    return cross > 0 ? 0.5 * dot / cross : copysign(ICCP_MOST_WEIGHT, dot);
+}
+
+static double half_cotangent(const iccp_planar *mesh, uint32_t corner)
+{
+    return iccp_half_cotangent(mesh->points + 2 * (size_t)mesh->triangles[corner],
+                               mesh->points + 2 * (size_t)mesh->triangles[iccp_after(corner)],
+                               mesh->points + 2 * (size_t)mesh->triangles[iccp_before(corner)]);
 }
 
 static double edge_weight(const iccp_planar *mesh, uint32_t corner)
 {
     const double w = half_cotangent(mesh, corner) + half_cotangent(mesh, mesh->twins[corner]);
-    return iccp_min(iccp_max(w, LEAST_WEIGHT), MOST_WEIGHT);
+    return iccp_min(iccp_max(w, LEAST_WEIGHT), ICCP_MOST_WEIGHT);
 }
 
 /* Visits an edge of which at least the first vertex is inside. */

@@ -18,6 +18,13 @@ typedef struct iccp_laplacian {
     double *boundary_weight;   /* weight of each such edge */
 } iccp_laplacian;
 
+/* Largest weight of an edge. For comparison: an equilateral mesh has weights of 0.58. */
+#define ICCP_MOST_WEIGHT 50.0
+
+/* Returns half the cotangent of the angle at `p` of the triangle p, a, b. It is finite if the
+ * triangle is as thin as a line. */
+double iccp_half_cotangent(const double *p, const double *a, const double *b);
+
 /* Makes the Laplacian with cotangent weights, limited to positive bounds. Edges at the vertex
  * `left_out` are omitted, and its row is that of the identity. ICCP_NO_NEIGHBOUR leaves out no
  * vertex. */

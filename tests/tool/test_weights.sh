@@ -37,6 +37,12 @@ for how in "" "-w equality" "-w l1" "-k gauss" "--initial inverse" "--initial he
     awk '{ for (j = 1; j <= NF; j++) { d = $j - (j == NR); if (d * d > 1e-16) bad = 1 } } END { exit bad || NR != 5 }' out ||
         complain "not 1 and 0 at the handles, $how: $(cat out)"
 done
+# Biharmonic weights only sum to 1.
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -w biharmonic <handles.txt
+awk '{ sum = 0; for (j = 1; j <= NF; j++) { sum += $j; d = $j - (j == NR); if (d * d > 1e-16) bad = 1 }
+       if ((sum - 1) ^ 2 > 1e-20) bad = 1 } END { exit bad || NR != 5 }' out || complain "biharmonic: $(cat out)"
+run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o w -w biharmonic
+below 1e-3 "$(sums inside.txt w)" "biharmonic weights do not reproduce points"
 run 0 weights -s cage.txt -a plain.json --spacing 0.2 -p inside.txt -o w --thesis
 below "$(sums inside.txt w)" 1 "the thesis' settings"
 below 1e-7 "$(sums inside.txt w)" "the thesis' settings have no affine part"
@@ -256,7 +262,7 @@ says 'go with --picture'
 run 2 weights -s cage.txt -a - -p -
 says 'only one input can be standard input'
 run 2 weights -s cage.txt -a plain.json --weights best
-says 'it may be: qp, equality, l1'
+says 'it may be: qp, equality, l1, biharmonic'
 run 2 weights -s cage.txt -a plain.json -p inside.txt --json
 says 'cannot both go to standard output'
 

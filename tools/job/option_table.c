@@ -20,8 +20,11 @@ const choice solvers[] = {
     {"direct", ICC_SOLVER_DIRECT}, {"iterative", ICC_SOLVER_ITERATIVE}, {NULL, 0}};
 const choice meshers[] = {{"libicc", MESHER_OWN}, {"tetgen", MESHER_TETGEN}, {NULL, 0}};
 const choice samplings[] = {{"blue", ICC_SAMPLING_BLUE}, {"grid", ICC_SAMPLING_GRID}, {NULL, 0}};
-const choice weightings[] = {
-    {"qp", ICC_WEIGHTS_QP}, {"equality", ICC_WEIGHTS_EQUALITY}, {"l1", ICC_WEIGHTS_L1}, {NULL, 0}};
+const choice weightings[] = {{"qp", ICC_WEIGHTS_QP},
+                             {"equality", ICC_WEIGHTS_EQUALITY},
+                             {"l1", ICC_WEIGHTS_L1},
+                             {"biharmonic", ICC_WEIGHTS_BIHARMONIC},
+                             {NULL, 0}};
 const choice kernels[] = {
     {"wendland", ICC_KERNEL_WENDLAND}, {"gauss", ICC_KERNEL_GAUSS}, {NULL, 0}};
 const choice initials[] = {{"heat", ICC_INITIAL_HEAT},
@@ -629,8 +632,10 @@ const option options[] = {
      .offset = AT(weights),
      .choices = weightings,
      .value = "NAME",
-     .help = "what to optimise: qp (default, no negative weights), equality (any sign) or l1 (the "
-             "sum of absolute changes)"},
+     .help =
+         "what to optimise: qp (default, no negative weights), equality (any sign), l1 (the sum "
+         "of absolute changes) or biharmonic (bounded biharmonic weights, in the plane; slow, "
+         "and points are not reproduced)"},
     {.name = "initial",
      .group = OPTIONS_PAPERS,
      .kind = OPTION_CHOICE,

@@ -35,7 +35,7 @@ __all__ = ["Binding", "Weights", "Pose", "Sampling", "Shape"]
 SAMPLINGS = {"grid": 1, "blue": 2, "points": 3}
 KERNELS = {"wendland": 1, "gauss": 2}
 INITIALS = {"heat": 1, "edges": 2, "inverse": 3, "given": 4}
-METHODS = {"qp": 1, "equality": 2, "l1": 3}
+METHODS = {"qp": 1, "equality": 2, "l1": 3, "biharmonic": 4}
 
 
 class _Line(ctypes.Structure):
@@ -147,7 +147,7 @@ class Weights(Handle):
         cutoff: radius of a Gauss kernel in units of sigma; None: 5
         initial: "heat", "edges", "inverse" or "given"; None: "edges" if there are any, else "heat"
         steps: steps of diffusion; None: 5
-        method: "qp" (default), "equality" or "l1"
+        method: "qp" (default), "equality", "l1" or "biharmonic" (in the plane; slow, points are not reproduced)
         affine_tail: whether an affine function makes sums and reproduction exact between the samples
         within_shape: whether diffusion stays inside the shape
         initial_weights: (n_samples, n_handles), for initial "given"

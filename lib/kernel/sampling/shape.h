@@ -61,6 +61,9 @@ iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
  * all. */
 uint32_t iccp_shape_region(const icc_shape *shape, const double *point);
 
+/* Returns the innermost region around another region; ICCP_NOWHERE if there is none. */
+uint32_t iccp_shape_parent(const icc_shape *shape, uint32_t region);
+
 /* Returns true if a point is in the shape: in a region or, within 1e-9 of the box, on a curve. */
 bool iccp_shape_holds(const icc_shape *shape, const double *point);
 

@@ -16,14 +16,17 @@
  * degrees. */
 static const double LONGEST_DETOUR = 2 * (1 + 1e-12);
 
-/* Returns the smallest of the nested regions around a point that is on no wall. */
-static uint32_t innermost(const icc_shape *shape, const double *point)
+/* Returns the smallest of the nested regions around a point, which is on no wall except perhaps on
+ * those of the region `except`. That region does not count. */
+static uint32_t innermost(const icc_shape *shape, const double *point, uint32_t except)
 {
     uint32_t found = ICCP_NOWHERE;
     double least = HUGE_VAL;
     for (uint32_t r = 0; r < shape->n_regions; ++r) {
         const icc_domain *d = shape->regions[r];
         double local[3];
+        if (r == except)
+            continue;
         iccp_frame_in(&d->frame, d->dim, point, local);
         if (iccp_domain_locate(d, local, true, NULL, NULL) == ICC_OUTSIDE)
             continue;
@@ -49,7 +52,8 @@ iccp_spot iccp_shape_spot(const icc_shape *shape, const double *point)
         const uint32_t f = iccp_facet_tree_nearest(&shape->walls, spot.at, bary, &distance2);
         spot.clearance = sqrt(distance2);
         spot.wall = spot.clearance <= shape->tolerance ? f : ICCP_NOWHERE;
-        spot.region = spot.wall != ICCP_NOWHERE ? shape->owner[f] : innermost(shape, point);
+        spot.region =
+            spot.wall != ICCP_NOWHERE ? shape->owner[f] : innermost(shape, point, ICCP_NOWHERE);
     }
     if (shape->curves.n > 0) {
         const uint32_t s = iccp_facet_tree_nearest(&shape->curves, spot.at, bary, &distance2);
@@ -77,6 +81,14 @@ iccp_spot iccp_shape_spot_beside(const icc_shape *shape, const iccp_spot *other,
 uint32_t iccp_shape_region(const icc_shape *shape, const double *point)
 {
     return iccp_shape_spot(shape, point).region;
+}
+
+uint32_t iccp_shape_parent(const icc_shape *shape, uint32_t region)
+{
+    const icc_domain *d = shape->regions[region];
+    double point[3];
+    iccp_domain_given(d, d->facets[0], point);
+    return innermost(shape, point, region);
 }
 
 bool iccp_shape_holds(const icc_shape *shape, const double *point)

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/minmax.h"
 #include "base/threads.h"
+#include "kernel/biharmonic/biharmonic.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -109,15 +110,20 @@ static icc_status optimise_some(void *argument, size_t begin, size_t end)
     return ICC_OK;
 }
 
+static void count_infeasible(icc_weights *weights)
+{
+    weights->info.n_infeasible = 0;
+    for (size_t i = 0; i < weights->nodes->n; ++i)
+        weights->info.n_infeasible += weights->status[i] != ICC_OK;
+}
+
 icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t *nodes,
                                  const iccp_env *env)
 {
     optimisation o = {weights, nodes, &env->memory};
     const icc_status status =
         iccp_for_chunks(env, "weights", n, ICCP_NODES_A_TASK, optimise_some, &o);
-    weights->info.n_infeasible = 0;
-    for (size_t i = 0; i < weights->nodes->n; ++i)
-        weights->info.n_infeasible += weights->status[i] != ICC_OK;
+    count_infeasible(weights);
     return status;
 }
 
@@ -145,18 +151,61 @@ static icc_status optimise_ends(icc_weights *weights, const iccp_env *env)
     return ICC_OK;
 }
 
-icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env)
+static icc_status optimise_each(icc_weights *weights, const iccp_env *env)
 {
     const iccp_node_set *set = weights->nodes;
-    const double start = iccp_seconds();
-    memcpy(weights->values, set->initial, set->n * set->n_handles * sizeof *set->initial);
-    for (size_t i = 0; i < set->n; ++i)
-        weights->status[i] = ICC_OK;
     icc_status status = optimise_ends(weights, env);
     if (status == ICC_OK)
         status = iccp_weights_optimise(weights, set->n, NULL, env);
     for (size_t k = 0; status == ICC_OK && k < set->n_lines; ++k)
         status = iccp_weights_follow_line(weights, k, env);
+    return status;
+}
+
+/* The ends of lines need weights before the lines can be straight. So with lines, everything is
+ * solved twice, first as if there were none. */
+static icc_status optimise_together(icc_weights *weights, const iccp_env *env, icc_error *err)
+{
+    const iccp_node_set *set = weights->nodes;
+    const iccp_nodes nodes = iccp_node_set_view(set);
+    bool *held = iccp_alloc(&env->memory, set->n, sizeof *held);
+    if (held == NULL)
+        return iccp_fail_memory(err);
+    iccp_biharmonic problem = {.shape = set->sampling->shape,
+                               .spacing = set->sampling->info.spacing,
+                               .n = set->n,
+                               .n_handles = set->n_handles,
+                               .nodes = set->given,
+                               .held = held};
+    iccp_env part[2];
+    iccp_split(part, set->n_lines > 0 ? 2 : 1, (const double[]){1, 1}, env);
+    for (size_t i = 0; i < set->n; ++i)
+        held[i] = set->held[i] && !(i >= set->n_handles && i < set->n_handles + set->n_line_nodes);
+    icc_status status = iccp_biharmonic_solve(&problem, weights->values, weights->status,
+                                              &weights->info.residual, &part[0], err);
+    for (size_t k = 0; status == ICC_OK && k < set->n_lines; ++k)
+        iccp_straighten(&nodes, &set->lines[k], iccp_node_set_parallel(set, k), weights->values);
+    problem.held = set->held;
+    if (status == ICC_OK && set->n_lines > 0)
+        status = iccp_biharmonic_solve(&problem, weights->values, weights->status,
+                                       &weights->info.residual, &part[1], err);
+    iccp_free(&env->memory, held);
+    return status;
+}
+
+icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env, icc_error *err)
+{
+    const iccp_node_set *set = weights->nodes;
+    const double start = iccp_seconds();
+    if (weights->info.method == ICC_WEIGHTS_BIHARMONIC && set->dim != 2)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED, "biharmonic weights exist in the plane only");
+    memcpy(weights->values, set->initial, set->n * set->n_handles * sizeof *set->initial);
+    for (size_t i = 0; i < set->n; ++i)
+        weights->status[i] = ICC_OK;
+    const icc_status status = weights->info.method == ICC_WEIGHTS_BIHARMONIC
+                                  ? optimise_together(weights, env, err)
+                                  : optimise_each(weights, env);
+    count_infeasible(weights);
     weights->timings.optimise = iccp_seconds() - start;
     return status;
 }
@@ -215,7 +264,8 @@ static void describe(icc_weights *weights, const icc_weights_options *options)
 }
 
 static icc_status create_at_nodes(icc_weights **out, iccp_node_set *set,
-                                  const icc_weights_options *options, const iccp_env *env)
+                                  const icc_weights_options *options, const iccp_env *env,
+                                  icc_error *err)
 {
     const double start = iccp_seconds();
     iccp_env part[3];
@@ -228,7 +278,7 @@ static icc_status create_at_nodes(icc_weights **out, iccp_node_set *set,
         return status;
     describe(*out, options);
     (*out)->timings.initial = seconds;
-    status = iccp_weights_start(*out, &part[1]);
+    status = iccp_weights_start(*out, &part[1], err);
     return status == ICC_OK ? iccp_weights_interpolate(*out, NULL, &part[2]) : status;
 }
 
@@ -246,7 +296,7 @@ icc_status iccp_weights_create(icc_weights **out, const icc_sampling *sampling, 
         iccp_node_set_create(&set, sampling, n_handles, handles, options, &part[0], err);
     const double seconds = iccp_seconds() - start;
     if (status == ICC_OK)
-        status = create_at_nodes(out, set, options, &part[1]);
+        status = create_at_nodes(out, set, options, &part[1], err);
     iccp_node_set_release(set);
     if (status == ICC_OK)
         (*out)->timings.factor = seconds;

@@ -29,7 +29,7 @@ icc_status iccp_weights_optimise(icc_weights *weights, size_t n, const uint32_t 
                                  const iccp_env *env);
 
 /* Optimises all weights from the initial ones, then makes lines straight. */
-icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env);
+icc_status iccp_weights_start(icc_weights *weights, const iccp_env *env, icc_error *err);
 
 /* Adapts the nodes near line k to it. */
 icc_status iccp_weights_follow_line(icc_weights *weights, size_t k, const iccp_env *env);
@@ -47,7 +47,7 @@ icc_status iccp_weights_repaint(icc_weights **out, const icc_weights *weights, s
                                 const uint32_t *nodes, const double *values, const iccp_env *env,
                                 icc_error *err);
 icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *weights, int32_t method,
-                                    const iccp_env *env);
+                                    const iccp_env *env, icc_error *err);
 icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *weights, size_t n,
                                 const uint32_t *nodes, const double *rigidity, double energy[2],
                                 const iccp_env *env, icc_error *err);

@@ -10,6 +10,7 @@
 #include "base/compiler.h"
 #include "base/error.h"
 #include "base/minmax.h"
+#include "kernel/biharmonic/biharmonic.h"
 #include "kernel/weights/l1.h"
 #include "kernel/weights/weights.h"
 
@@ -267,6 +268,8 @@ static ICCP_INLINE void solve_lower(const iccp_handles *h, size_t rows, const do
 icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const double *point,
                          double *weights, double *work)
 {
+    if (method == ICC_WEIGHTS_BIHARMONIC)
+        return iccp_share_out(handles->m, weights);
     iccp_nonneg problem = {
         .m = handles->m, .rows = handles->dim + 1, .columns = handles->columns, .total = 1};
     if (handles->dim == 2)

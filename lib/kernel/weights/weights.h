@@ -19,11 +19,12 @@
  * Ways
  * - Start: initial_weights.c. Weights of one point: handles.c, by method nonneg.h (QP; dual.h where
  *   that fails) or l1.h. Lines: straight_lines.c; rigid parts: kernel/pose/rigid.c.
+ * - Biharmonic weights, of all nodes at once: kernel/biharmonic/biharmonic.h.
  * - All nodes, and the interpolant: handle_weights.c. Edits: weights_edit.c. Values at points and
  *   their quality: weights_report.c. Bytes: binding_file.c.
  *
- * Invariants: optimised weights sum to 1 and reproduce their point, up to rounding. With method QP
- * they are not negative unless a status tells otherwise. */
+ * Invariants: optimised weights sum to 1 and, except biharmonic ones, reproduce their point, up to
+ * rounding. With method QP they are not negative unless a status tells otherwise. */
 #ifndef ICCP_WEIGHTS_H
 #define ICCP_WEIGHTS_H
 
@@ -72,7 +73,8 @@ void iccp_handles_project(const iccp_handles *handles, const double *bounded, do
 size_t iccp_optimise_work(const iccp_handles *handles);
 
 /* Replaces the weights of one point by those of the method (`ICC_WEIGHTS_*`). Returns ICC_OK, or
- * ICC_ERR_SOLVER if every solution has negative weights and QP was relaxed. */
+ * ICC_ERR_SOLVER if every solution has negative weights and QP was relaxed. Biharmonic weights are
+ * not found point by point, so they are only made to sum to 1, see iccp_share_out(). */
 icc_status iccp_optimise(const iccp_handles *handles, int32_t method, const double *point,
                          double *weights, double *work);
 

@@ -99,13 +99,13 @@ icc_status iccp_weights_repaint(icc_weights **out, const icc_weights *weights, s
 }
 
 icc_status iccp_weights_with_method(icc_weights **out, const icc_weights *weights, int32_t method,
-                                    const iccp_env *env)
+                                    const iccp_env *env, icc_error *err)
 {
     icc_status status = iccp_weights_copy(out, weights, env);
     if (status != ICC_OK)
         return status;
     (*out)->info.method = method;
-    status = iccp_weights_start(*out, env);
+    status = iccp_weights_start(*out, env, err);
     if (status == ICC_OK)
         status = iccp_weights_interpolate(*out, NULL, env);
     if (status != ICC_OK)
@@ -136,6 +136,10 @@ icc_status iccp_weights_stiffen(icc_weights **out, const icc_weights *weights, s
 {
     double local[2];
     *out = NULL;
+    if (weights->info.method == ICC_WEIGHTS_BIHARMONIC)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "biharmonic weights cannot be stiffened, because they do not reproduce "
+                         "points");
     icc_status status = check_nodes(weights->nodes, n, nodes, env, err);
     if (status == ICC_OK)
         status = iccp_weights_copy(out, weights, env);

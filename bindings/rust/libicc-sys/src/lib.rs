@@ -3161,13 +3161,28 @@ pub const ICC_INITIAL_INVERSE: i32 = 3;
 /// your own: `icc_weights_options.initial_weights`
 pub const ICC_INITIAL_GIVEN: i32 = 4;
 
-// What is minimised at each sample. In all cases the weights sum to 1 and reproduce the sample.
+// What is minimised. In all cases the weights sum to 1. Except biharmonic ones, they are found at each sample
+// by itself and reproduce the sample.
 /// least squared change of the initial weights, none negative (4.1)
 pub const ICC_WEIGHTS_QP: i32 = 1;
 /// least squared change, of any sign (4.2 to 4.6)
 pub const ICC_WEIGHTS_EQUALITY: i32 = 2;
 /// least sum of absolute changes (4.8). Of several solutions, the one with the least sum of squared changes
 pub const ICC_WEIGHTS_L1: i32 = 3;
+/// Bounded biharmonic weights (Jacobson et al. 2011), for comparison. In the plane only, where every handle
+/// and sample lies in a region, and every region that encloses none has a handle. No two walls may be so
+/// close that rounded points on them touch.
+///
+/// The weight of each handle lies between 0 and 1 and has the least integral of squared Laplacians, by finite
+/// elements on a mesh of the nodes. Enclosed regions come first, and the region around continues their
+/// weights. Then the weights of each node are divided by their sum.
+///
+/// These weights do not reproduce points: if handles are translated to the places that an affine map gives
+/// them, the shape does not follow that map. Initial weights have no influence, but `ICC_INITIAL_EDGES` keeps
+/// edges linear. After painting, negative weights become 0 and the weights are divided by their sum.
+///
+/// Cost: some 25 sparse factorisations for each handle, more for finer samplings
+pub const ICC_WEIGHTS_BIHARMONIC: i32 = 4;
 
 /// A segment that stays straight, because weights are linear along it (5.6). It has nodes at both ends and
 /// between them, at most one spacing apart. Nodes beside the line follow it, nearer ones more closely. For
@@ -3256,7 +3271,9 @@ pub struct icc_weights_info {
     /// smallest pivot of the matrix over the greatest: near 0 it almost loses positive definiteness
     pub definiteness: f64,
     /// Weights from `icc_weights_stiffen()`: how far they are from the optimum. It is the step that is still
-    /// possible down the energy's projected gradient, divided by the one at the start. Else 0
+    /// possible down the energy's projected gradient, divided by the one at the start. Biharmonic weights:
+    /// the largest change of a single weight that would lower the energy, before weights are divided by their
+    /// sum. Else 0
     pub residual: f64,
 }
 sized!(icc_weights_info);
@@ -3453,7 +3470,10 @@ extern "C" {
     /// - `ICC_ERR_OUTSIDE` if a handle or line is outside the shape
     /// - `ICC_ERR_ARGUMENT`, for example if two handles coincide, the handles cannot reproduce points, or
     ///   weights are not finite
-    /// - `ICC_ERR_SOLVER` if sigma is too large for a positive definite matrix
+    /// - `ICC_ERR_SOLVER` if sigma is too large for a positive definite matrix, or biharmonic weights are not
+    ///   found on a mesh with very thin triangles
+    /// - `ICC_ERR_UNSUPPORTED`, `ICC_ERR_ARGUMENT` or `ICC_ERR_RESOLUTION` if biharmonic weights do not exist
+    ///   for the shape, see `ICC_WEIGHTS_BIHARMONIC`
     /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
     /// Cost for n nodes, m handles and k neighbours within the kernel's reach: O(steps n k m) and a sparse
@@ -3533,7 +3553,7 @@ extern "C" {
     ) -> icc_status;
 
     /// Makes weights with the same nodes and initial weights but another method (`ICC_WEIGHTS_*`). Painting
-    /// and stiffening are lost, as in the thesis (6.3.1).
+    /// and stiffening are lost, as in the thesis (6.3.1). Fails if `icc_weights_create()` would.
     pub fn icc_weights_with_method(
         out: *mut *mut icc_weights,
         weights: *const icc_weights,
@@ -3568,6 +3588,7 @@ extern "C" {
     ///
     /// - `ICC_ERR_ARGUMENT` if a node does not exist or is named twice, or a rigidity is not positive
     /// - `ICC_ERR_SOLVER` if it was not solved within the limit of steps
+    /// - `ICC_ERR_UNSUPPORTED` for biharmonic weights
     /// - `ICC_ERR_MEMORY` or `ICC_ERR_CANCELLED`
     ///
     /// Cost: some hundred steps, each a product with a matrix of these nodes or two partial solves; memory in

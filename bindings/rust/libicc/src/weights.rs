@@ -42,7 +42,8 @@ pub enum InitialWeights<'a> {
     Given(&'a [f64]),
 }
 
-/// What is minimised at each sample. In all cases the weights sum to 1 and reproduce the sample.
+/// What is minimised. In all cases the weights sum to 1. Except biharmonic ones, they are found at each
+/// sample by itself and reproduce the sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum WeightsMethod {
@@ -52,6 +53,8 @@ pub enum WeightsMethod {
     Equality = sys::ICC_WEIGHTS_EQUALITY,
     /// least sum of absolute changes
     L1 = sys::ICC_WEIGHTS_L1,
+    /// bounded biharmonic weights, in the plane: least squared Laplacian, between 0 and 1
+    Biharmonic = sys::ICC_WEIGHTS_BIHARMONIC,
 }
 
 /// A segment that stays straight, because weights are linear along it.

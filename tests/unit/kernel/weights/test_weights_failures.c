@@ -60,7 +60,9 @@ static icc_status run(int which, const everything *e, double *out, const icc_env
     static const double WISHES[15] = {1, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 1}, CENTRE[2] = {0.4, 0.4};
     icc_weights_options options = {.size = sizeof options,
                                    .initial = which == 1 ? ICC_INITIAL_INVERSE : 0,
-                                   .method = which == 1 ? ICC_WEIGHTS_L1 : 0,
+                                   .method = which == 1   ? ICC_WEIGHTS_L1
+                                             : which == 2 ? ICC_WEIGHTS_BIHARMONIC
+                                                          : 0,
                                    .n_edges = which == 2 ? 4 : 0,
                                    .edges = RING,
                                    .n_lines = 2,

@@ -142,7 +142,7 @@ START_TEST(impossible_calls_are_refused)
         ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_weights_get_dual(weights, 0, 1, nowhere, images, NULL, NULL),
                      ICC_ERR_ARGUMENT);
-    ck_assert_int_eq(icc_weights_with_method(&other, weights, 4, NULL, NULL), ICC_ERR_ARGUMENT);
+    ck_assert_int_eq(icc_weights_with_method(&other, weights, 5, NULL, NULL), ICC_ERR_ARGUMENT);
     ck_assert_int_eq(icc_weights_stiffen(&other, weights, 1, &node, rigidity, NULL, NULL, NULL),
                      ICC_ERR_ARGUMENT);
     icc_binding *binding = (icc_binding *)&binding;
