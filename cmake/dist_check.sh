@@ -52,7 +52,8 @@ in_chroot() {
 
 check_linux_x86_64() {
     fresh linux-x86_64
-    tar -xzf "$dist/$release-linux-x86_64.tar.gz" --strip-components=1 "$release-linux-x86_64/libicc"
+    tar -xzf "$dist/$release-linux-x86_64.tar.gz" --strip-components=1
+    grep -q 'source package glibc, version [0-9]' licences/README.txt
     use in_chroot
     same_result
 }
@@ -61,7 +62,8 @@ check_linux_x86_64() {
 check_linux_arm64() {
     need qemu-user
     fresh linux-arm64
-    tar -xzf "$dist/$release-linux-arm64.tar.gz" --strip-components=1 "$release-linux-arm64/libicc"
+    tar -xzf "$dist/$release-linux-arm64.tar.gz" --strip-components=1
+    grep -q 'source package glibc, version [0-9]' licences/README.txt
     mkdir nothing
     use env -i /usr/bin/qemu-aarch64 -L nothing ./libicc
     same_result
@@ -173,12 +175,14 @@ END
     grep -q '</html>' "$dist/studio.html"
 }
 
-# The archive has the tree of the commit, without Debian's folder; and the checksums are right.
+# The archive has the tree of the commit, without Debian's folder, and its owner alone may write. The checksums are right.
 check_source() {
     fresh source
     tar -xJf "$dist/$release.tar.xz"
     git -C "$top" ls-tree -r --name-only HEAD | grep -v '^debian/' | sort >wanted
     (cd "$release" && find . ! -type d | sed 's|^\./||' | sort) | cmp - wanted
+    tar -tvJf "$dist/$release.tar.xz" >list
+    [ "$(grep -cv -e '^[d-]rwxr-xr-x ' -e '^-rw-r--r-- ' -e '^l' list)" -eq 0 ]
     [ ! -e "$dist/SHA256SUMS" ] || (cd "$dist" && sha256sum --quiet -c SHA256SUMS)
 }
 

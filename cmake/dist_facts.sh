@@ -74,6 +74,7 @@ agree debian/upstream/metadata 'Bug-Database: ' "$url/issues" ''
 agree debian/upstream/metadata 'Bug-Submit: ' "$url/issues/new" ''
 agree debian/upstream/metadata 'Repository: ' "$url.git" ''
 agree debian/upstream/metadata 'Repository-Browse: ' "$url" ''
+agree SECURITY.md 'Contact: ' "$contact" ''
 agree debian/watch '  ' "$releases" ' [\]'
 agree bindings/python/pyproject.toml 'authors = ' \
     "[{ name = \"${contact% <*}\", email = \"$(echo "$contact" | sed 's/.*<\(.*\)>/\1/')\" }]" ''
@@ -123,12 +124,16 @@ if ! sed -n '/^## /{p;q;}' NEWS.md | grep -q "^## $version ("; then
     fault "NEWS.md: the first section is not of version $version"
 fi
 
-# Pictures that have an author of their own are named one by one.
+# Pictures that have an author of their own are named one by one, here and there.
+# shellcheck disable=SC2016 # the marks of a file's name
+sed -n 's/^| `\([a-z]*\/.*\.png\)` .*/\1/p' LICENSES.md | sort >"$work/named"
+[ -s "$work/named" ] || fault "LICENSES.md names no picture"
+while read -r file; do
+    [ -e "$file" ] || fault "LICENSES.md: there is no $file"
+done <"$work/named"
 if [ -e debian/copyright ]; then
-    sed -n 's/^ \([a-z]*\/.*\.png\)$/\1/p' debian/copyright | while read -r file; do
-        [ -e "$file" ] || echo "debian/copyright: there is no $file"
-    done >"$work/missing"
-    cat "$work/missing"
-    [ ! -s "$work/missing" ] || status=1
+    sed -n 's/^ \([a-z]*\/.*\.png\)$/\1/p' debian/copyright | sort >"$work/there"
+    diff "$work/named" "$work/there" >"$work/differ" ||
+        fault "LICENSES.md and debian/copyright name different pictures: $(grep '^[<>]' "$work/differ")"
 fi
 exit $status

@@ -47,9 +47,9 @@ esac
 if sed -n '/^## /{p;q;}' NEWS.md | grep -q 'not yet released'; then
     stop "\`NEWS.md\` says \"not yet released\" instead of the date."
 fi
-if grep -q 'not released yet' README.md; then
-    stop "\`README.md\` says that there is nothing to download."
-fi
+for page in README.md SECURITY.md; do
+    ! grep -q 'not released yet' $page || stop "\`$page\` says that libicc is not released yet."
+done
 if head -n 1 debian/changelog | grep -q UNRELEASED; then
     stop "The first entry of \`debian/changelog\` is UNRELEASED."
 fi

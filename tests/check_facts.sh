@@ -139,8 +139,8 @@ if [ -e debian ]; then
     set_value url https://example.org/libicc
     set_value contact 'A <a@b.invalid>'
     sed -i '1,/^## /s/^\(## .* (\).*/\1not yet released)/' NEWS.md
-    echo "libicc is not released yet." >>README.md
-    stops 6
+    echo "libicc is not released yet." | tee -a README.md >>SECURITY.md
+    stops 7
     ! grep -q '^\(twine\|npm\).*missing' notes.txt || fault "commands for missing files are not comments"
     grep -q "^twine upload libicc-$next-py3-none-manylinux_2_34_x86_64.whl\$" notes.txt || fault "the wheel is not uploaded"
     grep -q "^# npm publish" notes.txt || fault "there is no word about the npm package, which is missing"
@@ -148,7 +148,7 @@ if [ -e debian ]; then
     set_value url https://host.test/me/libicc
     set_value contact 'A & B <both@host.test>'
     sed -i '1,/^## /s/(not yet released)/(2027-01-01)/' NEWS.md
-    sed -i '/not released yet/d' README.md
+    sed -i '/not released yet/d' README.md SECURITY.md
     sed -i '1s/UNRELEASED/unstable/' debian/changelog
     stops 0
 fi

@@ -77,7 +77,8 @@ def main():
     root = Path(sys.argv[1])
     names = names_in(root)
     sources = "".join(path.read_text(encoding="utf-8") for path in root.glob("include/icc/*"))
-    for path in "CMakeLists.txt", "cmake/libicc.map", "tests/CMakeLists.txt", "tests/share.h", "tests/modes/modes.h":
+    for path in ("CMakeLists.txt", "tools/CMakeLists.txt", "cmake/deps.sh", "cmake/libicc.map", "tests/CMakeLists.txt",
+                 "tests/share.h", "tests/modes/modes.h"):
         sources += (root / path).read_text(encoding="utf-8")
     words = set(re.findall(r"\w+", sources)) | PLACEHOLDERS
     structs = {name: body for body, name in re.findall(r"typedef struct icc_\w+ \{(.*?)^\} (icc_\w+);", sources,
