@@ -107,6 +107,7 @@ all_others() {
     ran kernel sh "$examples/kernel.sh" "$out"
     ran compare /usr/bin/python3 "$compare/compare.py" --cells 8 --steps 80 "$out/compare.svg"
     ran bounded_biharmonic /usr/bin/python3 "$compare/bounded_biharmonic.py" --cells 16
+    ran symmetric_weights /usr/bin/python3 "$compare/symmetric_weights.py"
     ran outlines /usr/bin/python3 "$compare/outlines.py" --cells 25
     ran facets /usr/bin/python3 "$compare/facets.py" --quick
     ran reparent /usr/bin/python3 "$compare/reparent.py" --cells 16
