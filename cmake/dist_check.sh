@@ -164,6 +164,7 @@ check_npm() {
     fresh npm
     echo '{ "name": "program", "version": "1.0.0", "private": true }' >package.json
     npm install --silent --offline --no-audit --no-fund "$dist/$release.tgz"
+    ls node_modules/libicc/licences/wasi-libc.txt node_modules/libicc/licences/libclang-rt-*.txt
     cat >try.mjs <<'END'
 import { load } from "libicc";
 const { Map } = await load();
