@@ -1,7 +1,7 @@
 // Charts: coordinates of the inside of a domain, a boundary point and a share of the way. See
 // icc_chart_create().
 import { Handle } from './core.js';
-import { flat } from './points.js';
+import { exactly, flat, onePoint, withPoint } from './points.js';
 import { withDomains } from './domain.js';
 
 /** The infos that only charts of one method have. Charts of other methods refuse them. */
@@ -16,7 +16,8 @@ export function chartOf(core, Domain) {
   return class Chart extends Handle {
     /** domain: a Domain, or an outline; options as in icc_chart_options: { method: 'disc', ... }. */
     constructor(domain, options = null, lender = null) {
-      super(core, domain, () => withDomains(Domain, { domain }, (d) => core.call('icc_chart_create', d, options)),
+      super(core, domain, () => withDomains(Domain, { domain }, (d) =>
+        core.call('icc_chart_create', d, withPoint(options, 'maximum', d.dim))),
         'icc_chart_free', lender);
     }
 
@@ -50,7 +51,10 @@ export function chartOf(core, Domain) {
 
     /** Computes the points of coordinates: { points, status }. */
     decode({ facet, bary, t }) {
-      const n = t.length;
+      const n = t?.length;
+      exactly(t, n, 't');
+      exactly(facet, n, 'facet');
+      exactly(bary, n * this.dim, 'bary');
       const out = { points: new Float64Array(n * this.dim), status: new Int32Array(n) };
       core.call('icc_chart_decode', this, n, facet, bary, t, out.points, out.status, null);
       return out;
@@ -58,7 +62,7 @@ export function chartOf(core, Domain) {
 
     /** The curve through a point, from the boundary to the maximum: flat coordinates. */
     trace(point) {
-      const p = flat(point, this.dim), count = new Uint32Array(1);
+      const p = onePoint(point, this.dim), count = new Uint32Array(1);
       core.call('icc_chart_trace', this, p, 0, null, count);
       const curve = new Float64Array(count[0] * this.dim);
       core.call('icc_chart_trace', this, p, count[0], curve, count);

@@ -2,12 +2,20 @@
 import { Env } from './env.js';
 import { IccError } from './error.js';
 import { functions } from './layouts.js';
-import { Address, Memory, pointee } from './memory.js';
+import { Address, Memory, arrayOf, numeric, pointee } from './memory.js';
 
 const isCreated = ([name, type]) => name === 'out' && type.endsWith('**');
 const isImplicit = (parameter) => isCreated(parameter) || parameter[0] === 'env' || parameter[0] === 'err';
 /** Marks an argument that the call writes to: it is copied back. */
 const isWritten = (type) => type.endsWith('*') && !type.startsWith('const ');
+
+/** Refuses an argument that C would write to, but that cannot receive what C writes. */
+function checkWritten({ type, key }, value, name) {
+  const Type = arrayOf(type);
+  if (value === null || value === undefined || Type === undefined || value instanceof Type) return;
+  if (Type === Uint8Array && value instanceof Uint8ClampedArray) return;
+  throw new TypeError(`${name}: ${key} must be a ${Type.name}`);
+}
 
 /** How the arguments of a function are passed; computed on its first call. */
 function plan(name) {
@@ -57,7 +65,8 @@ export class Core {
       const value = args[next++];
       if (step.handle) return this.#addressOf(name, step, value);
       if (step.handles) return m.put('uint32_t*', Uint32Array.from(value, (v) => this.#addressOf(name, step, v)));
-      if (!step.copied) return step.type === 'uint64_t' ? BigInt(value) : value;
+      if (!step.copied) return step.type === 'uint64_t' ? BigInt(value) : numeric(step.type, value, `${name}: ${step.key}`);
+      if (step.written) checkWritten(step, value, name);
       const at = m.put(step.type, value);
       if (step.written && at !== 0) written.push([step.type, at, value]);
       return at;
@@ -150,9 +159,12 @@ export class Handle {
 }
 
 /** An array of n doubles: the caller's `out`, or a new one. */
-export function room(out, n, Type = Float64Array) {
-  if (out === undefined || out === null) return new Type(n);
-  if (!(out instanceof Type) || out.length !== n)
-    throw new TypeError(`out must be a ${Type.name} of length ${n}`);
-  return out;
+export const room = (out, n) => optional(out, n, 'out') ?? new Float64Array(n);
+
+/** The caller's array that receives n numbers, or null if there is none. `what` names it in messages. */
+export function optional(array, n, what, Type = Float64Array) {
+  if (array === undefined || array === null) return null;
+  if (array instanceof Type && array.length === n) return array;
+  const given = ArrayBuffer.isView(array) || Array.isArray(array) ? `a ${array.constructor.name} of length ${array.length}` : String(array);
+  throw new TypeError(`${what} must be a ${Type.name} of length ${n}, not ${given}`);
 }

@@ -2,7 +2,7 @@
 import { Handle } from './core.js';
 import { IccError } from './error.js';
 import { constantNames } from './names.js';
-import { flat, indices, meshOf, ring } from './points.js';
+import { exactly, flat, indices, meshOf, ring, sidesOf, whole } from './points.js';
 
 const DEFECTS = constantNames('ICC_DEFECT_');
 
@@ -62,22 +62,21 @@ export function domainOf(core) {
 
     /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
     static surface(vertices, facets, dim = 3) {
-      const v = flat(vertices, dim), f = indices(facets);
+      const v = flat(vertices, dim), f = indices(facets, dim);
       return new Domain(core.made('icc_domain_create', dim, v.length / dim, v, f.length / dim, f));
     }
 
     /** A conforming mesh of the inside. `facets` may give the order of the boundary's facets. */
     static mesh(vertices, simplices, { dim = 3, facets = null } = {}) {
-      const v = flat(vertices, dim), s = indices(simplices);
-      const f = facets === null ? null : indices(facets);
+      const v = flat(vertices, dim), s = indices(simplices, dim + 1);
+      const f = facets === null ? null : indices(facets, dim);
       return new Domain(core.made('icc_domain_create_mesh', meshOf(dim, v, s), f === null ? 0 : f.length / dim, f));
     }
 
     /** A mask of cells: `shape` cells along the axes, the first axis fastest. */
     static mask(shape, cells) {
-      const n = shape.reduce((product, side) => product * side, 1);
-      if (cells.length !== n) throw new TypeError(`${cells.length} cells are not the ${n} of the shape`);
-      return new Domain(core.made('icc_domain_create_mask', shape.length, Uint32Array.from(shape), cells));
+      const { sides, n } = sidesOf(shape);
+      return new Domain(core.made('icc_domain_create_mask', sides.length, sides, exactly(cells, n, 'cells')));
     }
 
     get info() { return core.info('icc_domain_get_info', this); }
@@ -135,15 +134,15 @@ export function shapesOf(core) {
 
     /** Repairs a mask in which cells touch only at an edge or a corner. Returns the number of filled cells. */
     repairMask(shape, cells) {
-      const filled = new Uint32Array(1);
-      core.call('icc_mask_repair', shape.length, Uint32Array.from(shape), cells, filled);
+      const filled = new Uint32Array(1), { sides, n } = sidesOf(shape);
+      core.call('icc_mask_repair', sides.length, sides, exactly(cells, n, 'cells'), filled);
       return filled[0];
     },
 
     /** A constrained Delaunay triangulation of a simple polygon and points inside it. */
     triangulate(nBoundary, points) {
       const p = flat(points, 2), n = p.length / 2;
-      const triangles = new Uint32Array(3 * (2 * n - 2 - nBoundary));
+      const triangles = new Uint32Array(Math.max(0, 3 * (2 * n - 2 - whole(nBoundary, 0, 'nBoundary'))));
       core.call('icc_triangulate', nBoundary, n, p, triangles);
       return triangles;
     },

@@ -1,7 +1,7 @@
 // Kernel coordinates: blending weights for handles. See icc/kernel.h.
-import { Handle, room } from './core.js';
+import { Handle, optional, room } from './core.js';
 import { constantOf } from './names.js';
-import { flat, indices } from './points.js';
+import { exactly, flat, indices, onePoint, whole } from './points.js';
 
 const methodNumber = (method) => (typeof method === 'string' ? constantOf('ICC_WEIGHTS_', method) : method);
 
@@ -11,7 +11,7 @@ export function kernelOf(core) {
     #dim;
     /** Regions are Domains; curves are { vertices, segments }. */
     constructor(regions, { vertices = [], segments = [], dim = regions[0]?.dim ?? 2 } = {}) {
-      const v = flat(vertices, dim), s = indices(segments);
+      const v = flat(vertices, dim), s = indices(segments, 2);
       super(core, null,
         () => core.call('icc_shape_create', dim, regions.length, regions, v.length / dim, v, s.length / 2, s), 'icc_shape_free');
       this.#dim = dim;
@@ -67,7 +67,7 @@ export function kernelOf(core) {
     evaluate(points, { out, gradients = null } = {}) {
       const { dim, nHandles } = this.info, p = flat(points, dim), n = p.length / dim;
       const values = room(out, n * nHandles);
-      core.call('icc_weights_evaluate', this, n, p, values, gradients, null, null);
+      core.call('icc_weights_evaluate', this, n, p, values, optional(gradients, n * nHandles * dim, 'gradients'), null, null);
       return values;
     }
 
@@ -86,12 +86,13 @@ export function kernelOf(core) {
 
     /** New weights, with a brush applied to the weight of one handle. */
     paint(handle, centre, radius, amount) {
-      return new Weights(core.made('icc_weights_paint', this, handle, flat(centre, this.dim), radius, amount));
+      return new Weights(core.made('icc_weights_paint', this, handle, onePoint(centre, this.dim), radius, amount));
     }
 
     /** New weights, which start from your own values at some nodes. */
     repaint(nodes, values) {
-      return new Weights(core.made('icc_weights_repaint', this, nodes.length, nodes, flat(values)));
+      const given = indices(nodes), all = exactly(flat(values), given.length * this.info.nHandles, 'values');
+      return new Weights(core.made('icc_weights_repaint', this, given.length, given, all));
     }
 
     withMethod(method) { return new Weights(core.made('icc_weights_with_method', this, methodNumber(method))); }
@@ -99,8 +100,9 @@ export function kernelOf(core) {
     /** New weights, with a part that moves as if it were rigid: { weights, energy }. `energy` is half the sum of its squared
      *  derivatives, before and after. */
     stiffen(nodes, rigidity = null) {
-      const energy = new Float64Array(2);
-      const address = core.made('icc_weights_stiffen', this, nodes.length, nodes, rigidity, energy);
+      const energy = new Float64Array(2), part = indices(nodes);
+      const stiff = rigidity === null ? null : exactly(rigidity, part.length, 'rigidity');
+      const address = core.made('icc_weights_stiffen', this, part.length, part, stiff, energy);
       return { weights: new Weights(address), energy };
     }
 
@@ -132,8 +134,10 @@ export function kernelOf(core) {
 
     /** The points under a Pose. `jacobians` receives derivatives, if the binding has them. */
     pose(pose, { out, jacobians = null } = {}) {
-      const { nPoints, dim } = this.info, images = room(out, nPoints * dim);
-      core.call('icc_binding_pose', this, pose.transforms, images, jacobians);
+      const { nPoints, nHandles, dim } = this.info, images = room(out, nPoints * dim);
+      if (!(pose instanceof Pose)) throw new TypeError('pose must be a Pose');
+      exactly(pose.transforms, nHandles * dim * (dim + 1), `the pose of ${nHandles} handles`);
+      core.call('icc_binding_pose', this, pose.transforms, images, optional(jacobians, nPoints * dim * dim, 'jacobians'));
       return images;
     }
   }
@@ -157,16 +161,16 @@ export function kernelOf(core) {
 
     #of(handle) {
       const n = this.dim * (this.dim + 1);
-      if (!(handle >= 0 && handle * this.dim < this.handles.length)) throw new RangeError(`there is no handle ${handle}`);
+      if (!(whole(handle, 0, 'handle') * this.dim < this.handles.length)) throw new RangeError(`there is no handle ${handle}`);
       return this.transforms.subarray(handle * n, (handle + 1) * n);
     }
 
-    move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), flat(offset, this.dim)); return this; }
+    move(handle, offset) { core.call('icc_pose_move', this.dim, this.#of(handle), onePoint(offset, this.dim)); return this; }
 
     /** Turns a handle by an angle in radians, counter-clockwise with y upwards; in space about an axis. */
     turn(handle, angle, axis = null) {
       const at = this.handles.subarray(handle * this.dim, (handle + 1) * this.dim);
-      core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : flat(axis, 3), angle);
+      core.call('icc_pose_turn', this.dim, this.#of(handle), at, axis === null ? null : onePoint(axis, 3), angle);
       return this;
     }
   }
@@ -179,8 +183,10 @@ export function kernelOf(core) {
 
   function made(sampling, handles, options) {
     let o = options ?? {};
-    if (o.edges) o = { ...o, edges: indices(o.edges) };
+    if (o.edges) o = { ...o, edges: indices(o.edges, 2) };
     if (o.edges) o.nEdges = o.edges.length / 2;
+    if (o.initialWeights)
+      o = { ...o, initialWeights: exactly(flat(o.initialWeights), sampling.info.nSamples * handles.length / sampling.dim, 'initialWeights') };
     if (o.lines) o = { ...o, nLines: o.lines.length };
     return core.call('icc_weights_create', sampling, handles.length / sampling.dim, handles, o);
   }

@@ -1,15 +1,25 @@
 // Maps from one domain to another. See icc_map_create().
-import { Handle, room } from './core.js';
+import { Handle, optional, room } from './core.js';
 import { withDomains } from './domain.js';
 import { Address } from './memory.js';
-import { flat, indices, meshOf } from './points.js';
+import { flat, indices, meshOf, whole, withPoint } from './points.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
-/** Turns a picture like ImageData into an icc_picture. */
-const picture = ({ width, height, data }) => ({
-  width, height, channels: CHANNELS, bytes: 1, alpha: 1, stride: CHANNELS * width, pixels: bytesOf(data),
-});
+/** Turns a picture like ImageData into an icc_picture. Refuses one whose pixels are not those of its size, because C
+ *  reads and writes as many bytes as the size says. */
+function picture(given, what) {
+  if (typeof given !== 'object' || given === null) throw new TypeError(`${what} is ${given}, but has to be like ImageData`);
+  const { width, height, data } = given;
+  whole(width, 1, `${what}.width`);
+  whole(height, 1, `${what}.height`);
+  if (!(data instanceof Uint8Array || data instanceof Uint8ClampedArray))
+    throw new TypeError(`${what}.data must be a Uint8ClampedArray or a Uint8Array`);
+  const needed = CHANNELS * width * height;
+  if (data.length !== needed)
+    throw new TypeError(`${what}.data has ${data.length} bytes, but ${width} x ${height} pixels of RGBA are ${needed}`);
+  return { width, height, channels: CHANNELS, bytes: 1, alpha: 1, stride: CHANNELS * width, pixels: bytesOf(data) };
+}
 const bytesOf = (data) => new Uint8Array(data.buffer, data.byteOffset, data.byteLength);
 
 /** The class Map of an instance. */
@@ -18,16 +28,17 @@ export function mapOf(core, Domain, Chart) {
     /** source, target: Domains, or outlines; options as in icc_map_options: { kind: 'mesh', chart: {...} }. */
     constructor(source, target, options = null) {
       super(core, source, () => withDomains(Domain, { source, target },
-        (s, t) => core.call('icc_map_create', s, t, withTies(options))), 'icc_map_free');
+        (s, t) => core.call('icc_map_create', s, t, checked(options, s.dim))), 'icc_map_free');
     }
 
     static fromCharts(source, target, options = null) {
-      return new Map(core.made('icc_map_create_from_charts', source, target, withTies(options)));
+      return new Map(core.made('icc_map_create_from_charts', source, target, checked(options, source.dim)));
     }
 
     static load(bytes) { return new Map(core.made('icc_map_load', bytes.length, bytes)); }
     save() { return core.save('icc_map_save', this); }
 
+    /** The members of icc_map_info. */
     get info() { return core.info('icc_map_get_info', this); }
     /** How the map was made: icc_map_report. */
     get report() { return core.info('icc_map_get_report', this); }
@@ -94,7 +105,8 @@ export function mapOf(core, Domain, Chart) {
 
     #points(name, points, out, status, width) {
       const p = flat(points, this.dim), result = room(out, p.length * width);
-      core.call(name, this, p.length / this.dim, p, result, status, null);
+      const n = p.length / this.dim;
+      core.call(name, this, n, p, result, optional(status, n, 'status', Int32Array), null);
       return result;
     }
 
@@ -105,7 +117,7 @@ export function mapOf(core, Domain, Chart) {
     repair(vertices, simplices) { return this.#carry('icc_map_repair', vertices, simplices); }
 
     #carry(name, vertices, simplices) {
-      const { dim } = this, v = flat(vertices, dim), s = indices(simplices);
+      const { dim } = this, v = flat(vertices, dim), s = indices(simplices, dim + 1);
       const images = new Float64Array(v.length), certificate = {};
       core.call(name, this, meshOf(dim, v, s), images, certificate);
       return { images, certificate };
@@ -123,16 +135,24 @@ export function mapOf(core, Domain, Chart) {
       return { vertex: info.vertex, source, target, length: info.length };
     }
 
-    /** Warps a picture into another one. Both are like ImageData: { width, height, data }. */
+    /** Warps a picture into another one, and returns that. Both are like ImageData: { width, height, data }, with red,
+     *  green, blue and opacity. The sizes may differ. Pixel (i, j) covers [i, i+1] x [j, j+1] of the outline's plane.
+     *  Pixels of the target that have no image keep their colour. */
     warp(source, target) {
-      const pixels = bytesOf(target.data);
+      const from = picture(source, 'source'), to = picture(target, 'target'), { pixels } = to;
       core.memory.scope(() => {
         const address = core.memory.put('uint8_t*', pixels);
-        core.call('icc_map_warp', this, picture(source), { ...picture(target), pixels: new Address(address) }, null);
+        core.call('icc_map_warp', this, from, { ...to, pixels: new Address(address) }, null);
         pixels.set(core.memory.array(Uint8Array, address, pixels.length));
       });
       return target;
     }
+  }
+
+  /** The options, with points and ties as C takes them. */
+  function checked(options, dim) {
+    const given = withTies(withPoint(options, 'targetMaximum', dim));
+    return given?.chart ? { ...given, chart: withPoint(given.chart, 'maximum', dim) } : given;
   }
 
   /** Ties are arrays of { vertex: [a, b], source, target }. */

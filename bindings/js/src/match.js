@@ -1,5 +1,5 @@
 // Outlines that do not correspond. See icc_match_create().
-import { Handle, room } from './core.js';
+import { Handle, optional, room } from './core.js';
 import { withDomains } from './domain.js';
 import { flat } from './points.js';
 
@@ -13,6 +13,8 @@ export function matchOf(core, Domain) {
     constructor(source, target, landmarks = [], options = null) {
       const given = flat(landmarks);
       const dim = source instanceof Domain ? source.info.dim : 2;
+      if (given.length % (2 * dim) !== 0)
+        throw new TypeError(`${given.length} numbers are no landmarks of ${2 * dim} each: a point and its partner`);
       super(core, source, () => withDomains(Domain, { source, target }, (s, t) =>
         core.call('icc_match_create', s, t, given.length / (2 * dim), given, options)), 'icc_match_free');
     }
@@ -44,7 +46,7 @@ export function matchOf(core, Domain) {
 
     #follow(name, points, out, off) {
       const p = flat(points, this.dim), result = room(out, p.length);
-      core.call(name, this, p.length / this.info.dim, p, result, off);
+      core.call(name, this, p.length / this.dim, p, result, optional(off, p.length / this.dim, 'off'));
       return result;
     }
   };

@@ -18,6 +18,21 @@ const ARRAYS = {
   size_t: Uint32Array, uint8_t: Uint8Array, void: Uint8Array,
 };
 
+/** The typed array for what a type of C points to, or undefined for structs and handles. */
+export const arrayOf = (type) => ARRAYS[pointee(type)];
+
+const LARGEST = { int32_t: 2 ** 31 - 1, icc_status: 2 ** 31 - 1, uint32_t: 2 ** 32 - 1, size_t: 2 ** 32 - 1 };
+
+/** A number as C takes it. Refuses what the type cannot hold; it would become another number without a word. */
+export function numeric(type, value, what) {
+  const number = typeof value === 'boolean' ? Number(value) : value;
+  const most = LARGEST[type], least = type === 'int32_t' || type === 'icc_status' ? -most - 1 : 0;
+  if (typeof number !== 'number') throw new TypeError(`${what} is ${String(value)}, but has to be a number`);
+  if (most !== undefined && !(Number.isInteger(number) && number >= least && number <= most))
+    throw new TypeError(`${what} is ${value}, but has to be a whole number from ${least} to ${most}`);
+  return number;
+}
+
 /** An address from C. A plain number is never used as an address. */
 export class Address {
   constructor(value) { this.value = value; }
@@ -97,13 +112,16 @@ export class Memory {
     if (members.size) this.view.setUint32(at, size, true);
     for (const [key, item] of Object.entries(value)) {
       if (item === undefined || item === null) continue;
-      if (key === 'size' || !members[key]) throw new TypeError(`${name} has no member ${key}`);
+      if (key === 'size' || !members[key]) {
+        const known = Object.keys(members).filter((member) => member !== 'size');
+        throw new TypeError(`${name} has no member ${key}, only ${known.join(', ')}`);
+      }
       const [offset, type] = members[key];
-      this.#putMember(type, at + offset, numberOf(name, key, item));
+      this.#putMember(type, at + offset, numberOf(name, key, item), `${name}.${key}`);
     }
   }
 
-  #putMember(type, at, value) {
+  #putMember(type, at, value, what) {
     const array = /^(\w+)\[(\d+)\]$/.exec(type);
     if (array) {
       const Type = ARRAYS[array[1]];
@@ -111,10 +129,10 @@ export class Memory {
     } else if (type.endsWith('*')) {
       const pointer = value instanceof Address ? value.value : this.put(type, value); // memory may grow here
       this.view.setUint32(at, pointer, true);
-    } else if (type === 'double') this.view.setFloat64(at, value, true);
+    } else if (type === 'double') this.view.setFloat64(at, numeric(type, value, what), true);
     else if (type === 'uint64_t') this.view.setBigUint64(at, BigInt(value), true);
     else if (type === 'int64_t') this.view.setBigInt64(at, BigInt(value), true);
-    else this.view.setInt32(at, Number(value), true);
+    else this.view.setInt32(at, numeric(type, value, what), true);
   }
 
   /** The members of a struct that C has filled in; pointers are left out. */

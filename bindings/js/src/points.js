@@ -9,7 +9,7 @@ const ofPoint = ({ x, y, z }) => (z === undefined ? [x, y] : [x, y, z]);
 
 /** The numbers of a list, or of a list of lists, one after the other. `what` names them in messages. */
 export function numbersOf(list, what = 'numbers') {
-  if (ArrayBuffer.isView(list)) return list;
+  if (ArrayBuffer.isView(list) && isList(list)) return list;
   const numbers = Array.isArray(list) ? list.flatMap((item) => (isList(item) ? Array.from(item) : [item])) : null;
   const bad = numbers === null ? -1 : numbers.findIndex((value) => typeof value !== 'number');
   if (numbers === null) throw new TypeError(`${what} are an array, not ${show(list)}`);
@@ -32,6 +32,38 @@ export function flat(points, dim = 0) {
   return numbers;
 }
 
+/** One point: exactly `dim` numbers. */
+export function onePoint(point, dim) {
+  const p = flat(point, dim);
+  if (p.length !== dim) throw new TypeError(`one point has ${dim} numbers, not ${p.length}`);
+  return p;
+}
+
+/** Options whose `member` is a point, of which C reads `dim` numbers. */
+export const withPoint = (options, member, dim) =>
+  (options?.[member] ? { ...options, [member]: onePoint(options[member], dim) } : options);
+
+/** A list that a C function reads without a count of its own. It must have exactly n entries. */
+export function exactly(list, n, what) {
+  if (!isList(list)) throw new TypeError(`${what} must be an array of ${n} numbers, not ${show(list)}`);
+  if (list.length !== n) throw new TypeError(`${what} has ${list.length} numbers, but ${n} are needed`);
+  return list;
+}
+
+/** A whole number that is at least `least`. */
+export function whole(value, least, what) {
+  if (!Number.isSafeInteger(value) || value < least)
+    throw new TypeError(`${what} is ${show(value)}, but must be a whole number of at least ${least}`);
+  return value;
+}
+
+/** The numbers of cells or vertices along the axes, and their product. */
+export function sidesOf(shape) {
+  if (!isList(shape)) throw new TypeError(`shape is an array of sizes, not ${show(shape)}`);
+  const sides = Uint32Array.from(shape, (side, i) => whole(side, 1, `shape[${i}]`));
+  return { sides, n: shape.reduce((product, side) => product * side, 1) };
+}
+
 /** The vertices of an outline in the plane, each once. The list may repeat the first one at its end. */
 export function ring(points) {
   const p = flat(points, 2), n = p.length;
@@ -43,5 +75,9 @@ export const meshOf = (dim, vertices, cells) => ({
   dim, nVertices: vertices.length / dim, vertices, nCells: cells.length / (dim + 1), cells,
 });
 
-/** Vertex indices. */
-export const indices = (list) => Uint32Array.from(numbersOf(list, 'indices'));
+/** Vertex indices, in rows of `width`. */
+export function indices(list, width = 1) {
+  const numbers = Uint32Array.from(numbersOf(list, 'indices'), (value) => whole(value, 0, 'an index'));
+  if (numbers.length % width !== 0) throw new TypeError(`${numbers.length} indices are no rows of ${width} each`);
+  return numbers;
+}

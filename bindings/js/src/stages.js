@@ -1,12 +1,14 @@
 // The stages of Integral Curve Coordinates one by one: grid, tree, function, curves. See icc/stages.h.
 import { Handle } from './core.js';
-import { flat } from './points.js';
+import { exactly, flat, onePoint, sidesOf } from './points.js';
 import { Address } from './memory.js';
 import { constantNames, constantOf } from './names.js';
 
 /** The classes Grid, Tree, GridFunction and Curves of an instance. */
 export function stagesOf(core) {
   const copied = (Type, address, n) => (address === 0 ? null : core.memory.array(Type, address, n).slice());
+
+  const ofVertices = (tree, values, what) => Float64Array.from(exactly(values, tree.grid.info.nVertices, what));
 
   class Grid extends Handle {
     /** domain: a Domain. cells: number of cells along its longest side. */
@@ -16,12 +18,13 @@ export function stagesOf(core) {
 
     /** A mask of vertices, the first axis fastest. */
     static mask(shape, inside) {
-      return new Grid(core.made('icc_grid_create_mask', shape.length, Uint32Array.from(shape), inside));
+      const { sides, n } = sidesOf(shape);
+      return new Grid(core.made('icc_grid_create_mask', sides.length, sides, exactly(inside, n, 'inside')));
     }
 
     get info() { return core.info('icc_grid_get_info', this); }
     refine() { return new Grid(core.made('icc_grid_refine', this)); }
-    restrict(keep) { return new Grid(core.made('icc_grid_restrict', this, keep)); }
+    restrict(keep) { return new Grid(core.made('icc_grid_restrict', this, exactly(keep, this.info.nVertices, 'keep'))); }
 
     /** One byte per vertex, 1 inside. */
     inside() { return copied(Uint8Array, core.call('icc_grid_inside', this), this.info.nVertices); }
@@ -43,7 +46,7 @@ export function stagesOf(core) {
 
     findNearest(point) {
       const vertex = new Uint32Array(1);
-      core.call('icc_grid_find_nearest', this, flat(point), vertex);
+      core.call('icc_grid_find_nearest', this, onePoint(point, this.info.dim), vertex);
       return vertex[0];
     }
   }
@@ -56,7 +59,8 @@ export function stagesOf(core) {
 
     /** A tree with parents of your own, one number per vertex: 4294967295 for the root and vertices to leave out. */
     static fromParents(grid, root, parents, options = null) {
-      return new Tree(core.made('icc_tree_create_parents', grid, root, Uint32Array.from(parents), options), root);
+      const given = Uint32Array.from(exactly(parents, grid.info.nVertices, 'parents'));
+      return new Tree(core.made('icc_tree_create_parents', grid, root, given, options), root);
     }
 
     get grid() { return new Grid(core.made('icc_tree_grid', this), 0, this); }
@@ -71,11 +75,11 @@ export function stagesOf(core) {
     /** Orders the vertices so that the root is the only critical one: { rank, report }. */
     grow(values = null) {
       const rank = new Uint32Array(this.#n), report = {};
-      core.call('icc_tree_grow', this, values, rank, report);
+      core.call('icc_tree_grow', this, values === null ? null : exactly(values, rank.length, 'values'), rank, report);
       return { rank, report };
     }
 
-    rankReport(rank) { return core.info('icc_tree_get_rank_report', this, rank); }
+    rankReport(rank) { return core.info('icc_tree_get_rank_report', this, exactly(rank, this.#n, 'rank')); }
   }
 
   class GridFunction extends Handle {
@@ -86,12 +90,12 @@ export function stagesOf(core) {
 
     /** A function with values of your own, one per vertex; NaN outside lets it go on as it falls inside. */
     static fromValues(tree, values) {
-      return new GridFunction(core.made('icc_function_create_values', tree, Float64Array.from(values)));
+      return new GridFunction(core.made('icc_function_create_values', tree, ofVertices(tree, values, 'values')));
     }
 
     /** The same from natural logarithms, for values that doubles cannot hold. */
     static fromLogs(tree, logs) {
-      return new GridFunction(core.made('icc_function_create_logs', tree, Float64Array.from(logs)));
+      return new GridFunction(core.made('icc_function_create_logs', tree, ofVertices(tree, logs, 'logs')));
     }
 
     /** The function of a chart of method gradient or field, or null. */

@@ -162,6 +162,93 @@ test('a picture is warped; the identity copies it', () => {
   assert.deepEqual(target.data, source.data);
 });
 
+test('a picture that is not as large as it says is refused, and the instance stays sound', () => {
+  const map = new icc.Map(SQUARE, SQUARE), full = () => ({ width: 4, height: 4, data: new Uint8ClampedArray(64).fill(9) });
+  const bad = [
+    [{ data: new Uint8ClampedArray(0) }, /data has 0 bytes, but 4 x 4 pixels of RGBA are 64/],
+    [{ data: new Uint8ClampedArray(48) }, /data has 48 bytes, but 4 x 4 pixels of RGBA are 64/],
+    [{ data: new Uint8ClampedArray(65) }, /data has 65 bytes/],
+    [{ data: new Float32Array(64) }, /data must be a Uint8ClampedArray/],
+    [{ data: new Float32Array(16) }, /data must be a Uint8ClampedArray/],
+    [{ data: Array(64).fill(0) }, /data must be a Uint8ClampedArray/],
+    [{ data: undefined }, /data must be a Uint8ClampedArray/],
+    [{ width: 3.5 }, /width is 3.5, but must be a whole number of at least 1/],
+    [{ width: 0 }, /width is 0/], [{ height: -4 }, /height is -4/], [{ height: '4' }, /height is '4'/], [{ width: NaN }, /width is NaN/],
+  ];
+  for (const [change, message] of bad) {
+    const target = full();
+    assert.throws(() => map.warp({ ...full(), ...change }, target), (e) => e instanceof TypeError && message.test(e.message)
+      && e.message.startsWith('source.'), String(message));
+    assert.throws(() => map.warp(full(), { ...target, ...change }), (e) => e instanceof TypeError && message.test(e.message)
+      && e.message.startsWith('target.'), String(message));
+    assert.ok(target.data.every((v) => v === 9));
+  }
+  assert.throws(() => map.warp(null, full()), /source is null/);
+  assert.throws(() => map.warp(full(), undefined), /target is undefined/);
+  assert.equal(map.warp(full(), { width: 2, height: 2, data: new Uint8Array(16) }).data[5], 9);
+  assert.equal(new icc.Map(SQUARE, LEANING).certified, true);
+});
+
+test('arrays of the wrong length or type are refused, and so are numbers that are not whole', () => {
+  const map = new icc.Map(SQUARE, LEANING), chart = new icc.Chart(SQUARE), wrong = (work, message) =>
+    assert.throws(work, (e) => (e instanceof TypeError || e instanceof RangeError) && message.test(e.message), String(message));
+  for (const name of ['apply', 'inverse', 'jacobian']) {
+    for (const status of [[], [0, 0], new Int32Array(1), new Int32Array(3), new Float64Array(2)])
+      wrong(() => map[name]([[1, 1], [2, 2]], { status }), /^status must be a Int32Array of length 2, not/);
+    wrong(() => map[name]([[1, 1]], { out: [0, 0] }), /^out must be a Float64Array of length/);
+    wrong(() => map[name]([[1, 1]], { out: new Float32Array(2) }), /^out must be a Float64Array/);
+  }
+  const status = new Int32Array(2);
+  map.apply([[1, 1], [9, 9]], { status });
+  assert.deepEqual([...status].map(icc.codeOf), ['OK', 'OUTSIDE']);
+  const { facet, bary, t } = chart.encode([[1, 1], [2, 3]]);
+  wrong(() => chart.decode({ facet: facet.subarray(1), bary, t }), /^facet has 1 numbers, but 2 are needed/);
+  wrong(() => chart.decode({ facet, bary: bary.subarray(1), t }), /^bary has 3 numbers, but 4/);
+  wrong(() => chart.decode({ facet, bary }), /^t must be an array/);
+  for (const point of [[], [1], [1, 1, 2, 2]]) wrong(() => chart.trace(point), /numbers/);
+  wrong(() => new icc.Chart(SQUARE, { method: 'gradient', maximum: [1] }), /numbers/);
+  wrong(() => new icc.Map(SQUARE, SQUARE, { targetMaximum: [1] }), /numbers/);
+  wrong(() => new icc.Map(SQUARE, SQUARE, { iterations: 1.5 }), /icc_map_options.iterations is 1.5, but has to be a whole number/);
+  wrong(() => new icc.Map(SQUARE, SQUARE, { iterations: 'ten' }), /iterations is ten, but has to be a number/);
+  wrong(() => map.retarget(SQUARE, NaN), /icc_retarget_options.iterations is NaN/);
+  wrong(() => map.certify([[0, 0], [1, 0], [0, 1]], [0, 1]), /2 indices are no rows of 3/);
+  wrong(() => map.certify([[0, 0], [1, 0], [0, 1]], new DataView(new ArrayBuffer(12))), /indices are an array/);
+  wrong(() => icc.Domain.mask([2.5, 4], new Uint8Array(10)), /shape\[0\] is 2.5/);
+  wrong(() => icc.Domain.mask([-1, -1], new Uint8Array(1)), /shape\[0\] is -1/);
+  wrong(() => icc.repairMask([4, 4], new Uint8Array(15)), /^cells has 15 numbers, but 16/);
+  wrong(() => icc.repairMask([2, 2], [1, 0, 0, 1]), /icc_mask_repair: cells must be a Uint8Array/);
+  wrong(() => icc.triangulate(3.5, SQUARE), /nBoundary is 3.5/);
+  wrong(() => new icc.Match(SQUARE, SQUARE, [1, 1, 2]), /3 numbers are no landmarks of 4/);
+  wrong(() => new icc.Match(SQUARE, [...SQUARE, [0, 2]]).apply([[0, 1]], { off: new Float64Array(2) }), /^off must be a Float64Array of length 1/);
+
+  const grid = new icc.Grid(icc.Domain.polygon(SQUARE), 12), n = grid.info.nVertices;
+  const tree = new icc.Tree(grid, grid.findMaximum().vertex), short = new Float64Array(n - 1);
+  wrong(() => icc.Grid.mask([4, 4], new Uint8Array(3)), /^inside has 3 numbers, but 16/);
+  wrong(() => grid.restrict(new Uint8Array(3)), /^keep has 3 numbers/);
+  wrong(() => grid.findNearest([1]), /numbers/);
+  wrong(() => new icc.Grid(icc.Domain.polygon(SQUARE), 12.5), /icc_grid_create: cells is 12.5/);
+  wrong(() => icc.Tree.fromParents(grid, tree.root, tree.parents().subarray(1)), /^parents has/);
+  wrong(() => tree.grow(short), /^values has/);
+  wrong(() => tree.rankReport(tree.parents().subarray(1)), /^rank has/);
+  wrong(() => icc.GridFunction.fromValues(tree, short), /^values has/);
+  wrong(() => icc.GridFunction.fromLogs(tree, short), /^logs has/);
+
+  const handles = [[1, 1], [3, 1], [2, 3]], sampling = new icc.Sampling(new icc.Shape([icc.Domain.polygon(SQUARE)]), { spacing: 0.5 });
+  const weights = new icc.Weights(sampling, handles), binding = weights.bind([[2, 2]], { derivatives: true }), pose = new icc.Pose(handles);
+  wrong(() => weights.evaluate([[1, 1]], { gradients: new Float64Array(2) }), /^gradients must be a Float64Array of length 6/);
+  wrong(() => weights.paint(0, [], 1, 1), /one point has 2 numbers, not 0/);
+  wrong(() => weights.repaint([0, 1], [1, 2]), /^values has 2 numbers, but 6/);
+  wrong(() => weights.stiffen([0, 1, 2], Float64Array.of(1)), /^rigidity has 1 numbers, but 3/);
+  wrong(() => binding.pose(new icc.Pose(handles.slice(1))), /has 12 numbers, but 18/);
+  wrong(() => binding.pose({ transforms: new Float64Array(18) }), /must be a Pose/);
+  wrong(() => binding.pose(pose, { jacobians: new Float64Array(1) }), /^jacobians must be a Float64Array of length 4/);
+  wrong(() => pose.move(0, []), /one point has 2 numbers, not 0/);
+  wrong(() => pose.move(0.5, [1, 1]), /handle is 0.5/);
+  wrong(() => pose.move(3, [1, 1]), /there is no handle 3/);
+  wrong(() => new icc.Weights(sampling, handles, { initial: 'given', initialWeights: [1, 2] }), /^initialWeights has 2 numbers/);
+  assert.ok(binding.pose(pose, { jacobians: new Float64Array(4) }).every(Number.isFinite));
+});
+
 test('an array in a struct may be larger than the memory', async () => {
   const own = await load(), picture = { width: 2000, height: 1500, data: new Uint8ClampedArray(4 * 2000 * 1500).fill(7) };
   const before = own.memoryBytes, target = { ...picture, data: new Uint8ClampedArray(picture.data.length) };
@@ -237,7 +324,7 @@ test('errors name what is at fault', () => {
   assert.throws(() => icc.Domain.polygon(CROSSED), (e) => e instanceof IccError && e.code === 'BOUNDARY' &&
     e.item === 'facet' && e.index === 0 && /edges 0 and 2/.test(e.message));
   assert.deepEqual(icc.boundaryDefects(CROSSED), [{ kind: 'crossing', a: 0, b: 2 }]);
-  assert.throws(() => new icc.Map(SQUARE, LEANING, { knid: 'mesh' }), /no member knid/);
+  assert.throws(() => new icc.Map(SQUARE, LEANING, { knid: 'mesh' }), /no member knid, only kind, iterations, chart, /);
   assert.throws(() => new icc.Map(SQUARE, LEANING, { kind: 'mehs' }), /none of 'curves', 'mesh'/);
   assert.throws(() => new icc.Map(SQUARE, LEANING).apply([[1, 1]], { out: new Float64Array(3) }), /length 2/);
 });
