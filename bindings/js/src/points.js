@@ -25,6 +25,8 @@ export function flat(points, dim = 0) {
   if (!isList(rows))
     throw new TypeError(`points are a Float64Array, or an array of numbers, of [x, y] or of { x, y }, not ${show(points)}`);
   const odd = dim === 0 || !Array.isArray(rows) ? undefined : rows.find((row) => isList(row) && row.length !== dim);
+  if (odd !== undefined && isList(odd[0]))
+    throw new TypeError('these are rings, not points: of a polygon of GeoJSON pass coordinates[0], and the others as holes');
   if (odd !== undefined) throw new TypeError(`a point has ${odd.length} numbers, not ${dim}`);
   const numbers = rows instanceof Float64Array ? rows : Float64Array.from(numbersOf(rows, 'points'));
   if (dim > 0 && numbers.length % dim !== 0)

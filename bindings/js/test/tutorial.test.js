@@ -1,4 +1,4 @@
-// The blocks of JavaScript in the documentation, one after another, with stand-ins for what a page has.
+// The blocks of JavaScript in the documentation, with stand-ins for what a page has.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import test from 'node:test';
@@ -32,4 +32,16 @@ test('every block of JavaScript runs', async () => {
   await Promise.all([0.1, 0.2, 0.3].map((by) => canvas.onpointermove({ by })));
   assert.equal(drawn.length - before, 2); // the first and the latest
   icc.close();
+});
+
+test('the page about GeoJSON: its block of JavaScript carries the points of its files', async () => {
+  const page = fs.readFileSync(new URL('../../../docs/howto/geojson.md', import.meta.url), 'utf8');
+  const file = (name) => JSON.parse(new RegExp(`<!-- file: ${name} -->\n\`\`\`json\n([^]*?)\`\`\``).exec(page)[1]);
+  const [, block] = /^```js\n([^]*?)^```$/m.exec(page), icc = await load(), island = file('island.geojson'), data = file('data.geojson');
+  new Function('icc', 'island', 'data', block)(icc, island, data);
+  const [town, road, lake, buoy] = data.features.map((feature) => feature.geometry);
+  assert.deepEqual(town.coordinates.map((v) => v.toFixed(2)), ['5.32', '4.37']); // as in the page's block of Python
+  assert.deepEqual([road.type, lake.type, buoy], ['LineString', 'Polygon', null]);
+  assert.throws(() => icc.Domain.polygon(file('island.geojson').features[0].geometry.coordinates),
+    /these are rings, not points: of a polygon of GeoJSON pass coordinates\[0\]/);
 });

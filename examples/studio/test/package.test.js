@@ -4,19 +4,44 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
+import zlib from 'node:zlib';
 import { test } from 'node:test';
 import { launch } from './browser.js';
 
 const { STUDIO_PACKAGE, TUTORIAL, CHROMIUM } = process.env;
-const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
+const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html', '.png': 'image/png' };
 // With these two a page gets memory that its threads share, and can stop a call in the worker.
 const ISOLATED = { 'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp' };
 
-/** Serves the package at / and where npm puts it, and a page at /page.html; on this machine only. */
+/** A PNG of a plain colour, 300 x 200. */
+const PICTURE = (() => {
+  const chunk = (name, ...parts) => {
+    const content = Buffer.concat([Buffer.from(name), ...parts]), size = Buffer.alloc(4), sum = Buffer.alloc(4);
+    size.writeUInt32BE(content.length - 4);
+    sum.writeUInt32BE(checksum(content));
+    return Buffer.concat([size, content, sum]);
+  };
+  const checksum = (bytes) => {
+    let rest = 0xffffffff;
+    for (const byte of bytes) {
+      rest ^= byte;
+      for (let k = 0; k < 8; ++k) rest = (rest >>> 1) ^ (rest & 1 ? 0xedb88320 : 0);
+    }
+    return (rest ^ 0xffffffff) >>> 0;
+  };
+  const head = Buffer.alloc(13), row = Buffer.concat([Buffer.of(0), Buffer.alloc(900, Buffer.of(70, 130, 180))]);
+  head.writeUInt32BE(300, 0);
+  head.writeUInt32BE(200, 4);
+  head.set([8, 2], 8); // bits, RGB
+  const pixels = zlib.deflateSync(Buffer.concat(Array(200).fill(row)));
+  return Buffer.concat([Buffer.of(137, 80, 78, 71, 13, 10, 26, 10), chunk('IHDR', head), chunk('IDAT', pixels), chunk('IEND')]);
+})();
+
+/** Serves the package at / and where npm puts it, a page at /page.html and its picture; on this machine only. */
 const serve = (headers, html = '<!doctype html><title>empty</title>') => new Promise((ready) => {
   const server = http.createServer(({ url }, response) => {
     const file = path.join(STUDIO_PACKAGE, path.normalize(url).replace('/node_modules/libicc', ''));
-    const body = url === '/page.html' ? html : fs.existsSync(file) && fs.readFileSync(file);
+    const body = url === '/page.html' ? html : url === '/picture.png' ? PICTURE : fs.existsSync(file) && fs.readFileSync(file);
     if (!body) { response.writeHead(404).end(); return; }
     response.writeHead(200, { 'Content-Type': TYPES[path.extname(url)], ...headers }).end(body);
   }).listen(0, '127.0.0.1', () => ready(server));
@@ -99,6 +124,43 @@ test('the page of the tutorial: its corner is dragged, and stays where the cage 
     const held = await drag([250, 250]);
     assert.ok(Math.abs(held - 30000) < 300);
     assert.equal(await drag([50, 50]), held);
+    assert.deepEqual(wrong, []);
+  } finally {
+    await browser.close();
+    server.close();
+  }
+});
+
+test('the second page of the tutorial: the whole picture, its corners, its pixels, and a drag', async () => {
+  const [, html] = [...fs.readFileSync(TUTORIAL, 'utf8').matchAll(/^```html\n([^]*?)^```$/gm)].map(([, page]) => page);
+  const server = await serve({}, html), browser = await launch(CHROMIUM), wrong = [];
+  try {
+    const page = await browser.newPage();
+    page.on('pageerror', (error) => wrong.push(error.message));
+    await page.goto(`http://127.0.0.1:${server.address().port}/page.html`);
+    await page.waitForFunction('canvas.onpointermove', { timeout: 60000 });
+    await new Promise((done) => { setTimeout(done, 200); });
+    const { x, y, width, height } = await (await page.$('canvas')).boundingBox();
+    assert.deepEqual([width, height], [500, 400]);
+    const count = (test) => page.evaluate(`(() => { const { data } = canvas.getContext('2d').getImageData(0, 0, 500, 400);
+      let n = 0; for (let i = 0; i < data.length; i += 4) if (${test}) ++n; return n; })()`);
+    const blue = () => count('data[i] === 70 && data[i + 1] === 130 && data[i + 3] === 255');
+    assert.ok(await count('data[i] > 200 && data[i + 1] < 40') > 4 * 90); // four dots
+    const before = await blue();
+    assert.ok(before > 60000 - 4 * 40 && before <= 60000);
+    const text = async (px, py) => { await page.mouse.move(x + px, y + py); return page.$eval('#where', (e) => e.textContent); };
+    assert.equal(await text(110.5, 120.5), 'pixel 10, 20');
+    assert.equal(await text(50, 50), 'outside the picture');
+    if (process.env.SHOTS) await page.screenshot({ path: `${process.env.SHOTS}/tutorial-before.png` });
+    await page.mouse.move(x + 395, y + 295);
+    await page.mouse.down();
+    await page.mouse.move(x + 480, y + 380);
+    assert.ok(await blue() > before + 10000);
+    if (process.env.SHOTS) await page.screenshot({ path: `${process.env.SHOTS}/tutorial-dragged.png` });
+    const held = await blue();
+    await page.mouse.move(x + 20, y + 20); // turned over
+    assert.equal(await blue(), held);
+    await page.mouse.up();
     assert.deepEqual(wrong, []);
   } finally {
     await browser.close();
