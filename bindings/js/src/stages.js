@@ -8,6 +8,8 @@ import { constantNames, constantOf } from './names.js';
 export function stagesOf(core) {
   const copied = (Type, address, n) => (address === 0 ? null : core.memory.array(Type, address, n).slice());
 
+  const withAxes = (options, grid) => (options?.axisOrder
+    ? { ...options, axisOrder: exactly(options.axisOrder, grid.info.dim, 'axisOrder') } : options);
   const ofVertices = (tree, values, what) => Float64Array.from(exactly(values, tree.grid.info.nVertices, what));
 
   class Grid extends Handle {
@@ -54,13 +56,13 @@ export function stagesOf(core) {
   class Tree extends Handle {
     /** options as in icc_tree_options: { form: 'thesis', axisOrder }. */
     constructor(grid, root, options = null, lender = null) {
-      super(core, grid, () => core.call('icc_tree_create', grid, root, options), 'icc_tree_free', lender);
+      super(core, grid, () => core.call('icc_tree_create', grid, root, withAxes(options, grid)), 'icc_tree_free', lender);
     }
 
     /** A tree with parents of your own, one number per vertex: 4294967295 for the root and vertices to leave out. */
     static fromParents(grid, root, parents, options = null) {
       const given = Uint32Array.from(exactly(parents, grid.info.nVertices, 'parents'));
-      return new Tree(core.made('icc_tree_create_parents', grid, root, given, options), root);
+      return new Tree(core.made('icc_tree_create_parents', grid, root, given, withAxes(options, grid)), root);
     }
 
     get grid() { return new Grid(core.made('icc_tree_grid', this), 0, this); }

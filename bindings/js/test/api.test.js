@@ -33,6 +33,17 @@ test('every public function is exported, and nearly all are called by the classe
   assert.ok(unused.length <= 0.05 * names.length, unused.join(' '));
 });
 
+test('the types declare every class, with every method and member, and everything of an instance', () => {
+  const types = fs.readFileSync(`${process.env.ICC_PACKAGE}/types/index.d.ts`, 'utf8');
+  const bodyOf = (name) => new RegExp(`export interface ${name} [^]*?\\n\\}|export interface ${name} .*\\}$`, 'm').exec(types)?.[0] ?? '';
+  const classes = Object.entries(icc).filter(([name, value]) => /^[A-Z]/.test(name) && name !== 'IccError' && typeof value === 'function');
+  assert.ok(classes.length >= 13);
+  for (const [name, Class] of classes)
+    for (const key of Object.getOwnPropertyNames(Class.prototype).filter((k) => k !== 'constructor'))
+      assert.match(bodyOf(name), new RegExp(`\\b${key}[:(<]`), `${name}.${key}`);
+  for (const key of Object.keys(icc)) assert.match(bodyOf('Instance'), new RegExp(`\\b${key}[:(<]`), key);
+});
+
 test('members that hold words are members of the structs', () => {
   for (const [struct, member] of enumerations) assert.ok(structs[struct].members[member], `${struct}.${member}`);
 });
@@ -228,6 +239,7 @@ test('arrays of the wrong length or type are refused, and so are numbers that ar
   wrong(() => grid.findNearest([1]), /numbers/);
   wrong(() => new icc.Grid(icc.Domain.polygon(SQUARE), 12.5), /icc_grid_create: cells is 12.5/);
   wrong(() => icc.Tree.fromParents(grid, tree.root, tree.parents().subarray(1)), /^parents has/);
+  wrong(() => new icc.Tree(grid, tree.root, { axisOrder: [0] }), /^axisOrder has 1 numbers, but 2/);
   wrong(() => tree.grow(short), /^values has/);
   wrong(() => tree.rankReport(tree.parents().subarray(1)), /^rank has/);
   wrong(() => icc.GridFunction.fromValues(tree, short), /^values has/);

@@ -45,3 +45,12 @@ test('the page about GeoJSON: its block of JavaScript carries the points of its 
   assert.throws(() => icc.Domain.polygon(file('island.geojson').features[0].geometry.coordinates),
     /these are rings, not points: of a polygon of GeoJSON pass coordinates\[0\]/);
 });
+
+test("the README's example of a status", async () => {
+  const readme = fs.readFileSync(new URL('../README.md', import.meta.url), 'utf8'), printed = [];
+  const [, block] = /^```js\n(const status[^]*?)^```$/m.exec(readme), icc = await load();
+  const [, example] = /^(    import [^]*?)\n\n/m.exec(readme), lines = example.split('\n').slice(2).join('\n');
+  new Function('icc', 'console', `${lines}\n${block}`)(icc, { log: (...what) => printed.push(what) });
+  assert.equal(printed[0][0], true);
+  assert.deepEqual(printed[1], [['OK', 'OUTSIDE']]);
+});

@@ -1,164 +1,266 @@
 /// <reference lib="esnext.disposable" />
+import type {
+  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CurvesInfo, DiscInfo, DomainInfo, FeatureInfo, FieldInfo,
+  FillOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
+  MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
+  TreeReport, WeightsInfo, WeightsOptions, WeightsReport, WeightsTimings,
+} from './structs.js';
+export * from './structs.js';
+
 /** A point by the names of its coordinates. */
 export interface Point { readonly x: number; readonly y: number; readonly z?: number }
 /** Rows of coordinates: flat, one array a point, or one object a point. */
 export type Points = Float64Array | readonly number[] | readonly (readonly number[])[] | readonly Point[] | Point;
+/** Vertex or handle numbers: flat, or in rows. */
 export type Indices = Uint32Array | readonly number[] | readonly (readonly number[])[];
-/** The members of a struct of C, in camel case. */
-export type Info = Record<string, any>;
-export type Options = Record<string, any>;
-/** Pixels as ImageData has them. */
+/** Pixels as ImageData has them: red, green, blue and opacity, 4 * width * height bytes. */
 export interface Picture { width: number; height: number; data: Uint8ClampedArray | Uint8Array }
-export interface Results { out?: Float64Array; status?: Int32Array }
+export interface Results {
+  /** Receives the numbers, in place of a new array. It must have exactly as many. */
+  out?: Float64Array;
+  /** Receives a status for each point. codeOf() gives its name: 'OK', 'OUTSIDE', ... */
+  status?: Int32Array;
+}
 export type Source = BufferSource | WebAssembly.Module | Response;
 
+/** A call has failed. */
 export class IccError extends Error {
+  /** The name of the status: 'BOUNDARY', 'CERTIFICATE', 'CANCELLED', ... */
   readonly code: string;
+  /** The item at fault, or -1. */
   readonly index: number;
+  /** The kind of that item: 'vertex', 'facet', ... or 'none'. */
   readonly item: string;
+  /** The shape at fault. */
   readonly side: 'source' | 'target' | null;
 }
 
-export interface Handle { free(): void; [Symbol.dispose](): void }
+export interface Handle {
+  /** Frees the memory now. Objects that were made from this one stay. */
+  free(): void;
+  [Symbol.dispose](): void;
+}
+/** What lies inside an outline and has a known place. */
 export interface Features {
   holes?: readonly Points[]; lines?: readonly Points[]; points?: readonly Points[]; radii?: readonly number[];
 }
 
+/** A boundary and what it encloses. */
 export interface Domain extends Handle {
-  readonly info: Info;
+  readonly info: DomainInfo;
   readonly dim: number;
-  fill(options?: Options): Domain;
+  /** Fills this surface in space with tetrahedra. */
+  fill(options?: FillOptions | null): Domain;
+  /** The boundary as it was given, with the vertices of all features. */
   boundary(): { vertices: Float64Array; facets: Uint32Array };
+  /** The mesh of the inside, if the domain has one. */
   mesh(): { vertices: Float64Array; simplices: Uint32Array };
-  features(): Info[];
+  features(): FeatureInfo[];
+  /** Tells where points lie. `where` is 1 inside, 2 on the boundary, 3 outside. `facet` is the nearest facet, and `bary` has
+   *  the barycentric coordinates of the nearest point on it. */
   locate(points: Points): { where: Int32Array; facet: Uint32Array; bary: Float64Array };
 }
 export interface DomainClass {
+  /** A simple polygon, which may be a closed ring, with features inside. */
   polygon(outline: Points, features?: Features): Domain;
+  /** A boundary of facets, `dim` vertices each: in space a closed surface of triangles. */
   surface(vertices: Points, facets: Indices, dim?: number): Domain;
+  /** A mesh of the inside. `facets` may give the order of the boundary's facets. */
   mesh(vertices: Points, simplices: Indices, options?: { dim?: number; facets?: Indices | null }): Domain;
+  /** A mask of cells: `shape` cells along the axes, the first axis fastest. */
   mask(shape: readonly number[], cells: Uint8Array): Domain;
 }
 export type ShapeLike = Domain | Points;
 
 export interface Coordinates { facet: Uint32Array; bary: Float64Array; t: Float64Array }
+/** Coordinates of the inside of a domain: a boundary point and a share of the way to the maximum. */
 export interface Chart extends Handle {
-  readonly info: Info;
+  readonly info: ChartInfo;
+  readonly timings: ChartTimings;
   readonly dim: number;
-  readonly details: Info;
+  /** What only charts of this method have. */
+  readonly details: GradientInfo | FieldInfo | FoliationInfo | ShellingInfo | DiscInfo;
   readonly certified: boolean;
   readonly domain: Domain;
-  report(nPoints?: number): Info;
+  /** Estimates what the coordinates miss, from about nPoints points. */
+  report(nPoints?: number): ChartReport;
+  /** The coordinates of points. */
   encode(points: Points): Coordinates & { status: Int32Array };
+  /** The points of coordinates. */
   decode(coordinates: Coordinates): { points: Float64Array; status: Int32Array };
+  /** The curve through a point, from the boundary to the maximum: flat coordinates. */
   trace(point: Points): Float64Array;
   save(): Uint8Array;
 }
+/** Two outlines with common vertices, made from two that do not correspond. */
 export interface Match extends Handle {
-  readonly info: Info;
+  readonly info: MatchInfo;
   readonly source: Domain;
   readonly target: Domain;
+  /** For every common vertex its number in the given domains. -1: it was added. */
   origins(): { source: Int32Array; target: Int32Array };
+  /** Takes points of the source's boundary to the target's. `off` receives their distances from the common boundary. */
   apply(points: Points, options?: { out?: Float64Array; off?: Float64Array | null }): Float64Array;
+  /** Takes points of the target's boundary to the source's. */
   inverse(points: Points, options?: { out?: Float64Array; off?: Float64Array | null }): Float64Array;
   save(): Uint8Array;
 }
 export interface MatchClass {
-  new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: Options | null): Match;
+  /** landmarks: rows of a point of the source and its partner in the target. */
+  new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: MatchOptions | null): Match;
   load(bytes: Uint8Array): Match;
 }
-export interface ChartClass { new (domain: ShapeLike, options?: Options | null): Chart; load(bytes: Uint8Array): Chart }
+export interface ChartClass { new (domain: ShapeLike, options?: ChartOptions | null): Chart; load(bytes: Uint8Array): Chart }
 
 export interface Tie { vertex: number[]; source: Float64Array; target: Float64Array; length: number[] }
+/** A map from one domain to another. */
 export interface Map extends Handle {
-  readonly info: Info;
+  readonly info: MapInfo;
   readonly dim: number;
-  readonly report: Info;
+  /** How the map was made. */
+  readonly report: MapReport;
+  /** True if the map is proved to be one-to-one. */
   readonly certified: boolean;
   readonly sourceChart: Chart | null;
   readonly targetChart: Chart | null;
-  improve(options?: Options | null): Map;
+  /** A map of lower distortion, from a mesh map. */
+  improve(options?: ImproveOptions | null): Map;
+  /** The map to a target that has moved, with at most this many improvement steps; 0: as many as a frame has time for. It keeps
+   *  the mesh. Make the map anew when the user lets go, if you want the best one. */
   retarget(target: ShapeLike, iterations?: number): Map;
+  /** The mesh of a mesh map: places before and after, and the corners of triangles or tetrahedra. */
   mesh(): { vertices: Float64Array; images: Float64Array; simplices: Uint32Array };
+  /** A triangulation for PROJ, in JSON. */
   toProj(systems?: { sourceCrs?: string; targetCrs?: string }): string;
+  /** Maps points from the source to the target. A point without an image gets NaN. */
   apply(points: Points, results?: Results): Float64Array;
+  /** Maps points from the target to the source. A point without one gets NaN. */
   inverse(images: Points, results?: Results): Float64Array;
+  /** Derivatives at points, dim * dim numbers each. */
   jacobian(points: Points, results?: Results): Float64Array;
-  certify(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Info };
-  repair(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Info };
+  /** Maps the vertices of a mesh, and checks whether the image is a valid mesh. */
+  certify(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Certificate };
+  /** Like certify(), but moves the images of inner vertices until no simplex is inverted. */
+  repair(vertices: Points, simplices: Indices): { images: Float64Array; certificate: Certificate };
+  /** The ties, which tell on which side features pass one another. As the option `ties` they make a map of the same class. */
   ties(): Tie[];
+  /**
+   * Warps a picture into another one, and returns that. Both have red, green, blue and opacity, as ImageData, and the target may
+   * have any size. Pixel (i, j) covers [i, i + 1] x [j, j + 1] of the outline's plane. Pixels without an image keep the target's
+   * colour.
+   */
   warp<P extends Picture>(source: Picture, target: P): P;
   save(): Uint8Array;
 }
 export interface MapClass {
-  new (source: ShapeLike, target: ShapeLike, options?: Options | null): Map;
-  fromCharts(source: Chart, target: Chart, options?: Options | null): Map;
+  /** Corner i of the source goes to corner i of the target. */
+  new (source: ShapeLike, target: ShapeLike, options?: MapOptions | null): Map;
+  fromCharts(source: Chart, target: Chart, options?: MapOptions | null): Map;
   load(bytes: Uint8Array): Map;
 }
 
+/** Regions and curves that carry kernel coordinates. */
 export interface Shape extends Handle { readonly dim: number }
-export interface Sampling extends Handle { readonly info: Info; readonly dim: number; points(): Float64Array; save(): Uint8Array }
+/** The places where weights are computed. */
+export interface Sampling extends Handle { readonly info: SamplingInfo; readonly dim: number; points(): Float64Array; save(): Uint8Array }
+/** Blending weights of handles: kernel coordinates. */
 export interface Weights extends Handle {
-  readonly info: Info;
+  readonly info: WeightsInfo;
+  readonly timings: WeightsTimings;
   readonly dim: number;
+  /** The places that carry weights. */
   nodes(): { points: Float64Array; initial: Float64Array; values: Float64Array; status: Int32Array };
+  /** The weights of all handles at points, point after point. `gradients` receives dim numbers for each. */
   evaluate(points: Points, results?: { out?: Float64Array; gradients?: Float64Array }): Float64Array;
+  /** The dual function of a node at points: 1 at the node, 0 at all others, interpolated as weights are. */
   dual(node: number, points: Points, results?: { out?: Float64Array }): Float64Array;
-  report(points: Points): Info;
+  /** Measures the weights at points. */
+  report(points: Points): WeightsReport;
+  /** New weights, with a brush applied to the weight of one handle. */
   paint(handle: number, centre: Points, radius: number, amount: number): Weights;
-  repaint(nodes: Uint32Array, values: Points): Weights;
-  withMethod(method: string): Weights;
-  stiffen(nodes: Uint32Array, rigidity?: Float64Array | null): { weights: Weights; energy: Float64Array };
+  /** New weights, which start from your own values at some nodes: one for each node and handle. */
+  repaint(nodes: Indices, values: Points): Weights;
+  /** The weights by another method. */
+  withMethod(method: WeightsInfo['method']): Weights;
+  /** New weights, with a part that moves as if it were rigid. `energy` is half the sum of its squared derivatives, before and
+   *  after. `rigidity` has a positive number for each node. */
+  stiffen(nodes: Indices, rigidity?: Float64Array | null): { weights: Weights; energy: Float64Array };
+  /** Binds points to the handles, for repeated poses. */
   bind(points: Points, options?: { derivatives?: boolean }): Binding;
 }
+/** Points with their weights. */
 export interface Binding extends Handle {
   readonly info: { nPoints: number; nHandles: number; dim: number };
   readonly dim: number;
   weights(): { handles: Float64Array; weights: Float64Array };
+  /** The points under a pose. `jacobians` receives dim * dim numbers for each, if the binding has derivatives. */
   pose(pose: Pose, results?: { out?: Float64Array; jacobians?: Float64Array }): Float64Array;
   save(): Uint8Array;
 }
+/** A transform for each handle, dim * (dim + 1) numbers, which you may change. */
 export interface Pose {
   readonly dim: number;
   readonly handles: Float64Array;
   readonly transforms: Float64Array;
+  /** Makes all transforms the identity. */
   reset(): Pose;
   move(handle: number, offset: Points): Pose;
+  /** Turns a handle by an angle in radians, counter-clockwise with y upwards; in space about an axis. */
   turn(handle: number, angle: number, axis?: Points | null): Pose;
 }
+/** A regular grid over a domain. */
 export interface Grid extends Handle {
-  readonly info: Info;
+  readonly info: GridInfo;
+  readonly dim: number;
+  /** A grid of half the spacing. */
   refine(): Grid;
+  /** The grid without the vertices whose byte is 0. */
   restrict(keep: Uint8Array): Grid;
+  /** One byte per vertex, 1 inside. */
   inside(): Uint8Array;
+  /** The grassfire's maximum. The fire burnt this many rounds before it reached the vertex. */
   findMaximum(): { vertex: number; rounds: number };
+  /** Positions of vertices, flat; of all without an argument. */
   points(vertices?: ArrayLike<number> | null): Float64Array;
+  /** The vertex inside that is nearest to a point. */
   findNearest(point: Points): number;
 }
+/** A cousin tree over a grid. */
 export interface Tree extends Handle {
   readonly grid: Grid;
   readonly root: number;
+  /** The parent of each vertex; 4294967295 for those without. */
   parents(): Uint32Array;
   generations(): Int32Array;
-  report(): Info;
-  grow(values?: Float64Array | null): { rank: Uint32Array; report: Info };
-  rankReport(rank: Uint32Array): Info;
+  report(): TreeReport;
+  /** Orders the vertices so that the root is the only critical one. */
+  grow(values?: Float64Array | null): { rank: Uint32Array; report: GrowReport };
+  /** Counts the critical vertices of an order: one number for each vertex. */
+  rankReport(rank: Uint32Array): FunctionReport;
 }
+/** A function over a grid, with one maximum at the root of its tree. */
 export interface GridFunction extends Handle {
-  readonly info: Info;
-  readonly solverReport: Info;
+  readonly info: FunctionInfo;
+  /** How the function was computed. */
+  readonly solverReport: SolverReport;
   readonly tree: Tree;
   values(): Float64Array;
+  /** Natural logarithms of the values, or null. */
   logs(): Float64Array | null;
-  report(): Info;
+  /** Its critical vertices. */
+  report(): FunctionReport;
+  /** Compression (1) and expansion (2) edges in the plane. */
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
   facets(): { facets: Uint32Array; kinds: Int32Array; report: Info };
   facetReport(): Info;
 }
 export type CurveEnd = 'none' | 'maximum' | 'boundary' | 'critical' | 'values';
+/** Integral curves of a function through points. */
 export interface Curves extends Handle {
-  readonly info: Info;
+  readonly info: CurvesInfo;
+  /** Flat coordinates of each curve, which begins with its point. */
   vertices(): Float64Array[];
+  /** How they end, with an entry for each curve. */
   ends(): { end: CurveEnd[]; length: Float64Array; alone: Float64Array; facet: Uint32Array; bary: Float64Array };
 }
 
@@ -172,17 +274,18 @@ export interface Env {
 
 export interface Instance {
   readonly module: WebAssembly.Module;
+  readonly IccError: typeof IccError;
   readonly Domain: DomainClass;
   readonly Chart: ChartClass;
   readonly Map: MapClass;
   readonly Match: MatchClass;
   readonly Shape: new (regions: readonly Domain[], curves?: { vertices?: Points; segments?: Indices; dim?: number }) => Shape;
   readonly Sampling: {
-    new (shape: Shape, options?: Options | null): Sampling;
+    new (shape: Shape, options?: SamplingOptions | null): Sampling;
     fromPoints(shape: Shape, points: Points): Sampling;
     load(bytes: Uint8Array): Sampling;
   };
-  readonly Weights: new (sampling: Sampling, handles: Points, options?: Options | null) => Weights;
+  readonly Weights: new (sampling: Sampling, handles: Points, options?: WeightsOptions | null) => Weights;
   readonly Binding: {
     new (weights: Weights, points: Points, options?: { derivatives?: boolean }): Binding;
     load(bytes: Uint8Array): Binding;
@@ -190,26 +293,32 @@ export interface Instance {
   readonly Pose: new (handles: Points, dim?: number) => Pose;
   readonly Grid: { new (domain: Domain, cells?: number): Grid; mask(shape: readonly number[], inside: Uint8Array): Grid };
   readonly Tree: {
-    new (grid: Grid, root: number, options?: Options | null): Tree;
-    fromParents(grid: Grid, root: number, parents: ArrayLike<number>, options?: Options | null): Tree;
+    new (grid: Grid, root: number, options?: TreeOptions | null): Tree;
+    fromParents(grid: Grid, root: number, parents: ArrayLike<number>, options?: TreeOptions | null): Tree;
   };
   readonly GridFunction: {
-    new (tree: Tree, options?: Options | null): GridFunction;
+    new (tree: Tree, options?: FunctionOptions | null): GridFunction;
     fromValues(tree: Tree, values: ArrayLike<number>): GridFunction;
     fromLogs(tree: Tree, logs: ArrayLike<number>): GridFunction;
     ofChart(chart: Chart): GridFunction | null;
   };
   readonly Curves: new (gridFunction: GridFunction, points: Points, way?: 'up' | 'down') => Curves;
+  /** All defects that keep a closed polygon from being a boundary. */
   boundaryDefects(outline: Points): { kind: string; a: number; b: number }[];
+  /** Repairs a mask in which cells touch only at an edge or a corner. Gives the number of filled cells. */
   repairMask(shape: readonly number[], cells: Uint8Array): number;
+  /** A constrained Delaunay triangulation of a simple polygon, the first points, and points inside it. */
   triangulate(nBoundary: number, points: Points): Uint32Array;
+  /** Calls a function of C without its arguments out, env and err. It does not compare lengths of arrays with counts. */
   call(name: string, ...args: unknown[]): any;
   /** Watches the calls in `work`, and can cancel them. */
   during<T>(env: Env, work: () => T): T;
   readonly memoryBytes: number;
   readonly version: string;
   readonly versionNumber: number;
+  /** 'ICC_ERR_OUTSIDE' for 7. */
   statusName(status: number): string;
+  /** 'OUTSIDE' for 7. */
   codeOf(status: number): string;
 }
 
@@ -223,9 +332,12 @@ export type Far<T> = T extends Object_ ? Away<T> : T extends null ? null
 type Given<A> = { [K in keyof A]: A[K] extends Object_ ? Away<A[K]> : A[K] | Near<A[K]> };
 type Near<T> = T extends readonly Domain[] ? readonly Away<Domain>[] : T extends ShapeLike ? T | Away<Domain> : T;
 export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
-  readonly [K in Exclude<keyof T, 'free' | typeof Symbol.dispose>]: T[K] extends (...args: infer A) => infer R
+  readonly [K in Exclude<keyof T, 'free' | 'warp' | typeof Symbol.dispose>]: T[K] extends (...args: infer A) => infer R
     ? (...args: Given<A>) => Promise<Far<R>> : Promise<Far<T[K]>>;
-};
+} & (T extends Map ? {
+  /** As Map.warp(), but of copies: `target` stays as it is, and the promise gives the painted picture. */
+  warp<P extends Picture>(source: Picture, target: P): Promise<P>;
+} : {});
 type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
 export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
   ? { create(...args: Given<A>): Promise<Far<T>> } : {});

@@ -1,6 +1,6 @@
 // What `tsc --strict` has to take of the package's types; compiled only.
 import { AsyncIcc, IccError, Remote, load, serve } from 'libicc';
-import type { Instance } from 'libicc';
+import type { Instance, MapOptions, WeightsInfo } from 'libicc';
 
 const square: [number, number][] = [[0, 0], [4, 0], [4, 4], [0, 4]];
 
@@ -16,6 +16,23 @@ export async function near(): Promise<number> {
   }
   // @ts-expect-error: a map is not made of a number
   new icc.Map(5, square);
+  const options: MapOptions = { kind: 'mesh', iterations: 5, chart: { method: 'disc', maximum: null }, ties: map.ties() };
+  new icc.Map(square, square, options);
+  // @ts-expect-error: no such member
+  new icc.Map(square, square, { knd: 'mesh' });
+  // @ts-expect-error: no such word
+  new icc.Map(square, square, { kind: 'mehs' });
+  // @ts-expect-error: no such member of the chart's options
+  new icc.Map(square, square, { chart: { methd: 'disc' } });
+  // @ts-expect-error: no such member
+  map.info.energie;
+  const energy: number = map.info.energy, kind: 'mesh' | 'curves' | 'none' = map.info.kind, made: number = map.report.nInverted;
+  const weights = new icc.Weights(new icc.Sampling(new icc.Shape([icc.Domain.polygon(square)]), { spacing: 1, fixed: square }),
+    square, { method: 'qp', edges: [[0, 1]], lines: [{ from: [0, 0], to: [4, 0] }] });
+  const info: WeightsInfo = weights.withMethod('equality').info;
+  const seconds: object = [weights.timings, new icc.Chart(square).timings];
+  const given: ImageData = map.warp(new ImageData(4, 4), new ImageData(8, 8));
+  if (seconds instanceof icc.IccError) return energy + made + info.nHandles + given.width + kind.length;
   return out[0]! + other.dim;
 }
 
@@ -29,6 +46,10 @@ export async function far(signal: AbortSignal): Promise<Float64Array | undefined
   const chart = await map.sourceChart;
   const t: Float64Array | undefined = (await chart?.encode([[1, 1]]))?.t;
   const { images } = await map.mesh();
+  const painted: ImageData = await map.warp(new ImageData(4, 4), new ImageData(8, 8));
+  const energy: number = (await map.info).energy + painted.width;
+  // @ts-expect-error: no such member
+  await icc.Map.create(domain, square, { knd: energy });
   const shape = await icc.Shape.create([domain]);
   shape.free();
   icc.close();

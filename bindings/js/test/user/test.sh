@@ -21,6 +21,10 @@ case $printed in
         exit 1
         ;;
 esac
+if grep -n '](\.\./' "$folder/node_modules/libicc/README.md"; then
+    echo "the package's README links to files that are not in the package" >&2
+    exit 1
+fi
 cp "$here/strict.ts" "$folder"
 "$folder/node_modules/.bin/tsc" --strict --noEmit --noUncheckedIndexedAccess --exactOptionalPropertyTypes \
     --target es2022 --module nodenext --lib es2022,dom,dom.iterable "$folder/strict.ts"
