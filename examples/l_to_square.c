@@ -31,7 +31,8 @@ static int is_dark(const double *p)
     return ((int)floor(8 * p[0]) + (int)floor(8 * p[1])) % 2 == 0;
 }
 
-/* Paints one row of pixels as runs of dark ones. `sources` says what to look up for each pixel. */
+/* Paints one row of pixels as runs of one colour. `sources` says what to look up for each pixel. A run reaches a bit
+ * under its neighbours to the right and above, or the paper would shine through at other scales. */
 static void draw_row(FILE *svg, int row, const double *sources)
 {
     for (int i = 0, end; i < SIDE; i = end) {
@@ -39,7 +40,7 @@ static void draw_row(FILE *svg, int row, const double *sources)
                           is_dark(sources + 2 * end) == is_dark(sources + 2 * i);)
             ++end;
         if (!isnan(sources[2 * i]))
-            fprintf(svg, "<path class='%s' d='M%d %d.5h%d'/>\n",
+            fprintf(svg, "<path class='%s' d='M%d %d.5h%d.4'/>\n",
                     is_dark(sources + 2 * i) ? "dark" : "light", i, SIDE - 1 - row, end - i);
     }
 }
@@ -109,7 +110,7 @@ int main(int argc, char **argv)
     fprintf(svg, "<svg xmlns='http://www.w3.org/2000/svg' width='%d' height='%d'>\n",
             2 * SIDE + 3 * GAP, 2 * SIDE + 3 * GAP);
     fprintf(svg, "<style>.dark{stroke:#4a78b5}.light{stroke:#f4d58d}"
-                 ".dark,.light{shape-rendering:crispEdges}"
+                 ".dark,.light{stroke-width:1.6}"
                  "polyline{fill:none;stroke:#b03a2e;stroke-width:.7}</style>\n");
     for (int row = 0; row < 2; ++row) {
         const icc_chart_options chart = {
