@@ -100,6 +100,12 @@ export function stagesOf(core) {
       return new GridFunction(core.made('icc_function_create_logs', tree, ofVertices(tree, logs, 'logs')));
     }
 
+    /** Solves an equation with fixed values (NaN: free) and a right-hand side, one number per vertex, or null. */
+    static solve(tree, options = null, fixed = null, rightSide = null) {
+      const numbers = (given) => given && Float64Array.from(given);
+      return new GridFunction(core.made('icc_function_create_solve', tree, options, numbers(fixed), numbers(rightSide)));
+    }
+
     /** The function of a chart of method gradient or field, or null. */
     static ofChart(chart) {
       const address = core.call('icc_chart_function', chart);

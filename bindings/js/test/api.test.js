@@ -307,6 +307,8 @@ test('charts, and the stages by themselves', () => {
   assert.deepEqual(down.ends().end, ['boundary', 'none']);
   near(down.vertices()[0].slice(0, 2), [1, 1]);
   near(new icc.Curves(own, [[1, 1]]).vertices()[0].slice(-2), grid.points([vertex]));
+  const solved = icc.GridFunction.solve(tree, { function: 'laplace' }, Array.from(inside, (_, v) => (v === vertex ? 1 : NaN)));
+  near(solved.values().filter((_, v) => inside[v]), values.filter((_, v) => inside[v]), 1e-12);
   const { facets, kinds, report } = laplace.facets(), edges = laplace.edges();
   assert.deepEqual(facets, edges.edges);
   assert.deepEqual(kinds, edges.kinds);

@@ -300,6 +300,12 @@ export interface Instance {
     new (tree: Tree, options?: FunctionOptions | null): GridFunction;
     fromValues(tree: Tree, values: ArrayLike<number>): GridFunction;
     fromLogs(tree: Tree, logs: ArrayLike<number>): GridFunction;
+    solve(
+      tree: Tree,
+      options?: Options | null,
+      fixed?: ArrayLike<number> | null,
+      rightSide?: ArrayLike<number> | null,
+    ): GridFunction;
     ofChart(chart: Chart): GridFunction | null;
   };
   readonly Curves: new (gridFunction: GridFunction, points: Points, way?: 'up' | 'down') => Curves;

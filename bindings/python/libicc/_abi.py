@@ -144,6 +144,7 @@ tree_get_report tree* tree_report* env* error*
 function_create function** tree* function_options* env* error*
 function_create_values function** tree* f64* env* error*
 function_create_logs function** tree* f64* env* error*
+function_create_solve function** tree* function_options* f64* f64* env* error*
 function*:chart_function chart*
 tree*:function_tree function*
 grid*:tree_grid tree*

@@ -246,6 +246,20 @@ class Function(Handle):
         return cls._given(lib.function_create_logs, tree, logs, progress)
 
     @classmethod
+    def solve(cls, tree: Tree, function: str = "laplace", *, fixed: Optional[ArrayLike] = None,
+              right_side: Optional[ArrayLike] = None, progress: Optional[Progress] = None,
+              threads: Optional[int] = None) -> "Function":
+        """Solves ``L f = right_side`` ("laplace") or ``L L f = right_side`` ("bilaplace"), where L f is the sum of
+        differences to the 2 dim neighbours. Both arrays have the grid's shape. `fixed` is NaN where a vertex is free;
+        just outside, NaN stands for 0."""
+        options = new("function_options", function=choose(function, FUNCTIONS, "function"))
+        arrays = [None if given is None else np.asfortranarray(_floats_of(given, tree.grid.shape))
+                  for given in (fixed, right_side)]
+        return cls._wrap(create(lib.function_create_solve, tree, ctypes.addressof(options),
+                                *(None if array is None else array.ctypes.data for array in arrays),
+                                progress=progress, threads=threads))
+
+    @classmethod
     def _given(cls, create_it: Any, tree: Tree, given: ArrayLike, progress: Optional[Progress]) -> "Function":
         array = np.asfortranarray(_floats_of(given, tree.grid.shape))
         return cls._wrap(create(create_it, tree, array.ctypes.data, progress=progress))

@@ -1,5 +1,6 @@
 import libicc
 import numpy as np
+import pytest
 from libicc import stages
 
 
@@ -81,3 +82,16 @@ def test_facets_in_space():
     report = function.facet_report()
     assert facets.shape == (len(kinds), 3) and report.n_tested > len(kinds) > 0
     assert ((kinds == 1).sum(), (kinds == 2).sum()) == (report.n_compression, report.n_expansion)
+
+
+def test_solve():
+    inside = np.pad(np.ones((4, 5), bool), 2)
+    tree = stages.Tree(stages.Grid.from_mask(inside))
+    fixed = np.where(inside, np.nan, 2.5)
+    fixed[3, 3] = -1
+    f = stages.Function.solve(tree, fixed=fixed, right_side=np.ones(inside.shape))
+    rows = 4 * f.values - sum(np.roll(f.values, step, axis) for step in (1, -1) for axis in (0, 1))
+    free = inside & np.isnan(fixed)
+    assert np.allclose(rows[free], 1) and f.values[3, 3] == -1 and f.info.n_unknowns == free.sum()
+    with pytest.raises(libicc.UnsupportedError):
+        stages.Function.solve(tree, "harmonic")

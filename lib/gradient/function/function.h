@@ -11,8 +11,8 @@
  * - load: the point at which a bi-Laplace equation is driven. move_maximum.h moves it.
  *
  * Ways: make_function.c sets functions of the generation and of the distance along the tree, and
- * asks laplace.h for the others. given_function.h takes the caller's values. extrapolate.h gives
- * values outside.
+ * asks laplace.h for the others. given_function.h takes the caller's values, given_equation.h some
+ * values and an equation. extrapolate.h gives values outside.
  *
  * Invariants: values are NaN where the tree does not reach, until gradient/coordinates extends
  * them. Otherwise only the cached logarithms are made after make_function.h. */

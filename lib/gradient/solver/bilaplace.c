@@ -111,7 +111,7 @@ static icc_status clamped(const iccp_unknowns *unknowns, const iccp_sparse *a, d
         }
         const iccp_reduction all = {n - 1, variable, share};
         f[0] = 1;
-        status = iccp_energy_minimise(a, &all, f, info, env);
+        status = iccp_energy_minimise(a, &all, NULL, f, info, env);
     }
     iccp_free(&env->memory, variable);
     iccp_free(&env->memory, share);

@@ -99,10 +99,38 @@ static icc_status set_outside(iccp_sparse *a, const iccp_unknowns *unknowns, con
     return ICC_OK;
 }
 
+static icc_status create_differences(iccp_sparse *a, const iccp_unknowns *unknowns,
+                                     const iccp_env *env)
+{
+    size_t n_inside, n_outside, row = 0, p = 0;
+    count_neighbours(unknowns, &n_inside, &n_outside);
+    const icc_status status =
+        iccp_sparse_create(a, n_inside / 2 + n_outside, unknowns->n, n_inside + n_outside, env);
+    if (status != ICC_OK)
+        return status;
+    for (uint32_t k = 0; k < unknowns->n; ++k)
+        for (int32_t d = 0; d < unknowns->n_neighbours; ++d) {
+            const uint32_t j = neighbour(unknowns, k, d);
+            if (j != ICCP_NONE && j < k)
+                continue;
+            a->first[row++] = p;
+            a->column[p] = k;
+            a->value[p++] = 1;
+            if (j != ICCP_NONE) {
+                a->column[p] = j;
+                a->value[p++] = -1;
+            }
+        }
+    a->first[row] = p;
+    return ICC_OK;
+}
+
 icc_status iccp_energy_create(iccp_sparse *a, const iccp_unknowns *unknowns, int32_t function,
                               const iccp_env *env)
 {
     size_t n_inside, n_outside;
+    if (function == ICC_FUNCTION_LAPLACE)
+        return create_differences(a, unknowns, env);
     count_neighbours(unknowns, &n_inside, &n_outside);
     if (function != ICC_FUNCTION_CLAMPED)
         n_outside = 0;
@@ -157,6 +185,7 @@ static icc_status reduce(iccp_sparse *b, const iccp_sparse *a, const iccp_reduct
 typedef struct least_squares {
     const iccp_sparse *a;
     const iccp_reduction *reduction;
+    const double *force; /* by unknown, or NULL */
     iccp_sparse b;
     iccp_gram gram;
     iccp_ldlt factor;
@@ -178,6 +207,9 @@ static double correct(const least_squares *s, double *f)
     iccp_sparse_apply(s->a, f, NULL, s->residual);
     memset(s->step, 0, n * sizeof *s->step);
     iccp_sparse_apply_transpose(&s->b, s->residual, s->step);
+    for (size_t k = 0; s->force != NULL && k < s->a->n_columns; ++k)
+        if (s->reduction->variable[k] != ICCP_NONE)
+            s->step[s->reduction->variable[k]] -= s->reduction->share[k] * s->force[k];
     iccp_ldlt_solve(&s->factor, 1, s->step, s->work);
     double largest = 0, size = 0;
     for (size_t u = 0; u < n; ++u) {
@@ -229,10 +261,11 @@ static icc_status factorise(least_squares *s, iccp_solution *info, const iccp_en
     return status;
 }
 
-icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                iccp_solution *info, const iccp_env *env)
+icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction,
+                                const double *force, double *f, iccp_solution *info,
+                                const iccp_env *env)
 {
-    least_squares s = {.a = a, .reduction = reduction};
+    least_squares s = {.a = a, .reduction = reduction, .force = force};
     const size_t n = reduction->n_variables;
     s.residual = iccp_alloc(&env->memory, a->n_rows, sizeof *s.residual);
     s.x = iccp_alloc(&env->memory, n, sizeof *s.x);

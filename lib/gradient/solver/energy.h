@@ -8,9 +8,11 @@
 #include "icc/stages.h"
 #include "math/gram.h"
 
-/* Makes A. It has one row for the Laplacian at each inside vertex, in the order of `unknowns`. For
- * ICC_FUNCTION_CLAMPED, rows follow for the vertices outside next to them, in the grid or not.
- * There is one column per inside vertex, and f is 0 outside. */
+/* Makes A. For ICC_FUNCTION_LAPLACE it has one row for each pair of neighbours, with the
+ * difference of their values, so that A'A is the Laplacian. Otherwise it has one row for the
+ * Laplacian at each inside vertex, in the order of `unknowns`. For ICC_FUNCTION_CLAMPED, rows
+ * follow for the vertices outside next to them, in the grid or not. There is one column per inside
+ * vertex, and f is 0 outside. */
 icc_status iccp_energy_create(iccp_sparse *a, const iccp_unknowns *unknowns, int32_t function,
                               const iccp_env *env);
 
@@ -25,11 +27,12 @@ typedef struct iccp_reduction {
     const double *share;      /* > 0 if there is a variable */
 } iccp_reduction;
 
-/* Finds the least energy among such f. On entry f has the known values, on return all values. It is
- * refined until nothing improves. So the error is about that of rounding f times the condition
- * number of A, not of A'A. Returns ICC_ERR_SOLVER if the error stays above 1e-6. Adds to `info`
- * (work, seconds_*). */
-icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction, double *f,
-                                iccp_solution *info, const iccp_env *env);
+/* Finds the least energy, minus force'f unless `force` is NULL, among such f. On entry f has the
+ * known values, on return all values. It is refined until nothing improves. So the error is about
+ * that of rounding f times the condition number of A, not of A'A. Returns ICC_ERR_SOLVER if the
+ * error stays above 1e-6. Adds to `info` (work, seconds_*). */
+icc_status iccp_energy_minimise(const iccp_sparse *a, const iccp_reduction *reduction,
+                                const double *force, double *f, iccp_solution *info,
+                                const iccp_env *env);
 
 #endif

@@ -114,7 +114,7 @@ static icc_status solve(state *s, double *residual, iccp_solution *info, const i
 {
     const iccp_qp *p = s->qp;
     const iccp_reduction reduction = reduce(s);
-    const icc_status status = iccp_energy_minimise(&p->a, &reduction, s->f, info, env);
+    const icc_status status = iccp_energy_minimise(&p->a, &reduction, NULL, s->f, info, env);
     if (status != ICC_OK)
         return status;
     const double start = iccp_seconds();

@@ -52,17 +52,23 @@ pub struct Facet {
     pub compression: bool,
 }
 
+impl FunctionOptions {
+    fn raw(&self) -> sys::icc_function_options {
+        sys::icc_function_options {
+            function: self.function.map_or(0, |value| value as i32),
+            constraints: self.constraints.map_or(0, |value| value as i32),
+            solver: self.solver.map_or(0, |value| value as i32),
+            min_fall: self.min_fall,
+            leaf_min: self.leaf_min,
+            ..Default::default()
+        }
+    }
+}
+
 impl Function {
     /// Gives values to the vertices of a tree.
     pub fn new(tree: &Tree, options: &FunctionOptions, env: &mut Env<'_>) -> Result<Function> {
-        let raw = sys::icc_function_options {
-            function: options.function.map_or(0, |value| value as i32),
-            constraints: options.constraints.map_or(0, |value| value as i32),
-            solver: options.solver.map_or(0, |value| value as i32),
-            min_fall: options.min_fall,
-            leaf_min: options.leaf_min,
-            ..Default::default()
-        };
+        let raw = options.raw();
         Function::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_function_create(out, tree.as_ptr(), &raw, env, err) }
@@ -85,6 +91,39 @@ impl Function {
         Function::make(env, |out, env, err| {
             // SAFETY: a logarithm for each vertex.
             unsafe { sys::icc_function_create_logs(out, tree.as_ptr(), logs.as_ptr(), env, err) }
+        })
+    }
+
+    /// Solves an equation with fixed values (NaN: free) and a right-hand side, one number per grid vertex each.
+    ///
+    /// # Errors
+    /// [`Status::UNSUPPORTED`](crate::Status::UNSUPPORTED) unless the function is Laplace or bi-Laplace, without
+    /// constraints, by the direct solver.
+    pub fn solve(
+        tree: &Tree,
+        options: &FunctionOptions,
+        fixed: Option<&[f64]>,
+        right_side: Option<&[f64]>,
+        env: &mut Env<'_>,
+    ) -> Result<Function> {
+        let raw = options.raw();
+        let n = tree.grid().info().n_vertices;
+        fixed.map_or(Ok(()), |given| exactly(given, n, "fixed"))?;
+        right_side.map_or(Ok(()), |given| exactly(given, n, "right_side"))?;
+        let address = |given: Option<&[f64]>| given.map_or(ptr::null(), <[f64]>::as_ptr);
+        Function::make(env, |out, env, err| {
+            // SAFETY: numbers for each vertex, or NULL.
+            unsafe {
+                sys::icc_function_create_solve(
+                    out,
+                    tree.as_ptr(),
+                    &raw,
+                    address(fixed),
+                    address(right_side),
+                    env,
+                    err,
+                )
+            }
         })
     }
 

@@ -108,6 +108,13 @@ fn charts_show_their_field() {
     let field = chart.function().unwrap();
     let info = chart.gradient_info().unwrap();
     assert_eq!(field.values().len(), info.n_grid);
+    let tree = field.tree();
+    let mut fixed = vec![f64::NAN; info.n_grid];
+    fixed[tree.root() as usize] = 2.0;
+    let laplace = FunctionOptions { function: Some(FunctionKind::Laplace), ..Default::default() };
+    let solved = Function::solve(&tree, &laplace, Some(&fixed), None, env).unwrap();
+    assert_eq!(solved.values()[tree.root() as usize], 2.0);
+    assert!(Function::solve(&tree, &FunctionOptions::default(), Some(&fixed[1..]), None, env).is_err());
     let edges = field.edges().unwrap();
     let merging = edges.iter().filter(|edge| edge.compression).count();
     assert_eq!((merging, edges.len() - merging), (info.n_compression, info.n_expansion));
