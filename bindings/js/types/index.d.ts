@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" />
 import type {
-  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CurvesInfo, DiscInfo, DomainInfo, FeatureInfo, FieldInfo,
+  Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo,
   FillOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
   MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
   TreeReport, WeightsInfo, WeightsOptions, WeightsReport, WeightsTimings,
@@ -251,8 +251,10 @@ export interface GridFunction extends Handle {
   report(): FunctionReport;
   /** Compression (1) and expansion (2) edges in the plane. */
   edges(): { edges: Uint32Array; kinds: Int32Array; tested: number };
-  facets(): { facets: Uint32Array; kinds: Int32Array; report: Info };
-  facetReport(): Info;
+  /** Compression (1) and expansion (2) facets in any dimension, with dim vertices each. */
+  facets(): { facets: Uint32Array; kinds: Int32Array; report: FacetReport };
+  /** Only counts these facets. */
+  facetReport(): FacetReport;
 }
 export type CurveEnd = 'none' | 'maximum' | 'boundary' | 'critical' | 'values';
 /** Integral curves of a function through points. */
@@ -300,9 +302,10 @@ export interface Instance {
     new (tree: Tree, options?: FunctionOptions | null): GridFunction;
     fromValues(tree: Tree, values: ArrayLike<number>): GridFunction;
     fromLogs(tree: Tree, logs: ArrayLike<number>): GridFunction;
+    /** Solves an equation with fixed values, NaN where a vertex is free, and a right-hand side. */
     solve(
       tree: Tree,
-      options?: Options | null,
+      options?: FunctionOptions | null,
       fixed?: ArrayLike<number> | null,
       rightSide?: ArrayLike<number> | null,
     ): GridFunction;
