@@ -715,9 +715,9 @@ enum {
      *
      *  In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the
      *  cells of either mask, or the cone from one inner vertex to all facets. The cone needs a
-     *  point inside each boundary that sees all of it. Certified then means that every simplex
-     *  is positive before and after. The signs are certain, but a simplex that is nearly flat
-     *  counts as inverted. Whether a boundary meets itself is not checked. */
+     *  point inside each boundary that sees all of it, or nearly all. Certified then means that
+     *  every simplex is positive before and after. The signs are certain, but a simplex that is
+     *  nearly flat counts as inverted. Whether a boundary meets itself is not checked. */
     ICC_MAP_MESH = 2
 };
 

@@ -1,6 +1,7 @@
 #include "map/higher/fill_higher.h"
 
 #include "domain/mask.h"
+#include "geometry/tuples.h"
 
 #include <string.h>
 
@@ -29,6 +30,13 @@ static icc_status new_mesh(iccp_simplices **out, const icc_domain *domain, size_
     return ICC_OK;
 }
 
+static void exchange(uint32_t *a, uint32_t *b)
+{
+    const uint32_t kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
 /* Finds the neighbours. Frees a mesh whose boundary is not the domain's, which would be an error of
  * this file. */
 static icc_status join(iccp_simplices **mesh, const icc_domain *domain)
@@ -41,20 +49,45 @@ static icc_status join(iccp_simplices **mesh, const icc_domain *domain)
     return status;
 }
 
-icc_status iccp_fill_cone(iccp_simplices **out, const icc_domain *domain, const iccp_env *env)
+/* Writes the prism between a facet, whose vertices ascend, and its copy. Simplex j has corners 0 to
+ * j of the copy, and the corners from j on of the facet. Every other one is turned round. */
+static uint32_t *write_prism(uint32_t *corner, size_t dim, const uint32_t *facet, uint32_t copy,
+                             bool odd)
 {
-    const size_t dim = (size_t)domain->dim;
-    icc_status status = new_mesh(out, domain, 1, domain->n_facets, env);
-    for (size_t f = 0; status == ICC_OK && f < domain->n_facets; ++f) {
-        uint32_t *corner = (*out)->corners + (dim + 1) * f;
-        corner[0] = (uint32_t)domain->n_vertices;
-        memcpy(corner + 1, domain->facets + dim * f, dim * sizeof *corner);
-        if (domain->orientation < 0) {
-            corner[dim] = domain->facets[dim * f + dim - 2];
-            corner[dim - 1] = domain->facets[dim * f + dim - 1];
-        }
+    for (size_t j = 0; j < dim; ++j, corner += dim + 1) {
+        for (size_t i = 0; i <= dim; ++i)
+            corner[i] = i <= j ? facet[i] + copy : facet[i - 1];
+        if (odd != (j % 2 != 0))
+            exchange(&corner[0], &corner[dim]);
     }
-    return status == ICC_OK ? join(out, domain) : status;
+    return corner;
+}
+
+icc_status iccp_fill_cone(iccp_simplices **out, const icc_domain *domain, size_t n_collars,
+                          const iccp_env *env)
+{
+    const size_t dim = (size_t)domain->dim, n = domain->n_vertices;
+    icc_status status =
+        new_mesh(out, domain, n_collars * n + 1, (n_collars * dim + 1) * domain->n_facets, env);
+    if (status != ICC_OK)
+        return status;
+    uint32_t *corner = (*out)->corners;
+    for (size_t f = 0; f < domain->n_facets; ++f) {
+        uint32_t facet[ICC_MAX_DIM];
+        memcpy(facet, domain->facets + dim * f, dim * sizeof *facet);
+        const bool odd = iccp_sort_vertices(dim, facet) != (domain->orientation < 0);
+        for (size_t k = 0; k < n_collars; ++k) {
+            corner = write_prism(corner, dim, facet, (uint32_t)n, odd);
+            for (size_t i = 0; i < dim; ++i)
+                facet[i] += (uint32_t)n;
+        }
+        corner[0] = (uint32_t)((n_collars + 1) * n);
+        memcpy(corner + 1, facet, dim * sizeof *facet);
+        if (odd)
+            exchange(&corner[0], &corner[dim]);
+        corner += dim + 1;
+    }
+    return join(out, domain);
 }
 
 /* ---- masks ---- */

@@ -1,9 +1,10 @@
 /* The object, and how a new one is made: one mesh, placed on both sides.
  *
  * Meshes are tried in this order: the source's own, the target's own, the cells of the source's
- * mask, those of the target's, and the cone. For the first four a place is known on one side. On
- * the other, inner vertices follow the affine map that fits the boundary best, and are then
- * untangled. The cone's vertex goes to a point of the kernel on both sides. */
+ * mask, those of the target's, and cones. For the first four a place is known on one side. On the
+ * other, inner vertices follow the affine map that fits the boundary best, and are then untangled.
+ * The cone's vertex goes to a point of the kernel on both sides. If there is none, the cone gets
+ * collars, whose vertices are untangled on both sides. */
 #include "map/higher/higher_map.h"
 
 #include "base/clock.h"
@@ -91,14 +92,15 @@ static void start(const iccp_simplicial_map *map)
 }
 
 /* Moves inner images until all simplices are positive, if that is possible. */
-static icc_status settle(const iccp_higher_map *map, size_t *n_left, const iccp_env *env)
+static icc_status settle(const iccp_higher_map *map, double edge, iccp_work *work, size_t *n_left,
+                         const iccp_env *env)
 {
     const iccp_simplicial_map simplicial = iccp_higher_simplicial(map);
     iccp_stars stars;
     icc_status status = iccp_stars_create(&stars, map->mesh, &env->memory);
     if (status != ICC_OK)
         return status;
-    status = iccp_relocate_untangle(&simplicial, &stars, n_left, env);
+    status = iccp_relocate_untangle(&simplicial, &stars, edge, work, n_left, env);
     iccp_stars_free(&stars, &env->memory);
     return status;
 }
@@ -107,6 +109,7 @@ static icc_status settle(const iccp_higher_map *map, size_t *n_left, const iccp_
 static icc_status place(iccp_higher_map *map, const icc_domain *other, iccp_map_facts *info,
                         const iccp_env *env)
 {
+    iccp_work work = iccp_work_unlimited();
     icc_status status = bound(map, other);
     const iccp_simplicial_map simplicial = iccp_higher_simplicial(map);
     if (status != ICC_OK)
@@ -115,7 +118,7 @@ static icc_status place(iccp_higher_map *map, const icc_domain *other, iccp_map_
     info->n_inverted = info->n_unrepaired = iccp_simplicial_count_at_once(&simplicial, env);
     if (info->n_unrepaired == 0 || iccp_simplicial_is_hopeless(&simplicial))
         return ICC_OK;
-    return settle(map, &info->n_unrepaired, env);
+    return settle(map, 0, &work, &info->n_unrepaired, env);
 }
 
 /* Exchanges both sides. */
@@ -127,26 +130,6 @@ static void invert(iccp_higher_map *map)
     map->stretch = 1 / map->stretch;
 }
 
-static icc_status place_cone(iccp_higher_map *map, const icc_domain *const domains[2],
-                             iccp_map_facts *info, const iccp_env *env)
-{
-    icc_status status = iccp_fill_cone(&map->mesh, domains[0], env);
-    if (status == ICC_OK)
-        status = bound(map, domains[1]);
-    if (status != ICC_OK)
-        return status;
-    double *places[2] = {map->mesh->points, map->images};
-    info->n_unrepaired = 0;
-    for (int side = 0; side < 2 && status == ICC_OK; ++side) {
-        double *apex = places[side] + map->mesh->dim * map->mesh->n_boundary;
-        const iccp_simplicial_map placed = iccp_simplicial_map_of(map->mesh, places[side]);
-        status = iccp_kernel_point(domains[side], apex, env);
-        iccp_simplicial_round(map->mesh->dim, apex);
-        info->n_unrepaired += iccp_simplicial_count_at_once(&placed, env);
-    }
-    return status;
-}
-
 /* Frees the mesh and the images, for another try. */
 static void clear(iccp_higher_map *map)
 {
@@ -154,6 +137,81 @@ static void clear(iccp_higher_map *map)
     iccp_free(&map->memory, map->images);
     map->mesh = NULL;
     map->images = NULL;
+}
+
+/* Where the layers of a cone with collars begin: evenly spaced on the way to the apex. */
+static void place_layers(const iccp_simplices *mesh, size_t n_collars, double *points)
+{
+    const size_t n = mesh->dim * mesh->n_boundary;
+    const double *apex = points + n * (n_collars + 1);
+    for (size_t k = 1; k <= n_collars; ++k)
+        for (size_t i = 0; i < n; ++i)
+            points[n * k + i] =
+                points[i] + (double)k / (double)(n_collars + 1) * (apex[i % mesh->dim] - points[i]);
+}
+
+/* The edge length of regular simplices with the volume of a domain in all. */
+static double regular_edge(const icc_domain *domain, size_t n_simplices)
+{
+    const size_t n = (size_t)domain->dim;
+    double volume = sqrt((double)(n + 1) / (double)((size_t)1 << n));
+    for (size_t k = 2; k <= n; ++k)
+        volume /= (double)k;
+    return iccp_pow(fabs(domain->measure) / (volume * (double)n_simplices), 1.0 / (double)n);
+}
+
+/* Finds the place of a cone in a domain: the apex goes to the kernel if there is one. Layers are
+ * untangled, compared with regular simplices. */
+static icc_status place_cone(const iccp_higher_map *map, double *points, const icc_domain *domain,
+                             size_t n_collars, iccp_work *work, size_t *n_left, const iccp_env *env)
+{
+    const iccp_simplices *mesh = map->mesh;
+    const iccp_higher_map placed = {
+        .memory = map->memory, .mesh = map->mesh, .images = points, .stretch = 1};
+    const iccp_simplicial_map simplicial = iccp_higher_simplicial(&placed);
+    const icc_status status =
+        iccp_kernel_point(domain, points + mesh->dim * (mesh->n_points - 1), env);
+    if (status != ICC_OK)
+        return status;
+    place_layers(mesh, n_collars, points);
+    iccp_simplicial_round(mesh->dim * (mesh->n_points - mesh->n_boundary),
+                          points + mesh->dim * mesh->n_boundary);
+    *n_left = iccp_simplicial_count_at_once(&simplicial, env);
+    return n_collars > 0
+               ? settle(&placed, regular_edge(domain, mesh->n_simplices), work, n_left, env)
+               : ICC_OK;
+}
+
+/* Tries a cone with collars on both sides. */
+static icc_status try_cone(iccp_higher_map *map, const icc_domain *const domains[2],
+                           size_t n_collars, iccp_work *work, iccp_map_facts *info,
+                           const iccp_env *env)
+{
+    clear(map);
+    icc_status status = iccp_fill_cone(&map->mesh, domains[0], n_collars, env);
+    if (status == ICC_OK)
+        status = bound(map, domains[1]);
+    if (status == ICC_OK)
+        status = place_cone(map, map->mesh->points, domains[0], n_collars, work,
+                            &info->n_unrepaired, env);
+    if (status == ICC_OK && info->n_unrepaired == 0)
+        status =
+            place_cone(map, map->images, domains[1], n_collars, work, &info->n_unrepaired, env);
+    return status;
+}
+
+/* Tries cones with more and more collars, as long as there is work for a sweep. */
+static icc_status try_cones(iccp_higher_map *map, const icc_domain *const domains[2],
+                            iccp_map_facts *info, const iccp_env *env)
+{
+    const size_t n = domains[0]->n_facets, dim = (size_t)domains[0]->dim;
+    iccp_work work = iccp_allow(n).search;
+    icc_status status = try_cone(map, domains, 0, &work, info, env);
+    for (size_t k = 1;
+         status == ICC_OK && info->n_unrepaired > 0 && iccp_work_fits(&work, (k * dim + 1) * n);
+         ++k)
+        status = try_cone(map, domains, k, &work, info, env);
+    return status;
 }
 
 /* Tries the mesh that is known on one side: the domain's own, or the cells of its mask. */
@@ -207,8 +265,7 @@ static icc_status find(iccp_higher_map *map, const icc_domain *source, const icc
     if (status != ICC_OK || info->n_unrepaired == 0)
         return status;
     const size_t fewest = info->n_unrepaired;
-    clear(map);
-    status = place_cone(map, domains, info, env);
+    status = try_cones(map, domains, info, env);
     if (info->n_unrepaired > fewest)
         info->n_unrepaired = fewest;
     return status;
@@ -338,6 +395,7 @@ icc_status iccp_higher_map_follow(iccp_higher_map **out, const iccp_higher_map *
 {
     const double began = iccp_seconds();
     iccp_higher_map *next;
+    iccp_work work = iccp_work_unlimited();
     iccp_env part[2];
     iccp_split(part, 2, (const double[]){1, 1}, env);
     icc_status status = copy_map(&next, map, source, target, &env->memory);
@@ -349,7 +407,7 @@ icc_status iccp_higher_map_follow(iccp_higher_map **out, const iccp_higher_map *
                       next->images);
     iccp_simplicial_round(mesh->dim * mesh->n_points, next->images);
     memcpy(next->images, target->vertices, mesh->dim * mesh->n_boundary * sizeof *next->images);
-    status = settle(next, &info->n_unrepaired, &part[0]);
+    status = settle(next, 0, &work, &info->n_unrepaired, &part[0]);
     info->seconds_repair = iccp_seconds() - began;
     return conclude(out, next, status, iterations, info, &part[1]);
 }

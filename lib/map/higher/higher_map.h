@@ -8,7 +8,8 @@
  * Words of this folder
  * - star: the simplices at an inner vertex (stars.h).
  * - kernel: the points that see the whole boundary (kernel_point.h).
- * - cone: the mesh that joins one inner vertex to all facets.
+ * - cone: the mesh that joins one inner vertex, the apex, to all facets.
+ * - collar: a layer of simplices between a boundary and a copy of it further inside.
  *
  * Ways: higher_map.c tries meshes in turn, which fill_higher.h makes. relocate.h moves vertices, by
  * the energies in star_energy.h. higher_kind.h has the operations.

@@ -44,7 +44,7 @@ static void move(const iccp_star *star)
     if (!(energy < HUGE_VAL) || !find_step(dim, &local, step))
         return;
     memcpy(before, image, dim * sizeof *before);
-    for (double share = 1; share > DBL_EPSILON; share *= 0.5) {
+    for (double share = 1; share * share > DBL_EPSILON; share *= 0.5) {
         for (size_t k = 0; k < dim; ++k)
             image[k] = before[k] + share * step[k];
         iccp_simplicial_round(dim, image);
@@ -54,28 +54,32 @@ static void move(const iccp_star *star)
     memcpy(image, before, dim * sizeof *before);
 }
 
-static void sweep(const iccp_simplicial_map *map, const iccp_stars *stars, double epsilon)
+static void sweep(const iccp_simplicial_map *map, const iccp_stars *stars, double epsilon,
+                  double edge)
 {
     for (size_t v = 0; v < stars->n_vertices; ++v) {
         const iccp_star star = {.map = map,
                                 .vertex = (uint32_t)(stars->first_vertex + v),
                                 .n = stars->first[v + 1] - stars->first[v],
                                 .simplex = stars->simplex + stars->first[v],
-                                .epsilon = epsilon};
+                                .epsilon = epsilon,
+                                .edge = edge};
         move(&star);
     }
 }
 
 icc_status iccp_relocate_untangle(const iccp_simplicial_map *map, const iccp_stars *stars,
-                                  size_t *n_left, const iccp_env *env)
+                                  double edge, iccp_work *work, size_t *n_left, const iccp_env *env)
 {
     double epsilon = HUGE_VAL;
     *n_left = iccp_simplicial_count_at_once(map, env);
     for (size_t k = 0; *n_left > 0 && k < SWEEPS; ++k) {
         if (iccp_progress(env, "repair", (double)k / SWEEPS) != ICC_OK)
             return ICC_ERR_CANCELLED;
-        epsilon = iccp_min(epsilon, iccp_untangling_start(iccp_least_determinant(map)));
-        sweep(map, stars, epsilon);
+        if (!iccp_work_take(work, map->n_simplices))
+            return ICC_OK;
+        epsilon = iccp_min(epsilon, iccp_untangling_start(iccp_least_determinant(map, edge)));
+        sweep(map, stars, epsilon, edge);
         *n_left = iccp_simplicial_count_at_once(map, env);
     }
     return ICC_OK;
@@ -92,7 +96,7 @@ icc_status iccp_relocate_improve(const iccp_simplicial_map *map, const iccp_star
             return ICC_ERR_CANCELLED;
         if (!iccp_work_take(work, map->n_simplices))
             return ICC_OK;
-        sweep(map, stars, 0);
+        sweep(map, stars, 0, 0);
         ++improvement->n_iterations;
         energy = iccp_simplicial_energy_at_once(map, env);
         const double gain = improvement->energy - energy;

@@ -7,9 +7,12 @@
 #include "map/higher/stars.h"
 
 /* Makes simplices positive, as V. Garanzha and others do (map/energy/untangling.h), until none is
- * left or sweeps no longer help. *n_left counts the simplices that are not positive in the end. */
+ * left or there is no work for another sweep. Simplices before the map are taken for regular ones
+ * with edges of this length, unless it is 0. *n_left counts the simplices that are not positive in
+ * the end. */
 icc_status iccp_relocate_untangle(const iccp_simplicial_map *map, const iccp_stars *stars,
-                                  size_t *n_left, const iccp_env *env);
+                                  double edge, iccp_work *work, size_t *n_left,
+                                  const iccp_env *env);
 
 /* Lowers the symmetric Dirichlet energy of a map whose simplices are all positive. They stay so,
  * exactly. Takes at most descent->iterations sweeps, and ends when one gains no more than the

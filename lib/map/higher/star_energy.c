@@ -32,8 +32,27 @@ static void set_edges(const double *points, size_t dim, const uint32_t *corners,
     }
 }
 
+/* The edges of a regular simplex from one corner: a triangular matrix with rows of length 1 and
+ * products 1 / 2. It is mirrored for an odd corner, which is an odd permutation away from the
+ * first. */
+static void set_regular(size_t n, double length, size_t base, double *edge)
+{
+    memset(edge, 0, n * n * sizeof *edge);
+    for (size_t i = 0; i < n; ++i) {
+        double *row = edge + n * i, rest = 1;
+        for (size_t j = 0; j < i; ++j) {
+            row[j] = (0.5 - iccp_vec_dot(j, row, edge + n * j)) / edge[(n + 1) * j];
+            rest -= row[j] * row[j];
+        }
+        row[i] = sqrt(rest);
+    }
+    for (size_t i = 0; i < n; ++i)
+        for (size_t k = 0; k < n; ++k)
+            edge[n * i + k] *= k == 0 && base % 2 != 0 ? -length : length;
+}
+
 /* Returns false if the simplex has no volume before the map, up to rounding. */
-static bool look(const iccp_simplicial_map *map, size_t simplex, size_t base, view *v)
+static bool look(const iccp_simplicial_map *map, size_t simplex, size_t base, double edge, view *v)
 {
     const size_t n = v->dim = map->dim;
     const uint32_t *corners = map->corners + (n + 1) * simplex;
@@ -41,6 +60,8 @@ static bool look(const iccp_simplicial_map *map, size_t simplex, size_t base, vi
     set_edges(map->images, n, corners, base, v->after);
     for (size_t i = 0; i < n * n; ++i)
         v->before[i] *= map->stretch;
+    if (edge > 0)
+        set_regular(n, edge, base, v->before);
     if (!iccp_invert(n, v->before, v->inverse, &v->determinant))
         return false;
     for (size_t c = 0; c < n; ++c) {
@@ -183,7 +204,7 @@ double iccp_star_energy(const iccp_star *star, iccp_star_local *local)
     for (size_t i = 0; i < star->n && sum < HUGE_VAL; ++i) {
         view v;
         if (!look(star->map, star->simplex[i], corner_of(star->map, star->simplex[i], star->vertex),
-                  &v))
+                  star->edge, &v))
             return HUGE_VAL;
         const double weight = fabs(v.determinant);
         sum += star->epsilon > 0 ? add_untangling(&v, star->epsilon, weight, local)
@@ -192,12 +213,12 @@ double iccp_star_energy(const iccp_star *star, iccp_star_local *local)
     return sum;
 }
 
-double iccp_least_determinant(const iccp_simplicial_map *map)
+double iccp_least_determinant(const iccp_simplicial_map *map, double edge)
 {
     double least = HUGE_VAL, slope[MAX];
     for (size_t s = 0; s < map->n_simplices; ++s) {
         view v;
-        if (look(map, s, 0, &v))
+        if (look(map, s, 0, edge, &v))
             least = iccp_min(least, determinant_of(&v, slope));
     }
     return least;

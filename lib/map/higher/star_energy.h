@@ -18,6 +18,7 @@ typedef struct iccp_star {
     size_t n;
     const uint32_t *simplex;
     double epsilon;
+    double edge; /* compare with regular simplices of this edge length; 0: with those before */
 } iccp_star;
 
 /* The derivatives by the vertex's image. The Hessian has positive eigenvalues, because negative
@@ -30,6 +31,6 @@ typedef struct iccp_star_local {
 double iccp_star_energy(const iccp_star *star, iccp_star_local *local);
 
 /* The smallest determinant of a Jacobian of the map. */
-double iccp_least_determinant(const iccp_simplicial_map *map);
+double iccp_least_determinant(const iccp_simplicial_map *map, double edge);
 
 #endif

@@ -862,9 +862,9 @@ pub const ICC_MAP_CURVES: i32 = 1;
 ///
 /// In 4-D to 6-D the map is made without charts. Its mesh is that of either domain, or the cells of either
 /// mask, or the cone from one inner vertex to all facets. The cone needs a point inside each boundary that
-/// sees all of it. Certified then means that every simplex is positive before and after. The signs are
-/// certain, but a simplex that is nearly flat counts as inverted. Whether a boundary meets itself is not
-/// checked.
+/// sees all of it, or nearly all. Certified then means that every simplex is positive before and after. The
+/// signs are certain, but a simplex that is nearly flat counts as inverted. Whether a boundary meets itself
+/// is not checked.
 pub const ICC_MAP_MESH: i32 = 2;
 
 /// A path between two vertices of a domain with features, and its path in the target. Ties tell a map on
