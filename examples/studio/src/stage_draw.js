@@ -99,6 +99,14 @@ const STEPS = {
     g.strokeStyle = '#1c5fa8';
     for (const [a, b] of d.lines) trail(g, [x + s * a[0], y + s * a[1], x + s * b[0], y + s * b[1]]);
   },
+  curves(g, u, d) {
+    g.globalAlpha = 0.35;
+    STEPS.levels(g, 0.7 * u, d);
+    g.globalAlpha = 1;
+    g.lineWidth = 1.3 * u;
+    g.strokeStyle = '#b04a00';
+    for (const curve of d.curves) trail(g, curve);
+  },
   walk(g, u, d, at) {
     g.globalAlpha = 0.35;
     STEPS.levels(g, 0.7 * u, d);

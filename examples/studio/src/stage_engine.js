@@ -1,6 +1,16 @@
 // The steps of the papers by themselves: grid, maximum, tree, function, curves.
 import { flatOf } from './shape.js';
 
+const CURVES = 150;
+
+/** Vertices inside, about CURVES of them, evenly among all. */
+function spreadOver(inside) {
+  const all = [...inside.keys()].filter((v) => inside[v]), every = Math.ceil(all.length / CURVES);
+  return all.filter((_, i) => i % every === Math.floor(every / 2));
+}
+
+const countOf = (words) => ({ all: words.length, maximum: words.filter((word) => word === 'maximum').length });
+
 export function stageOperations(icc) {
   let objects = [], charts = [];
 
@@ -18,14 +28,16 @@ export function stageOperations(icc) {
       const domain = icc.Domain.polygon(flatOf(source)), grid = new icc.Grid(domain, cells);
       const { vertex, rounds } = grid.findMaximum();
       const tree = new icc.Tree(grid, vertex), f = new icc.GridFunction(tree, { function: kind });
-      objects = [domain, grid, tree, f];
+      const points = grid.points(spreadOver(grid.inside()));
+      const up = new icc.Curves(f, points, 'up'), down = new icc.Curves(f, points, 'down');
+      objects = [domain, grid, tree, f, up, down];
       chartOf(source, { cells, function: kind });
       chartOf(target, { cells, function: kind });
       const { edges, kinds, tested } = icc.GridFunction.ofChart(charts[0]).edges();
       return {
         grid: grid.info, inside: grid.inside(), maximum: vertex, rounds, parents: tree.parents(),
         generations: tree.generations(), report: tree.report(), values: f.values(), critical: f.report(),
-        edges, kinds, tested, chart: charts[0].report(),
+        curves: [...up.vertices(), ...down.vertices()], ends: countOf(up.ends().end), edges, kinds, tested, chart: charts[0].report(),
       };
     },
 

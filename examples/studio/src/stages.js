@@ -6,9 +6,11 @@ import { Overlay } from './overlay.js';
 import { Sheet } from './sheet.js';
 
 const LEVELS = 24;
-const STEPS = { grid: '1 Grid', fire: '2 Fire', tree: '3 Tree', function: '4 Function', levels: '5 Levels', walk: '6 Walk' };
+const STEPS = { grid: '1 Grid', fire: '2 Fire', tree: '3 Tree', function: '4 Function', levels: '5 Levels', curves: '6 Curves', walk: '7 Coordinates' };
 const FUNCTIONS = { decay: 'Decay', distance: 'Distance', laplace: 'Harmonic', bilaplace: 'Biharmonic' };
 const STEP = 6;
+const WAIT_MS = 500;
+const WAITING = 'The stages of this outline are being made. What was begun before, such as a map in mode Cage, is finished first.';
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 
 /** What a step does, with its numbers. */
@@ -22,6 +24,8 @@ const TEXTS = {
   function: (d) => ['A function that falls from parent to child: it has one maximum and nothing else that is critical.',
     { Maxima: d.critical.nMaxima, Minima: d.critical.nMinima, Saddles: d.critical.nSaddles }],
   levels: () => ['Its level lines are rings around the maximum. Curves run across them, from the outline to the maximum.', {}],
+  curves: (d) => ['Integral curves follow the function through points of the grid, up to the maximum and down to the outline.',
+    { Curves: d.ends.all, 'Curves that end at the maximum': d.ends.maximum }],
   walk: (d) => ['Move over the shape: the curve through that place, and the place with the same coordinates in the other shape. '
     + 'At red edges curves merge on the way up (compression), at green ones on the way down (expansion): so this method is not one-to-one.',
   { Compression: d.kinds.filter((k) => k === 1).length, Expansion: d.kinds.filter((k) => k === 2).length,
@@ -32,7 +36,7 @@ export class StageMode {
   canUndo = false;
   canRedo = false;
   stats = { frames: 0 };
-  #remote; #say; #cage; #step = 'grid'; #cells = 40; #kind = 'decay'; #data = null; #walk = null; #point = null; #shape;
+  #remote; #say; #cage; #step = 'grid'; #cells = 40; #kind = 'decay'; #data = null; #walk = null; #point = null; #shape; #waiting = 0;
 
   constructor(remote, { say, modes }) {
     [this.#remote, this.#say, this.#cage] = [remote, say, modes.cage];
@@ -78,14 +82,17 @@ export class StageMode {
     for (const sheet of [this.source, this.target]) sheet.look([-m, -m, image.width + 2 * m, image.height + 2 * m]);
     this.#walk = null;
     if (!this.#data) this.#tell('The stages of this outline are being made.');
+    clearTimeout(this.#waiting);
+    this.#waiting = setTimeout(() => this.#tell(WAITING), WAIT_MS);
     ask(this.#remote, 'stages', 'stages.make', { source: source[0].points, target: target[0].points, cells: this.#cells, kind: this.#kind },
       (result) => {
+        clearTimeout(this.#waiting);
         if (result.error) { this.#refuse(result.error.message); return; }
         const burnt = grassfire(result.grid, result.inside), height = levels(result.values, result.inside);
         this.#data = { ...result, burnt, height, lines: levelLines(result.grid, height, LEVELS) };
         ++this.stats.frames;
         this.render();
-      });
+      }).catch((error) => { clearTimeout(this.#waiting); this.#refuse(error.message); });
   }
 
   /** Without stages the outline is shown, and why; a message that goes would leave an empty page. */

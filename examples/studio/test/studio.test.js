@@ -257,9 +257,13 @@ test('without WebGL2 a 2-D canvas shows the same', async () => {
 
 test('stages: every step, and a walk', async () => {
   await show(page, 'stages');
-  for (const step of ['grid', 'fire', 'tree', 'function', 'levels', 'walk']) {
+  for (const step of ['grid', 'fire', 'tree', 'function', 'levels', 'curves', 'walk']) {
     await page.click(`input[name=step][value=${step}]`);
     await settle(page);
+    if (step !== 'curves') continue;
+    const [all, up] = await page.$$eval('.stages dd', (facts) => facts.map((fact) => Number(fact.textContent)));
+    assert.ok(all > 50 && up === all, `${up} of ${all} curves end at the maximum`);
+    await shot('curves');
   }
   const [x, y] = await centre(page, '.stages .first .overlay');
   await page.mouse.move(x + 40, y + 10);
