@@ -552,6 +552,35 @@ public:
         return points;
     }
 
+    /** Computes coordinates like encode(), and sums of `ICC_LOSS_*` into `flags`, one per point. */
+    coordinates encode_flags(view<const double> points, view<std::int32_t> flags, const env &e = {}) const
+    {
+        const std::size_t n = count(points, info().dim);
+        expect(flags, n);
+        coordinates c{std::vector<std::uint32_t>(n), std::vector<double>(points.size()),
+                      std::vector<double>(n), std::vector<icc_status>(n)};
+        call(e, [&](auto c_env, auto) {
+            return icc_chart_encode_flags(get(), n, points.data(), c.facet.data(), c.bary.data(),
+                                          c.t.data(), c.status.data(), flags.data(), nullptr, c_env);
+        });
+        return c;
+    }
+
+    /** Computes points like decode(), and sums of `ICC_LOSS_*` into `flags`, one per point. */
+    std::vector<double> decode_flags(const coordinates &c, view<std::int32_t> flags, const env &e = {}) const
+    {
+        const std::size_t n = c.facet.size();
+        std::vector<double> points(n * static_cast<std::size_t>(info().dim));
+        expect(view<const double>(c.t), n);
+        expect(view<const double>(c.bary), points.size());
+        expect(flags, n);
+        call(e, [&](auto c_env, auto) {
+            return icc_chart_decode_flags(get(), n, c.facet.data(), c.bary.data(), c.t.data(),
+                                          points.data(), nullptr, flags.data(), nullptr, c_env);
+        });
+        return points;
+    }
+
     /** The whole curve through a point: `dim` numbers for each of its points. */
     std::vector<double> trace(view<const double> point, const env &e = {}) const
     {

@@ -2,7 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
-#include "chart/encode_points.h"
+#include "chart/encode_all.h"
 #include "method/chart_create.h"
 #include "method/load.h"
 
@@ -136,18 +136,48 @@ icc_status icc_chart_get_report(const icc_chart *chart, size_t n_points, icc_cha
                : iccp_explain(err, status);
 }
 
+static icc_status encode(const icc_chart *chart, size_t n, const double *points, uint32_t *facet,
+                         double *bary, double *t, icc_status *status, int32_t *flags,
+                         size_t *n_failed, const icc_env *env)
+{
+    if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
+        return ICC_ERR_ARGUMENT;
+    iccp_env full_env;
+    const icc_status read = iccp_env_read(&full_env, env, NULL);
+    if (read != ICC_OK)
+        return read;
+    return iccp_finish(&full_env, iccp_encode_all(chart, n, points, facet, bary, t, status, flags,
+                                                  n_failed, &full_env));
+}
+
 icc_status icc_chart_encode(const icc_chart *chart, size_t n, const double *points, uint32_t *facet,
                             double *bary, double *t, icc_status *status, size_t *n_failed,
                             const icc_env *env)
 {
     ICCP_ENTER;
+    return encode(chart, n, points, facet, bary, t, status, NULL, n_failed, env);
+}
+
+icc_status icc_chart_encode_flags(const icc_chart *chart, size_t n, const double *points,
+                                  uint32_t *facet, double *bary, double *t, icc_status *status,
+                                  int32_t *flags, size_t *n_failed, const icc_env *env)
+{
+    ICCP_ENTER;
+    return encode(chart, n, points, facet, bary, t, status, flags, n_failed, env);
+}
+
+static icc_status decode(const icc_chart *chart, size_t n, const uint32_t *facet,
+                         const double *bary, const double *t, double *points, icc_status *status,
+                         int32_t *flags, size_t *n_failed, const icc_env *env)
+{
     if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
         return ICC_ERR_ARGUMENT;
     iccp_env full_env;
     const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_finish(&full_env, iccp_encode_all(chart, n, points, facet, bary, t,
-                                                                   status, n_failed, &full_env))
-                          : read;
+    if (read != ICC_OK)
+        return read;
+    return iccp_finish(&full_env, iccp_decode_all(chart, n, facet, bary, t, points, status, flags,
+                                                  n_failed, &full_env));
 }
 
 icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *facet,
@@ -155,13 +185,16 @@ icc_status icc_chart_decode(const icc_chart *chart, size_t n, const uint32_t *fa
                             size_t *n_failed, const icc_env *env)
 {
     ICCP_ENTER;
-    if (chart == NULL || (n > 0 && (points == NULL || facet == NULL || bary == NULL || t == NULL)))
-        return ICC_ERR_ARGUMENT;
-    iccp_env full_env;
-    const icc_status read = iccp_env_read(&full_env, env, NULL);
-    return read == ICC_OK ? iccp_finish(&full_env, iccp_decode_all(chart, n, facet, bary, t, points,
-                                                                   status, n_failed, &full_env))
-                          : read;
+    return decode(chart, n, facet, bary, t, points, status, NULL, n_failed, env);
+}
+
+icc_status icc_chart_decode_flags(const icc_chart *chart, size_t n, const uint32_t *facet,
+                                  const double *bary, const double *t, double *points,
+                                  icc_status *status, int32_t *flags, size_t *n_failed,
+                                  const icc_env *env)
+{
+    ICCP_ENTER;
+    return decode(chart, n, facet, bary, t, points, status, flags, n_failed, env);
 }
 
 typedef struct polyline {

@@ -13,8 +13,10 @@
  * - jet: derivatives of the result of encode or decode.
  * - trivial: a point without a curve of its own, so its coordinates are known at once.
  * - end: coordinates of the boundary or of the maximum, where a curve ends.
+ * - loss: a point and its coordinates do not lead to each other (losses.h).
  *
- * Ways: chart.c handles one point, encode_points.c many. low_discrepancy.h spreads sample points.
+ * Ways: chart.c handles one point, encode_points.c a few, encode_all.c many. losses.c tells which
+ * do not come back. low_discrepancy.h spreads sample points.
  *
  * Invariants: after its creation a chart changes only by `ready`. Methods stand in folders
  * above, and none of them is named here. lib/method creates charts. Source: Huynh and Gingold,
@@ -113,6 +115,10 @@ typedef struct iccp_chart_ops {
     icc_status (*trace)(const icc_chart *chart, const double *point, const iccp_chart_place *place,
                         const iccp_coords *boundary, iccp_path *path, iccp_emit emit,
                         void *argument);
+    /* Tell whether other curves join that of a point on its way down, and that of coordinates
+     * below their point. NULL for methods whose curves do not merge. */
+    bool (*merges_down)(const icc_chart *chart, const double *point);
+    bool (*merges_up)(const icc_chart *chart, const iccp_coords *coords);
     /* Fills in all members but `size`. n_points > 0. NULL for methods that miss no points. */
     icc_status (*measure)(const icc_chart *chart, size_t n_points, icc_chart_report *measures,
                           const iccp_env *env);

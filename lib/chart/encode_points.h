@@ -1,4 +1,4 @@
-/* Converts one or many points between the caller's coordinates and a chart's. */
+/* Converts one point, or a few together, between the caller's coordinates and a chart's. */
 #ifndef ICCP_ENCODE_POINTS_H
 #define ICCP_ENCODE_POINTS_H
 
@@ -32,13 +32,5 @@ static inline bool iccp_is_point_status(icc_status status)
     return status == ICC_OK || status == ICC_ERR_OUTSIDE || status == ICC_ERR_TRACE ||
            status == ICC_ERR_ARGUMENT;
 }
-
-/* See icc_chart_encode() and icc_chart_decode(). */
-icc_status iccp_encode_all(const icc_chart *chart, size_t n, const double *points, uint32_t *facet,
-                           double *bary, double *t, icc_status *status, size_t *n_failed,
-                           const iccp_env *env);
-icc_status iccp_decode_all(const icc_chart *chart, size_t n, const uint32_t *facet,
-                           const double *bary, const double *t, double *points, icc_status *status,
-                           size_t *n_failed, const iccp_env *env);
 
 #endif

@@ -269,6 +269,32 @@ static inline icc_status call_chart_decode(const objects *o, outcome *out, const
                             &out->count, env);
 }
 
+static inline icc_status call_chart_encode_flags(const objects *o, outcome *out, const icc_env *env,
+                                                 icc_error *err)
+{
+    (void)err;
+    int32_t flags[N_POINTS];
+    const icc_status status =
+        icc_chart_encode_flags(o->chart, N_POINTS, o->points, out->indices, out->numbers,
+                               out->numbers + 2 * N_POINTS, out->status, flags, &out->count, env);
+    for (size_t i = 0; status == ICC_OK && i < N_POINTS; ++i)
+        out->indices[i] += (uint32_t)flags[i];
+    return status;
+}
+
+static inline icc_status call_chart_decode_flags(const objects *o, outcome *out, const icc_env *env,
+                                                 icc_error *err)
+{
+    (void)err;
+    int32_t flags[N_POINTS];
+    const icc_status status =
+        icc_chart_decode_flags(o->chart, N_POINTS, o->facet, o->bary, o->t, out->numbers,
+                               out->status, flags, &out->count, env);
+    for (size_t i = 0; status == ICC_OK && i < N_POINTS; ++i)
+        out->indices[i] = (uint32_t)flags[i];
+    return status;
+}
+
 static inline icc_status call_chart_trace(const objects *o, outcome *out, const icc_env *env,
                                           icc_error *err)
 {
@@ -868,6 +894,8 @@ static const call CALLS[] = {
     {"icc_chart_get_report", call_chart_measure},
     {"icc_chart_encode", call_chart_encode},
     {"icc_chart_decode", call_chart_decode},
+    {"icc_chart_encode_flags", call_chart_encode_flags},
+    {"icc_chart_decode_flags", call_chart_decode_flags},
     {"icc_chart_trace", call_chart_trace},
     {"icc_chart_load", call_chart_load},
     {"icc_map_create", call_map_create},
@@ -918,9 +946,11 @@ static inline int is_once(const call *c)
 /* Whether the call takes an icc_error, which must then tell what the status tells. */
 static inline int has_error(const call *c)
 {
-    static const char *const WITHOUT[] = {
-        "icc_domain_locate",     "icc_chart_encode", "icc_chart_decode",     "icc_map_apply",
-        "icc_map_apply_inverse", "icc_map_jacobian", "icc_weights_evaluate", "icc_binding_pose"};
+    static const char *const WITHOUT[] = {"icc_domain_locate",      "icc_chart_encode",
+                                          "icc_chart_decode",       "icc_chart_encode_flags",
+                                          "icc_chart_decode_flags", "icc_map_apply",
+                                          "icc_map_apply_inverse",  "icc_map_jacobian",
+                                          "icc_weights_evaluate",   "icc_binding_pose"};
     for (size_t i = 0; i < sizeof WITHOUT / sizeof *WITHOUT; ++i)
         if (strcmp(c->name, WITHOUT[i]) == 0)
             return 0;

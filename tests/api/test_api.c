@@ -167,6 +167,12 @@ START_TEST(charts_refuse_bad_arguments)
     REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, NULL, p, NULL, NULL, NULL));
     REFUSED(icc_chart_decode(o.chart, 1, o.facet, o.bary, o.t, NULL, NULL, NULL, NULL));
     ck_assert_int_eq(icc_chart_decode(o.chart, 0, NULL, NULL, NULL, NULL, NULL, &n, NULL), ICC_OK);
+    int32_t flags = 0;
+    REFUSED(icc_chart_encode_flags(NULL, 1, p, &f, b, &t, NULL, &flags, NULL, NULL));
+    REFUSED(icc_chart_encode_flags(o.chart, 1, p, NULL, b, &t, NULL, &flags, NULL, NULL));
+    REFUSED(icc_chart_decode_flags(NULL, 1, o.facet, o.bary, o.t, p, NULL, &flags, NULL, NULL));
+    REFUSED(
+        icc_chart_decode_flags(o.chart, 1, o.facet, o.bary, o.t, NULL, NULL, &flags, NULL, NULL));
     REFUSED(icc_chart_save(NULL, 0, NULL, &n));
     REFUSED(icc_chart_save(o.chart, 0, NULL, NULL));
     REFUSED(icc_chart_save(o.chart, 1, NULL, &n));

@@ -38,25 +38,29 @@ export function chartOf(core, Domain) {
     /** Estimates what the coordinates miss, from about nPoints points. */
     report(nPoints = 0) { return core.info('icc_chart_get_report', this, nPoints); }
 
-    /** Computes the coordinates of points: { facet, bary, t, status }. */
-    encode(points) {
+    /** Computes the coordinates of points: { facet, bary, t, status }. With { flags: true } also `flags`, which is 0
+     *  for points that decode() brings back, else a sum of ICC_LOSS_*. */
+    encode(points, { flags = false } = {}) {
       const { dim } = this, p = flat(points, dim), n = p.length / dim;
       const out = {
         facet: new Uint32Array(n), bary: new Float64Array(n * dim), t: new Float64Array(n),
         status: new Int32Array(n),
       };
-      core.call('icc_chart_encode', this, n, p, out.facet, out.bary, out.t, out.status, null);
+      if (flags) out.flags = new Int32Array(n);
+      core.call('icc_chart_encode_flags', this, n, p, out.facet, out.bary, out.t, out.status, out.flags ?? null, null);
       return out;
     }
 
-    /** Computes the points of coordinates: { points, status }. */
-    decode({ facet, bary, t }) {
+    /** Computes the points of coordinates: { points, status }. With { flags: true } also `flags`, which is 0 for
+     *  coordinates that encode() returns, else a sum of ICC_LOSS_*. */
+    decode({ facet, bary, t }, { flags = false } = {}) {
       const n = t?.length;
       exactly(t, n, 't');
       exactly(facet, n, 'facet');
       exactly(bary, n * this.dim, 'bary');
       const out = { points: new Float64Array(n * this.dim), status: new Int32Array(n) };
-      core.call('icc_chart_decode', this, n, facet, bary, t, out.points, out.status, null);
+      if (flags) out.flags = new Int32Array(n);
+      core.call('icc_chart_decode_flags', this, n, facet, bary, t, out.points, out.status, out.flags ?? null, null);
       return out;
     }
 

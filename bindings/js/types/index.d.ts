@@ -84,10 +84,10 @@ export interface Chart extends Handle {
   readonly domain: Domain;
   /** Estimates what the coordinates miss, from about nPoints points. */
   report(nPoints?: number): ChartReport;
-  /** The coordinates of points. */
-  encode(points: Points): Coordinates & { status: Int32Array };
-  /** The points of coordinates. */
-  decode(coordinates: Coordinates): { points: Float64Array; status: Int32Array };
+  /** The coordinates of points, and with `flags` what is lost at each: 0 or a sum of ICC_LOSS_*. */
+  encode(points: Points, options?: { flags?: boolean }): Coordinates & { status: Int32Array; flags?: Int32Array };
+  /** The points of coordinates, with `flags` as for encode(). */
+  decode(coordinates: Coordinates, options?: { flags?: boolean }): { points: Float64Array; status: Int32Array; flags?: Int32Array };
   /** The curve through a point, from the boundary to the maximum: flat coordinates. */
   trace(point: Points): Float64Array;
   save(): Uint8Array;

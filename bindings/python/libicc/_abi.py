@@ -92,6 +92,8 @@ domain*:chart_domain chart*
 chart_get_report chart* size chart_report* env* error*
 chart_encode chart* size f64* u32* f64* f64* i32* size* env*
 chart_decode chart* size u32* f64* f64* f64* i32* size* env*
+chart_encode_flags chart* size f64* u32* f64* f64* i32* i32* size* env*
+chart_decode_flags chart* size u32* f64* f64* f64* i32* i32* size* env*
 chart_trace chart* f64* size f64* size* env* error*
 chart_save chart* size void* size*
 chart_load chart** size void* env* error*

@@ -73,6 +73,9 @@ class Chart(Saved):
         CertificateError, ResolutionError, OutsideError (the maximum is outside), UnsupportedError, SolverError
     """
 
+    LOSSES = {"away": 1, "uncovered": 2, "collapsed": 4, "gap": 8}
+    """The bits of the flags that `encode` and `decode` return."""
+
     _free = "chart_free"
     _name = "chart"
     dim = dimension("chart_get_info", "chart_info")
@@ -130,42 +133,66 @@ class Chart(Saved):
         return fields(measures)
 
     @overload
-    def encode(self, points: ArrayLike, *, status: Literal[False] = ..., progress: Optional[Progress] = ...,
+    def encode(self, points: ArrayLike, *, status: Literal[False] = ..., flags: Literal[False] = ...,
+               progress: Optional[Progress] = ...,
                threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats]: ...
     @overload
-    def encode(self, points: ArrayLike, *, status: Literal[True], progress: Optional[Progress] = ...,
+    def encode(self, points: ArrayLike, *, status: Literal[True], flags: Literal[False] = ...,
+               progress: Optional[Progress] = ...,
                threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats, Ints]: ...
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[False] = ..., flags: Literal[True],
+               progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats, Ints]: ...
+    @overload
+    def encode(self, points: ArrayLike, *, status: Literal[True], flags: Literal[True],
+               progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Indices, Floats, Floats, Ints, Ints]: ...
 
-    def encode(self, points: ArrayLike, *, status: bool = False, progress: Optional[Progress] = None,
-               threads: Optional[int] = None) -> Any:
+    def encode(self, points: ArrayLike, *, status: bool = False, flags: bool = False,
+               progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
         """Computes the coordinates of points in the chart.
 
         Args:
             points: (n, dim)
             status: whether to return the status of every point as well
+            flags: whether to return as well what is lost at every point
 
         Returns:
             facet (n,) uint32, bary (n, dim), t (n,), and with ``status`` an int32 array (n,): 0, or the
             number of an `Error`. A point without coordinates has NaN in bary and t, and raises nothing.
+            With ``flags`` another int32 array (n,): 0 if `decode` brings the point back, else a sum of
+            `LOSSES`, see ``icc_chart_encode_flags()``. Takes twice the time.
         """
         points = points_of(points, self.dim)
         n, dim = points.shape
         facet, bary, t = np.empty(n, dtype=np.uint32), np.empty((n, dim)), np.empty(n)
         states = np.empty(n, dtype=np.int32) if status else None
+        losses = np.empty(n, dtype=np.int32) if flags else None
         env, done = bulk(n, progress, threads)
-        done(lib.chart_encode(self, n, address(points), address(facet), address(bary),
-                              address(t), address(states), None, env))
-        return (facet, bary, t, states) if status else (facet, bary, t)
+        done(lib.chart_encode_flags(self, n, address(points), address(facet), address(bary), address(t),
+                                    address(states), address(losses), None, env))
+        return (facet, bary, t, *(x for x in (states, losses) if x is not None))
 
     @overload
     def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[False] = ...,
-               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Floats: ...
+               flags: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Floats: ...
     @overload
     def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[True],
-               progress: Optional[Progress] = ..., threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+               flags: Literal[False] = ..., progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[False] = ...,
+               flags: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Floats, Ints]: ...
+    @overload
+    def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: Literal[True],
+               flags: Literal[True], progress: Optional[Progress] = ...,
+               threads: Optional[int] = ...) -> Tuple[Floats, Ints, Ints]: ...
 
     def decode(self, facet: ArrayLike, bary: ArrayLike, t: ArrayLike, *, status: bool = False,
-               progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
+               flags: bool = False, progress: Optional[Progress] = None, threads: Optional[int] = None) -> Any:
         """Computes the points that have given coordinates: the inverse of `encode`.
 
         Args:
@@ -173,9 +200,12 @@ class Chart(Saved):
             bary: (n, dim) barycentric coordinates there: not negative, sum 1
             t: (n,) shares of the curves' arc length from the boundary, in [0, 1]
             status: whether to return the status of every point as well
+            flags: whether to return as well what is lost at every point
 
         Returns:
-            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as in `encode`
+            points (n, dim), NaN where there is none, and with ``status`` an int32 array (n,) as in `encode`.
+            With ``flags`` another int32 array (n,): 0 if `encode` returns the coordinates, else a sum of
+            `LOSSES`, see ``icc_chart_decode_flags()``. Takes twice the time.
         """
         dim = self.dim
         facet = np.ascontiguousarray(facet, dtype=np.uint32)
@@ -183,10 +213,11 @@ class Chart(Saved):
         bary, t = floats(bary, (n, dim), "bary"), floats(t, (n,), "t")
         points = np.empty((n, dim))
         states = np.empty(n, dtype=np.int32) if status else None
+        losses = np.empty(n, dtype=np.int32) if flags else None
         env, done = bulk(n, progress, threads)
-        done(lib.chart_decode(self, n, address(facet), address(bary), address(t),
-                              address(points), address(states), None, env))
-        return (points, states) if status else points
+        done(lib.chart_decode_flags(self, n, address(facet), address(bary), address(t), address(points),
+                                    address(states), address(losses), None, env))
+        return (points, *(x for x in (states, losses) if x is not None)) if status or flags else points
 
     def trace(self, point: ArrayLike) -> Floats:
         """Computes the curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim)."""

@@ -240,6 +240,25 @@ static icc_status decode(const icc_chart *chart, const iccp_coords *coords, doub
     return iccp_gradient_decode_jet(chart, coords, boundary, path, piece, share, jet);
 }
 
+/* ---- what Algorithms 7 and 8 lose ---- */
+
+static bool merges_down(const icc_chart *chart, const double *point)
+{
+    double p[ICC_MAX_DIM];
+    iccp_gradient_line line;
+    iccp_gradient_to_lattice(chart->state, point, p);
+    return iccp_gradient_down(chart->state, p, NULL, NULL, &line) == ICC_OK && line.alone < line.s;
+}
+
+static bool merges_up(const icc_chart *chart, const iccp_coords *coords)
+{
+    double boundary[ICC_MAX_DIM];
+    iccp_gradient_line line;
+    iccp_domain_facet_point(chart->domain, coords->facet, coords->bary, boundary);
+    return iccp_gradient_up_from(chart->state, coords->facet, boundary, NULL, &line) == ICC_OK &&
+           line.alone < coords->t * line.s;
+}
+
 /* ---- the whole curve ---- */
 
 static icc_status emit_point(const iccp_gradient_state *state, const double *lattice,
@@ -392,6 +411,8 @@ const iccp_chart_ops iccp_gradient_ops = {
     .decode = decode,
     .trace = trace,
     .function = function_of,
+    .merges_down = merges_down,
+    .merges_up = merges_up,
     .measure = iccp_gradient_measure,
     .save = save,
     .free_state = free_state,

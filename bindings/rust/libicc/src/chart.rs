@@ -357,6 +357,39 @@ impl Chart {
         Ok(n_failed)
     }
 
+    /// Like [`encode`](Self::encode), and tells for each point whether [`decode`](Self::decode) brings it back: 0, or
+    /// a sum of `sys::ICC_LOSS_*`. Takes twice the time.
+    pub fn encode_flags(&self, points: &[f64], env: &mut Env<'_>) -> Result<(Codes, Vec<i32>)> {
+        let dim = self.dim();
+        let n = count(points, dim, "points")?;
+        let mut codes = Codes {
+            start: BoundaryPoints { facet: vec![0; n], bary: vec![0.0; n * dim] },
+            t: vec![0.0; n],
+            status: vec![Status::OK; n],
+            n_failed: 0,
+        };
+        let mut flags = vec![0; n];
+        let status = statuses(Some(&mut codes.status), n)?;
+        env.call(|env, _| {
+            // SAFETY: every vector has room for n points.
+            unsafe {
+                sys::icc_chart_encode_flags(
+                    self.as_ptr(),
+                    n,
+                    points.as_ptr(),
+                    codes.start.facet.as_mut_ptr(),
+                    codes.start.bary.as_mut_ptr(),
+                    codes.t.as_mut_ptr(),
+                    status,
+                    flags.as_mut_ptr(),
+                    &mut codes.n_failed,
+                    env,
+                )
+            }
+        })?;
+        Ok((codes, flags))
+    }
+
     /// Computes points from n facets, n * dim barycentric coordinates and n shares.
     pub fn decode(&self, facet: &[u32], bary: &[f64], t: &[f64], env: &mut Env<'_>) -> Result<Images> {
         let mut images = Images::new(t.len(), self.dim());
@@ -399,6 +432,41 @@ impl Chart {
             }
         })?;
         Ok(n_failed)
+    }
+
+    /// Like [`decode`](Self::decode), and tells for each whether [`encode`](Self::encode) returns the coordinates: 0, or
+    /// a sum of `sys::ICC_LOSS_*`. Takes twice the time.
+    pub fn decode_flags(
+        &self,
+        facet: &[u32],
+        bary: &[f64],
+        t: &[f64],
+        env: &mut Env<'_>,
+    ) -> Result<(Images, Vec<i32>)> {
+        let n = t.len();
+        exactly(facet, n, "facet")?;
+        exactly(bary, n * self.dim(), "bary")?;
+        let mut images = Images::new(n, self.dim());
+        let mut flags = vec![0; n];
+        let status = statuses(Some(&mut images.status), n)?;
+        env.call(|env, _| {
+            // SAFETY: every slice and vector has n entries.
+            unsafe {
+                sys::icc_chart_decode_flags(
+                    self.as_ptr(),
+                    n,
+                    facet.as_ptr(),
+                    bary.as_ptr(),
+                    t.as_ptr(),
+                    images.points.as_mut_ptr(),
+                    status,
+                    flags.as_mut_ptr(),
+                    &mut images.n_failed,
+                    env,
+                )
+            }
+        })?;
+        Ok((images, flags))
     }
 
     /// The whole curve through a point, from the boundary to the maximum: rows of dim coordinates.
