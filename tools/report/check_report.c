@@ -73,10 +73,11 @@ static void print_domain(const cage *c, const icc_domain_info *info)
 
 void check_print_domains(const check *c)
 {
+    if (c->job.matched.dim == 2 && c->job.matched.mirrored)
+        puts("mirrored: the mirror image fits better; a map cannot mirror; is y down in one of "
+             "them? (--y-down=source or --y-down=target)");
     if (c->job.matched.dim == 2 && isfinite(c->job.matched.cost))
         printf("matched: turned by %.3g degrees\n", c->job.matched.turn);
-    if (c->job.matched.dim == 2 && c->job.matched.mirrored)
-        puts("mirrored: the mirror image fits better; a map cannot mirror");
     for (size_t side = 0; side < 2; side++) {
         icc_domain_info info = {.size = sizeof info};
         if (c->job.domains[side] == NULL ||

@@ -78,7 +78,7 @@ static icc_status place(landmark *out, const double *given, const iccp_outline *
             iccp_fail_at(
                 err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)out->number,
                 "landmark %zu lies off the outline, by %.3g %% of its diameter; at most %g %% are "
-                "allowed",
+                "allowed (a place inside is a point feature, not a landmark)",
                 out->number, 100 * away, 100 * iccp_farthest_landmark);
             return iccp_fail_side(err, ICC_ERR_ARGUMENT, side + 1);
         }
