@@ -149,7 +149,13 @@ typedef struct icc_chart_options {
     /** gradient, constrained bi-Laplace: least value at the leaves of the tree, in (0, 0.01]; 0:
      *  1e-9 */
     double leaf_min;
+    /** gradient: the order in which the tree expands along the axes, a permutation of 0..dim-1;
+     *  NULL: 0, 1, 2 and so on, see icc_tree_options */
+    const int32_t *axis_order;
 } icc_chart_options;
+
+/** A function on the vertices of a tree that falls from parent to child: icc/stages.h. */
+typedef struct icc_function icc_function;
 
 /** What icc_chart_get_info() reports for every method. Members that only one method has are in
  *  icc_gradient_info, icc_field_info, icc_foliation_info, icc_shelling_info and icc_disc_info. */
@@ -314,6 +320,34 @@ typedef struct icc_chart_report {
 ICC_API icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
                                     const icc_chart_options *options, const icc_env *env,
                                     icc_error *err);
+
+/**
+ * Makes a chart of method gradient from a function. The function, its tree and its grid may be the
+ * library's or your own: icc/stages.h.
+ *
+ * icc_chart_create() makes the same chart, bit for bit, from the same stages: icc_grid_create(),
+ * icc_grid_find_maximum() or icc_grid_find_nearest(), icc_tree_create() and icc_function_create().
+ * For bilaplace and clamped it also moves the root, see icc_function_create().
+ *
+ * The chart has a copy of the function. Beyond 2-D this copy has values at more vertices outside.
+ * Where the tree does not reach, points have no coordinates.
+ *
+ * @param[out] out the chart; owned by the caller, see icc_chart_free(). It keeps the domain alive
+ *                 that the grid was made from
+ * @param function the function; you may free it
+ * @param env      may be NULL
+ * @param err      may be NULL; `index` is a vertex beside the root that is higher
+ * @return ::ICC_OK, or
+ * - ::ICC_ERR_UNSUPPORTED if the grid was not made from a domain: it comes from a mask of vertices
+ *   or from icc_grid_refine()
+ * - ::ICC_ERR_ARGUMENT if a neighbour of the root is higher than the root, so that no curve ends
+ *   there
+ * - ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED or ::ICC_ERR_VERSION
+ *
+ * Cost: O(vertices) time; 8 to 20 bytes a vertex for the copy, and the boundary's cells.
+ */
+ICC_API icc_status icc_chart_create_function(icc_chart **out, const icc_function *function,
+                                             const icc_env *env, icc_error *err);
 
 /** Frees a chart. */
 ICC_API void icc_chart_free(icc_chart *chart);
@@ -521,7 +555,8 @@ ICC_API icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void 
  *
  * Charts on a mesh (foliation, disc) are stored in full and certified anew, so bytes that do not
  * pass are refused wherever they come from. Charts on a grid (gradient, field) are rebuilt from
- * their inputs and compared with a checksum of the original's numbers. Any bytes are safe to pass.
+ * their inputs and compared with a checksum of the original's numbers. The inputs of a chart from a
+ * function are those of its stages, with your own parents and values. Any bytes are safe to pass.
  *
  * @param[out] out the chart; owned by the caller
  * @param n_bytes  number of bytes of `data`

@@ -479,6 +479,12 @@ public:
               return icc_chart_create(out, of.get(), &options, rest...);
           }) {}
 
+    /** Makes a chart from a function of icc/stages.h: icc_chart_create_function(). You may free the function. */
+    static chart from_function(const icc_function *function, const env &e = {})
+    {
+        return chart(e, [&](auto out, auto... rest) { return icc_chart_create_function(out, function, rest...); });
+    }
+
     /** Reads back the bytes of save(). */
     explicit chart(view<const std::byte> saved, const env &e = {})
         : handle(e, [&](auto out, auto... rest) {

@@ -246,9 +246,6 @@ ICC_API icc_status icc_tree_get_report(const icc_tree *tree, icc_tree_report *re
 
 /* ------------------------------------------------------------------- function */
 
-/** A function on the vertices of a tree that falls from parent to child. */
-typedef struct icc_function icc_function;
-
 /** Options of icc_function_create(). */
 typedef struct icc_function_options {
     size_t size;         /**< set by the caller: `sizeof(icc_function_options)` */
@@ -491,8 +488,8 @@ ICC_API icc_status icc_function_get_solver_report(const icc_function *function,
 
 /** One value per grid vertex; NaN where the tree does not reach; borrowed. Beyond 2-D the
  *  function of a gradient chart extends to some vertices outside. Laplace and bilaplace decay
- *  exponentially in long limbs. Values below 2^-1022 are 0 here, but icc_function_logs() has
- *  them. */
+ *  exponentially in long limbs. Values below 2^-1022 are 0 here, and those above 2^1024
+ *  infinite, but icc_function_logs() has them. */
 ICC_API const double *icc_function_values(const icc_function *function);
 
 /**

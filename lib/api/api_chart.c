@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/encode_all.h"
+#include "gradient/coordinates/chart_gradient.h"
+#include "gradient/function/critical_points.h"
 #include "method/chart_create.h"
 #include "method/load.h"
 
@@ -26,6 +28,45 @@ icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
     return status == ICC_OK ? iccp_end_chart(iccp_chart_create(out, domain, &full, &full_env, err),
                                              out, &full_env, err)
                             : status;
+}
+
+/* Checks that a function can have a chart: its grid covers a domain, and curves can end at the
+ * root. */
+static icc_status check_for_chart(const icc_function *function, icc_error *err)
+{
+    const icc_tree *tree = function->tree;
+    const icc_grid *grid = tree->grid;
+    if (grid->domain == NULL)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         grid->cells > 0
+                             ? "the grid was refined and does not belong to its domain any more: "
+                               "make one with twice the cells by icc_grid_create()"
+                             : "the grid comes from a mask of vertices and has no domain: make one "
+                               "by icc_grid_create()");
+    const uint32_t above = iccp_function_above(function, tree->root);
+    if (above == ICCP_NONE)
+        return ICC_OK;
+    return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, above,
+                        "the function is higher at vertex %lu than at the root beside it, so no "
+                        "curve ends at the root: grow the tree from a maximum",
+                        (unsigned long)above);
+}
+
+icc_status icc_chart_create_function(icc_chart **out, const icc_function *function,
+                                     const icc_env *env, icc_error *err)
+{
+    ICCP_ENTER;
+    if (out != NULL)
+        *out = NULL;
+    const char *missing = out == NULL ? "out" : function == NULL ? "function" : NULL;
+    iccp_env full_env;
+    icc_status status = iccp_begin(&full_env, env, missing, err);
+    if (status == ICC_OK)
+        status = check_for_chart(function, err);
+    if (status != ICC_OK)
+        return status;
+    status = iccp_explain(err, iccp_gradient_create_function(out, function, &full_env));
+    return iccp_end_chart(status, out, &full_env, err);
 }
 
 void icc_chart_free(icc_chart *chart)

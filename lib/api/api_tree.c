@@ -12,22 +12,6 @@
 
 ICCP_END(tree)
 
-/* Checks that the order is a permutation of the dim axes. NULL stands for the given order. */
-static icc_status check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
-{
-    if (order == NULL)
-        return ICC_OK;
-    uint32_t seen = 0;
-    for (int32_t k = 0; k < dim; ++k) {
-        if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
-            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k,
-                                "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
-                                (long)dim - 1, (long)k, (long)order[k]);
-        seen |= (uint32_t)1 << order[k];
-    }
-    return ICC_OK;
-}
-
 static icc_status read_tree_options(icc_tree_options *full, const icc_tree_options *options,
                                     int32_t dim, icc_error *err)
 {
@@ -42,7 +26,7 @@ static icc_status read_tree_options(icc_tree_options *full, const icc_tree_optio
             err, ICC_ERR_ARGUMENT,
             "icc_tree_options.form is %ld; it must be ICC_TREE_THESIS or ICC_TREE_PAPER",
             (long)full->form);
-    return check_axis_order(full->axis_order, dim, err);
+    return iccp_check_axis_order(full->axis_order, dim, err);
 }
 
 /* Creates a tree, with the caller's parents unless they are NULL. `missing` is the name of a

@@ -96,6 +96,21 @@ icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err
     return ICC_OK;
 }
 
+icc_status iccp_check_axis_order(const int32_t *order, int32_t dim, icc_error *err)
+{
+    if (order == NULL)
+        return ICC_OK;
+    uint32_t seen = 0;
+    for (int32_t k = 0; k < dim; ++k) {
+        if (order[k] < 0 || order[k] >= dim || (seen >> order[k] & 1) != 0)
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_AXIS, k,
+                                "axis_order is not a permutation of 0..%ld: entry %ld is %ld",
+                                (long)dim - 1, (long)k, (long)order[k]);
+        seen |= (uint32_t)1 << order[k];
+    }
+    return ICC_OK;
+}
+
 static icc_status check_choice(int32_t value, int32_t last, const char *name, const char *member,
                                icc_error *err)
 {
@@ -153,5 +168,7 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
     if (full->method == ICC_METHOD_DISC && full->maximum != NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "method disc has its own maximum: icc_chart_options.maximum must be NULL");
+    if (iccp_check_axis_order(full->axis_order, dim, err) != ICC_OK)
+        return ICC_ERR_ARGUMENT;
     return iccp_check_maximum(full->maximum, dim, err);
 }

@@ -30,6 +30,9 @@ icc_status iccp_read_chart_options(icc_chart_options *full, const icc_chart_opti
 icc_status iccp_check_function(const icc_function_options *options, const char *name,
                                icc_error *err);
 
+/* Checks that the order is a permutation of the dim axes. NULL stands for the usual order. */
+icc_status iccp_check_axis_order(const int32_t *order, int32_t dim, icc_error *err);
+
 /* Checks a maximum that the caller wants. NULL is accepted. */
 icc_status iccp_check_maximum(const double *maximum, int32_t dim, icc_error *err);
 

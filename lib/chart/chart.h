@@ -69,6 +69,7 @@ typedef struct iccp_chart_place {
 typedef struct iccp_chart_ops {
     int32_t number;  /* ICC_METHOD_... */
     uint64_t format; /* the method's number in saved bytes (docs/reference/formats.md) */
+    bool is_later;   /* version 2 of saved charts brought this format; version 1 has the others */
     bool is_planar;  /* the method is for domains of dimension 2 only */
     bool needs_mesh; /* the method needs a mesh of the inside in every given domain */
 

@@ -9,13 +9,13 @@
 #include "method/load.h"
 
 static const char KIND[] = "MAP_";
-/* Versions of the format: 2 for maps with features, 1 for maps without. */
-static const uint32_t VERSION = 2, PLAIN_VERSION = 1;
+/* Versions of the format: 2 for maps with features, 3 for maps with a chart whose format came with
+ * version 2 of charts, 1 for all others. So a map is saved in one way only. */
+enum { PLAIN_VERSION = 1, FEATURES_VERSION, CHARTS_VERSION };
 
-/* Version 2 requires features, and version 1 has none. So a map is saved in one way only. */
 static icc_status visit_domain(iccp_blob *b, icc_domain **domain, const iccp_env *env)
 {
-    if (b->version == PLAIN_VERSION)
+    if (b->version != FEATURES_VERSION)
         return iccp_domain_visit(b, domain, env);
     const icc_status status = iccp_domain_visit_any(b, domain, env);
     if (status != ICC_OK || (*domain)->features != NULL)
@@ -44,6 +44,12 @@ static icc_status visit_domains(iccp_blob *b, icc_map **map, const iccp_env *env
     return status;
 }
 
+/* The version of a map with these charts. */
+static uint32_t version_of(const icc_chart *source, const icc_chart *target)
+{
+    return source->ops->is_later || target->ops->is_later ? CHARTS_VERSION : PLAIN_VERSION;
+}
+
 static icc_status read_charts(iccp_blob *b, icc_map *map, int32_t kind, const iccp_env *env,
                               icc_error *err)
 {
@@ -54,6 +60,8 @@ static icc_status read_charts(iccp_blob *b, icc_map *map, int32_t kind, const ic
     if (status == ICC_OK)
         status = iccp_chart_read(&target, map->target_domain, b, &part[1], err);
     const iccp_map_kind *allowed;
+    if (status == ICC_OK && version_of(source, target) != b->version)
+        status = ICC_ERR_FORMAT;
     if (status == ICC_OK)
         status = iccp_map_choose_kind(&allowed, kind, source, target, NULL);
     if (status == ICC_OK)
@@ -82,7 +90,7 @@ static icc_status visit_facts(iccp_blob *b, iccp_map_facts *info)
     iccp_blob_size(b, &info->n_iterations);
     iccp_blob_f64(b, 1, &info->energy_start);
     iccp_blob_f64(b, 1, &info->energy);
-    if (b->version != PLAIN_VERSION) {
+    if (b->version == FEATURES_VERSION) {
         iccp_blob_i32(b, ICCP_U32, 0, 1, &info->class_kept);
         iccp_blob_i32(b, ICCP_U32, 0, INT32_MAX, &info->n_trees);
     }
@@ -106,8 +114,10 @@ static icc_status visit(iccp_blob *b, icc_map **map, const iccp_env *part, icc_e
     int32_t has_charts = !b->reads && (*map)->source != NULL;
     iccp_blob_i32(b, ICCP_U32, ICC_MAP_CURVES, ICC_MAP_MESH, &kind);
     iccp_blob_i32(b, ICCP_U32, 0, 1, &has_charts);
-    iccp_blob_require(b, b->version == PLAIN_VERSION ? kind == ICC_MAP_MESH || has_charts
-                                                     : kind == ICC_MAP_MESH && !has_charts);
+    iccp_blob_require(b, kind == ICC_MAP_MESH || has_charts);
+    iccp_blob_require(b,
+                      b->version == PLAIN_VERSION || has_charts == (b->version == CHARTS_VERSION));
+    iccp_blob_require(b, b->version != FEATURES_VERSION || kind == ICC_MAP_MESH);
     icc_status status = b->status;
     if (status == ICC_OK)
         status = visit_domains(b, map, &part[0]);
@@ -126,7 +136,9 @@ void iccp_map_save(const icc_map *map, size_t capacity, void *data, size_t *n_by
     icc_map copy = *map, *written = &copy;
     iccp_blob b;
     iccp_blob_begin(&b, data, capacity, KIND,
-                    map->source_domain->features != NULL ? VERSION : PLAIN_VERSION);
+                    map->source_domain->features != NULL ? FEATURES_VERSION
+                    : map->source != NULL                ? version_of(map->source, map->target)
+                                                         : PLAIN_VERSION);
     (void)visit(&b, &written, part, NULL);
     iccp_blob_end(&b, n_bytes);
 }
@@ -148,7 +160,7 @@ icc_status iccp_map_load(icc_map **out, size_t n_bytes, const void *data, const 
     const double start = iccp_seconds();
     iccp_blob b;
     *out = NULL;
-    icc_status status = iccp_blob_open(&b, data, n_bytes, KIND, VERSION, &env->memory, err);
+    icc_status status = iccp_blob_open(&b, data, n_bytes, KIND, CHARTS_VERSION, &env->memory, err);
     if (status != ICC_OK)
         return status;
     iccp_budget budget;

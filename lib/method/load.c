@@ -6,7 +6,13 @@
 #include "method/methods.h"
 
 static const char KIND[] = "CHRT";
-static const uint32_t VERSION = 1;
+/* A chart is saved in the version that brought its format. */
+enum { VERSION = 1, LATER };
+
+static uint32_t version_of(const icc_chart *chart)
+{
+    return chart->ops->is_later ? LATER : VERSION;
+}
 
 void iccp_chart_write(const icc_chart *chart, iccp_blob *w)
 {
@@ -32,7 +38,7 @@ void iccp_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t
 {
     icc_domain *domain = chart->domain;
     iccp_blob w;
-    iccp_blob_begin(&w, data, capacity, KIND, VERSION);
+    iccp_blob_begin(&w, data, capacity, KIND, version_of(chart));
     (void)iccp_domain_visit(&w, &domain, NULL);
     iccp_chart_write(chart, &w);
     iccp_blob_end(&w, n_bytes);
@@ -44,7 +50,7 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
     iccp_blob r;
     icc_domain *domain = NULL;
     *out = NULL;
-    icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, VERSION, &env->memory, err);
+    icc_status status = iccp_blob_open(&r, data, n_bytes, KIND, LATER, &env->memory, err);
     if (status != ICC_OK)
         return status;
     iccp_budget budget;
@@ -56,7 +62,7 @@ icc_status iccp_chart_load(icc_chart **out, size_t n_bytes, const void *data, co
     if (status == ICC_OK)
         status = iccp_chart_read(out, domain, &r, &part[1], err);
     iccp_domain_release(domain);
-    if (status == ICC_OK && !iccp_blob_done(&r)) {
+    if (status == ICC_OK && (!iccp_blob_done(&r) || version_of(*out) != r.version)) {
         iccp_chart_release(*out);
         *out = NULL;
         status = ICC_ERR_FORMAT;

@@ -3,7 +3,7 @@
  * Words of this folder. Begin with this file and chart_create.h.
  * - method: a table of operations that makes and evaluates charts (chart/chart.h).
  * - number: ICC_METHOD_..; two methods may share one if only one of them needs a mesh.
- * - format: the method's number in saved bytes. Every method has its own.
+ * - format: the method's number in saved bytes. Every method has its own, and gradient has two.
  *
  * This folder is the only one that names all methods. To add a method, write its iccp_chart_ops in
  * a folder of its own and add it to the table in all_methods.c. A library with the papers alone has

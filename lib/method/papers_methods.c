@@ -2,4 +2,4 @@
 #include "gradient/coordinates/chart_gradient.h"
 #include "method/methods.h"
 
-const iccp_chart_ops *const iccp_methods[] = {&iccp_gradient_ops, NULL};
+const iccp_chart_ops *const iccp_methods[] = {&iccp_gradient_ops, &iccp_gradient_stages_ops, NULL};

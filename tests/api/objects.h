@@ -225,21 +225,40 @@ static inline icc_status call_boundary_defects(const objects *o, outcome *out, c
                                 err);
 }
 
+/* What a chart says of itself; NULL says nothing. */
+static inline void note_chart(outcome *out, const icc_chart *chart)
+{
+    icc_chart_info info = {.size = sizeof info};
+    icc_gradient_info gradient = {.size = sizeof gradient};
+    icc_foliation_info foliation = {.size = sizeof foliation};
+    (void)icc_chart_get_info(chart, &info);
+    (void)icc_chart_get_gradient_info(chart, &gradient);
+    (void)icc_chart_get_foliation_info(chart, &foliation);
+    out->count = gradient.n_tree + foliation.n_mesh_simplices;
+    memcpy(out->numbers, info.maximum, sizeof info.maximum);
+}
+
 static inline icc_status call_chart_create(const objects *o, outcome *out, const icc_env *env,
                                            icc_error *err)
 {
     icc_chart *chart = (icc_chart *)&chart;
     const icc_status status = icc_chart_create(&chart, o->source, &o->options, env, err);
     HANDED_OVER(status, chart);
-    icc_chart_info info = {.size = sizeof info};
-    if (status == ICC_OK)
-        (void)icc_chart_get_info(chart, &info);
-    icc_gradient_info gradient = {.size = sizeof gradient};
-    icc_foliation_info foliation = {.size = sizeof foliation};
-    (void)icc_chart_get_gradient_info(chart, &gradient);
-    (void)icc_chart_get_foliation_info(chart, &foliation);
-    out->count = gradient.n_tree + foliation.n_mesh_simplices;
-    memcpy(out->numbers, info.maximum, sizeof info.maximum);
+    note_chart(out, chart);
+    icc_chart_free(chart);
+    return status;
+}
+
+static inline icc_status call_chart_create_function(const objects *o, outcome *out,
+                                                    const icc_env *env, icc_error *err)
+{
+    icc_chart *chart = (icc_chart *)&chart;
+    icc_function *function;
+    ck_assert_int_eq(icc_function_create(&function, o->cut, NULL, NULL, NULL), ICC_OK);
+    const icc_status status = icc_chart_create_function(&chart, function, env, err);
+    HANDED_OVER(status, chart);
+    icc_function_free(function);
+    note_chart(out, chart);
     icc_chart_free(chart);
     return status;
 }
@@ -891,6 +910,7 @@ static const call CALLS[] = {
     {"icc_domain_locate", call_domain_locate},
     {"icc_boundary_defects", call_boundary_defects},
     {"icc_chart_create", call_chart_create},
+    {"icc_chart_create_function", call_chart_create_function},
     {"icc_chart_get_report", call_chart_measure},
     {"icc_chart_encode", call_chart_encode},
     {"icc_chart_decode", call_chart_decode},

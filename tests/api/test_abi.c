@@ -239,7 +239,7 @@ AT(icc_feature_info, first_vertex, 16);
 AT(icc_feature_info, n_vertices, 24);
 AT(icc_feature_info, first_facet, 32);
 
-SIZE(icc_chart_options, 56);
+SIZE(icc_chart_options, 64);
 AT(icc_chart_options, size, 0);
 AT(icc_chart_options, method, 8);
 AT(icc_chart_options, function, 12);
@@ -250,6 +250,7 @@ AT(icc_chart_options, constraints, 32);
 AT(icc_chart_options, solver, 36);
 AT(icc_chart_options, min_fall, 40);
 AT(icc_chart_options, leaf_min, 48);
+AT(icc_chart_options, axis_order, 56);
 
 SIZE(icc_chart_info, 88);
 AT(icc_chart_info, size, 0);

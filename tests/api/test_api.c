@@ -106,6 +106,7 @@ START_TEST(charts_refuse_bad_arguments)
     EXPLAINED(icc_chart_create(NULL, o.source, NULL, NULL, &err));
     NOT_MADE(c, icc_chart_create(&c, NULL, NULL, NULL, &err));
     static const double NOT_FINITE[2] = {0.5, NAN}, INSIDE[2] = {0.5, 0.5};
+    static const int32_t TWICE[2] = {1, 1};
     const icc_chart_options bad[] = {
         {.size = sizeof *bad, .function = 7},
         {.size = sizeof *bad, .function = -1},
@@ -121,6 +122,7 @@ START_TEST(charts_refuse_bad_arguments)
         {.size = sizeof *bad, .min_fall = NAN},
         {.size = sizeof *bad, .leaf_min = -1e-9},
         {.size = sizeof *bad, .method = ICC_METHOD_DISC, .maximum = INSIDE},
+        {.size = sizeof *bad, .axis_order = TWICE},
     };
     for (size_t k = 0; k < sizeof bad / sizeof *bad; ++k) {
         NOT_MADE(c, icc_chart_create(&c, o.source, &bad[k], NULL, &err));
@@ -142,6 +144,10 @@ START_TEST(charts_refuse_bad_arguments)
     icc_chart_info info = {.size = sizeof info};
     REFUSED(icc_chart_get_info(NULL, &info));
     REFUSED(icc_chart_get_info(o.chart, NULL));
+    EXPLAINED(icc_chart_create_function(NULL, o.field, NULL, &err));
+    NOT_MADE(c, icc_chart_create_function(&c, NULL, NULL, &err));
+    ck_assert_int_eq(icc_chart_create_function(&c, o.field, NULL, &err), ICC_ERR_UNSUPPORTED);
+    ck_assert(c == NULL && err.status == ICC_ERR_UNSUPPORTED); /* a mask of vertices */
     ck_assert(icc_chart_function(NULL) == NULL && icc_chart_function(o.chart) == NULL); /* a
                                                                                            foliation */
     ck_assert_ptr_null(icc_chart_domain(NULL));

@@ -108,6 +108,18 @@ void makes_other_objects()
     const icc::handle<icc_grid, icc_grid_free> grid({}, [](auto out, auto... rest) {
         return icc_grid_create(out, source.get(), 10, rest...);
     });
+    const icc::handle<icc_tree, icc_tree_free> tree({}, [&](auto out, auto... rest) {
+        uint32_t root = 0;
+        const icc_status status = icc_grid_find_maximum(grid.get(), &root, nullptr, rest...);
+        return status == ICC_OK ? icc_tree_create(out, grid.get(), root, nullptr, rest...) : status;
+    });
+    const icc::handle<icc_function, icc_function_free> function({}, [&](auto out, auto... rest) {
+        return icc_function_create(out, tree.get(), nullptr, rest...);
+    });
+    options.method = ICC_METHOD_GRADIENT;
+    options.cells = 10;
+    check(icc::chart::from_function(function.get()).encode({1, 1}).t == icc::chart(source, options).encode({1, 1}).t,
+          "a chart from a function");
     auto info = icc::sized<icc_grid_info>();
     icc::call({}, [&](auto...) { return icc_grid_get_info(grid.get(), &info); });
     check(info.n_inside > 0, "an object without a class of its own");

@@ -21,6 +21,9 @@ export function chartOf(core, Domain) {
         'icc_chart_free', lender);
     }
 
+    /** The chart of method gradient whose curves follow a GridFunction, on the library's stages or your own. */
+    static fromFunction(gridFunction) { return new Chart(core.made('icc_chart_create_function', gridFunction)); }
+
     static load(bytes) { return new Chart(core.made('icc_chart_load', bytes.length, bytes)); }
     save() { return core.save('icc_chart_save', this); }
 

@@ -314,6 +314,11 @@ test('charts, and the stages by themselves', () => {
   assert.deepEqual(kinds, edges.kinds);
   assert.equal(report.nTested, edges.tested);
   assert.deepEqual(laplace.facetReport(), report);
+  const ordered = icc.Chart.fromFunction(new icc.GridFunction(new icc.Tree(grid, vertex, { axisOrder: [1, 0] })));
+  const same = new icc.Chart(SQUARE, { method: 'gradient', cells: 20, axisOrder: [1, 0] });
+  assert.deepEqual(ordered.encode([[1, 1], [1, 3]]), same.encode([[1, 1], [1, 3]]));
+  assert.deepEqual(icc.Chart.load(ordered.save()).save(), ordered.save());
+  assert.throws(() => new icc.Chart(SQUARE, { method: 'gradient', axisOrder: [1, 1] }), { code: 'ARGUMENT' });
   assert.throws(() => new icc.Curves(own, [[1, 1]], 'sideways'), /'sideways' is none of 'up', 'down'/);
 });
 

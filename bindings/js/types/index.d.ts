@@ -110,7 +110,11 @@ export interface MatchClass {
   new (source: ShapeLike, target: ShapeLike, landmarks?: Points, options?: MatchOptions | null): Match;
   load(bytes: Uint8Array): Match;
 }
-export interface ChartClass { new (domain: ShapeLike, options?: ChartOptions | null): Chart; load(bytes: Uint8Array): Chart }
+export interface ChartClass {
+  new (domain: ShapeLike, options?: Options | null): Chart;
+  fromFunction(gridFunction: GridFunction): Chart;
+  load(bytes: Uint8Array): Chart;
+}
 
 export interface Tie { vertex: number[]; source: Float64Array; target: Float64Array; length: number[] }
 /** A map from one domain to another. */

@@ -22,7 +22,7 @@ feature kind:i32 n_vertices:size vertices:ptr radius:f64 n_facets:size facets:pt
 mesh dim:i32 n_vertices:size vertices:ptr n_cells:size cells:ptr offsets:ptr types:ptr regions:ptr
 fill_options ratio:f64 max_points:u64
 feature_info kind:i32 orientation:i32 first_vertex:size n_vertices:size first_facet:size
-chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64
+chart_options method:i32 function:i32 tree:i32 cells:i32 maximum:ptr constraints:i32 solver:i32 min_fall:f64 leaf_min:f64 axis_order:ptr
 chart_info dim:i32 method:i32 certified:i32 reason:i32 cells:i32 maximum:f64[6] spacing:f64
 gradient_info function:i32 tree:i32 n_grid:size n_inside:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_edges:size n_compression:size n_expansion:size moved:f64
 field_info n_grid:size n_inside:size n_stray:size n_tree:size n_unreachable:size n_cousin_violations:size n_maxima:size n_minima:size n_saddles:size n_infeasible:size n_contacts:size n_not_inward:size
@@ -80,6 +80,7 @@ domain_get_mesh domain* mesh*
 domain_locate domain* size f64* i32* u32* f64* env*
 boundary_defects size f64* size i32* u32* size* env* error*
 chart_create chart** domain* chart_options* env* error*
+chart_create_function chart** function* env* error*
 void:chart_free chart*
 chart_get_info chart* chart_info*
 chart_get_gradient_info chart* gradient_info*

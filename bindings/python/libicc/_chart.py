@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ctypes
 from types import SimpleNamespace
-from typing import TYPE_CHECKING, Any, Literal, Optional, Tuple, overload
+from typing import TYPE_CHECKING, Any, Literal, Optional, Sequence, Tuple, overload
 
 import numpy as np
 
@@ -27,6 +27,7 @@ from ._domain import Domain, as_domain
 
 if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
+    from .stages import Function
 
 METHODS = {"gradient": 1, "foliation": 2, "field": 3, "disc": 4}
 FUNCTIONS = {"decay": 1, "distance": 2, "laplace": 3, "bilaplace": 4, "clamped": 5, "harmonic": 6, "values": 7}
@@ -37,7 +38,8 @@ TREES = {"thesis": 1, "paper": 2}
 
 def chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum: Optional[ArrayLike],
                   function: Optional[str], constraints: Optional[str], solver: Optional[str],
-                  tree: Optional[str], min_fall: Optional[float], leaf_min: Optional[float]) -> Any:
+                  tree: Optional[str], min_fall: Optional[float], leaf_min: Optional[float],
+                  axis_order: Optional[Sequence[int]] = None) -> Any:
     options = new("chart_options", method=choose(method, METHODS, "method"), cells=cells or 0,
                   function=choose(function, FUNCTIONS, "function"),
                   constraints=choose(constraints, CONSTRAINTS, "constraints"),
@@ -46,7 +48,18 @@ def chart_options(dim: int, method: Optional[str], cells: Optional[int], maximum
     if maximum is not None:
         options.keep = floats(maximum, (dim,), "maximum")
         options.maximum = address(options.keep)
+    if axis_order is not None:
+        options.keep_order = axes_of(axis_order, dim)
+        options.axis_order = address(options.keep_order)
     return options
+
+
+def axes_of(axis_order: Sequence[int], dim: int) -> Ints:
+    """An order of the axes for C."""
+    order = np.ascontiguousarray(axis_order, dtype=np.int32)
+    if sorted(order.tolist()) != list(range(dim)):
+        raise ValueError("axis_order must be a permutation of the axes")
+    return order
 
 
 class Chart(Saved):
@@ -67,6 +80,7 @@ class Chart(Saved):
         solver: "direct" or "iterative"
         tree: "thesis" or "paper"
         min_fall, leaf_min: least relative fall and least value, see ``icc_chart_options``
+        axis_order: for method gradient: order in which the tree expands along the axes, a permutation
         progress, threads: as for `Domain`
 
     Raises:
@@ -84,12 +98,20 @@ class Chart(Saved):
                  maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
                  tree: Optional[str] = None, min_fall: Optional[float] = None, leaf_min: Optional[float] = None,
+                 axis_order: Optional[Sequence[int]] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         domain = as_domain(domain)
         options = chart_options(domain.dim, method, cells, maximum, function, constraints, solver, tree,
-                                min_fall, leaf_min)
+                                min_fall, leaf_min, axis_order)
         self._take(create(lib.chart_create, domain, ctypes.addressof(options),
                           progress=progress, threads=threads))
+
+    @classmethod
+    def from_function(cls, function: Function, *, progress: Optional[Progress] = None,
+                      threads: Optional[int] = None) -> "Chart":
+        """The chart of method gradient whose curves follow a `libicc.stages.Function`, on the library's stages or your
+        own. The function's grid must have been made from a domain."""
+        return cls._wrap(create(lib.chart_create_function, function, progress=progress, threads=threads))
 
     @property
     def domain(self) -> Domain:

@@ -83,7 +83,8 @@ class Map(Saved):
                  target_maximum: Optional[ArrayLike] = None, function: Optional[str] = None,
                  constraints: Optional[str] = None, solver: Optional[str] = None,
                  tree: Optional[str] = None, min_fall: Optional[float] = None,
-                 leaf_min: Optional[float] = None, ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
+                 leaf_min: Optional[float] = None, axis_order: Optional[Sequence[int]] = None,
+                 ties: Sequence[Tuple[Sequence[int], ArrayLike, ArrayLike]] = (),
                  match: Union[bool, str, ArrayLike, None] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
         source, target = as_domains(source, target)
@@ -91,7 +92,7 @@ class Map(Saved):
             matched = match_for(source, target, match)
             source, target = matched.source, matched.target
         chart = chart_options(source.dim, method, cells, maximum, function, constraints, solver, tree,
-                              min_fall, leaf_min)
+                              min_fall, leaf_min, axis_order)
         options = new("map_options", kind=choose(kind, KINDS, "kind"), chart=ctypes.addressof(chart),
                       iterations=0 if improve is None else improve or -1)
         if target_maximum is not None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
 import numpy as np
 
 from ._abi import lib, new
-from ._chart import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart
+from ._chart import CONSTRAINTS, FUNCTIONS, SOLVERS, TREES, Chart, axes_of
 from ._core import Call, Handle, Progress, address, choose, create, fields, name_of, points_of
 from ._domain import as_domain
 from ._errors import check
@@ -114,9 +114,7 @@ def _tree_options(grid: Grid, form: Optional[str],
     options = new("tree_options", form=choose(form, TREES, "form"))
     if axis_order is None:
         return options, None
-    order = np.ascontiguousarray(axis_order, dtype=np.int32)
-    if sorted(order.tolist()) != list(range(len(grid.shape))):
-        raise ValueError("axis_order must be a permutation of the axes")
+    order = axes_of(axis_order, len(grid.shape))
     options.axis_order = order.ctypes.data
     return options, order
 

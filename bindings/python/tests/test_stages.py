@@ -67,6 +67,30 @@ def test_chart_hands_out_its_field(before):
     assert stages.Function.of(libicc.Chart(before, "foliation")) is None
 
 
+def test_charts_of_stages(before):
+    points = np.array([[2, 3], [3, 7], [8, 3]])
+    tree = stages.Tree(stages.Grid(before, 40), axis_order=[1, 0])
+    function = stages.Function(tree, "laplace")
+    chart = libicc.Chart.from_function(function)
+    same = libicc.Chart(before, "gradient", function="laplace", cells=40, axis_order=[1, 0])
+    assert np.array_equal(stages.Function.of(same).tree.parents, tree.parents)
+    assert all(np.array_equal(x, y) for x, y in zip(chart.encode(points), same.encode(points)))
+    assert libicc.Chart.from_bytes(chart.to_bytes()).to_bytes() == chart.to_bytes()
+    mapped = libicc.Map(before, before, "curves", method="gradient", cells=40, axis_order=[1, 0])
+    assert np.array_equal(stages.Function.of(mapped.source_chart).tree.parents, tree.parents)
+
+    own = stages.Function.from_values(tree, np.where(tree.grid.inside, function.values ** 2, np.nan))
+    del function
+    other = libicc.Chart.from_function(own)
+    assert other.info.function == "values" and stages.Function.of(other).info.function == "values"
+    facet, bary, t = other.encode(points)
+    assert np.allclose(other.decode(facet, bary, t), points)
+    with pytest.raises(ValueError):
+        libicc.Chart(before, "gradient", axis_order=[0, 0])
+    with pytest.raises(libicc.UnsupportedError, match="refined"):
+        libicc.Chart.from_function(stages.Function(stages.Tree(tree.grid.refine())))
+
+
 def test_triangulate(before):
     points = np.vstack([before, [[2, 2], [3, 7], [8, 3]]])
     triangles = stages.triangulate(points, 6)

@@ -7,14 +7,12 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "gradient/coordinates/gradient_boundary.h"
+#include "gradient/coordinates/gradient_file.h"
 #include "gradient/coordinates/gradient_jet.h"
 #include "gradient/coordinates/gradient_measure.h"
+#include "gradient/coordinates/gradient_stages.h"
 #include "gradient/function/critical_points.h"
-#include "gradient/function/make_function.h"
 #include "gradient/function/merging.h"
-#include "gradient/function/move_maximum.h"
-#include "gradient/grid/grassfire.h"
-#include "gradient/grid/rasterise.h"
 #include "gradient/tree/verify.h"
 
 #include <math.h>
@@ -22,152 +20,41 @@
 
 /* ---- Algorithm 6: preprocessing ---- */
 
-static icc_status choose_root(const icc_grid *grid, const icc_domain *domain, const double *maximum,
-                              uint32_t *root, const iccp_env *env, icc_error *err)
-{
-    if (maximum == NULL)
-        return iccp_grassfire(grid, root, NULL, env, err);
-    double local[ICC_MAX_DIM];
-    iccp_frame_in(&domain->frame, domain->dim, maximum, local);
-    if (iccp_domain_locate(domain, local, true, NULL, NULL) != ICC_INSIDE)
-        return iccp_fail(err, ICC_ERR_OUTSIDE, "the maximum is not inside the domain");
-    *root = iccp_grid_nearest(grid, local);
-    return ICC_OK;
-}
-
-enum { PAPERS_CELLS = 50 };
-
-/* Masks determine the number of cells themselves. */
-static int32_t choose_cells(const icc_domain *domain, int32_t cells)
-{
-    return cells > 0 || domain->mask != NULL ? cells : PAPERS_CELLS;
-}
-
-/* Grows a tree, which replaces the present one, if any. */
-static icc_status grow_tree(iccp_gradient_state *state, icc_chart *chart, const icc_grid *grid,
-                            uint32_t root, const iccp_env *env, icc_error *err)
+/* Checks the cousin rule. */
+static icc_status check_tree(icc_chart *chart, const icc_tree *tree, const iccp_env *env)
 {
     const double start = iccp_seconds();
     icc_tree_report report = {0};
-    icc_tree *tree = NULL;
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){4, 1}, env);
-    icc_status status =
-        iccp_tree_create(&tree, grid, root, chart->own.gradient.tree, NULL, &part[0], err);
-    if (status != ICC_OK)
-        return status;
-    iccp_tree_release(state->tree);
-    state->tree = tree;
-    status = iccp_tree_verify(tree, &report, &part[1]);
-    chart->timings.tree += iccp_seconds() - start;
+    const icc_status status = iccp_tree_verify(tree, &report, env);
     chart->own.gradient.n_tree = report.n_inside + report.n_outside;
     chart->own.gradient.n_unreachable = report.n_unreachable;
     chart->own.gradient.n_cousin_violations = report.n_cousin_violations;
+    chart->timings.tree += iccp_seconds() - start;
     return status;
 }
 
-/* Algorithms 1 and 2: makes the grid, finds the grassfire's maximum unless the caller gave one, and
- * grows the tree. */
-static icc_status make_tree(iccp_gradient_state *state, icc_chart *chart,
-                            const icc_chart_options *options, const iccp_env *env, icc_error *err)
+/* Checks the function for false critical points, and extends it to vertices that no tree
+ * reaches. */
+static icc_status check_field(icc_chart *chart, icc_function *field, const iccp_env *env)
 {
-    icc_grid *grid = NULL;
     const double start = iccp_seconds();
-    const int32_t cells = choose_cells(chart->domain, options->cells);
-    iccp_env part[3];
-    iccp_split(part, 3, (const double[]){3, 1, 5}, env);
-    icc_status status = iccp_grid_create(&grid, chart->domain, cells, &part[0], err);
-    if (status != ICC_OK)
-        return status;
-    status = choose_root(grid, chart->domain, options->maximum, &state->chosen, &part[1], err);
-    chart->timings.grid = iccp_seconds() - start;
-    if (status == ICC_OK)
-        status = grow_tree(state, chart, grid, state->chosen, &part[2], err);
-    chart->info.cells = grid->cells;
-    chart->own.gradient.n_grid = grid->n_vertices;
-    chart->own.gradient.n_inside = grid->n_inside;
-    iccp_grid_release(grid);
-    return status;
-}
-
-/* Makes a function without inequalities on a tree with another root. */
-static icc_status move_root(iccp_gradient_state *state, icc_chart *chart, uint32_t root,
-                            const icc_function_options *function, const iccp_env *env,
-                            icc_error *err)
-{
-    iccp_env part[2];
-    iccp_split(part, 2, (const double[]){1, 4}, env);
-    const icc_status status = grow_tree(state, chart, state->tree->grid, root, &part[0], err);
-    iccp_function_release(state->field);
-    state->field = NULL;
-    return status == ICC_OK
-               ? iccp_function_create(&state->field, state->tree, function, &part[1], err)
-               : status;
-}
-
-/* Makes a plate (bi-Laplace) function. A plate is highest beside a load that is not in its middle,
- * and curves would end there instead of at the root. Without inequalities, the root moves to where
- * it is the maximum. If the function then still has false critical points, inequalities are imposed
- * at the root that the caller asked for. */
-static icc_status make_plate(iccp_gradient_state *state, icc_chart *chart,
-                             const icc_function_options *options, const iccp_env *env,
-                             icc_error *err)
-{
-    icc_function_options function = *options;
-    bool enough = options->constraints == ICC_CONSTRAINTS_NONE;
-    function.constraints = ICC_CONSTRAINTS_NONE;
-    iccp_env part[5];
-    iccp_split(part, 5, (const double[]){4, 4, 3, 1, enough ? 0 : 8}, env);
-    icc_status status = iccp_function_create(&state->field, state->tree, &function, &part[0], err);
-    if (status == ICC_OK && state->field->info.beside) {
-        uint32_t maximum = 0;
-        status = iccp_function_move_maximum(state->field, &maximum, &part[1]);
-        if (status == ICC_OK)
-            status = move_root(state, chart, maximum, &function, &part[2], err);
-    }
-    if (status == ICC_OK && !enough)
-        status = iccp_function_is_regular(state->field, &enough, &part[3]);
-    if (status != ICC_OK || enough)
-        return status;
-    function.constraints = ICC_CONSTRAINTS_ALL;
-    return move_root(state, chart, state->chosen, &function, &part[4], err);
-}
-
-/* Section 5.2: makes the function on the tree with the given options; plates are a special case.
- * Then checks it for false critical points, and extends it to vertices that no tree reaches. */
-static icc_status make_field(iccp_gradient_state *state, icc_chart *chart,
-                             const icc_chart_options *options, const iccp_env *env, icc_error *err)
-{
-    const double start = iccp_seconds(), grown = chart->timings.tree;
     icc_function_report report = {0};
     iccp_facet_count count = {0};
-    const icc_function_options function = {.function = options->function,
-                                           .constraints = options->constraints,
-                                           .solver = options->solver,
-                                           .min_fall = options->min_fall,
-                                           .leaf_min = options->leaf_min};
-    iccp_env part[4];
-    iccp_split(part, 4, (const double[]){8, 2, 1, 1}, env);
-    const bool is_plate =
-        options->function == ICC_FUNCTION_BILAPLACE || options->function == ICC_FUNCTION_CLAMPED;
-    icc_status status =
-        is_plate && options->constraints != ICC_CONSTRAINTS_ALL
-            ? make_plate(state, chart, &function, &part[0], err)
-            : iccp_function_create(&state->field, state->tree, &function, &part[0], err);
-    if (status == ICC_OK)
-        status = iccp_function_verify(state->field, &report, &part[1]);
+    iccp_env part[3];
+    iccp_split(part, 3, (const double[]){2, 1, 1}, env);
+    icc_status status = iccp_function_verify(field, &report, &part[0]);
     if (status != ICC_OK)
         return status;
     chart->own.gradient.n_maxima = report.n_maxima;
     chart->own.gradient.n_minima = report.n_minima;
     chart->own.gradient.n_saddles = report.n_saddles;
-    status = iccp_gradient_extend(state->field, &part[2]);
+    status = iccp_gradient_extend(field, &part[1]);
     if (status == ICC_OK)
-        status = iccp_function_facets(state->field, 0, NULL, NULL, &count, &part[3]);
+        status = iccp_function_facets(field, 0, NULL, NULL, &count, &part[2]);
     chart->own.gradient.n_edges = count.n_tested;
     chart->own.gradient.n_compression = count.n_compression;
     chart->own.gradient.n_expansion = count.n_expansion;
-    chart->timings.function = iccp_seconds() - start - (chart->timings.tree - grown);
+    chart->timings.function += iccp_seconds() - start;
     return status;
 }
 
@@ -317,35 +204,102 @@ static void save(const icc_chart *chart, iccp_blob *w)
                                 iccp_digest_field(state->field), w);
 }
 
-static icc_status create(icc_chart **out, const icc_domain *domain,
-                         const icc_chart_options *options, const iccp_env *env, icc_error *err)
+static void save_stages(const icc_chart *chart, iccp_blob *w)
 {
-    icc_status status = iccp_chart_new(out, domain, env);
-    if (status != ICC_OK)
-        return status;
+    const iccp_gradient_state *state = chart->state;
+    uint64_t digest = iccp_digest_field(state->field);
+    iccp_gradient_write(state->field, state->chosen, w);
+    iccp_blob_u64(w, 1, &digest);
+}
+
+/* Makes the chart of a function, which it takes over, also if it fails. The function's grid has a
+ * domain. */
+static icc_status finish(icc_chart **out, icc_function *field, uint32_t chosen,
+                         const iccp_chart_ops *ops, const iccp_env *env)
+{
+    const icc_tree *tree = field->tree;
+    const icc_grid *grid = tree->grid;
+    icc_status status = iccp_chart_new(out, grid->domain, env);
     icc_chart *chart = *out;
-    chart->ops = &iccp_gradient_ops;
+    iccp_gradient_state *state =
+        status == ICC_OK ? iccp_alloc_zero(&env->memory, 1, sizeof *state) : NULL;
+    if (state == NULL) {
+        iccp_function_release(field);
+        iccp_chart_release(chart);
+        *out = NULL;
+        return ICC_ERR_MEMORY;
+    }
+    *state =
+        (iccp_gradient_state){.tree = iccp_tree_retain(tree), .field = field, .chosen = chosen};
+    chart->ops = ops;
+    chart->state = state;
     chart->info.method = ICC_METHOD_GRADIENT;
     chart->info.reason = ICC_REASON_GRADIENT;
-    chart->own.gradient.function = options->function;
-    chart->own.gradient.tree = options->tree;
-    iccp_gradient_state *state = iccp_alloc_zero(&env->memory, 1, sizeof *state);
-    chart->state = state;
+    chart->info.cells = grid->cells;
+    chart->own.gradient.function = field->info.function;
+    chart->own.gradient.tree = tree->form;
+    chart->own.gradient.n_grid = grid->n_vertices;
+    chart->own.gradient.n_inside = grid->n_inside;
     iccp_env part[3];
-    iccp_split(part, 3, (const double[]){2, 2, 1}, env);
-    status = state != NULL ? make_tree(state, chart, options, &part[0], err) : ICC_ERR_MEMORY;
+    iccp_split(part, 3, (const double[]){1, 3, 2}, env);
+    status = check_tree(chart, tree, &part[0]);
     if (status == ICC_OK)
-        status = make_field(state, chart, options, &part[1], err);
+        status = check_field(chart, field, &part[1]);
     if (status == ICC_OK)
         status = iccp_gradient_meet_boundary(state, &part[2]);
     if (status == ICC_OK) {
         place_maximum(state, chart);
-        iccp_chart_parameters_set(&state->parameters, options, options->maximum, domain->dim);
         return ICC_OK;
     }
     iccp_chart_release(chart);
     *out = NULL;
     return status;
+}
+
+icc_status iccp_gradient_create_function(icc_chart **out, const icc_function *function,
+                                         const iccp_env *env)
+{
+    icc_function *field;
+    *out = NULL;
+    const icc_status status = iccp_function_copy(&field, function, env);
+    return status == ICC_OK ? finish(out, field, field->tree->root, &iccp_gradient_stages_ops, env)
+                            : status;
+}
+
+/* Returns true if the order of the axes is not the usual one, so that the first format cannot have
+ * it. */
+static bool has_axis_order(const icc_chart_options *options, int32_t dim)
+{
+    for (int32_t k = 0; options->axis_order != NULL && k < dim; ++k)
+        if (options->axis_order[k] != k)
+            return true;
+    return false;
+}
+
+static icc_status create(icc_chart **out, const icc_domain *domain,
+                         const icc_chart_options *options, const iccp_env *env, icc_error *err)
+{
+    icc_function *field;
+    uint32_t chosen = 0;
+    icc_chart_timings timings = {0};
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){7, 3}, env);
+    icc_status status =
+        iccp_gradient_stages(&field, &chosen, &timings, domain, options, &part[0], err);
+    if (status == ICC_OK)
+        status = finish(out, field, chosen,
+                        has_axis_order(options, domain->dim) ? &iccp_gradient_stages_ops
+                                                             : &iccp_gradient_ops,
+                        &part[1]);
+    if (status != ICC_OK)
+        return status;
+    icc_chart *chart = *out;
+    iccp_gradient_state *state = chart->state;
+    chart->timings.grid = timings.grid;
+    chart->timings.tree += timings.tree;
+    chart->timings.function += timings.function;
+    iccp_chart_parameters_set(&state->parameters, options, options->maximum, domain->dim);
+    return ICC_OK;
 }
 
 typedef struct gradient_job {
@@ -396,24 +350,44 @@ static icc_status read_chart(icc_chart **out, const icc_domain *domain, iccp_blo
     return iccp_chart_check_rebuilt(out, status, wanted, digest, err);
 }
 
+static icc_status read_stages(icc_chart **out, const icc_domain *domain, iccp_blob *r,
+                              const iccp_env *env, icc_error *err)
+{
+    icc_function *field;
+    uint32_t chosen;
+    uint64_t wanted, digest = 0;
+    *out = NULL;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){7, 3}, env);
+    icc_status status = iccp_gradient_read(&field, &chosen, domain, r, &part[0]);
+    iccp_blob_u64(r, 1, &wanted);
+    if (status == ICC_OK && r->status != ICC_OK) {
+        iccp_function_release(field);
+        status = r->status;
+    }
+    if (status != ICC_OK)
+        return status;
+    status = finish(out, field, chosen, &iccp_gradient_stages_ops, &part[1]);
+    if (status == ICC_OK)
+        digest = iccp_digest_field(field);
+    return iccp_chart_check_rebuilt(out, status, wanted, digest, err);
+}
+
 static const icc_function *function_of(const icc_chart *chart)
 {
     const iccp_gradient_state *state = chart->state;
     return state->field;
 }
 
-const iccp_chart_ops iccp_gradient_ops = {
-    .number = ICC_METHOD_GRADIENT,
-    .format = ICC_METHOD_GRADIENT,
-    .create = create_charts,
-    .read = read_chart,
-    .encode = encode,
-    .decode = decode,
-    .trace = trace,
-    .function = function_of,
-    .merges_down = merges_down,
-    .merges_up = merges_up,
-    .measure = iccp_gradient_measure,
-    .save = save,
-    .free_state = free_state,
-};
+#define OPERATIONS                                                                                 \
+    .number = ICC_METHOD_GRADIENT, .create = create_charts, .encode = encode, .decode = decode,    \
+    .trace = trace, .function = function_of, .merges_down = merges_down, .merges_up = merges_up,   \
+    .measure = iccp_gradient_measure, .free_state = free_state
+
+const iccp_chart_ops iccp_gradient_ops = {OPERATIONS, .format = ICC_METHOD_GRADIENT,
+                                          .read = read_chart, .save = save};
+
+enum { BY_STAGES = 6 };
+
+const iccp_chart_ops iccp_gradient_stages_ops = {OPERATIONS, .format = BY_STAGES, .is_later = true,
+                                                 .read = read_stages, .save = save_stages};

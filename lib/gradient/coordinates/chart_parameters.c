@@ -11,6 +11,7 @@ void iccp_chart_parameters_set(iccp_chart_parameters *parameters, const icc_char
 {
     *parameters = (iccp_chart_parameters){.options = *options, .has_maximum = maximum != NULL};
     parameters->options.maximum = NULL;
+    parameters->options.axis_order = NULL;
     for (int32_t k = 0; maximum != NULL && k < dim; ++k)
         parameters->maximum[k] = maximum[k];
 }

@@ -10,7 +10,7 @@
 #define ICCP_MAX_SHARE 0.01
 
 typedef struct iccp_chart_parameters {
-    icc_chart_options options; /* except the maximum */
+    icc_chart_options options; /* except the maximum and the order of the axes */
     bool has_maximum;          /* false: the grassfire chose the maximum */
     double maximum[ICC_MAX_DIM];
 } iccp_chart_parameters;

@@ -11,7 +11,7 @@
 #include <math.h>
 
 /* Result for one sample. */
-enum { MISSED = 0, COVERED = 1, UNREACHABLE = 2, UNCOVERED = 3 };
+enum { MISSED, COVERED, UNREACHABLE, UNCOVERED };
 
 typedef struct area_samples {
     const icc_chart *chart;

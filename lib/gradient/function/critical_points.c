@@ -2,6 +2,7 @@
 #include "gradient/function/critical_points.h"
 
 #include "gradient/grid/critical_count.h"
+#include "gradient/grid/star.h"
 
 #include <math.h>
 
@@ -41,4 +42,19 @@ icc_status iccp_function_is_regular(const icc_function *function, bool *regular,
     for (size_t i = 1; i < tree->n_inside && *regular; ++i)
         *regular = iccp_function_compare(function, tree->order[i], tree->root) < 0;
     return status;
+}
+
+uint32_t iccp_function_above(const icc_function *function, uint32_t vertex)
+{
+    iccp_star star;
+    iccp_star_init(&star, function->tree->grid, 0);
+    const iccp_link_set within = iccp_star_within(&star, vertex);
+    for (int i = 0; i < star.kuhn.n_neighbours; ++i) {
+        if (!iccp_link_has(&within, i))
+            continue;
+        const uint32_t u = iccp_star_vertex(&star, vertex, i);
+        if (is_ranked(function, u) && iccp_function_compare(function, u, vertex) > 0)
+            return u;
+    }
+    return ICCP_NONE;
 }

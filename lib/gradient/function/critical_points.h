@@ -19,4 +19,8 @@ icc_status iccp_function_verify(const icc_function *function, icc_function_repor
 icc_status iccp_function_is_regular(const icc_function *function, bool *regular,
                                     const iccp_env *env);
 
+/* Returns a neighbour inside, in the Kuhn triangulation, that is higher than a vertex. ICCP_NONE if
+ * there is none. */
+uint32_t iccp_function_above(const icc_function *function, uint32_t vertex);
+
 #endif

@@ -8,7 +8,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. */
+/* Below 2^LEAST_EXPONENT differences of neighbouring values would lose bits. Above its reciprocal
+ * they might overflow. */
 enum { LEAST_EXPONENT = -900 };
 
 icc_status iccp_function_new(icc_function **out, const icc_tree *tree, const iccp_env *env)
@@ -111,7 +112,7 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
     const icc_tree *tree = function->tree;
     bool positive = true;
     double least_log = 0;
-    int32_t least = 0;
+    int32_t least = 0, most = 0;
     forget(function);
     for (size_t i = 0; i < tree->n_reached; ++i)
         function->values[tree->order[i]] = 0;
@@ -121,11 +122,12 @@ icc_status iccp_function_assign(icc_function *function, const iccp_unknowns *unk
         if (positive)
             least_log = iccp_min(least_log, log_of(f->fraction[k], f->exponent[k]));
         least = f->exponent[k] < least ? f->exponent[k] : least;
+        most = f->exponent[k] > most ? f->exponent[k] : most;
     }
     function->has_logs = positive;
     function->info.least_log = positive ? least_log : 0;
     icc_status status = ICC_OK;
-    if (positive && least < LEAST_EXPONENT)
+    if (positive && (least < LEAST_EXPONENT || most > -LEAST_EXPONENT))
         status = assign_exponents(function, unknowns, f);
     return status == ICC_OK ? iccp_function_extrapolate(function, unknowns) : status;
 }
@@ -167,6 +169,8 @@ icc_status iccp_function_copy(icc_function **out, const icc_function *function, 
     const size_t n = function->tree->grid->n_vertices;
     copy->info = function->info;
     copy->has_logs = function->has_logs;
+    copy->made = function->made;
+    copy->from_logs = function->from_logs;
     if (function->exponent != NULL)
         copy->exponent = iccp_alloc(&copy->memory, n, sizeof *copy->exponent);
     if (copy->exponent != NULL)

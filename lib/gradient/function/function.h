@@ -31,8 +31,11 @@ struct icc_function {
     double *values; /* one per grid vertex; NaN where the tree does not reach */
     /* The function is values * 2^exponent; NULL: all exponents are 0, the usual case */
     int32_t *exponent;
-    double *plain;  /* the function as far as doubles can hold it; NULL: same as `values` */
-    bool has_logs;  /* it is positive inside */
+    double *plain; /* the function as far as doubles can hold it; NULL: same as `values` */
+    bool has_logs; /* it is positive inside */
+    /* How it was made: complete options, or ICC_FUNCTION_VALUES alone for values of the caller's */
+    icc_function_options made;
+    bool from_logs; /* the caller gave logarithms */
     iccp_once logs; /* logarithms of the function, made on first use */
 };
 

@@ -12,7 +12,7 @@ static icc_status begin(icc_function **out, const icc_tree *tree, const iccp_env
 {
     const icc_status status = iccp_function_new(out, tree, env);
     if (status == ICC_OK)
-        (*out)->info.function = ICC_FUNCTION_VALUES;
+        (*out)->info.function = (*out)->made.function = ICC_FUNCTION_VALUES;
     return status;
 }
 
@@ -109,25 +109,44 @@ static void set_scaled(const iccp_scaled *f, size_t k, double log)
     iccp_scaled_set(f, k, iccp_exp(log - power * ln_2), (int32_t)power);
 }
 
-icc_status iccp_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,
-                                     const iccp_env *env)
+/* Makes a function from logarithms, or from fractions and exponents, whichever is not NULL. */
+static icc_status create_scaled(icc_function **out, const icc_tree *tree, const double *logs,
+                                const iccp_scaled *given, const iccp_env *env)
 {
     iccp_unknowns unknowns;
     icc_status status = begin(out, tree, env);
     if (status != ICC_OK)
         return status;
+    (*out)->from_logs = true;
     status = iccp_unknowns_create(&unknowns, tree, env);
     if (status != ICC_OK)
         return finish(out, status);
     const iccp_scaled f = {iccp_alloc(&env->memory, unknowns.n, sizeof *f.fraction),
                            iccp_alloc(&env->memory, unknowns.n, sizeof *f.exponent)};
     status = f.fraction != NULL && f.exponent != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    for (size_t k = 0; status == ICC_OK && k < unknowns.n; ++k)
-        set_scaled(&f, k, logs[unknowns.vertex[k]]);
+    for (size_t k = 0; status == ICC_OK && k < unknowns.n; ++k) {
+        const uint32_t v = unknowns.vertex[k];
+        if (logs != NULL)
+            set_scaled(&f, k, logs[v]);
+        else
+            iccp_scaled_set(&f, k, given->fraction[v], given->exponent[v]);
+    }
     if (status == ICC_OK)
         status = iccp_function_assign(*out, &unknowns, &f);
     iccp_free(&env->memory, f.fraction);
     iccp_free(&env->memory, f.exponent);
     iccp_unknowns_free(&unknowns);
     return finish(out, status);
+}
+
+icc_status iccp_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,
+                                     const iccp_env *env)
+{
+    return create_scaled(out, tree, logs, NULL, env);
+}
+
+icc_status iccp_function_create_scaled(icc_function **out, const icc_tree *tree,
+                                       const iccp_scaled *given, const iccp_env *env)
+{
+    return create_scaled(out, tree, NULL, given, env);
 }

@@ -12,4 +12,9 @@ icc_status iccp_function_create_values(icc_function **out, const icc_tree *tree,
 icc_status iccp_function_create_logs(icc_function **out, const icc_tree *tree, const double *logs,
                                      const iccp_env *env);
 
+/* Makes the same function from fractions and exponents, one of each per grid vertex. Those inside
+ * are normalised and positive. */
+icc_status iccp_function_create_scaled(icc_function **out, const icc_tree *tree,
+                                       const iccp_scaled *given, const iccp_env *env);
+
 #endif

@@ -80,6 +80,7 @@ icc_status iccp_function_create(icc_function **out, const icc_tree *tree,
     if (status != ICC_OK)
         return iccp_explain(err, status);
     const icc_function_options full = complete(options);
+    function->made = full;
     function->info.function = full.function;
     if (full.function == ICC_FUNCTION_DECAY || full.function == ICC_FUNCTION_DISTANCE)
         status = set_by_generation(function, full.function, env);

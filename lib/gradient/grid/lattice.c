@@ -92,6 +92,7 @@ icc_status iccp_grid_restrict(icc_grid **out, const icc_grid *grid, const uint8_
     part->spacing = grid->spacing;
     part->cells = grid->cells;
     part->domain = grid->domain != NULL ? iccp_domain_retain(grid->domain) : NULL;
+    part->is_restricted = true;
     for (int32_t k = 0; k < grid->dim; ++k)
         part->origin[k] = grid->origin[k];
     for (size_t v = 0; v < grid->n_vertices; ++v) {

@@ -27,6 +27,7 @@
 #include "icc/stages.h"
 
 #include <stdatomic.h>
+#include <stdbool.h>
 
 /* Stands for no vertex. */
 #define ICCP_NONE UINT32_MAX
@@ -46,6 +47,7 @@ struct icc_grid {
     /* Cells along the longest side of a domain; 0 for masks of vertices */
     int32_t cells;
     icc_domain *domain; /* the domain whose inside is described, or NULL */
+    bool is_restricted; /* vertices were moved to the outside: iccp_grid_restrict() */
     size_t n_vertices, n_inside;
     size_t n_stray;  /* number of vertices that were inside and have been removed */
     uint8_t *inside; /* 1 or 0 */

@@ -186,6 +186,7 @@ icc_status iccp_tree_create_parents(icc_tree **out, const icc_grid *grid, uint32
         return iccp_fail_memory(err);
     tree->root = root;
     tree->form = form;
+    tree->is_given = parents != NULL;
     for (int32_t k = 0; k < grid->dim; ++k)
         tree->axis_order[k] = axis_order != NULL ? axis_order[k] : k;
     icc_status status = grow_inside(tree, parents, env);

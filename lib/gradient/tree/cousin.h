@@ -21,6 +21,8 @@
 
 #include "gradient/grid/lattice.h"
 
+#include <stdbool.h>
+
 struct icc_tree {
     iccp_memory memory;
     atomic_size_t references;
@@ -28,6 +30,7 @@ struct icc_tree {
     int32_t form; /* ICC_TREE_* */
     int32_t axis_order[ICC_MAX_DIM];
     uint32_t root;
+    bool is_given;       /* the caller gave the parents inside */
     uint32_t *parent;    /* ICCP_NONE for the root and for vertices without one */
     int32_t *generation; /* -1: not reached */
     /* The n_reached vertices, parents before children: first the n_inside inside, then the outside

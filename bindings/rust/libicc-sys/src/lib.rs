@@ -548,6 +548,9 @@ pub struct icc_chart_options {
     pub min_fall: f64,
     /// gradient, constrained bi-Laplace: least value at the leaves of the tree, in (0, 0.01\]; 0: 1e-9
     pub leaf_min: f64,
+    /// gradient: the order in which the tree expands along the axes, a permutation of 0..dim-1; NULL: 0, 1, 2
+    /// and so on, see `icc_tree_options`
+    pub axis_order: *const i32,
 }
 sized!(icc_chart_options);
 
@@ -1539,6 +1542,38 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
+    /// Makes a chart of method gradient from a function. The function, its tree and its grid may be the
+    /// library's or your own: icc/stages.h.
+    ///
+    /// `icc_chart_create()` makes the same chart, bit for bit, from the same stages: `icc_grid_create()`,
+    /// `icc_grid_find_maximum()` or `icc_grid_find_nearest()`, `icc_tree_create()` and
+    /// `icc_function_create()`. For bilaplace and clamped it also moves the root, see
+    /// `icc_function_create()`.
+    ///
+    /// The chart has a copy of the function. Beyond 2-D this copy has values at more vertices outside. Where
+    /// the tree does not reach, points have no coordinates.
+    ///
+    /// - `out` (out): the chart; owned by the caller, see `icc_chart_free()`. It keeps the domain alive that
+    ///   the grid was made from
+    /// - `function`: the function; you may free it
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `index` is a vertex beside the root that is higher
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_UNSUPPORTED` if the grid was not made from a domain: it comes from a mask of vertices or
+    ///   from `icc_grid_refine()`
+    /// - `ICC_ERR_ARGUMENT` if a neighbour of the root is higher than the root, so that no curve ends there
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED` or `ICC_ERR_VERSION`
+    ///
+    /// Cost: O(vertices) time; 8 to 20 bytes a vertex for the copy, and the boundary's cells.
+    pub fn icc_chart_create_function(
+        out: *mut *mut icc_chart,
+        function: *const icc_function,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
     /// Frees a chart.
     pub fn icc_chart_free(chart: *mut icc_chart);
 
@@ -1759,7 +1794,8 @@ extern "C" {
     ///
     /// Charts on a mesh (foliation, disc) are stored in full and certified anew, so bytes that do not pass
     /// are refused wherever they come from. Charts on a grid (gradient, field) are rebuilt from their inputs
-    /// and compared with a checksum of the original's numbers. Any bytes are safe to pass.
+    /// and compared with a checksum of the original's numbers. The inputs of a chart from a function are
+    /// those of its stages, with your own parents and values. Any bytes are safe to pass.
     ///
     /// - `out` (out): the chart; owned by the caller
     /// - `n_bytes`: number of bytes of `data`
@@ -2400,7 +2436,7 @@ pub struct icc_tree_report {
 sized!(icc_tree_report);
 
 opaque!(
-    /// A function on the vertices of a tree that falls from parent to child.
+    /// A function on the vertices of a tree that falls from parent to child: icc/stages.h.
     icc_function
 );
 
@@ -2978,7 +3014,8 @@ extern "C" {
 
     /// One value per grid vertex; NaN where the tree does not reach; borrowed. Beyond 2-D the function of a
     /// gradient chart extends to some vertices outside. Laplace and bilaplace decay exponentially in long
-    /// limbs. Values below 2^-1022 are 0 here, but `icc_function_logs()` has them.
+    /// limbs. Values below 2^-1022 are 0 here, and those above 2^1024 infinite, but `icc_function_logs()` has
+    /// them.
     pub fn icc_function_values(field: *const icc_function) -> *const f64;
 
     /// The natural logarithm of every value, accurate even where the values underflow. It is -HUGE_VAL

@@ -120,13 +120,18 @@ pub struct ChartOptions<'a> {
     pub min_fall: f64,
     /// gradient, constrained bi-Laplace: least value at the leaves; 0: 1e-9
     pub leaf_min: f64,
+    /// gradient: the order in which the tree expands along the axes, a permutation of 0..dim; `None`: 0, 1 and so on
+    pub axis_order: Option<&'a [i32]>,
 }
 
 impl ChartOptions<'_> {
-    /// The options in C, for a domain of dimension `dim`. They borrow `maximum`.
+    /// The options in C, for a domain of dimension `dim`. They borrow `maximum` and `axis_order`.
     pub(crate) fn raw(&self, dim: usize) -> Result<sys::icc_chart_options> {
         if let Some(maximum) = self.maximum {
             exactly(maximum, dim, "maximum")?;
+        }
+        if let Some(order) = self.axis_order {
+            exactly(order, dim, "axis_order")?;
         }
         Ok(sys::icc_chart_options {
             method: self.method.map_or(0, |value| value as i32),
@@ -138,6 +143,7 @@ impl ChartOptions<'_> {
             solver: self.solver.map_or(0, |value| value as i32),
             min_fall: self.min_fall,
             leaf_min: self.leaf_min,
+            axis_order: pointer(self.axis_order),
             ..Default::default()
         })
     }
@@ -186,6 +192,18 @@ impl Chart {
         Chart::make(env, |out, env, err| {
             // SAFETY: the options are valid during the call.
             unsafe { sys::icc_chart_create(out, domain.as_ptr(), &raw, env, err) }
+        })
+    }
+
+    /// Makes a chart of method gradient from a function, whose stages are the library's or yours.
+    ///
+    /// # Errors
+    /// [`Status::UNSUPPORTED`] if the function's grid was not made from a domain, [`Status::ARGUMENT`] if a neighbour
+    /// of the root is higher than the root, and others.
+    pub fn from_function(function: &Function, env: &mut Env<'_>) -> Result<Chart> {
+        Chart::make(env, |out, env, err| {
+            // SAFETY: the function is valid during the call.
+            unsafe { sys::icc_chart_create_function(out, function.as_ptr(), env, err) }
         })
     }
 

@@ -100,6 +100,37 @@ fn fields_fall_from_the_root() {
 }
 
 #[test]
+fn charts_follow_functions() {
+    let env = &mut Env::new();
+    let grid = grid();
+    let (root, _) = grid.maximum(env).unwrap();
+    let options = TreeOptions { axis_order: Some(&[1, 0]), ..Default::default() };
+    let tree = Tree::new(&grid, root, &options, env).unwrap();
+    let function = Function::new(&tree, &FunctionOptions::default(), env).unwrap();
+    let chart = Chart::from_function(&function, env).unwrap();
+    drop(function);
+    let options = ChartOptions {
+        method: Some(Method::Gradient),
+        cells: 40,
+        axis_order: Some(&[1, 0]),
+        ..Default::default()
+    };
+    let shape = Domain::polygon(&ELL, env).unwrap();
+    let same = Chart::new(&shape, &options, env).unwrap();
+    let points = [1.0, 1.0, 3.0, 0.5, 0.5, 3.0];
+    assert_eq!(chart.encode(&points, env).unwrap(), same.encode(&points, env).unwrap());
+    let bytes = chart.to_bytes().unwrap();
+    assert_eq!(Chart::from_bytes(&bytes, env).unwrap().to_bytes().unwrap(), bytes);
+    let wrong = ChartOptions { axis_order: Some(&[0]), ..options };
+    assert_eq!(Chart::new(&shape, &wrong, env).unwrap_err().status, Status::ARGUMENT);
+    let fine = grid.refine(env).unwrap();
+    let (root, _) = fine.maximum(env).unwrap();
+    let tree = Tree::new(&fine, root, &TreeOptions::default(), env).unwrap();
+    let function = Function::new(&tree, &FunctionOptions::default(), env).unwrap();
+    assert_eq!(Chart::from_function(&function, env).unwrap_err().status, Status::UNSUPPORTED);
+}
+
+#[test]
 fn charts_show_their_field() {
     let env = &mut Env::new();
     let shape = Domain::polygon(&ELL, env).unwrap();
