@@ -111,7 +111,8 @@ export interface MatchClass {
   load(bytes: Uint8Array): Match;
 }
 export interface ChartClass {
-  new (domain: ShapeLike, options?: Options | null): Chart;
+  new (domain: ShapeLike, options?: ChartOptions | null): Chart;
+  /** The chart of method gradient whose curves follow a function, on the library's stages or your own. */
   fromFunction(gridFunction: GridFunction): Chart;
   load(bytes: Uint8Array): Chart;
 }

@@ -236,7 +236,7 @@ static icc_status finish(icc_chart **out, icc_function *field, uint32_t chosen,
     chart->info.method = ICC_METHOD_GRADIENT;
     chart->info.reason = ICC_REASON_GRADIENT;
     chart->info.cells = grid->cells;
-    chart->own.gradient.function = field->info.function;
+    chart->own.gradient.function = field->made.function;
     chart->own.gradient.tree = tree->form;
     chart->own.gradient.n_grid = grid->n_vertices;
     chart->own.gradient.n_inside = grid->n_inside;
