@@ -399,9 +399,10 @@ ICC_API icc_status icc_function_create(icc_function **out, const icc_tree *tree,
  * @param[out] out the function; owned by the caller; keeps the tree alive. Its
  *                 icc_function_info::function is ::ICC_FUNCTION_VALUES
  * @param tree     the tree
- * @param values   one per grid vertex; finite at the vertices inside that the tree reaches
+ * @param values   one per grid vertex, at most 2^900 in size; NaN is allowed outside. Values at
+ *                 vertices that the tree does not reach are ignored
  * @param env      may be NULL
- * @param err      may be NULL; `index` is a vertex inside whose value is not finite
+ * @param err      may be NULL; `index` is a vertex whose value is refused
  * @return ::ICC_OK, ::ICC_ERR_ARGUMENT, ::ICC_ERR_MEMORY, ::ICC_ERR_CANCELLED, ::ICC_ERR_VERSION
  *
  * Cost: O(vertices) time, 8 bytes a vertex.

@@ -9,17 +9,17 @@
 #include "gradient/function/merging.h"
 #include "icc/stages.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 /* Checks the caller's values, or logarithms, whose exponents must fit into 32 bits. Only those of
- * the tree's vertices inside count, in its order. */
-static icc_status check_given(const icc_tree *tree, const double *given, double largest,
+ * the tree's first n vertices count. Values outside may be NaN. */
+static icc_status check_given(const icc_tree *tree, size_t n, const double *given, double largest,
                               const char *what, icc_error *err)
 {
-    for (size_t i = 0; i < tree->n_inside; ++i)
-        if (!(fabs(given[tree->order[i]]) <= largest))
+    for (size_t i = 0; i < n; ++i)
+        if (!(fabs(given[tree->order[i]]) <= largest) &&
+            !(i >= tree->n_inside && isnan(given[tree->order[i]])))
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, tree->order[i],
                                 "the %s of vertex %lu is %g; it must be finite and at most %g in "
                                 "size",
@@ -44,7 +44,8 @@ static icc_status take_given(icc_function **out, const icc_tree *tree, const dou
                                           : NULL;
     icc_status status = iccp_begin(&full_env, env, missing, err);
     if (status == ICC_OK)
-        status = check_given(tree, given, logs ? -ICCP_ZERO_EXPONENT / 2 : DBL_MAX,
+        status = check_given(tree, logs ? tree->n_inside : tree->n_reached, given,
+                             logs ? -ICCP_ZERO_EXPONENT / 2 : ICCP_MAX_VALUE,
                              logs ? "logarithm" : "value", err);
     if (status != ICC_OK)
         return status;

@@ -227,7 +227,8 @@ static icc_status read_given(icc_function **out, const icc_tree *tree, bool scal
         uint32_t bits = 0;
         iccp_blob_f64(b, 1, &f.fraction[v]);
         if (!scaled) {
-            iccp_blob_require(b, i >= tree->n_inside || isfinite(f.fraction[v]));
+            iccp_blob_require(b, fabs(f.fraction[v]) <= ICCP_MAX_VALUE ||
+                                     (i >= tree->n_inside && isnan(f.fraction[v])));
             continue;
         }
         iccp_blob_u32(b, 1, &bits);

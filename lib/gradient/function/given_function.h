@@ -4,7 +4,11 @@
 
 #include "gradient/function/function.h"
 
-/* See icc_function_create_values(). The values inside are finite. */
+/* The largest size of a caller's value. Exact signs of products of differences need the rest. */
+#define ICCP_MAX_VALUE 0x1p900
+
+/* See icc_function_create_values(). The values inside are at most ICCP_MAX_VALUE in size, and those
+ * outside are, too, or NaN. */
 icc_status iccp_function_create_values(icc_function **out, const icc_tree *tree,
                                        const double *values, const iccp_env *env);
 

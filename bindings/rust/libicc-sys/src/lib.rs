@@ -2910,9 +2910,10 @@ extern "C" {
     /// - `out` (out): the function; owned by the caller; keeps the tree alive. Its
     ///   `icc_function_info.function` is `ICC_FUNCTION_VALUES`
     /// - `tree`: the tree
-    /// - `values`: one per grid vertex; finite at the vertices inside that the tree reaches
+    /// - `values`: one per grid vertex, at most 2^900 in size; NaN is allowed outside. Values at vertices
+    ///   that the tree does not reach are ignored
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` is a vertex inside whose value is not finite
+    /// - `err`: may be NULL; `index` is a vertex whose value is refused
     ///
     /// Returns `ICC_OK`, `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED`, `ICC_ERR_VERSION`
     ///
