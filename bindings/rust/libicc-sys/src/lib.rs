@@ -1180,7 +1180,7 @@ extern "C" {
     ///
     /// - each ridge (dim - 1 vertices) belongs to two facets, which run along it in opposite directions,
     /// - the facets at each vertex are connected, and the boundary is one piece,
-    /// - no facet is flat (exact in 4-D, up to rounding of 1e-13 beyond),
+    /// - no facet is flat (exact in 4-D, up to rounding of 4e-13 beyond),
     /// - the volume is not 0, up to rounding.
     ///
     /// Beyond 3-D it does NOT check whether the boundary meets itself, nor its topology.
