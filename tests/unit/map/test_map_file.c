@@ -280,7 +280,11 @@ START_TEST(filled)
     for (int32_t dim = 2; dim <= 4; ++dim) {
         domain_pair p = filled_pair(dim, 3);
         icc_map *map = map_of(&p, 0, 0, 0, 0);
-        ck_assert_int_eq(info_of_map(map).kind, dim == 3 ? ICC_MAP_MESH : ICC_MAP_CURVES);
+        ck_assert_int_eq(info_of_map(map).kind, dim == 2 ? ICC_MAP_CURVES : ICC_MAP_MESH);
+        check_map(map, p.source);
+        icc_map_free(map);
+        map = map_of(&p, ICC_MAP_CURVES, 0, 0, 0);
+        ck_assert_int_eq(info_of_map(map).kind, ICC_MAP_CURVES);
         check_map(map, p.source);
         icc_map_free(map);
         domain_pair_free(&p);
