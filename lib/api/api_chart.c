@@ -1,34 +1,16 @@
-/* Checks the arguments of the chart functions. */
+/* Checks the arguments of the chart functions. Those that name every method are in
+ * api_chart_create.c and api_chart_file.c. */
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
 #include "chart/encode_all.h"
 #include "gradient/coordinates/chart_gradient.h"
 #include "gradient/function/critical_points.h"
-#include "method/chart_create.h"
-#include "method/load.h"
 
 #include <math.h>
 #include <string.h>
 
 ICCP_END(chart)
-
-icc_status icc_chart_create(icc_chart **out, const icc_domain *domain,
-                            const icc_chart_options *options, const icc_env *env, icc_error *err)
-{
-    ICCP_ENTER;
-    if (out != NULL)
-        *out = NULL;
-    const char *missing = out == NULL ? "out" : domain == NULL ? "domain" : NULL;
-    iccp_env full_env;
-    icc_chart_options full;
-    icc_status status = iccp_begin(&full_env, env, missing, err);
-    if (status == ICC_OK)
-        status = iccp_read_chart_options(&full, options, domain->dim, err);
-    return status == ICC_OK ? iccp_end_chart(iccp_chart_create(out, domain, &full, &full_env, err),
-                                             out, &full_env, err)
-                            : status;
-}
 
 /* Checks that a function can have a chart: its grid covers a domain, and curves can end at the
  * root. */
@@ -289,27 +271,4 @@ icc_status icc_chart_trace(const icc_chart *chart, const double *point, size_t c
         return iccp_fail_memory(err);
     *n_curve = line.n;
     return ICC_OK;
-}
-
-icc_status icc_chart_save(const icc_chart *chart, size_t capacity, void *data, size_t *n_bytes)
-{
-    ICCP_ENTER;
-    if (chart == NULL || n_bytes == NULL || (capacity > 0 && data == NULL))
-        return ICC_ERR_ARGUMENT;
-    iccp_chart_save(chart, capacity, data, n_bytes);
-    return ICC_OK;
-}
-
-icc_status icc_chart_load(icc_chart **out, size_t n_bytes, const void *data, const icc_env *env,
-                          icc_error *err)
-{
-    ICCP_ENTER;
-    if (out != NULL)
-        *out = NULL;
-    const char *missing = out == NULL ? "out" : data == NULL ? "data" : NULL;
-    iccp_env full_env;
-    const icc_status status = iccp_begin(&full_env, env, missing, err);
-    return status == ICC_OK ? iccp_end_chart(iccp_chart_load(out, n_bytes, data, &full_env, err),
-                                             out, &full_env, err)
-                            : status;
 }

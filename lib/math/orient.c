@@ -6,10 +6,10 @@
 #include "base/compiler.h"
 #include "math/predicates.h"
 
-/* Error bound for n = 4..6, where all rows have length 1. Elimination with partial pivoting gives the
- * determinant of a matrix whose entries are off by at most n eps g. Entries grow by g <= 2^(n - 1).
- * By Hadamard's inequality the determinant is off by at most n^2.5 eps g, which is 3.2e-13. The rest
- * is for the lengths of the rows. */
+/* Error bound for n = 4..6, where all rows have length 1. Elimination with partial pivoting gives
+ * the determinant of a matrix whose entries are off by at most n eps g. Entries grow by
+ * g <= 2^(n - 1). By Hadamard's inequality the determinant is off by at most n^2.5 eps g, which is
+ * 3.2e-13. The rest is for the lengths of the rows. */
 static const double UNCERTAIN = 4e-13;
 
 typedef double matrix[ICCP_ORIENT_MAX][ICCP_ORIENT_MAX];
