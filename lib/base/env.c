@@ -59,6 +59,13 @@ iccp_env iccp_round(const iccp_env *env, size_t k, double typical)
     return iccp_part(env, NULL, from / (from + typical), to / (to + typical));
 }
 
+iccp_env iccp_quiet(const iccp_env *env)
+{
+    iccp_env quiet = *env;
+    quiet.progress = NULL;
+    return quiet;
+}
+
 icc_status iccp_progress(const iccp_env *env, const char *stage, double share)
 {
     if (env->progress == NULL)

@@ -66,6 +66,10 @@ iccp_env iccp_part(const iccp_env *env, const char *stage, double from, double t
 /* Makes n consecutive parts whose shares are proportional to their costs. */
 void iccp_split(iccp_env *parts, size_t n, const double *cost, const iccp_env *env);
 
+/* Returns `env` without progress. The steps that finish a result run with it, so that a callback
+ * which still asks to stop does not lose the result. */
+iccp_env iccp_quiet(const iccp_env *env);
+
 /* Returns the part for round k of an unknown number of rounds. The first `typical` rounds take half
  * of `env`. */
 iccp_env iccp_round(const iccp_env *env, size_t k, double typical);

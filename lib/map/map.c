@@ -383,13 +383,15 @@ icc_status iccp_map_improve(icc_map **out, const icc_map *map, const icc_improve
         better->info = map->info;
         status = map->kind->improve(better, map, options, report, &with, err);
     }
+    iccp_env quiet = iccp_quiet(&with);
     if (status == ICC_OK)
-        status = iccp_map_conclude(better, &with, err);
+        status = iccp_map_conclude(better, &quiet, err);
     iccp_without_team(&with, env);
+    quiet = iccp_quiet(env);
     if (status == ICC_OK)
-        status = make_affine(better, 0, &report->energy, env, err);
+        status = make_affine(better, 0, &report->energy, &quiet, err);
     if (status == ICC_OK)
-        status = set_class_kept(better, map, false, env);
+        status = set_class_kept(better, map, false, &quiet);
     if (status != ICC_OK) {
         iccp_map_release(better);
         return iccp_explain(err, status);

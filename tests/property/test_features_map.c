@@ -99,6 +99,38 @@ START_TEST(the_same_bits_on_many_threads)
 }
 END_TEST
 
+/* Asks to stop from the report on at which `user` becomes 0. */
+static int32_t stop_from(void *user, const char *stage, double share)
+{
+    int *left = user;
+    (void)stage;
+    (void)share;
+    return --*left <= 0;
+}
+
+/* An improvement that is stopped returns the map that it has, although the callback keeps asking to
+ * stop while the map is finished. */
+START_TEST(stopped_improvements_keep_the_map)
+{
+    feature_mix m;
+    mix_create(&m, 8);
+    icc_map *map = map_of(&m, false, -1, NULL), *better;
+    int32_t stopped = 1;
+    for (int k = 1; stopped; k += k) {
+        int left = k;
+        const icc_env env = {.size = sizeof env, .user = &left, .progress = stop_from};
+        icc_improve_report report = {.size = sizeof report};
+        ck_assert_int_eq(icc_map_improve(&better, map, NULL, &report, &env, NULL), ICC_OK);
+        ck_assert_double_le(report.energy, report.energy_start);
+        stopped = report.cancelled;
+        ck_assert_int_eq(stopped, left <= 0);
+        icc_map_free(better);
+    }
+    icc_map_free(map);
+    mix_free(&m);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("maps with features");
@@ -107,6 +139,7 @@ int main(void)
     tcase_add_test(tests, starts);
     tcase_add_test(tests, improved);
     tcase_add_test(tests, the_same_bits_on_many_threads);
+    tcase_add_test(tests, stopped_improvements_keep_the_map);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
 }

@@ -375,8 +375,9 @@ icc_status iccp_higher_map_improve(iccp_higher_map **out, const iccp_higher_map 
     report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
     status = improve(better, options, &work, &improvement, env);
     report->cancelled = status == ICC_ERR_CANCELLED;
+    const iccp_env quiet = iccp_quiet(env);
     if (status == ICC_OK || status == ICC_ERR_CANCELLED)
-        status = plant(better, env);
+        status = plant(better, &quiet);
     if (status != ICC_OK) {
         iccp_higher_map_free(better);
         return status;

@@ -67,9 +67,7 @@ icc_status iccp_mesh_map_improve(iccp_mesh_map **out, const iccp_mesh_map *map, 
     if (status == ICC_OK)
         status = iccp_plane_improve(&better->pl, options, &iccp_schedule_plain, &work, &cancelled,
                                     &improvement, env);
-    /* A callback that still asks to stop must not keep the result from being finished. */
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     if (status == ICC_OK)
         status = iccp_mesh_map_finish(better, &info, &quiet);
     if (status != ICC_OK) {

@@ -159,8 +159,9 @@ icc_status iccp_solid_map_improve(iccp_solid_map **out, const iccp_solid_map *ma
     report->energy_start = iccp_simplicial_energy_at_once(&simplicial, env);
     status = iccp_solid_improve(better, source, &schedule, &work, &improvement, &part);
     report->cancelled = status == ICC_ERR_CANCELLED;
+    const iccp_env quiet = iccp_quiet(env);
     if (status == ICC_OK || status == ICC_ERR_CANCELLED)
-        status = plant(better, env);
+        status = plant(better, &quiet);
     if (status != ICC_OK) {
         iccp_solid_map_free(better);
         return status;
