@@ -160,7 +160,8 @@ typedef struct icc_env {
      *  and the share of the whole call that is done. The share lies in [0,1] and never falls. It
      *  is 1 in the last report of a call that succeeds. Shares are estimates, from what the
      *  parts of a call usually cost. Return non-zero to cancel: the call stops as soon as it can
-     *  and returns ::ICC_ERR_CANCELLED. A quick call may report nothing. Default: none.
+     *  and returns ::ICC_ERR_CANCELLED. Until then the callback may be called again. A quick call
+     *  may report nothing. Default: none.
      *
      *  `stage` is one of these names, and may recur later in the call. More names may be added.
      *  - "check": boundaries, masks, meshes and results are checked and measured

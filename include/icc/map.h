@@ -953,14 +953,15 @@ typedef struct icc_retarget_options {
 /**
  * Makes the map to a target that has moved. Use it to drag an outline or a surface, where each
  * frame continues from the one before. The source stays. The new map starts from the mesh and the
- * images of `map`, moves them along and improves them by a few steps. It does not refine the mesh
- * further. Frames with the same mesh and allocator share data about it.
+ * images of `map`, moves them along and improves them by a few steps. Without features it keeps the
+ * mesh. Frames with the same mesh and allocator share data about it.
  *
  * Without features, any target in the plane is reached, however far away. The mesh may change on
  * the way.
  *
  * Features move straight to their new places. On the way they pass one another on the same sides as
- * before (icc_map_info::class_kept), and the mesh changes as needed. If features would meet on the
+ * before (icc_map_info::class_kept). The mesh changes as needed, and the first frame may refine it,
+ * also if `iterations` is -1. If features would meet on the
  * way, the call fails with ::ICC_ERR_CERTIFICATE; take another way, in several calls. If the target
  * has a very different size or is far away, the features first move along with the whole shape.
  *
@@ -979,8 +980,9 @@ typedef struct icc_retarget_options {
  * @param err      may be NULL; in 3-D it names a surface vertex where the way is blocked
  * @return as icc_map_create(), and ::ICC_ERR_CERTIFICATE if the target cannot be reached
  *
- * Cost: at most a tenth of icc_map_create() if the target is reached at once, see
- * docs/performance.md.
+ * Cost, if the target is reached at once: a third to a half of icc_map_create() in the plane, a tenth
+ * in space, see docs/performance.md. With features the first frame may take longer than
+ * icc_map_create() on a small map.
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                                     const icc_retarget_options *options, const icc_env *env,

@@ -66,8 +66,7 @@ class Match(Saved):
                       between=choose(between, BETWEEN, "between"), least_sure=least_sure or 0, drop=drop,
                       tolerance=0 if tolerance is None else tolerance if tolerance > 0 else -1,
                       keep_source=int(keep_source))
-        given = np.reshape(np.asarray([] if landmarks is None else landmarks, dtype=float), (-1, 2 * source.dim))
-        pairs = floats(given, given.shape, "landmarks")
+        pairs = _pairs(landmarks, source.dim)
         self._take(create(lib.match_create, source, target, len(pairs), address(pairs),
                           ctypes.addressof(options), progress=progress, threads=threads))
 
@@ -123,6 +122,15 @@ class Match(Saved):
                       threads: Optional[int] = None) -> Tuple[Floats, Floats]:
         """Takes points of the target's boundary to the source's; otherwise like `apply`."""
         return self._follow(lib.match_apply_inverse, points, progress, threads)
+
+
+def _pairs(landmarks: Optional[ArrayLike], dim: int) -> Floats:
+    """Landmarks as an array (n, 2 dim): points of the source with their partners."""
+    given = np.asarray([] if landmarks is None else landmarks, dtype=float)
+    if given.size > 0 and given.shape[1:] not in ((2, dim), (2 * dim,)):
+        raise ArgumentError(f"landmarks must have the shape (n, 2, {dim}) or (n, {2 * dim}), not {given.shape}")
+    given = given.reshape(-1, 2 * dim)
+    return floats(given, given.shape, "landmarks")
 
 
 def match(source: ShapeLike, target: ShapeLike, landmarks: Optional[ArrayLike] = None,

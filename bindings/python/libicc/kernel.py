@@ -166,6 +166,8 @@ class Weights(Handle):
                  steps: Optional[int] = None, method: Optional[str] = None, affine_tail: bool = True,
                  within_shape: bool = True, initial_weights: Optional[ArrayLike] = None,
                  progress: Optional[Progress] = None, threads: Optional[int] = None):
+        if not isinstance(sampling, Sampling):
+            raise TypeError(f"sampling must be a libicc.kernel.Sampling, not {type(sampling).__name__}")
         handles = points_of(handles, sampling._info("sampling_get_info", "sampling_info").dim)
         keep: List[Any] = [handles]
         options = new("weights_options", kernel=choose(kernel, KERNELS, "kernel"),

@@ -34,6 +34,11 @@ def test_weights(weights, points):
     assert nodes.weights.shape == (weights.info.n_nodes, 5) and nodes.points.shape[1] == 2
 
 
+def test_a_shape_is_no_sampling():
+    with pytest.raises(TypeError, match="must be a libicc.kernel.Sampling, not ndarray"):
+        kernel.Weights(SQUARE, HANDLES)
+
+
 def test_poses(weights, points):
     binding, pose = weights.bind(points, derivatives=True), kernel.Pose(HANDLES)
     assert np.array_equal(binding.pose(pose), points)

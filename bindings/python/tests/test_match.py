@@ -71,6 +71,16 @@ def test_landmarks_that_are_off():
     assert error.value.index == 1
 
 
+def test_landmarks_of_another_shape():
+    pairs = np.array([[[0, 0], [1, 0]], [[1, 0], [1, 1]], [[1, 1], [0, 1]]], float)
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    for wrong in (np.stack([pairs[:, 0], pairs[:, 1]]), pairs[:, 0], pairs.ravel(), np.ones((4, 3))):
+        with pytest.raises(libicc.ArgumentError, match=r"shape \(n, 2, 2\) or \(n, 4\), not"):
+            libicc.Match(square, square, wrong)
+    for right in (pairs, pairs.reshape(3, 4)):
+        assert libicc.Match(square, square, right).info.n_landmarks == 3
+
+
 def test_a_source_that_keeps_its_mesh():
     faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]]
     corners = np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)

@@ -180,8 +180,8 @@ pub struct icc_env {
     /// Called on the calling thread from time to time during long work, with the current stage and the share
     /// of the whole call that is done. The share lies in \[0,1\] and never falls. It is 1 in the last report
     /// of a call that succeeds. Shares are estimates, from what the parts of a call usually cost. Return
-    /// non-zero to cancel: the call stops as soon as it can and returns `ICC_ERR_CANCELLED`. A quick call may
-    /// report nothing. Default: none.
+    /// non-zero to cancel: the call stops as soon as it can and returns `ICC_ERR_CANCELLED`. Until then the
+    /// callback may be called again. A quick call may report nothing. Default: none.
     ///
     /// `stage` is one of these names, and may recur later in the call. More names may be added.
     ///
@@ -2095,16 +2095,17 @@ extern "C" {
 
     /// Makes the map to a target that has moved. Use it to drag an outline or a surface, where each frame
     /// continues from the one before. The source stays. The new map starts from the mesh and the images of
-    /// `map`, moves them along and improves them by a few steps. It does not refine the mesh further. Frames
+    /// `map`, moves them along and improves them by a few steps. Without features it keeps the mesh. Frames
     /// with the same mesh and allocator share data about it.
     ///
     /// Without features, any target in the plane is reached, however far away. The mesh may change on the
     /// way.
     ///
     /// Features move straight to their new places. On the way they pass one another on the same sides as
-    /// before (`icc_map_info.class_kept`), and the mesh changes as needed. If features would meet on the way,
-    /// the call fails with `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a
-    /// very different size or is far away, the features first move along with the whole shape.
+    /// before (`icc_map_info.class_kept`). The mesh changes as needed, and the first frame may refine it,
+    /// also if `iterations` is -1. If features would meet on the way, the call fails with
+    /// `ICC_ERR_CERTIFICATE`; take another way, in several calls. If the target has a very different size or
+    /// is far away, the features first move along with the whole shape.
     ///
     /// In 3-D, tetrahedra that block the way are replaced or cut. As a last resort the map is made anew by
     /// `icc_map_create()`, which fills a target without a mesh; `icc_env.log` then says so. There is no
@@ -2121,7 +2122,9 @@ extern "C" {
     ///
     /// Returns as `icc_map_create()`, and `ICC_ERR_CERTIFICATE` if the target cannot be reached
     ///
-    /// Cost: at most a tenth of `icc_map_create()` if the target is reached at once, see docs/performance.md.
+    /// Cost, if the target is reached at once: a third to a half of `icc_map_create()` in the plane, a tenth
+    /// in space, see docs/performance.md. With features the first frame may take longer than
+    /// `icc_map_create()` on a small map.
     pub fn icc_map_retarget(
         out: *mut *mut icc_map,
         map: *const icc_map,
