@@ -980,9 +980,9 @@ typedef struct icc_retarget_options {
  * @param err      may be NULL; in 3-D it names a surface vertex where the way is blocked
  * @return as icc_map_create(), and ::ICC_ERR_CERTIFICATE if the target cannot be reached
  *
- * Cost, if the target is reached at once: a third to a half of icc_map_create() in the plane, a tenth
- * in space, see docs/performance.md. With features the first frame may take longer than
- * icc_map_create() on a small map.
+ * Cost, if the target is reached at once: a third to a half of icc_map_create() in the plane, and a
+ * tenth in space, see docs/performance.md. With features the first frame of a small map may take
+ * longer than icc_map_create().
  */
 ICC_API icc_status icc_map_retarget(icc_map **out, const icc_map *map, const icc_domain *target,
                                     const icc_retarget_options *options, const icc_env *env,

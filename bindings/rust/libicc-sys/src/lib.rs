@@ -2122,9 +2122,9 @@ extern "C" {
     ///
     /// Returns as `icc_map_create()`, and `ICC_ERR_CERTIFICATE` if the target cannot be reached
     ///
-    /// Cost, if the target is reached at once: a third to a half of `icc_map_create()` in the plane, a tenth
-    /// in space, see docs/performance.md. With features the first frame may take longer than
-    /// `icc_map_create()` on a small map.
+    /// Cost, if the target is reached at once: a third to a half of `icc_map_create()` in the plane, and a
+    /// tenth in space, see docs/performance.md. With features the first frame of a small map may take longer
+    /// than `icc_map_create()`.
     pub fn icc_map_retarget(
         out: *mut *mut icc_map,
         map: *const icc_map,
