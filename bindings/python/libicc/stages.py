@@ -301,6 +301,13 @@ class Function(Handle):
         call.check(lib.function_get_report(self, ctypes.addressof(report), call.env, call.err))
         return fields(report)
 
+    def trace(self, point: ArrayLike) -> Floats:
+        """Computes the curve through a point (dim,), from the boundary to the maximum: a polyline, (m, dim). See `Curves`
+        for each way by itself, for many points, and for how curves end."""
+        point = points_of(point, len(self.tree.grid.shape))
+        down, up = (Curves(self, point, way)[0] for way in ("down", "up"))
+        return np.vstack([down[::-1], up[1:]])
+
     def edges(self) -> Tuple[Indices, Ints]:
         """Edges (n, 2) where gradient lines merge, and their kinds (n,): 1 on the way up
         (compression), 2 on the way down (expansion). 2-D."""

@@ -91,6 +91,14 @@ def test_charts_of_stages(before):
         libicc.Chart.from_function(stages.Function(stages.Tree(tree.grid.refine())))
 
 
+def test_a_function_is_traced_like_its_chart(before):
+    chart = libicc.Chart(before, "gradient", cells=20, function="laplace")
+    function = stages.Function.of(chart)
+    for point in before.mean(axis=0), 0.9 * before.mean(axis=0) + 0.1 * before[0]:
+        assert np.allclose(function.trace(point), chart.trace(point), atol=1e-12)
+    assert function.trace([99, 99]).shape == (0, 2)
+
+
 def test_triangulate(before):
     points = np.vstack([before, [[2, 2], [3, 7], [8, 3]]])
     triangles = stages.triangulate(points, 6)
