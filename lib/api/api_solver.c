@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/options.h"
 #include "gradient/function/given_equation.h"
+#include "gradient/function/given_function.h"
 #include "gradient/function/make_function.h"
 #include "icc/stages.h"
 
@@ -46,14 +47,16 @@ static icc_status check_equation(const icc_function_options *options, icc_error 
     return ICC_OK;
 }
 
-/* Checks that fixed values are NaN or finite, and the right-hand side at free vertices finite. */
+/* Checks that fixed values are NaN or not too large, and the right-hand side at free vertices
+ * finite. */
 static icc_status check_numbers(const icc_tree *tree, const double *fixed, const double *right_side,
                                 icc_error *err)
 {
     for (size_t v = 0; fixed != NULL && v < tree->grid->n_vertices; ++v)
-        if (isinf(fixed[v]))
+        if (fabs(fixed[v]) > ICCP_MAX_VALUE)
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_GRID_VERTEX, (uint32_t)v,
-                                "the fixed value of vertex %lu is infinite", (unsigned long)v);
+                                "the fixed value of vertex %lu is %g; it must be at most 2^900",
+                                (unsigned long)v, fixed[v]);
     for (size_t i = 0; right_side != NULL && i < tree->n_inside; ++i) {
         const uint32_t v = tree->order[i];
         if (!isfinite(right_side[v]) && (fixed == NULL || isnan(fixed[v])))

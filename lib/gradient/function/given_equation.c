@@ -96,7 +96,7 @@ static icc_status take_solution(equation *e)
 {
     iccp_energy_gradient(&e->a, e->f, e->work, e->gradient);
     for (size_t k = 0; k < e->unknowns.n; ++k) {
-        if (!isfinite(e->f[k]))
+        if (!(fabs(e->f[k]) <= ICCP_MAX_VALUE))
             return ICC_ERR_SOLVER;
         e->values[e->unknowns.vertex[k]] = e->f[k];
         if (e->variable[k] != ICCP_NONE)

@@ -2967,16 +2967,17 @@ extern "C" {
     /// - `tree`: the tree
     /// - `options`: function: laplace, or 0 for the same, or bilaplace. Constraints: none, or 0 for the same.
     ///   Solver: direct, or 0 for the same. NULL: laplace
-    /// - `fixed`: one value per grid vertex, or NaN where it is free; NULL: no vertex is fixed
+    /// - `fixed`: one value per grid vertex, at most 2^900 in size, or NaN where it is free; NULL: no vertex
+    ///   is fixed
     /// - `right_side`: one finite number per grid vertex; only those of free vertices count; NULL: 0
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` is a vertex whose value is infinite, or whose right-hand side is not
+    /// - `err`: may be NULL; `index` is a vertex whose value is too large, or whose right-hand side is not
     ///   finite
     ///
     /// Returns `ICC_OK`, or
     ///
     /// - `ICC_ERR_UNSUPPORTED` for other functions, constraints needed or all, and solver iterative
-    /// - `ICC_ERR_SOLVER` if the values are too large for doubles, or rounding spoils six digits
+    /// - `ICC_ERR_SOLVER` if a value exceeds 2^900 in size, or rounding spoils six digits
     /// - `ICC_ERR_ARGUMENT`, `ICC_ERR_MEMORY`, `ICC_ERR_CANCELLED` or `ICC_ERR_VERSION`
     ///
     /// Cost: one factorisation, as for `icc_function_create()` with a direct solver. About 300 bytes a vertex
