@@ -214,8 +214,8 @@ enum {
     ICC_INITIAL_GIVEN = 4 /**< your own: icc_weights_options::initial_weights */
 };
 
-/** What is minimised. In all cases the weights sum to 1. Except biharmonic ones, they are found at
- *  each sample by itself and reproduce the sample. */
+/** How weights are found. They always sum to 1. All methods except biharmonic treat each sample by
+ *  itself, and their weights reproduce the sample. */
 enum {
     /** least squared change of the initial weights, none negative (4.1) */
     ICC_WEIGHTS_QP = 1,

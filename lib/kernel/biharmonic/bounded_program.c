@@ -15,7 +15,7 @@
 #include <math.h>
 #include <string.h>
 
-/* By how much values and steps may be wrong. It is above the rounding errors of systems with a
+/* The largest error of values and steps. It is above the rounding errors of systems with a
  * condition number of 1e8, which meshes of 10,000 vertices have. */
 static const double ENOUGH = 1e-10;
 /* Rounds without progress before single changes: the butterfly of examples/data with 3,000 nodes

@@ -29,8 +29,8 @@ static icc_status create(icc_map *map, const icc_map_options *options, const icc
     return status;
 }
 
-/* As for solids (solid_certificate.h). Beyond space a domain's boundary may meet itself unnoticed;
- * that it does not is the caller's part. */
+/* The proof is that of solids (solid_certificate.c). Beyond 3-D libicc does not check whether a
+ * boundary meets itself, so the caller must know that it does not. */
 static icc_status certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const iccp_higher_map *higher = map->state;

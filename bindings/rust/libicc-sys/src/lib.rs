@@ -3331,8 +3331,8 @@ pub const ICC_INITIAL_INVERSE: i32 = 3;
 /// your own: `icc_weights_options.initial_weights`
 pub const ICC_INITIAL_GIVEN: i32 = 4;
 
-// What is minimised. In all cases the weights sum to 1. Except biharmonic ones, they are found at each sample
-// by itself and reproduce the sample.
+// How weights are found. They always sum to 1. All methods except biharmonic treat each sample by itself, and
+// their weights reproduce the sample.
 /// least squared change of the initial weights, none negative (4.1)
 pub const ICC_WEIGHTS_QP: i32 = 1;
 /// least squared change, of any sign (4.2 to 4.6)
