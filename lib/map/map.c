@@ -102,8 +102,7 @@ icc_status iccp_map_conclude(icc_map *map, const iccp_env *env, icc_error *err)
 static icc_status make_affine(icc_map *map, int32_t iterations, double *energy, const iccp_env *env,
                               icc_error *err)
 {
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     if (iterations < 0 || map->kind->mesh == NULL)
         return ICC_OK;
     const iccp_simplicial_map simplicial = map->kind->mesh(map);

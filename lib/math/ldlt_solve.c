@@ -200,8 +200,7 @@ static void solve_by_subtrees(const solution *x, const iccp_env *env)
 {
     const iccp_subtrees *t = x->subtrees;
     const size_t n_panels = x->factor->nodes.n;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     (void)iccp_for_chunks(&quiet, "solve", t->n, 1, go_forward, (void *)x);
     for (size_t s = 0, k = 0; s < n_panels; ++s) {
         while (k < t->n && t->run[k].end <= s)

@@ -178,8 +178,7 @@ icc_status iccp_assembly_create(iccp_assembly *assembly, const iccp_simplicial_m
                                 const uint8_t *movable, const iccp_env *env)
 {
     iccp_assembly *s = assembly;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     *s = (iccp_assembly){.memory = env->memory, .dim = map->dim, .corners = map->corners};
     icc_status status = list_parts(s, map, movable);
     if (status == ICC_OK) {
@@ -338,8 +337,7 @@ icc_status iccp_assembly_divide(iccp_assembly *assembly, const uint32_t *positio
 {
     iccp_assembly *s = assembly;
     const size_t n_rows = s->dim * s->n_free;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     const icc_status status = iccp_for_chunks(&quiet, "improve", s->n_elements, GRAIN, leave_out,
                                               &(elimination){s, position});
     if (status != ICC_OK || n_parts <= 1)

@@ -90,8 +90,7 @@ icc_status iccp_improve_images(const iccp_simplicial_map *map, const iccp_descen
                                iccp_work *work, iccp_improvement *improvement, const iccp_env *env)
 {
     ending e = {.map = map, .newton.assembly.memory = env->memory};
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     const icc_status status = go_down(&e.newton, map, descent, work, improvement, env);
     (void)iccp_side_by_side(&quiet, 2, end, &e, NULL);
     improvement->energy = e.energy;

@@ -312,7 +312,6 @@ double iccp_simplicial_energy(const iccp_simplicial_map *map)
 
 double iccp_simplicial_energy_at_once(const iccp_simplicial_map *map, const iccp_env *env)
 {
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     return mean_energy(map, &quiet);
 }

@@ -71,8 +71,7 @@ icc_status iccp_truncated_cg(const iccp_symmetric *hessian, const double *gradie
 {
     const size_t n = hessian->n;
     double *r = work, *z = r + n, *p = z + n, *q = p + n, *factor = q + n;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     factorise_blocks(hessian, factor);
     for (size_t i = 0; i < n; ++i) {
         step[i] = 0;

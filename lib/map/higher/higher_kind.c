@@ -35,8 +35,7 @@ static icc_status certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const iccp_higher_map *higher = map->state;
     const iccp_simplices *mesh = higher->mesh;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     const iccp_simplicial_map after = iccp_higher_simplicial(higher);
     const iccp_simplicial_map before = iccp_simplicial_map_of(mesh, mesh->points);
     const size_t n_faults = iccp_simplicial_count_at_once(&before, &quiet) +

@@ -119,8 +119,7 @@ icc_status iccp_plmap_certify(const iccp_plmap *map, const iccp_env *env, icc_er
 icc_status iccp_plane_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const iccp_mesh_map *plane = map->state;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     const icc_status status = iccp_plmap_certify(&plane->pl, &quiet, err);
     map->info.certified = status == ICC_OK;
     return status;

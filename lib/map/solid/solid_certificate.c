@@ -15,8 +15,7 @@ icc_status iccp_solid_certify(icc_map *map, const iccp_env *env, icc_error *err)
 {
     const iccp_solid_map *solid = map->state;
     const iccp_simplices *mesh = solid->mesh;
-    iccp_env quiet = *env;
-    quiet.progress = NULL;
+    const iccp_env quiet = iccp_quiet(env);
     const iccp_simplicial_map after = iccp_solid_simplicial(solid);
     const iccp_simplicial_map before = iccp_simplicial_map_of(mesh, mesh->points);
     const size_t n_faults = iccp_simplicial_count_at_once(&before, &quiet) +
