@@ -12,7 +12,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-HEADERS = ["base", "map", "chart", "stages", "kernel"]
+HEADERS = ["base", "map", "chart", "stages", "kernel", "fit"]
 # Offsets are those of every machine that aligns a type to its own size: with 8 bytes for pointers, and with 4.
 POINTERS = {"lp64": 8, "ilp32": 4}
 SIZES = {"int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "double": 8, "char": 1, "uint8_t": 1,
@@ -21,7 +21,8 @@ SIZES = {"int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "double": 8, 
 # Where the prefix alone is the name of an object, or of nothing.
 ENUM_NAMES = {"ICC_ERR_": "icc_status", "ICC_MAX_DIM": "icc_limit", "ICC_": "icc_place", "ICC_MAP_": "icc_map_kind",
               "ICC_FEATURE_": "icc_feature_kind", "ICC_FUNCTION_": "icc_function_kind", "ICC_TREE_": "icc_tree_form",
-              "ICC_SAMPLING_": "icc_sampling_kind", "ICC_WEIGHTS_": "icc_weights_method"}
+              "ICC_SAMPLING_": "icc_sampling_kind", "ICC_WEIGHTS_": "icc_weights_method",
+              "ICC_CONSTRAINT_": "icc_constraint_kind", "ICC_FIT_": "icc_fit_model"}
 
 COMMENT = r"/\*\*(?P<doc>(?:(?!\*/).)*)\*/\s*"
 ENUM = re.compile(COMMENT + r"enum \{(?P<body>.*?)\n\};", re.S)

@@ -58,7 +58,7 @@ awk -F'|' '
         base["usize"] = "size_t"; base["i32"] = "int32_t"; base["u32"] = "uint32_t"; base["u8"] = "uint8_t"
         base["i64"] = "int64_t"; base["u64"] = "uint64_t"
         base["f64"] = "double"; base["c_char"] = "char"; base["c_void"] = "void"
-        print "#include <icc/icc.h>\n#include <icc/stages.h>\n#include <icc/kernel.h>"
+        print "#include <icc/icc.h>\n#include <icc/stages.h>\n#include <icc/kernel.h>\n#include <icc/fit.h>"
     }
     /^struct / { split($0, words, " "); printf "static const %s %s_;\n", words[2], words[2] }
     /^field / && !/Option</ {
@@ -70,6 +70,7 @@ awk -F'|' '
             sub(/^\[/, "", type); sub(/;.*/, "", type)
         }
         if (type == "") next
+        sub(/^r#/, "", words[3]) # a name that is a word of Rust
         member = words[2] "_." words[3]
         printf "%s const (*const check_%s_%s)%s = &%s;\n", c_type(type), words[2], words[3], bounds, member
     }
@@ -99,9 +100,10 @@ for line in open(sys.argv[2], encoding="utf-8"):
     elif kind == "const":
         print(name, values[name])
     elif kind == "field":
-        m = members[name, rest[0]]
+        member = rest[0].removeprefix("r#")
+        m = members[name, member]
         size = 8 if "*" in m["type"] else SIZES.get(m["type"], 4)
-        print(f"{name}.{rest[0]} {m['offset']['lp64']} {size * m.get('length', 1)}")
+        print(f"{name}.{member} {m['offset']['lp64']} {size * m.get('length', 1)}")
 END
 
 {
@@ -114,7 +116,9 @@ END
             printf "{ let s = std::mem::MaybeUninit::<%s>::uninit();", $2
             printf " let f = unsafe { std::ptr::addr_of!((*s.as_ptr()).%s) };", $3
             printf " let at = f as usize - s.as_ptr() as usize;"
-            printf " println!(\"%s.%s {} {}\", at, size_behind(f)); }\n", $2, $3
+            member = $3
+            sub(/^r#/, "", member)
+            printf " println!(\"%s.%s {} {}\", at, size_behind(f)); }\n", $2, member
         }
         $1 == "const" { printf "println!(\"%s {}\", %s);\n", $2, $2 }
     ' "$work/items"

@@ -9,7 +9,7 @@ import sys
 import textwrap
 from pathlib import Path
 
-HEADERS = ["base", "map", "chart", "stages", "kernel"]
+HEADERS = ["base", "map", "chart", "stages", "kernel", "fit"]
 SOURCE = Path(__file__).parent / "libicc-sys" / "src" / "lib.rs"
 WIDTH = 110  # max_width in rustfmt.toml
 
@@ -102,7 +102,7 @@ def rewritten(text, comments):
         item = lines[attributes]
         indent = len(item) - len(item.lstrip())
         found = re.match(r" *pub (const|struct|fn|type) (\w+)", item)
-        field = re.match(r"    pub (\w+):", item)
+        field = re.match(r"    pub (?:r#)?(\w+):", item)
         if found and found[1] == "struct":
             struct = found[2]
         name = found[2] if found else f"{struct}.{field[1]}" if field else item.strip()

@@ -149,18 +149,18 @@ enum {
 typedef struct icc_fit_options {
     size_t size;   /**< set by the caller: `sizeof(icc_fit_options)` */
     int32_t model; /**< `ICC_FIT_*`; 0: the spline without a domain and mesh, else elastic */
-    /** without a domain and mesh: the box that the map covers at least, lower and upper corner; NULL:
-     *  the bounding box of the points */
+    /** without a domain and mesh: the box that the map covers at least, lower and upper corner;
+     *  NULL: the bounding box of the points */
     const double *box;
-    /** without a domain and mesh: how far the map reaches beyond the box, as a share of its longest
-     *  side. Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen by leaving
-     *  each point out in turn */
+    /** without a domain and mesh: how far the map reaches beyond the box, as a share of its
+     *  longest side. Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen
+     *  by leaving each point out in turn */
     double margin;
     /** spline: 0: points with a tolerance are smoothed as leaving each point out in turn suggests.
      *  Above 0: a factor, larger for smoother. Negative: all points are exact */
     double smoothing;
-    /** elastic: a length in the source: how far a point carries its surroundings along. 0: as far as
-     *  the mesh makes it, so a single point pulls a spike */
+    /** elastic: a length in the source: how far a point carries its surroundings along. 0: as far
+     *  as the mesh makes it, so a single point pulls a spike */
     double reach;
     /** elastic: cells are stiffer by their area to the power of minus this number, from 0 to 3. 0:
      *  all alike. 1.5: thin layers of cells along a wall move as if glued to it */

@@ -3,6 +3,7 @@
 #include "../suite.h"
 
 #include <check.h>
+#include <icc/fit.h>
 #include <icc/kernel.h>
 #include <icc/stages.h>
 #include <stddef.h>
@@ -144,6 +145,18 @@ IS(ICC_WEIGHTS_QP, 1);
 IS(ICC_WEIGHTS_EQUALITY, 2);
 IS(ICC_WEIGHTS_L1, 3);
 IS(ICC_WEIGHTS_BIHARMONIC, 4);
+
+IS(ICC_REPAIR_NONE, 0);
+IS(ICC_REPAIR_PATCHES, 1);
+IS(ICC_REPAIR_WHOLE, 2);
+
+IS(ICC_CONSTRAINT_POINTS, 1);
+IS(ICC_CONSTRAINT_LINE, 2);
+IS(ICC_CONSTRAINT_VERTICES, 3);
+IS(ICC_CONSTRAINT_SLIDING, 4);
+
+IS(ICC_FIT_SPLINE, 1);
+IS(ICC_FIT_ELASTIC, 2);
 
 #if defined(__LP64__)
 
@@ -604,6 +617,60 @@ AT(icc_weights_report, lagrange, 48);
 AT(icc_weights_report, linearity, 56);
 AT(icc_weights_report, least_weight, 64);
 AT(icc_weights_report, definiteness, 72);
+
+SIZE(icc_nearest_options, 24);
+AT(icc_nearest_options, size, 0);
+AT(icc_nearest_options, n_held, 8);
+AT(icc_nearest_options, held, 16);
+
+SIZE(icc_nearest_report, 64);
+AT(icc_nearest_report, size, 0);
+AT(icc_nearest_report, repair, 8);
+AT(icc_nearest_report, n_folded, 16);
+AT(icc_nearest_report, n_patches, 24);
+AT(icc_nearest_report, changed, 32);
+AT(icc_nearest_report, moved, 40);
+AT(icc_nearest_report, most_moved, 48);
+AT(icc_nearest_report, n_iterations, 56);
+
+SIZE(icc_constraint, 64);
+AT(icc_constraint, size, 0);
+AT(icc_constraint, kind, 8);
+AT(icc_constraint, n, 16);
+AT(icc_constraint, source, 24);
+AT(icc_constraint, vertices, 32);
+AT(icc_constraint, target, 40);
+AT(icc_constraint, direction, 48);
+AT(icc_constraint, tolerance, 56);
+
+SIZE(icc_fit_options, 80);
+AT(icc_fit_options, size, 0);
+AT(icc_fit_options, model, 8);
+AT(icc_fit_options, box, 16);
+AT(icc_fit_options, margin, 24);
+AT(icc_fit_options, smoothing, 32);
+AT(icc_fit_options, reach, 40);
+AT(icc_fit_options, stiffness, 48);
+AT(icc_fit_options, cell_stiffness, 56);
+AT(icc_fit_options, cell, 64);
+AT(icc_fit_options, no_contact, 72);
+
+SIZE(icc_fit_info, 120);
+AT(icc_fit_info, size, 0);
+AT(icc_fit_info, model, 8);
+AT(icc_fit_info, n_items, 16);
+AT(icc_fit_info, margin, 24);
+AT(icc_fit_info, smoothing, 32);
+AT(icc_fit_info, residual, 40);
+AT(icc_fit_info, left_out, 48);
+AT(icc_fit_info, affine_residual, 56);
+AT(icc_fit_info, n_off, 64);
+AT(icc_fit_info, most_off, 72);
+AT(icc_fit_info, repair, 80);
+AT(icc_fit_info, n_folded, 88);
+AT(icc_fit_info, n_patches, 96);
+AT(icc_fit_info, changed, 104);
+AT(icc_fit_info, n_iterations, 112);
 
 #endif
 

@@ -59,6 +59,11 @@ weights_options kernel:i32 initial:i32 method:i32 steps:i32 affine_tail:i32 with
 weights_info dim:i32 kernel:i32 initial:i32 method:i32 n_handles:size n_nodes:size n_infeasible:size n_entries:size sigma:f64 definiteness:f64 residual:f64
 weights_timings factor:f64 initial:f64 optimise:f64
 weights_report n_infeasible:size n_negative:size unity:f64 reproduction:f64 reproduction_mean:f64 lagrange:f64 linearity:f64 least_weight:f64 definiteness:f64
+nearest_options n_held:size held:ptr
+nearest_report repair:i32 n_folded:size n_patches:size changed:f64 moved:f64 most_moved:f64 n_iterations:size
+constraint kind:i32 n:size source:ptr vertices:ptr target:ptr direction:ptr tolerance:ptr
+fit_options model:i32 box:ptr margin:f64 smoothing:f64 reach:f64 stiffness:f64 cell_stiffness:ptr cell:f64 no_contact:i32
+fit_info model:i32 n_items:size margin:f64 smoothing:f64 residual:f64 left_out:f64 affine_residual:f64 n_off:size most_off:f64 repair:i32 n_folded:size n_patches:size changed:f64 n_iterations:size
 """
 
 # Each line: [result] name arguments; the result is a status unless it is given.
@@ -199,6 +204,13 @@ binding_load binding** size void* env* error*
 pose_reset i32 size f64*
 pose_move i32 f64* f64*
 pose_turn i32 f64* f64* f64* f64
+map_create_nearest map** mesh* f64* nearest_options* nearest_report* env* error*
+fit_create fit** domain* mesh* size constraint* fit_options* env* error*
+fit_move fit** fit* f64* env* error*
+void:fit_free fit*
+map*:fit_map fit*
+fit_get_info fit* fit_info*
+fit_get_residuals fit* f64* f64*
 """
 
 _SCALARS: Dict[str, Any] = {

@@ -22,7 +22,7 @@ def api():
 
 def short(kind: str) -> str:
     """'const icc_map **' -> 'map**'."""
-    words = kind.replace("const", " ").replace("*", " * ").split()
+    words = [word for word in kind.replace("*", " * ").split() if word != "const"]
     stars = words.count("*")
     (name,) = (word for word in words if word != "*")
     return WORDS.get(name, name[4:] if name.startswith("icc_") else name) + "*" * stars

@@ -1,10 +1,10 @@
 //! Raw bindings of libicc: the C interface as it is, all of it unsafe. The crate `libicc` wraps it.
 //!
-//! Sections follow the headers `icc/base.h`, `icc/map.h`, `icc/chart.h`, `icc/stages.h` and `icc/kernel.h`, and the
-//! comments are those of the headers: `bindings/rust/comments.py` copies them. The rules of `icc/icc.h` apply.
-//! Objects are immutable, creators write to `*out`, and `env` and `err` may be null. `Default` of a struct sets
-//! `size` and zeroes everything else. `bindings/rust/check_layout.sh` compares every struct, constant and signature
-//! with the headers.
+//! Sections follow the headers `icc/base.h`, `icc/map.h`, `icc/chart.h`, `icc/stages.h`, `icc/kernel.h` and
+//! `icc/fit.h`, and the comments are those of the headers: `bindings/rust/comments.py` copies them. The rules of
+//! `icc/icc.h` apply. Objects are immutable, creators write to `*out`, and `env` and `err` may be null. `Default` of
+//! a struct sets `size` and zeroes everything else. `bindings/rust/check_layout.sh` compares every struct, constant
+//! and signature with the headers.
 //!
 //! (It has nothing to do with ICC colour profiles.)
 #![allow(non_camel_case_types)]
@@ -3934,4 +3934,301 @@ extern "C" {
         axis: *const f64,
         angle: f64,
     ) -> icc_status;
+}
+
+// icc/fit.h
+
+/// Options of `icc_map_create_nearest()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_nearest_options {
+    /// set by the caller: `sizeof(icc_nearest_options)`
+    pub size: usize,
+    /// number of vertices whose images must stay as given
+    pub n_held: usize,
+    /// n_held vertices of the mesh, or NULL
+    pub held: *const u32,
+}
+sized!(icc_nearest_options);
+
+// How a folded map became one-to-one.
+/// it was one-to-one: nothing was changed
+pub const ICC_REPAIR_NONE: i32 = 0;
+/// folded patches were mapped anew. Features pass one another as they do outside of the patches
+pub const ICC_REPAIR_PATCHES: i32 = 1;
+/// everything was mapped anew, because the folded patches could not be told apart. The map may turn around
+/// some features in another way than the given one
+pub const ICC_REPAIR_WHOLE: i32 = 2;
+
+/// What `icc_map_create_nearest()` has done.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_nearest_report {
+    /// set by the caller: `sizeof(icc_nearest_report)`
+    pub size: usize,
+    /// `ICC_REPAIR_*`
+    pub repair: i32,
+    /// cells of the given mesh whose image is flat or reversed
+    pub n_folded: usize,
+    /// patches that were mapped anew
+    pub n_patches: usize,
+    /// their share of the source's area
+    pub changed: f64,
+    /// root mean square distance of the given vertices from their given images, over all of them
+    pub moved: f64,
+    /// largest such distance
+    pub most_moved: f64,
+    /// Newton steps
+    pub n_iterations: usize,
+}
+sized!(icc_nearest_report);
+
+opaque!(
+    /// A map that is made from constraints.
+    icc_fit
+);
+
+// Kinds of constraints: `icc_constraint.kind`.
+/// points go to their targets. They may lie anywhere
+pub const ICC_CONSTRAINT_POINTS: i32 = 1;
+/// a polyline goes to a polyline: vertex to vertex, and edge to edge linearly
+pub const ICC_CONSTRAINT_LINE: i32 = 2;
+/// vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes along linearly
+/// if both its ends are told
+pub const ICC_CONSTRAINT_VERTICES: i32 = 3;
+/// vertices of the boundary may move along a straight line only
+pub const ICC_CONSTRAINT_SLIDING: i32 = 4;
+
+/// What is known of a map: where some points, a line or some vertices go.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_constraint {
+    /// set by the caller: `sizeof(icc_constraint)`, the same for all elements of an array
+    pub size: usize,
+    /// `ICC_CONSTRAINT_*`
+    pub kind: i32,
+    /// number of its points or vertices; of a line at least 2
+    pub n: usize,
+    /// points and lines: 2 n coordinates. Otherwise NULL
+    pub source: *const f64,
+    /// vertices and sliding: n numbers. Otherwise NULL
+    pub vertices: *const u32,
+    /// 2 n coordinates. Sliding: a point of each line, or NULL for the vertex itself
+    pub target: *const f64,
+    /// sliding: 2 n coordinates, the direction of each line in the target. NULL: the direction of the
+    /// boundary at the vertex, which must be straight there. Otherwise NULL
+    pub direction: *const f64,
+    /// points, with the spline: how far each may be off its target, such as the standard deviation of its
+    /// measurement; 0: not at all. NULL: all are exact
+    pub tolerance: *const f64,
+}
+sized!(icc_constraint);
+
+// How a fit carries everything that is not told: `icc_fit_options.model`.
+/// as smoothly as possible: of all functions through the points the one that bends the least inside the
+/// region. Affine functions do not bend, so three points give their affine map. For maps and pictures
+pub const ICC_FIT_SPLINE: i32 = 1;
+/// as rigidly as possible: every small piece keeps its shape and size. For characters, and for meshes whose
+/// boundary moves
+pub const ICC_FIT_ELASTIC: i32 = 2;
+
+/// Options of `icc_fit_create()`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_fit_options {
+    /// set by the caller: `sizeof(icc_fit_options)`
+    pub size: usize,
+    /// `ICC_FIT_*`; 0: the spline without a domain and mesh, else elastic
+    pub model: i32,
+    /// without a domain and mesh: the box that the map covers at least, lower and upper corner; NULL: the
+    /// bounding box of the points
+    pub r#box: *const f64,
+    /// without a domain and mesh: how far the map reaches beyond the box, as a share of its longest side.
+    /// Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen by leaving each point out
+    /// in turn
+    pub margin: f64,
+    /// spline: 0: points with a tolerance are smoothed as leaving each point out in turn suggests. Above 0: a
+    /// factor, larger for smoother. Negative: all points are exact
+    pub smoothing: f64,
+    /// elastic: a length in the source: how far a point carries its surroundings along. 0: as far as the mesh
+    /// makes it, so a single point pulls a spike
+    pub reach: f64,
+    /// elastic: cells are stiffer by their area to the power of minus this number, from 0 to 3. 0: all alike.
+    /// 1.5: thin layers of cells along a wall move as if glued to it
+    pub stiffness: f64,
+    /// elastic, with a mesh: a further factor above 0 for each cell; or NULL
+    pub cell_stiffness: *const f64,
+    /// elastic: the longest edge of the mesh that libicc makes, as a length in the source; 0: chosen
+    pub cell: f64,
+    /// elastic, 1: parts of the free outline may come to lie on each other. Then the result is refused if
+    /// they do. 0: they push each other away
+    pub no_contact: i32,
+}
+sized!(icc_fit_options);
+
+/// What `icc_fit_get_info()` reports.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct icc_fit_info {
+    /// set by the caller: `sizeof(icc_fit_info)`
+    pub size: usize,
+    /// `ICC_FIT_*`: never 0
+    pub model: i32,
+    /// points and vertices of all constraints
+    pub n_items: usize,
+    /// spline without a domain: as used
+    pub margin: f64,
+    /// spline: as used; 0: all points are exact
+    pub smoothing: f64,
+    /// root mean square distance of the images of points from their targets
+    pub residual: f64,
+    /// spline: root mean square distance of the targets from where the other points alone would take them. An
+    /// honest estimate of the accuracy between points. NaN if not known
+    pub left_out: f64,
+    /// spline: like `residual`, of the best affine map alone
+    pub affine_residual: f64,
+    /// elastic: number of exact items that were not reached, because the shape would have overlapped or
+    /// folded on the way
+    pub n_off: usize,
+    /// elastic: the largest distance of such an item from its target
+    pub most_off: f64,
+    /// spline: `ICC_REPAIR_*`
+    pub repair: i32,
+    /// spline: triangles of the model that are flat or reversed
+    pub n_folded: usize,
+    /// spline: patches that were mapped anew
+    pub n_patches: usize,
+    /// spline: their share of the area
+    pub changed: f64,
+    /// Newton steps
+    pub n_iterations: usize,
+}
+sized!(icc_fit_info);
+
+extern "C" {
+    /// Makes the one-to-one map that is nearest to any given warp: a thin plate, a polynomial, a displacement
+    /// field, a neural field or a pose, sampled at the vertices of a mesh.
+    ///
+    /// If every triangle keeps its orientation and the image of the boundary is simple, the map is the given
+    /// one, bit for bit. So this is also the way to make an `icc_map` of a mesh map from another program.
+    /// Otherwise the folded triangles and their surroundings are cut out and mapped anew. The mesh is refined
+    /// there. The rest of the map stays close to its images. "Near" is measured by the squared difference of
+    /// the derivatives, with a small share of the symmetric Dirichlet energy, which keeps triangles from
+    /// collapsing.
+    ///
+    /// The images of the boundary's vertices do not change. So the image of the boundary must be simple
+    /// already. Holes are allowed.
+    ///
+    /// - `out` (out): the map; owned by the caller. It has no charts
+    /// - `mesh`: a conforming mesh of triangles in one piece. It may have holes
+    /// - `images`: 2 n_vertices coordinates
+    /// - `options`: may be NULL
+    /// - `report` (out): may be NULL; its `size` is set by the caller
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `side` is 1 if the mesh is at fault and 2 if its images are
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_BOUNDARY` if the mesh is not valid, or if the image of its boundary meets itself
+    /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces
+    /// - `ICC_ERR_ARGUMENT`, also if the images are a mirror image: change the sign of one coordinate
+    /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found
+    /// - `ICC_ERR_UNSUPPORTED` if the mesh is not in the plane
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Cost: about 1 us a triangle if nothing folds. Deterministic.
+    pub fn icc_map_create_nearest(
+        out: *mut *mut icc_map,
+        mesh: *const icc_mesh,
+        images: *const f64,
+        options: *const icc_nearest_options,
+        report: *mut icc_nearest_report,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Makes a map from what is known of it. Pass a domain, a mesh or neither.
+    ///
+    /// *Neither*: the map covers a box around the points. This is the way to use control points on a map or a
+    /// picture. One point gives a shift, and two points give a similarity.
+    ///
+    /// *A domain*: its outline is free except where constraints tell it. It has no features other than holes.
+    /// libicc makes the mesh. This is the way to pose a figure by pins.
+    ///
+    /// *A mesh*: it is kept, vertex for vertex and cell for cell. It may have holes. This is the way to move
+    /// a wall in a mesh.
+    ///
+    /// Exact items end exactly at their targets. If an elastic shape cannot get there without folding or
+    /// overlapping, the result is the map as far as it got: check `icc_fit_info.n_off`.
+    ///
+    /// - `out` (out): the fit; owned by the caller, see `icc_fit_free()`
+    /// - `domain`: a domain of the plane, or NULL
+    /// - `mesh`: a mesh of triangles in the plane, or NULL
+    /// - `n_constraints`: at least 1
+    /// - `constraints`: n_constraints of them; they are copied
+    /// - `options`: may be NULL
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL; `index` is the point or vertex at fault, counted over all constraints
+    ///   (`ICC_ITEM_POINT`)
+    ///
+    /// Returns `ICC_OK`, or
+    ///
+    /// - `ICC_ERR_ARGUMENT` if two items coincide and have different targets, or the other way round; if the
+    ///   targets mirror the points; or if an option does not suit the model
+    /// - `ICC_ERR_OUTSIDE` if a point or line is not inside the domain
+    /// - `ICC_ERR_BOUNDARY` if told parts of the boundary cross in the target
+    /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found
+    /// - `ICC_ERR_UNSUPPORTED` if the domain or mesh is not in the plane
+    /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
+    ///
+    /// Deterministic.
+    pub fn icc_fit_create(
+        out: *mut *mut icc_fit,
+        domain: *const icc_domain,
+        mesh: *const icc_mesh,
+        n_constraints: usize,
+        constraints: *const icc_constraint,
+        options: *const icc_fit_options,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged. The
+    /// mesh stays. An elastic fit continues from its present shape.
+    ///
+    /// - `out` (out): the fit; owned by the caller
+    /// - `fit`: the fit before. It does not change
+    /// - `targets`: 2 n_items coordinates: the targets of all items, constraint after constraint
+    /// - `env`: may be NULL
+    /// - `err`: may be NULL
+    ///
+    /// Returns as `icc_fit_create()`
+    pub fn icc_fit_move(
+        out: *mut *mut icc_fit,
+        fit: *const icc_fit,
+        targets: *const f64,
+        env: *const icc_env,
+        err: *mut icc_error,
+    ) -> icc_status;
+
+    /// Frees a fit and its map.
+    pub fn icc_fit_free(fit: *mut icc_fit);
+
+    /// The map; borrowed.
+    pub fn icc_fit_map(fit: *const icc_fit) -> *const icc_map;
+
+    /// Fills in `info`, whose `size` you have set. Returns `ICC_OK` or `ICC_ERR_ARGUMENT`.
+    pub fn icc_fit_get_info(fit: *const icc_fit, info: *mut icc_fit_info) -> icc_status;
+
+    /// Copies how far each item is off.
+    ///
+    /// - `fit`: the fit
+    /// - `residuals` (out): 2 n_items coordinates: the image of each item minus its target; or NULL. Sliding
+    ///   vertices have 0
+    /// - `left_out` (out): 2 n_items coordinates: where the other points alone would take each point, minus
+    ///   its target. NaN where that is not known: for items that are no points, and for the elastic model. Or
+    ///   NULL
+    ///
+    /// Returns `ICC_OK` or `ICC_ERR_ARGUMENT`
+    pub fn icc_fit_get_residuals(fit: *const icc_fit, residuals: *mut f64, left_out: *mut f64) -> icc_status;
 }
