@@ -6,11 +6,11 @@
 #include <string.h>
 
 /* Names of axes in lower case. */
-static const char *const names[][10] = {
+static const char *const names[N_AXES][10] = {
     {"x", "lon", "long", "longitude", "lng", "easting", "east", "point_x", "x_coord", "xcoord"},
     {"y", "lat", "latitude", "northing", "north", "point_y", "y_coord", "ycoord"},
     {"z", "height", "elevation", "altitude", "point_z", "z_coord", "zcoord"}};
-enum { N_AXES = sizeof names / sizeof *names, N_NAMES = sizeof *names / sizeof **names };
+enum { N_NAMES = sizeof *names / sizeof **names };
 
 static bool is_blank(char c)
 {
@@ -39,7 +39,7 @@ const char *columns_cell(cell *out, const char *p, const char *end, char separat
     return stop < end ? stop + 1 : NULL;
 }
 
-static char find_separator(const char *p, const char *end)
+char columns_separator(const char *p, const char *end)
 {
     char separator = '\0';
     for (; p < end && separator != ';'; p = pass(p, end))
@@ -47,7 +47,7 @@ static char find_separator(const char *p, const char *end)
     return separator;
 }
 
-static bool is_name(const cell *c, const char *name)
+bool columns_is_name(const cell *c, const char *name)
 {
     size_t n = strlen(name);
     bool same = (size_t)(c->end - c->begin) == n;
@@ -58,12 +58,11 @@ static bool is_name(const cell *c, const char *name)
     return same;
 }
 
-/* Returns the axis that a cell names, or N_AXES. */
-static size_t axis_of(const cell *c)
+size_t columns_axis(const cell *c)
 {
     for (size_t axis = 0; axis < N_AXES; axis++)
         for (size_t i = 0; i < N_NAMES && names[axis][i] != NULL; i++)
-            if (is_name(c, names[axis][i]))
+            if (columns_is_name(c, names[axis][i]))
                 return axis;
     return N_AXES;
 }
@@ -78,7 +77,7 @@ static bool take_heading(columns *out, const char *p, const char *end, const tab
     for (size_t i = 0; p != NULL; i++) {
         cell c;
         p = columns_cell(&c, p, end, out->separator);
-        size_t axis = axis_of(&c);
+        size_t axis = columns_axis(&c);
         if (axis >= n_wanted)
             continue;
         if (has[axis])
@@ -101,7 +100,7 @@ bool columns_learn(columns *out, bool *is_heading, const char *line, const table
                    problem *wrong)
 {
     const char *end = line + strcspn(line, "\n");
-    *out = (columns){.separator = find_separator(line, end)};
+    *out = (columns){.separator = columns_separator(line, end)};
     *is_heading = out->separator != '\0';
     for (const char *p = line; out->separator != '\0' && p != NULL; out->n_cells++) {
         cell c;

@@ -22,6 +22,16 @@ typedef struct cell {
  * after the last one. */
 const char *columns_cell(cell *out, const char *p, const char *end, char separator);
 
+/* The separator of a row: a semicolon if it has one, else a comma, else '\0'. */
+char columns_separator(const char *p, const char *end);
+
+/* True if a cell has this name, which is in lower case, whatever its case. */
+bool columns_is_name(const cell *c, const char *name);
+
+/* The axis that a cell of a heading names: 0 for x, 1 for y, 2 for z, else N_AXES. */
+enum { N_AXES = 3 };
+size_t columns_axis(const cell *c);
+
 /* Learns from the first line that is not empty how all lines are divided, and whether it is a
  * heading. If a heading names columns x, y and z, or the like, they are taken in this order and
  * other columns are ignored. False: see `wrong`. */

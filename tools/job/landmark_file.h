@@ -5,8 +5,8 @@
 #include "base/table.h"
 
 /* Reads rows of a point and its partner, of `dim` coordinates each, from text[0..n), with text[n]
- * == '\0'. In the plane it also reads files of the QGIS georeferencer (.points), where points that
- * are not enabled are skipped. False: see `wrong`. Free the table in either case. */
+ * == '\0'. In the plane it reads all files of control points (control/control_read.h). False: see
+ * `wrong`. Free the table in either case. */
 bool landmarks_decode(table *out, const char *text, size_t n, size_t dim, problem *wrong);
 
 /* Reads a file. If it is DONE, free the table; otherwise a message is on stderr. */
