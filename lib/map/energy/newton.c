@@ -5,6 +5,7 @@
 
 #include "base/minmax.h"
 #include "map/energy/dirichlet.h"
+#include "map/energy/model.h"
 #include "map/energy/newton_parts.h"
 #include "map/energy/truncated_cg.h"
 
@@ -173,6 +174,8 @@ static void add_pull(iccp_newton *s, size_t e, const double *motion, double *pul
     if (!(most > 0))
         return;
     iccp_dirichlet_local(dim, element, image, false, &local);
+    if (s->map.model != NULL)
+        iccp_model_add(dim, &s->map, s->assembly.simplex[e], element, &local);
     for (size_t i = 0; i < n; ++i) {
         const uint32_t slot = s->assembly.slot[v[i / dim]];
         for (size_t k = 0; k < n && slot != UINT32_MAX; ++k)

@@ -18,6 +18,7 @@
  * Ways
  * - In the plane: a sparse factorisation of the Hessian. In space: truncated conjugate gradients.
  * - Positive maps are improved by the symmetric Dirichlet energy (dirichlet.h).
+ * - A model attracts the map in these steps, if the simplicial map has one (model.h).
  * - Inverted ones are repaired by the untangling energy (untangling.h, untangle.h, mesh_repair.h).
  * - One step: newton.c solves (truncated_cg.h in space), newton_sums.c adds up, assembly.h
  *   assembles, newton_move.c goes along it. newton_plan.c keeps the plan.

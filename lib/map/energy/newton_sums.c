@@ -2,6 +2,7 @@
  * same for all numbers of threads. */
 #include "base/minmax.h"
 #include "map/energy/dirichlet.h"
+#include "map/energy/model.h"
 #include "map/energy/newton_parts.h"
 #include "map/energy/untangling.h"
 
@@ -25,8 +26,12 @@ static ICCP_INLINE double energy_of(size_t dim, const iccp_newton *s, size_t e, 
                                     double epsilon)
 {
     const double *image[4], *element = iccp_newton_images(dim, s, e, image);
-    return energy == ICCP_UNTANGLE ? iccp_untangling_energy(dim, element, image, epsilon)
-                                   : iccp_dirichlet_energy(dim, element, image);
+    if (energy == ICCP_UNTANGLE)
+        return iccp_untangling_energy(dim, element, image, epsilon);
+    const double own = iccp_dirichlet_energy(dim, element, image);
+    return s->map.model == NULL
+               ? own
+               : own + iccp_model_energy(dim, &s->map, s->assembly.simplex[e], element);
 }
 
 static icc_status find_terms(void *argument, size_t begin, size_t end)
@@ -77,14 +82,27 @@ double iccp_newton_least(const iccp_newton *newton, size_t *n_bad)
     return newton->map.dim == 2 ? find_least(2, newton, n_bad) : find_least(3, newton, n_bad);
 }
 
+/* Adds what a model adds to the derivatives of an element. */
+static void add_model(const loop *l, size_t e, iccp_local *local)
+{
+    const iccp_newton *s = l->s;
+    const double *element = s->element + ICCP_ELEMENT(s->map.dim) * e;
+    if (s->map.model != NULL && s->map.dim == 2)
+        iccp_model_add(2, &s->map, s->assembly.simplex[e], element, local);
+    else if (s->map.model != NULL)
+        iccp_model_add(3, &s->map, s->assembly.simplex[e], element, local);
+}
+
 static void find_local(const loop *l, size_t e, iccp_local *local)
 {
     const size_t dim = l->s->map.dim;
     const double *image[4], *element = iccp_newton_images(dim, l->s, e, image);
     if (l->energy == ICCP_UNTANGLE)
         iccp_untangling_local(dim, element, image, l->epsilon, local);
-    else
+    else {
         iccp_dirichlet_local(dim, element, image, l->energy == ICCP_DIRICHLET_MAJORISED, local);
+        add_model(l, e, local);
+    }
 }
 
 /* Computes several triangles side by side, in the plane and for the Dirichlet energy. */
@@ -103,6 +121,8 @@ static void find_some(const loop *l, size_t n, const size_t *e, iccp_local *loca
             batch.image[k][i] = image[k];
     }
     iccp_dirichlet_locals(iccp_simd(), &batch, l->energy == ICCP_DIRICHLET_MAJORISED, local);
+    for (size_t i = 0; i < n; ++i)
+        add_model(l, e[i], &local[i]);
 }
 
 /* Adds elements list[begin] .. list[end - 1], or begin .. end - 1 if `list` is NULL. */

@@ -22,6 +22,9 @@ typedef struct iccp_simplicial_map {
                        volumes equal, so that energies measure shape alone */
     const double *growth; /* a further factor for each simplex: the mean of this over its
                              corners, unless NULL */
+    const double *model;  /* dim of each point: the images of a model that the map shall stay near,
+                            or NULL */
+    double pull;          /* how strongly the model attracts the map in Newton's steps (model.h) */
 } iccp_simplicial_map;
 
 /* Returns the map of a mesh, with a stretch of 1. */
