@@ -110,13 +110,27 @@ static icc_status add_child(const builder *b, const level *from, const cell *par
     return push_cell(to, &child, b->memory);
 }
 
+/* Returns true if the squared distance of a point from the boundary is at most `distance2`. A
+ * domain with features has no locator. */
+static bool is_near_boundary(const icc_domain *domain, const double *p, double distance2)
+{
+    if (domain->locator != NULL)
+        return iccp_boxtree_reaches(&iccp_locator_trees(domain->locator)->edges, p, distance2);
+    uint32_t facet = 0;
+    double bary[2], q[2];
+    (void)iccp_domain_locate(domain, p, false, &facet, bary);
+    iccp_domain_facet_point(domain, facet, bary, q);
+    const double dx = q[0] - p[0], dy = q[1] - p[1];
+    return dx * dx + dy * dy <= distance2;
+}
+
 /* Turns a cell that is not split any further into a vertex at its centre. Skips it if the centre is
  * outside, or too near the boundary for the cell's width. */
 static icc_status emit_leaf(builder *b, const level *l, const cell *c)
 {
     const double p[2] = {c->x, c->y};
     const double clearance2 = CLEARANCE * l->width * CLEARANCE * l->width;
-    if (iccp_boxtree_reaches(&iccp_locator_trees(b->domain->locator)->edges, p, clearance2) ||
+    if (is_near_boundary(b->domain, p, clearance2) ||
         iccp_domain_locate(b->domain, p, true, NULL, NULL) != ICC_INSIDE)
         return ICC_OK;
     if (b->n_points == b->point_room) {
