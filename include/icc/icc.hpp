@@ -225,6 +225,10 @@ public:
     const T *get() const noexcept { return owned_.get(); } /**< pointer for the C interface; borrowed */
 
 protected:
+    /** Holds an object that belongs to another one, and keeps that alive. */
+    handle(const T *borrowed, std::shared_ptr<const void> owner)
+        : owned_(const_cast<T *>(borrowed), release{std::move(owner)}) {}
+
     /** Returns the struct that `read` fills in. */
     template <class Info> Info tell(icc_status (*read)(const T *, Info *)) const
     {
@@ -244,7 +248,15 @@ protected:
     }
 
 private:
-    std::unique_ptr<T, std::integral_constant<void (*)(T *), Free>> owned_;
+    struct release {
+        std::shared_ptr<const void> owner = nullptr; // of a borrowed object
+        void operator()(T *object) const noexcept
+        {
+            if (!owner)
+                Free(object);
+        }
+    };
+    std::unique_ptr<T, release> owned_;
 };
 
 /** Where points lie, and the nearest points of the boundary. */
@@ -769,6 +781,23 @@ public:
     /** Reads back the bytes of save(). */
     static map load(view<const std::byte> saved, const env &e = {}) { return map(saved, e); }
 
+    /** Makes the one-to-one map that is nearest to a warp of a mesh in the plane: icc_map_create_nearest().
+     *  `images` has 2 coordinates for each vertex, and the images of the vertices `held` do not change. The
+     *  report may be NULL, else its `size` is set. */
+    static map nearest(view<const double> vertices, view<const std::uint32_t> triangles,
+                       view<const double> images, view<const std::uint32_t> held = {},
+                       icc_nearest_report *report = nullptr, const env &e = {})
+    {
+        expect(images, 2 * count(vertices, 2));
+        return map(e, [&](auto out, auto... rest) {
+            const icc_mesh mesh = mesh_of(2, vertices, triangles);
+            auto options = sized<icc_nearest_options>();
+            options.n_held = held.size();
+            options.held = held.data();
+            return icc_map_create_nearest(out, &mesh, images.data(), &options, report, rest...);
+        });
+    }
+
     std::vector<std::byte> save() const { return bytes(icc_map_save); } /**< with domains and charts */
     icc_map_info info() const { return tell(icc_map_get_info); }        /**< certificate, energy, .. */
     icc_map_report report() const { return tell(icc_map_get_report); }  /**< how it was made */
@@ -931,6 +960,10 @@ public:
         return n_failed;
     }
 
+protected:
+    /** Holds the map of another object, and keeps that alive. */
+    map(const icc_map *borrowed, std::shared_ptr<const void> owner) : handle(borrowed, std::move(owner)) {}
+
 private:
     template <class F>
     std::size_t run(F f, view<const double> points, view<double> results, std::size_t n_results,
@@ -966,6 +999,150 @@ private:
         });
         return result;
     }
+};
+
+/** What is known of a map of the plane: where some points, a line or some vertices go.
+ *  `icc::constraint::points({..}, {..})` and its siblings borrow the numbers. */
+class constraint {
+public:
+    /** Points and their targets, 2 coordinates each. With the spline they may have tolerances, one each. */
+    static constraint points(view<const double> source, view<const double> target,
+                             view<const double> tolerance = {})
+    {
+        constraint c(ICC_CONSTRAINT_POINTS, count(source, 2), target);
+        if (tolerance.size() != 0)
+            expect(tolerance, c.of_c_.n);
+        c.of_c_.source = source.data();
+        c.of_c_.tolerance = tolerance.data();
+        return c;
+    }
+    /** A polyline and its target, vertex by vertex. */
+    static constraint line(view<const double> source, view<const double> target)
+    {
+        constraint c(ICC_CONSTRAINT_LINE, count(source, 2), target);
+        c.of_c_.source = source.data();
+        return c;
+    }
+    /** Vertices of the domain or the mesh, and their targets. */
+    static constraint vertices(view<const std::uint32_t> numbers, view<const double> target)
+    {
+        constraint c(ICC_CONSTRAINT_VERTICES, numbers.size(), target);
+        c.of_c_.vertices = numbers.data();
+        return c;
+    }
+    /** Vertices of the boundary that slide along straight lines, whose directions may be left out. */
+    static constraint sliding(view<const std::uint32_t> numbers, view<const double> direction = {})
+    {
+        constraint c(ICC_CONSTRAINT_SLIDING, numbers.size(), {});
+        if (direction.size() != 0)
+            expect(direction, 2 * numbers.size());
+        c.of_c_.vertices = numbers.data();
+        c.of_c_.direction = direction.data();
+        return c;
+    }
+
+    const icc_constraint &get() const noexcept { return of_c_; } /**< for the C interface */
+
+private:
+    constraint(std::int32_t kind, std::size_t n, view<const double> target)
+    {
+        if (kind != ICC_CONSTRAINT_SLIDING)
+            expect(target, 2 * n);
+        of_c_.kind = kind;
+        of_c_.n = n;
+        of_c_.target = target.data();
+    }
+
+    icc_constraint of_c_ = sized<icc_constraint>();
+};
+
+/** A map of the plane that is made from what is known of it, such as a few control points: icc_fit_create().
+ *
+ *      const icc::fit fit({0, 0, 4, 0, 4, 3, 0, 3}, {1, 1, 5, 2, 6, 5, 1, 4});
+ *      const std::vector<double> images = fit.apply({1, 1});
+ */
+class fit : public map {
+public:
+    /** Control points and their targets, 2 coordinates each. The map covers a box around the points. */
+    fit(view<const double> points, view<const double> targets,
+        const icc_fit_options &options = sized<icc_fit_options>(), const env &e = {})
+        : fit(std::vector<constraint>{constraint::points(points, targets)}, options, e) {}
+
+    /** Everything that is known. The map covers a box around the points. */
+    explicit fit(const std::vector<constraint> &constraints,
+                 const icc_fit_options &options = sized<icc_fit_options>(), const env &e = {})
+        : fit(create(nullptr, nullptr, constraints, options, e)) {}
+
+    /** The map covers a domain, whose outline is free where constraints do not tell it. */
+    fit(const domain &domain, const std::vector<constraint> &constraints,
+        const icc_fit_options &options = sized<icc_fit_options>(), const env &e = {})
+        : fit(create(domain.get(), nullptr, constraints, options, e)) {}
+
+    /** The map of a mesh of triangles, which is kept as it is. */
+    static fit on_mesh(view<const double> vertices, view<const std::uint32_t> triangles,
+                       const std::vector<constraint> &constraints,
+                       const icc_fit_options &options = sized<icc_fit_options>(), const env &e = {})
+    {
+        const icc_mesh mesh = mesh_of(2, vertices, triangles);
+        return fit(create(nullptr, &mesh, constraints, options, e));
+    }
+
+    /** Makes the fit to targets that have moved: icc_fit_move(). `targets` has 2 coordinates for each item,
+     *  constraint after constraint. */
+    fit move(view<const double> targets, const env &e = {}) const
+    {
+        expect(targets, 2 * fit_info().n_items);
+        return fit(std::make_shared<const made>(e, [&](auto out, auto... rest) {
+            return icc_fit_move(out, fit_->get(), targets.data(), rest...);
+        }));
+    }
+
+    /** How well it fits: icc_fit_get_info(). */
+    icc_fit_info fit_info() const
+    {
+        auto info = sized<icc_fit_info>();
+        call({}, [&](auto...) { return icc_fit_get_info(fit_->get(), &info); });
+        return info;
+    }
+
+    /** The image of each item minus its target, 2 numbers each: icc_fit_get_residuals(). */
+    std::vector<double> residuals() const
+    {
+        std::vector<double> result(2 * fit_info().n_items);
+        call({}, [&](auto...) { return icc_fit_get_residuals(fit_->get(), result.data(), nullptr); });
+        return result;
+    }
+
+    /** Where the other points alone would take each point, minus its target; NaN where that is not known. */
+    std::vector<double> left_out() const
+    {
+        std::vector<double> result(2 * fit_info().n_items);
+        call({}, [&](auto...) { return icc_fit_get_residuals(fit_->get(), nullptr, result.data()); });
+        return result;
+    }
+
+    const icc_fit *get_fit() const noexcept { return fit_->get(); } /**< pointer for the C interface; borrowed */
+
+private:
+    using made = handle<icc_fit, icc_fit_free>;
+
+    explicit fit(std::shared_ptr<const made> whole)
+        : map(icc_fit_map(whole->get()), whole), fit_(std::move(whole)) {}
+
+    static std::shared_ptr<const made> create(const icc_domain *domain, const icc_mesh *mesh,
+                                              const std::vector<constraint> &constraints,
+                                              const icc_fit_options &options, const env &e)
+    {
+        std::vector<icc_constraint> all;
+        all.reserve(constraints.size());
+        for (const constraint &c : constraints)
+            all.push_back(c.get());
+        return std::make_shared<const made>(e, [&](auto out, auto... rest) {
+            return icc_fit_create(out, domain, mesh, all.size(), all.data(), &options, rest...);
+        });
+    }
+
+    std::shared_ptr<const made> fit_;
 };
 
 } // namespace icc

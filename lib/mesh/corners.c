@@ -154,3 +154,16 @@ icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_ma
     iccp_free(memory, h.twin);
     return ready ? ICC_OK : ICC_ERR_MEMORY;
 }
+
+bool iccp_link_boundary(const iccp_corners *corners, size_t n_vertices, uint32_t *next)
+{
+    bool is_clear = true;
+    memset(next, 0xff, n_vertices * sizeof *next);
+    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
+        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
+            const uint32_t from = corners->vertex[iccp_after(c)];
+            is_clear &= next[from] == UINT32_MAX;
+            next[from] = corners->vertex[iccp_before(c)];
+        }
+    return is_clear;
+}

@@ -31,4 +31,8 @@ void iccp_collapse_edge(iccp_corners *corners, uint32_t corner);
 icc_status iccp_find_twins(iccp_corners *corners, size_t n_vertices, bool *is_manifold,
                            const iccp_env *env);
 
+/* Sets next[v] to the vertex after v along the boundary, with the inside on the left, or to
+ * UINT32_MAX if v lies inside. Returns false if a vertex is followed by two. */
+bool iccp_link_boundary(const iccp_corners *corners, size_t n_vertices, uint32_t *next);
+
 #endif

@@ -3,6 +3,7 @@ import { chartOf } from './chart.js';
 import { Core } from './core.js';
 import { domainOf, shapesOf } from './domain.js';
 import { IccError, codeOf } from './error.js';
+import { fitOf } from './fit.js';
 import { kernelOf } from './kernel.js';
 import { mapOf } from './map.js';
 import { matchOf } from './match.js';
@@ -28,7 +29,8 @@ export async function compiled(source) {
 /** The classes over a core. Without a core they are only descriptions. */
 export function classesOf(core) {
   const Domain = domainOf(core), Chart = chartOf(core, Domain), Map = mapOf(core, Domain, Chart);
-  return { Domain, Chart, Map, Match: matchOf(core, Domain), ...kernelOf(core), ...stagesOf(core) };
+  const Match = matchOf(core, Domain), Fit = fitOf(core, Domain, Map);
+  return { Domain, Chart, Map, Match, Fit, ...kernelOf(core), ...stagesOf(core) };
 }
 
 /**

@@ -2,7 +2,7 @@
 import { Handle, optional, room } from './core.js';
 import { withDomains } from './domain.js';
 import { Address } from './memory.js';
-import { flat, indices, meshOf, whole, withPoint } from './points.js';
+import { exactly, flat, indices, meshOf, whole, withPoint } from './points.js';
 
 const CHANNELS = 4; // of ImageData: red, green, blue, opacity
 
@@ -26,13 +26,22 @@ const bytesOf = (data) => new Uint8Array(data.buffer, data.byteOffset, data.byte
 export function mapOf(core, Domain, Chart) {
   class Map extends Handle {
     /** source, target: Domains, or outlines; options as in icc_map_options: { kind: 'mesh', chart: {...} }. */
-    constructor(source, target, options = null) {
+    constructor(source, target, options = null, lender = null) {
       super(core, source, () => withDomains(Domain, { source, target },
-        (s, t) => core.call('icc_map_create', s, t, checked(options, s.dim))), 'icc_map_free');
+        (s, t) => core.call('icc_map_create', s, t, checked(options, s.dim))), 'icc_map_free', lender);
     }
 
     static fromCharts(source, target, options = null) {
       return new Map(core.made('icc_map_create_from_charts', source, target, checked(options, source.dim)));
+    }
+
+    /** The one-to-one map that is nearest to a warp of a mesh in the plane, given by the images of its vertices. The images
+     *  of the boundary and of the vertices `held` do not change. Returns { map, report }. */
+    static nearest(vertices, simplices, images, held = []) {
+      const v = flat(vertices, 2), numbers = indices(held), report = {};
+      const map = new Map(core.made('icc_map_create_nearest', meshOf(2, v, indices(simplices, 3)),
+        exactly(flat(images, 2), v.length, 'images'), { nHeld: numbers.length, held: numbers }, report));
+      return { map, report };
     }
 
     static load(bytes) { return new Map(core.made('icc_map_load', bytes.length, bytes)); }

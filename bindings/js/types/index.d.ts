@@ -1,8 +1,8 @@
 /// <reference lib="esnext.disposable" />
 import type {
   Certificate, ChartInfo, ChartOptions, ChartReport, ChartTimings, CurvesInfo, DiscInfo, DomainInfo, FacetReport, FeatureInfo, FieldInfo,
-  FillOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
-  MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
+  FillOptions, FitInfo, FitOptions, FoliationInfo, FunctionInfo, FunctionOptions, FunctionReport, GradientInfo, GridInfo, GrowReport, ImproveOptions,
+  MapInfo, MapOptions, MapReport, MatchInfo, MatchOptions, NearestReport, SamplingInfo, SamplingOptions, ShellingInfo, SolverReport, TreeOptions,
   TreeReport, WeightsInfo, WeightsOptions, WeightsReport, WeightsTimings,
 } from './structs.js';
 export * from './structs.js';
@@ -161,7 +161,44 @@ export interface MapClass {
   /** Corner i of the source goes to corner i of the target. */
   new (source: ShapeLike, target: ShapeLike, options?: MapOptions | null): Map;
   fromCharts(source: Chart, target: Chart, options?: MapOptions | null): Map;
+  /** The one-to-one map that is nearest to a warp of a mesh in the plane, given by the images of its vertices. The images of the
+   *  boundary and of the vertices `held` do not change. */
+  nearest(vertices: Points, simplices: Indices, images: Points, held?: Indices): { map: Map; report: NearestReport };
   load(bytes: Uint8Array): Map;
+}
+
+/** What is known of a map besides its points, and the options of a fit. */
+export interface FitInput extends FitOptions {
+  /** A mesh of triangles, in place of a domain. It is kept as it is. */
+  mesh?: { readonly vertices: Points; readonly simplices: Indices } | null;
+  /** Polylines, each before and after. */
+  lines?: readonly (readonly [Points, Points])[];
+  /** Vertices of the domain or the mesh, and where they go. */
+  vertices?: Indices | null;
+  places?: Points | null;
+  /** Vertices of the boundary that may move along a straight line only, and its directions. Without directions they move along
+   *  the boundary. */
+  sliding?: Indices | null;
+  along?: Points | null;
+  /** Spline: how far the points may be off their targets: one number, or one for each. */
+  tolerance?: number | readonly number[] | Float64Array | null;
+}
+/** A map that is made from what is known of it, such as a few control points. */
+export interface Fit extends Handle {
+  readonly info: FitInfo;
+  readonly dim: number;
+  /** The map, which keeps the fit. */
+  readonly map: Map;
+  /** The image of each item minus its target, 2 numbers each: points first, then lines, vertices and sliding vertices. */
+  residuals(): Float64Array;
+  /** Where the other points alone would take each point, minus its target; NaN where that is not known. */
+  leftOut(): Float64Array;
+  /** The fit to targets of all items that have moved. Use it for dragging. */
+  move(to: Points): Fit;
+}
+export interface FitClass {
+  /** Points and where they go. Without a domain and a mesh the map covers a box around the points. */
+  new (points: Points | null, to?: Points | null, domain?: ShapeLike | null, known?: FitInput | null): Fit;
 }
 
 /** Regions and curves that carry kernel coordinates. */
@@ -286,6 +323,7 @@ export interface Instance {
   readonly Chart: ChartClass;
   readonly Map: MapClass;
   readonly Match: MatchClass;
+  readonly Fit: FitClass;
   readonly Shape: new (regions: readonly Domain[], curves?: { vertices?: Points; segments?: Indices; dim?: number }) => Shape;
   readonly Sampling: {
     new (shape: Shape, options?: SamplingOptions | null): Sampling;
@@ -342,7 +380,8 @@ export function load(source?: Source | Promise<Source>): Promise<Instance>;
 /** The same interface in a worker: promises of values, and objects by reference. */
 type Object_ = Handle | Pose;
 export type Far<T> = T extends Object_ ? Away<T> : T extends null ? null
-  : T extends { weights: Weights; energy: infer E } ? { weights: Away<Weights>; energy: E } : T;
+  : T extends { weights: Weights; energy: infer E } ? { weights: Away<Weights>; energy: E }
+  : T extends { map: Map; report: infer R } ? { map: Away<Map>; report: R } : T;
 type Given<A> = { [K in keyof A]: A[K] extends Object_ ? Away<A[K]> : A[K] | Near<A[K]> };
 type Near<T> = T extends readonly Domain[] ? readonly Away<Domain>[] : T extends ShapeLike ? T | Away<Domain> : T;
 export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
@@ -355,7 +394,7 @@ export type Away<T> = { free(): void; [Symbol.dispose](): void } & {
 type Statics<C> = { [K in keyof C]: C[K] extends (...args: infer A) => infer R ? (...args: Given<A>) => Promise<Far<R>> : never };
 export type AwayClass<C> = Statics<C> & (C extends new (...args: infer A) => infer T
   ? { create(...args: Given<A>): Promise<Far<T>> } : {});
-type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction' | 'Curves';
+type Class = 'Domain' | 'Chart' | 'Map' | 'Match' | 'Fit' | 'Shape' | 'Sampling' | 'Weights' | 'Binding' | 'Pose' | 'Grid' | 'Tree' | 'GridFunction' | 'Curves';
 type AwayFunctions = { [K in 'boundaryDefects' | 'triangulate' | 'statusName' | 'codeOf']:
   Instance[K] extends (...args: infer A) => infer R ? (...args: A) => Promise<R> : never };
 

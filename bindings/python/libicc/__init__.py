@@ -5,6 +5,8 @@
     images = mapping(points)                 # one-to-one, certified
     points = mapping.inverse(images)
 
+If you know only some points, ``libicc.fit(points, to)`` makes the map from them.
+
 `Domain` -> `Chart` -> `Map`. `libicc.stages` has the steps of the papers, `libicc.kernel` smooth weights for handles.
 Points are arrays (n, dim) of float64 in your coordinates, and angles are radians.
 
@@ -34,6 +36,7 @@ from ._errors import (
     UnsupportedError,
     VersionError,
 )
+from ._fit import Fit, fit, nearest
 from ._image import PixelTransform, picture_cage, warp_image
 from ._map import Map
 from ._match import Match, match
@@ -51,6 +54,7 @@ __all__ = [
     "Chart",
     "Domain",
     "Error",
+    "Fit",
     "FormatError",
     "INSIDE",
     "Map",
@@ -68,8 +72,10 @@ __all__ = [
     "VersionError",
     "as_domain",
     "boundary_defects",
+    "fit",
     "kernel",
     "match",
+    "nearest",
     "picture_cage",
     "repair_mask",
     "stages",

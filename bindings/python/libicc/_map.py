@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ._types import ArrayLike, Floats, Indices, Ints, ShapeLike
 
 KINDS = {"curves": 1, "mesh": 2}
+REPAIRS = {"none": 0, "patches": 1, "whole": 2}
 
 
 class Map(Saved):
@@ -44,6 +45,9 @@ class Map(Saved):
 
     Facet i of the source goes to facet i of the target. Call the map with points, or use `apply`. To go back, use
     `inverse` or `apply_inverse`.
+
+    If you know only some points, such as control points, landmarks or pins, call `libicc.fit` instead. It needs no
+    target outline. To make a warp of a mesh one-to-one, call `libicc.nearest`.
 
     >>> mapping = libicc.Map([[0, 0], [4, 0], [4, 3], [0, 3]], [[0, 0], [4, 1], [4, 4], [0, 3]])
     >>> mapping
@@ -76,6 +80,7 @@ class Map(Saved):
     _free = "map_free"
     _name = "map"
     dim = dimension("map_get_info", "map_info")
+    _repaired: Optional[SimpleNamespace] = None
 
     def __init__(self, source: ShapeLike, target: ShapeLike, kind: Optional[str] = None, *,
                  improve: Optional[int] = None, method: Optional[str] = None,
@@ -121,8 +126,11 @@ class Map(Saved):
 
     @property
     def report(self) -> SimpleNamespace:
-        """How the map was made: the members of ``icc_map_report``."""
-        return fields(self._info("map_get_report", "map_report"))
+        """How the map was made: the members of ``icc_map_report``. If `libicc.nearest` has made it, also those of
+        ``icc_nearest_report``."""
+        result = fields(self._info("map_get_report", "map_report"))
+        vars(result).update(vars(self._repaired) if self._repaired else {})
+        return result
 
     @property
     def ties(self) -> List[Tuple[Tuple[int, int], Floats, Floats]]:

@@ -69,12 +69,13 @@ def test_line_struct(api):
 
 def test_choices(api):
     """Numbers of enumerators."""
-    from libicc import _chart, _domain, _map, kernel
+    from libicc import _chart, _domain, _fit, _map, kernel
 
     numbers = {name[4:]: value for enum in api["enums"].values() for name, value in enum["values"].items()}
     for prefix, choices in [("METHOD_", _chart.METHODS), ("FUNCTION_", _chart.FUNCTIONS),
                             ("CONSTRAINTS_", _chart.CONSTRAINTS), ("SOLVER_", _chart.SOLVERS),
                             ("TREE_", _chart.TREES), ("MAP_", _map.KINDS),
+                            ("REPAIR_", _map.REPAIRS), ("FIT_", _fit.MODELS), ("CONSTRAINT_", _fit.CONSTRAINTS),
                             ("DEFECT_", _domain.DEFECTS), ("SAMPLING_", kernel.SAMPLINGS),
                             ("KERNEL_", kernel.KERNELS), ("INITIAL_", kernel.INITIALS),
                             ("WEIGHTS_", kernel.METHODS)]:

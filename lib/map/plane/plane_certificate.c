@@ -10,27 +10,11 @@
 #include "domain/outlines.h"
 
 #include <stdatomic.h>
-#include <string.h>
 
 /* Triangles that a thread looks at at once. */
 enum { GRAIN = 512 };
 
 /* ---- outlines ---- */
-
-/* The vertex after each one of the boundary, UINT32_MAX elsewhere. False when a vertex is followed
- * by two. */
-static bool link_boundary(const iccp_corners *corners, size_t n_vertices, uint32_t *next)
-{
-    bool is_clear = true;
-    memset(next, 0xff, n_vertices * sizeof *next);
-    for (uint32_t c = 0; c < 3 * corners->n_triangles; ++c)
-        if (corners->twin[c] == ICCP_NO_NEIGHBOUR) {
-            const uint32_t from = corners->vertex[iccp_after(c)];
-            is_clear &= next[from] == UINT32_MAX;
-            next[from] = corners->vertex[iccp_before(c)];
-        }
-    return is_clear;
-}
 
 typedef struct sides {
     iccp_outlines outlines;
@@ -51,7 +35,7 @@ static icc_status check_outlines(const iccp_plmap *map, size_t *n_rings, const i
     if (next == NULL)
         return ICC_ERR_MEMORY;
     icc_status status = ICC_ERR_BOUNDARY;
-    if (link_boundary(&map->corners, map->n_vertices, next))
+    if (iccp_link_boundary(&map->corners, map->n_vertices, next))
         status = iccp_outlines_create(&s.outlines, map->n_vertices, next, &env->memory);
     if (status == ICC_OK)
         status = iccp_side_by_side(env, 2, check_side, &s, NULL);

@@ -1,8 +1,9 @@
 //! Moves the inside of a shape along with its boundary, one-to-one.
 //!
 //! [`Domain`] (a boundary and what it encloses) -> [`Chart`] (coordinates of the inside: a boundary point and a share
-//! of the way to the maximum) -> [`Map`] (two charts whose boundaries correspond). [`stages`] has the steps of the
-//! method one by one, and [`kernel`] has smooth blending weights for handles.
+//! of the way to the maximum) -> [`Map`] (two charts whose boundaries correspond). If you know only some points, [`Fit`]
+//! makes the map from them. [`stages`] has the steps of the method one by one, and [`kernel`] has smooth blending
+//! weights for handles.
 //!
 //! ```
 //! use libicc::{flat, rows, Domain, Env, Map, MapOptions};
@@ -40,6 +41,7 @@ mod curves;
 mod domain;
 mod env;
 mod error;
+mod fit;
 mod function;
 mod grid;
 pub mod kernel;
@@ -64,6 +66,7 @@ pub use domain::{
 };
 pub use env::Env;
 pub use error::{Error, Item, Result, Side, Status};
+pub use fit::{Constraint, Fit, FitInfo, FitModel, FitOptions, NearestReport};
 pub use map::{
     Certificate, ImproveOptions, ImproveReport, Map, MapInfo, MapKind, MapMesh, MapOptions, MapReport,
     OwnedTie, Tie,
