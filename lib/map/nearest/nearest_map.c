@@ -1,0 +1,285 @@
+/* Makes the one-to-one map that is nearest to a caller's warp: reads the mesh into local
+ * coordinates, repairs the images (nearest.h), and makes a map of the result (map/given_mesh.h).
+ * Vertices that did not move keep their bits. */
+#include "map/nearest/nearest_map.h"
+
+#include "base/error.h"
+#include "domain/outlines.h"
+#include "geometry/frame.h"
+#include "map/given_mesh.h"
+#include "map/nearest/nearest.h"
+#include "math/predicates.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct maker {
+    const iccp_warp *warp;
+    iccp_frame frame[2]; /* before and after the map */
+    iccp_plmap map;
+    double *model;           /* the given images in local coordinates */
+    double *points, *images; /* of all vertices in the end, in the caller's coordinates */
+    uint32_t *inner;         /* held vertices that are not on the boundary */
+    size_t n_inner;
+    iccp_given_feature *features; /* one for each of them */
+} maker;
+
+/* ---- the mesh ---- */
+
+static icc_status localise(maker *m, int side, icc_error *err)
+{
+    const size_t n = m->warp->n_vertices;
+    const double *given = side == 0 ? m->warp->points : m->warp->images;
+    double *local = side == 0 ? m->map.points : m->map.images;
+    icc_status status = ICC_OK;
+    if (!iccp_all_finite(2 * n, given))
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "a coordinate is not finite");
+    if (status == ICC_OK) {
+        iccp_frame_fit(&m->frame[side], 2, n, given);
+        if (!iccp_frame_in_all(&m->frame[side], n, given, local))
+            status = iccp_fail(err, ICC_ERR_RESOLUTION,
+                               "a coordinate is too small beside others for exact signs");
+    }
+    return status == ICC_OK ? status : iccp_fail_side(err, status, side + 1);
+}
+
+/* Copies the triangles, counter-clockwise before the map. */
+static icc_status orient(maker *m, icc_error *err)
+{
+    const iccp_warp *w = m->warp;
+    uint32_t *v = m->map.corners.vertex;
+    for (size_t c = 0; c < 3 * w->n_triangles; ++c)
+        if (w->triangles[c] >= w->n_vertices)
+            return iccp_fail(err, ICC_ERR_BOUNDARY, "triangle %zu lists vertex %lu of %zu", c / 3,
+                             (unsigned long)w->triangles[c], w->n_vertices);
+    memcpy(v, w->triangles, 3 * w->n_triangles * sizeof *v);
+    for (size_t t = 0; t < w->n_triangles; ++t, v += 3) {
+        const double *p = m->map.points;
+        const int sign =
+            iccp_orient2d(p + 2 * (size_t)v[0], p + 2 * (size_t)v[1], p + 2 * (size_t)v[2]);
+        const uint32_t second = v[1];
+        if (sign == 0)
+            return iccp_fail(err, ICC_ERR_BOUNDARY, "triangle %zu is flat", t);
+        if (sign < 0) {
+            v[1] = v[2];
+            v[2] = second;
+        }
+    }
+    return ICC_OK;
+}
+
+/* Whether all triangles are connected across edges. */
+static icc_status check_pieces(const iccp_corners *c, const iccp_env *env, icc_error *err)
+{
+    const size_t n = c->n_triangles;
+    uint32_t *list = iccp_alloc(&env->memory, n, sizeof *list);
+    uint8_t *is_met = iccp_alloc_zero(&env->memory, n, 1);
+    size_t n_met = 1;
+    icc_status status = list != NULL && is_met != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        list[0] = 0;
+        is_met[0] = 1;
+    }
+    for (size_t i = 0; status == ICC_OK && i < n_met; ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t twin = c->twin[3 * (size_t)list[i] + k];
+            if (twin == ICCP_NO_NEIGHBOUR || is_met[twin / 3])
+                continue;
+            is_met[twin / 3] = 1;
+            list[n_met++] = twin / 3;
+        }
+    iccp_free(&env->memory, list);
+    iccp_free(&env->memory, is_met);
+    return status == ICC_OK && n_met < n
+               ? iccp_fail(err, ICC_ERR_TOPOLOGY, "the mesh is not in one piece")
+               : status;
+}
+
+/* Marks the vertices of the boundary and the held ones. Checks the boundary before the map, and
+ * that every vertex belongs to a triangle. */
+static icc_status fix(maker *m, const iccp_env *env, icc_error *err)
+{
+    iccp_plmap *map = &m->map;
+    const size_t n = map->n_vertices;
+    uint32_t *next = iccp_alloc(&env->memory, n, sizeof *next);
+    iccp_outlines outlines = {.memory = env->memory};
+    icc_status status = next != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK && !iccp_link_boundary(&map->corners, n, next))
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "two parts of the boundary share a vertex");
+    for (uint32_t v = 0; status == ICC_OK && v < n; ++v) {
+        map->fixed[v] = next[v] != UINT32_MAX ? ICCP_ALONG : ICCP_FREE;
+        map->facet[v] = v;
+        map->along[v] = 0;
+    }
+    for (size_t i = 0; status == ICC_OK && i < m->warp->n_held; ++i)
+        if (map->fixed[m->warp->held[i]] == ICCP_FREE) {
+            map->fixed[m->warp->held[i]] = ICCP_ON_POINT;
+            m->inner[m->n_inner++] = m->warp->held[i];
+        }
+    if (status == ICC_OK)
+        status = iccp_outlines_create(&outlines, n, next, &env->memory);
+    if (status == ICC_OK)
+        status = iccp_outlines_check(&outlines, map->points, env, err);
+    iccp_outlines_free(&outlines);
+    iccp_free(&env->memory, next);
+    return status;
+}
+
+static icc_status check_vertices(const maker *m, const iccp_env *env, icc_error *err)
+{
+    const size_t n = m->map.n_vertices;
+    uint8_t *is_used = iccp_alloc_zero(&env->memory, n, 1);
+    size_t v = 0;
+    if (is_used == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t c = 0; c < 3 * m->map.corners.n_triangles; ++c)
+        is_used[m->map.corners.vertex[c]] = 1;
+    while (v < n && is_used[v])
+        ++v;
+    iccp_free(&env->memory, is_used);
+    return v == n ? ICC_OK
+                  : iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)v,
+                                 "vertex %zu belongs to no triangle", v);
+}
+
+static icc_status read_mesh(maker *m, const iccp_env *env, icc_error *err)
+{
+    bool is_manifold = true;
+    icc_status status = localise(m, 0, err);
+    if (status == ICC_OK)
+        status = orient(m, err);
+    if (status == ICC_OK)
+        status = check_vertices(m, env, err);
+    if (status == ICC_OK)
+        status = iccp_find_twins(&m->map.corners, m->map.n_vertices, &is_manifold, env);
+    if (status == ICC_OK && !is_manifold)
+        status =
+            iccp_fail(err, ICC_ERR_BOUNDARY, "an edge belongs to two triangles on the same side");
+    if (status == ICC_OK)
+        status = check_pieces(&m->map.corners, env, err);
+    if (status == ICC_OK)
+        status = fix(m, env, err);
+    return status == ICC_OK ? status : iccp_fail_side(err, status, 1);
+}
+
+/* ---- the images ---- */
+
+static icc_status check_mirror(const maker *m, icc_error *err)
+{
+    const uint32_t *v = m->map.corners.vertex;
+    const double *q = m->map.images;
+    for (size_t t = 0; t < m->map.corners.n_triangles; ++t, v += 3)
+        if (iccp_orient2d(q + 2 * (size_t)v[0], q + 2 * (size_t)v[1], q + 2 * (size_t)v[2]) >= 0)
+            return ICC_OK;
+    return iccp_fail(err, ICC_ERR_ARGUMENT,
+                     "the images are a mirror image: every triangle is reversed. Change the sign "
+                     "of one coordinate of all images");
+}
+
+static bool is_at(const double *p, const double *q)
+{
+    return memcmp(p, q, 2 * sizeof *p) == 0;
+}
+
+/* Brings all vertices back to the caller's coordinates. */
+static icc_status bring_out(maker *m, const iccp_env *env)
+{
+    const size_t n = m->map.n_vertices, n_given = m->warp->n_vertices;
+    m->points = iccp_alloc(&env->memory, n, 2 * sizeof *m->points);
+    m->images = iccp_alloc(&env->memory, n, 2 * sizeof *m->images);
+    if (m->points == NULL || m->images == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t v = 0; v < n; ++v) {
+        const size_t i = 2 * v;
+        iccp_frame_out(&m->frame[0], 2, m->map.points + i, m->points + i);
+        iccp_frame_out(&m->frame[1], 2, m->map.images + i, m->images + i);
+        if (v >= n_given)
+            continue;
+        memcpy(m->points + i, m->warp->points + i, 2 * sizeof *m->points);
+        if (is_at(m->map.images + i, m->model + i))
+            memcpy(m->images + i, m->warp->images + i, 2 * sizeof *m->images);
+    }
+    return ICC_OK;
+}
+
+static void fill_report(icc_nearest_report *report, const maker *m, const iccp_nearest_facts *facts)
+{
+    double sum = 0, most = 0;
+    for (size_t v = 0; v < m->warp->n_vertices; ++v) {
+        const double square = iccp_vec_distance2(2, m->map.images + 2 * v, m->model + 2 * v);
+        sum += square;
+        most = iccp_max(most, square);
+    }
+    const double unit = m->frame[1].out[0] * m->frame[1].out[1];
+    report->repair = facts->repair;
+    report->n_folded = facts->n_folded;
+    report->n_patches = facts->n_patches;
+    report->changed = facts->changed;
+    report->moved = sqrt(sum / (double)m->warp->n_vertices) * unit;
+    report->most_moved = sqrt(most) * unit;
+    report->n_iterations = facts->n_iterations;
+}
+
+static icc_status conclude(icc_map **out, maker *m, const iccp_env *env, icc_error *err)
+{
+    icc_status status = bring_out(m, env);
+    m->features = iccp_alloc(&env->memory, m->n_inner, sizeof *m->features);
+    if (status != ICC_OK || m->features == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < m->n_inner; ++i)
+        m->features[i] = (iccp_given_feature){ICC_FEATURE_POINT, 1, &m->inner[i]};
+    const iccp_given_mesh mesh = {.n_vertices = m->map.n_vertices,
+                                  .points = m->points,
+                                  .images = m->images,
+                                  .n_triangles = m->map.corners.n_triangles,
+                                  .triangles = m->map.corners.vertex,
+                                  .n_features = m->n_inner,
+                                  .features = m->features};
+    return iccp_map_of_mesh(out, &mesh, env, err);
+}
+
+static icc_status make(icc_map **out, maker *m, icc_nearest_report *report, const iccp_env *env,
+                       icc_error *err)
+{
+    const iccp_warp *w = m->warp;
+    iccp_nearest_facts facts;
+    iccp_env part[2];
+    iccp_split(part, 2, (const double[]){4, 1}, env);
+    m->model = iccp_alloc(&env->memory, w->n_vertices, 2 * sizeof *m->model);
+    m->inner = iccp_alloc(&env->memory, w->n_held, sizeof *m->inner);
+    if (m->model == NULL || m->inner == NULL)
+        return ICC_ERR_MEMORY;
+    icc_status status = iccp_plmap_begin(&m->map, w->n_vertices, w->n_triangles, 1, &env->memory);
+    if (status == ICC_OK)
+        status = read_mesh(m, env, err);
+    if (status == ICC_OK)
+        status = localise(m, 1, err);
+    if (status == ICC_OK)
+        status = check_mirror(m, err);
+    if (status != ICC_OK)
+        return status;
+    memcpy(m->model, m->map.images, 2 * w->n_vertices * sizeof *m->model);
+    status = iccp_nearest(&m->map, false, &facts, &part[0], err);
+    if (status == ICC_ERR_BOUNDARY)
+        return iccp_fail_side(err, status, 2);
+    if (status == ICC_OK)
+        status = conclude(out, m, &part[1], err);
+    if (status == ICC_OK)
+        fill_report(report, m, &facts);
+    return status;
+}
+
+icc_status iccp_nearest_map_create(icc_map **out, const iccp_warp *warp, icc_nearest_report *report,
+                                   const iccp_env *env, icc_error *err)
+{
+    maker m = {.warp = warp, .map.memory = env->memory};
+    *out = NULL;
+    const icc_status status = make(out, &m, report, env, err);
+    iccp_plmap_free(&m.map);
+    iccp_free(&env->memory, m.model);
+    iccp_free(&env->memory, m.points);
+    iccp_free(&env->memory, m.images);
+    iccp_free(&env->memory, m.inner);
+    iccp_free(&env->memory, m.features);
+    return iccp_explain(err, status);
+}
