@@ -15,7 +15,7 @@
 static const double RANGE = 0.3, SHARE_OF_DISTANCE = 0.5;
 
 /* Strength of a barrier as a share of the mean weight of a triangle. */
-static const double STRENGTH = 0.01;
+static const double STRENGTH = 1;
 
 static int by_length(const void *a, const void *b)
 {

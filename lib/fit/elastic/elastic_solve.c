@@ -43,6 +43,10 @@ static const double TOLERANCE = 1e-6, ROUGH = 1e-2;
  * take TYPICAL steps for half of them. */
 enum { STEPS_TO_PLACE = 6, STEPS_BETWEEN = 2, STEPS_AT_END = 60, SOFT_STEPS = 30, TYPICAL = 16 };
 
+/* MOST_ROUNDS: how often groups are given up; the last time all are. MOST_TRIES: how often groups that
+ * were given up are tried again. */
+enum { MOST_ROUNDS = 6, MOST_TRIES = 2 };
+
 typedef struct drive {
     iccp_elastic_state *state;
     iccp_paths paths;
@@ -266,7 +270,6 @@ static icc_status give_up(drive *d, bool all)
 /* Goes the way, and gives up groups as often as it is blocked. */
 static icc_status lead(drive *d)
 {
-    enum { MOST_ROUNDS = 6 };
     bool reached = false;
     icc_status status = ICC_OK;
     for (int k = 0; k <= MOST_ROUNDS && status == ICC_OK && !reached; ++k) {
@@ -275,6 +278,65 @@ static icc_status lead(drive *d)
             status = give_up(d, k == MOST_ROUNDS - 1);
     }
     return status == ICC_OK ? relax(d, STEPS_AT_END, TOLERANCE) : status;
+}
+
+/* Begins again with groups that were given up, from where they are now. Soft springs may have led
+ * them around what blocked them. Returns true if there are any. */
+static bool try_again(drive *d)
+{
+    bool is_any = false;
+    for (size_t g = 0; g < d->paths.n_groups; ++g) {
+        is_any |= d->paths.group[g].is_off;
+        d->paths.group[g].is_off = false;
+    }
+    iccp_paths_begin(&d->paths, d->state->images);
+    return is_any;
+}
+
+/* Starts with the groups given up that were off before. */
+static void begin_off(drive *d, const uint8_t *off)
+{
+    for (uint32_t v = 0; v < d->state->as->n_points; ++v)
+        if (d->state->as->hold[v] == ICCP_HELD && off[v]) {
+            iccp_group *group = &d->paths.group[d->paths.group_of[v]];
+            group->moves = group->is_off = true;
+        }
+}
+
+/* Tries whether groups that were given up can go to their targets in one part. */
+static icc_status try_at_once(drive *d, const uint8_t *off)
+{
+    bool done = false;
+    if (!try_again(d))
+        return ICC_OK;
+    icc_status status = go_to(d, 1, false, &done);
+    if (status == ICC_OK && !done) {
+        begin_off(d, off);
+        set_places(d, 1);
+        (void)settle(d, &status);
+    }
+    return status == ICC_OK ? relax(d, STEPS_AT_END, TOLERANCE) : status;
+}
+
+static void list_off(const drive *d, uint8_t *off)
+{
+    for (uint32_t v = 0; v < d->state->as->n_points; ++v)
+        off[v] = d->state->as->hold[v] == ICCP_HELD && is_off(d, v);
+}
+
+static icc_status lead_all(drive *d, uint8_t *off)
+{
+    if (off != NULL)
+        begin_off(d, off);
+    icc_status status = lead(d);
+    for (int k = 0; off == NULL && k < MOST_TRIES && status == ICC_OK && try_again(d); ++k)
+        status = lead(d);
+    if (off != NULL && status == ICC_OK) {
+        list_off(d, off);
+        status = try_at_once(d, off);
+        list_off(d, off);
+    }
+    return status;
 }
 
 static void fill_report(const drive *d, iccp_elastic_report *report)
@@ -289,7 +351,7 @@ static void fill_report(const drive *d, iccp_elastic_report *report)
     report->energy = iccp_elastic_triangles(s) / s->as->weight;
 }
 
-static icc_status solve(drive *d, const double *targets, iccp_elastic_report *report,
+static icc_status solve(drive *d, const double *targets, uint8_t *off, iccp_elastic_report *report,
                         icc_error *err)
 {
     iccp_elastic_state *s = d->state;
@@ -300,7 +362,7 @@ static icc_status solve(drive *d, const double *targets, iccp_elastic_report *re
     icc_status status = iccp_paths_create(&d->paths, as->n_points, as->hold, as->n_triangles,
                                           as->corners, targets, s->images, &s->threads);
     if (status == ICC_OK)
-        status = lead(d);
+        status = lead_all(d, off);
     if (status == ICC_OK)
         fill_report(d, report);
     return status == ICC_OK ? iccp_outlines_check(&as->outlines, s->images, &s->threads, err)
@@ -308,7 +370,8 @@ static icc_status solve(drive *d, const double *targets, iccp_elastic_report *re
 }
 
 icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets, double *images,
-                              iccp_elastic_report *report, const iccp_env *env, icc_error *err)
+                              uint8_t *off, iccp_elastic_report *report, const iccp_env *env,
+                              icc_error *err)
 {
     const size_t n = 2 * elastic->n_points;
     iccp_elastic_state state;
@@ -319,7 +382,7 @@ icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets
     memcpy(before, images, n * sizeof *before);
     icc_status status = make_state(&state, elastic, images, env);
     if (status == ICC_OK)
-        status = solve(&d, targets, report, err);
+        status = solve(&d, targets, off, report, err);
     if (status == ICC_ERR_BOUNDARY)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE, "parts of the outline overlap in the image");
     if (status != ICC_OK)
