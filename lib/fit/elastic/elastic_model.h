@@ -63,13 +63,16 @@ typedef struct iccp_elastic_report {
  * At the end held vertices have their targets exactly, unless they are off: then the way was
  * blocked, because the shape would have folded or overlapped.
  *
- * off: NULL, or for a drag n_points marks, at first 0. They tell which vertices were off before, and
- * become those that are off now. Then less is tried for them, so that a drag stays quick.
- *
  * Returns ICC_ERR_CERTIFICATE if the outlines of the result are not simple, which can happen only
  * without contact. On failure `images` are as they were. */
 icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets, double *images,
-                              uint8_t *off, iccp_elastic_report *report, const iccp_env *env,
-                              icc_error *err);
+                              iccp_elastic_report *report, const iccp_env *env, icc_error *err);
+
+/* Like iccp_elastic_solve(), for one frame of a drag. Less is tried for vertices that are off, so
+ * that every frame is quick. `off` has n_points marks, 0 before the first frame. They tell which
+ * vertices were off in the frame before, and become those that are off now. */
+icc_status iccp_elastic_drag(const iccp_elastic *elastic, const double *targets, double *images,
+                             uint8_t *off, iccp_elastic_report *report, const iccp_env *env,
+                             icc_error *err);
 
 #endif

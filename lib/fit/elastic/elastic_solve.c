@@ -43,8 +43,8 @@ static const double TOLERANCE = 1e-6, ROUGH = 1e-2;
  * take TYPICAL steps for half of them. */
 enum { STEPS_TO_PLACE = 6, STEPS_BETWEEN = 2, STEPS_AT_END = 60, SOFT_STEPS = 30, TYPICAL = 16 };
 
-/* MOST_ROUNDS: how often groups are given up; the last time all are. MOST_TRIES: how often groups that
- * were given up are tried again. */
+/* MOST_ROUNDS: how often groups are given up; the last time all are. MOST_TRIES: how often groups
+ * that were given up are tried again. */
 enum { MOST_ROUNDS = 6, MOST_TRIES = 2 };
 
 typedef struct drive {
@@ -369,9 +369,9 @@ static icc_status solve(drive *d, const double *targets, uint8_t *off, iccp_elas
                             : status;
 }
 
-icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets, double *images,
-                              uint8_t *off, iccp_elastic_report *report, const iccp_env *env,
-                              icc_error *err)
+icc_status iccp_elastic_drag(const iccp_elastic *elastic, const double *targets, double *images,
+                             uint8_t *off, iccp_elastic_report *report, const iccp_env *env,
+                             icc_error *err)
 {
     const size_t n = 2 * elastic->n_points;
     iccp_elastic_state state;
@@ -392,4 +392,10 @@ icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets
     iccp_free(&env->memory, before);
     free_state(&state);
     return iccp_explain(err, status);
+}
+
+icc_status iccp_elastic_solve(const iccp_elastic *elastic, const double *targets, double *images,
+                              iccp_elastic_report *report, const iccp_env *env, icc_error *err)
+{
+    return iccp_elastic_drag(elastic, targets, images, NULL, report, env, err);
 }
