@@ -80,6 +80,18 @@ size_t iccp_ldlt_marked(const iccp_ldlt *factor, const uint8_t *needed, uint32_t
 void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size_t n_rhs, double *b,
                             double *work);
 
+/* Right-hand sides that iccp_ldlt_forms() takes at once. */
+enum { ICCP_LDLT_FORMS = 4 };
+
+/* Computes form[c] = b_c' A^-1 b_c for ICCP_LDLT_FORMS sparse right-hand sides b_c. `rows` lists
+ * the n rows where one of them is not 0, possibly several times. values[ICCP_LDLT_FORMS k + c] is
+ * added to entry rows[k] of b_c. Only supernodes that the rows reach are visited.
+ *
+ * `work` has ICCP_LDLT_FORMS * factor->n doubles and `needed` has factor->nodes.n entries. All of
+ * them are 0 before and after the call. `path` has room for factor->nodes.n numbers. */
+void iccp_ldlt_forms(const iccp_ldlt *factor, size_t n, const uint32_t *rows, const double *values,
+                     double form[ICCP_LDLT_FORMS], double *work, uint8_t *needed, uint32_t *path);
+
 /* Solves for one right-hand side of normalised numbers, without underflow or overflow. `work` has
  * room for n of them. Returns ICC_OK or ICC_ERR_CANCELLED.
  *

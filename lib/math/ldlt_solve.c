@@ -18,7 +18,7 @@ typedef struct group {
     size_t width;
 } group;
 
-enum { MOST_COLUMNS = 4 };
+enum { MOST_COLUMNS = ICCP_LDLT_FORMS };
 
 /* Doubles of a cache line, and how many bytes ahead memory is prefetched. */
 enum { LINE = 8, AHEAD = 8192 };
@@ -321,4 +321,55 @@ void iccp_ldlt_solve_marked(const iccp_ldlt *factor, const uint8_t *needed, size
                             double *work)
 {
     solve(factor, needed, n_rhs, b, work, NULL);
+}
+
+/* Lists the supernodes that the rows reach, in rising order. Children come before parents, so a
+ * path from a row is in order already, and is merged with the list from behind. */
+static size_t find_path(const iccp_ldlt *factor, size_t n, const uint32_t *rows, uint8_t *needed,
+                        uint32_t *path)
+{
+    const iccp_supernodes *nodes = &factor->nodes;
+    size_t length = 0;
+    for (size_t k = 0; k < n; ++k) {
+        const size_t old = length;
+        for (uint32_t s = nodes->owner[factor->position[rows[k]]];
+             s != ICCP_NO_PARENT && !needed[s]; s = nodes->parent[s]) {
+            needed[s] = 1;
+            path[length++] = s;
+        }
+        for (size_t i = old; i < length; ++i) {
+            const uint32_t s = path[i];
+            size_t j = i;
+            for (; j > 0 && path[j - 1] > s; --j)
+                path[j] = path[j - 1];
+            path[j] = s;
+        }
+    }
+    return length;
+}
+
+/* b' A^-1 b = y' D^-1 y with L y = b. */
+void iccp_ldlt_forms(const iccp_ldlt *factor, size_t n, const uint32_t *rows, const double *values,
+                     double form[ICCP_LDLT_FORMS], double *work, uint8_t *needed, uint32_t *path)
+{
+    const iccp_supernodes *nodes = &factor->nodes;
+    const solution x = {.dense = iccp_dense_choose(), .factor = factor};
+    const group g = {work, ICCP_LDLT_FORMS};
+    for (size_t k = 0; k < n * ICCP_LDLT_FORMS; ++k)
+        work[ICCP_LDLT_FORMS * (size_t)factor->position[rows[k / ICCP_LDLT_FORMS]] +
+             k % ICCP_LDLT_FORMS] += values[k];
+    for (size_t c = 0; c < ICCP_LDLT_FORMS; ++c)
+        form[c] = 0;
+    const size_t length = find_path(factor, n, rows, needed, path);
+    for (size_t k = 0; k < length; ++k) {
+        const uint32_t s = path[k];
+        pass(factor, s, &g, &(range){0, rows_of(&x, s)}, &x.dense);
+        for (size_t i = nodes->column[s]; i < nodes->column[s + 1]; ++i)
+            for (size_t c = 0; c < ICCP_LDLT_FORMS; ++c) {
+                double *y = &work[ICCP_LDLT_FORMS * i + c];
+                form[c] += *y * *y / factor->pivot[i];
+                *y = 0;
+            }
+        needed[s] = 0;
+    }
 }

@@ -1,0 +1,62 @@
+/* The natural spline of a frame: of all maps of a box that take control points to their targets,
+ * the one that bends the least inside the box. */
+#ifndef ICCP_SPLINE_H
+#define ICCP_SPLINE_H
+
+#include "fit/spline/distinct_points.h"
+#include "fit/spline/spline_system.h"
+#include "map/compatible/plmap.h"
+
+/* What to fit. All coordinates are local: the largest is about 1. */
+typedef struct iccp_spline_task {
+    size_t n;                       /* at least 1 */
+    const double *points, *targets; /* 2 n each */
+    const double *tolerances;       /* n: how far a point may be off; 0: exact. NULL: all exact */
+    const double *lower, *upper;    /* the box to cover at least; NULL: the points' bounding box */
+    double margin;    /* how far the frame reaches, in longest sides of the box; 0: chosen */
+    double smoothing; /* as in icc_fit_options; see iccp_spline::smoothing */
+} iccp_spline_task;
+
+typedef struct iccp_spline {
+    iccp_memory memory;
+    size_t n;                     /* points as given */
+    iccp_distinct_points control; /* different points: control.number[i] is the vertex of point i */
+    /* Points are the vertices 0 to control.n - 1. Images are local in the target. They may fold.
+     * Exact points are ICCP_ON_POINT and the boundary is ICCP_ALONG. Facets and places along them
+     * are 0: the caller sets them. */
+    iccp_plmap map;
+    double *residuals; /* 2 n: image minus target */
+    double *left_out;  /* 2 n: where the other points would take each point, minus its target. NaN
+                          if they do not determine it */
+    double residual, left_out_residual, affine_residual; /* root mean square; NaN if not known */
+    double margin;                                       /* as used */
+    /* As used; 0: all points are exact. The spline minimises s E + sum_i (t / t_i)^2 |off_i|^2 with
+     * the smoothing s. E is the integral of the squared second derivatives, in a metric in which
+     * lengths are those of the affine fit and the box's longest side is about 1. t_i are the
+     * tolerances, and 1 / t^2 is the mean of 1 / t_i^2 */
+    double smoothing;
+    iccp_trend trend;          /* the affine fit */
+    double metric[4];          /* see iccp_bending_mesh */
+    iccp_box_mesh solved;      /* the mesh of the system. Its vertices are the map's first */
+    iccp_spline_system system; /* factorised; without told vertices if nothing can bend */
+    uint32_t *parents;         /* of each further vertex: the ends of the edge that it halves */
+    double *told;              /* 2 control.n: targets less the affine fit */
+    double *left_out_own;      /* 2 control.n: working memory */
+} iccp_spline;
+
+/* Makes the spline, chooses margin and smoothing where they are not given, and leaves out each
+ * point. With fewer than three different points the map is a similarity.
+ *
+ * Returns ICC_ERR_ARGUMENT if points coincide with different targets, if the targets mirror the
+ * points, or if the targets lie on one line. Other failures: ICC_ERR_MEMORY, ICC_ERR_CANCELLED. On
+ * failure nothing stays allocated. Deterministic. O(n^1.3). */
+icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
+                              const iccp_env *env, icc_error *err);
+void iccp_spline_free(iccp_spline *spline);
+
+/* Solves for other targets of the same points, with the same factor: margin, smoothing and metric
+ * stay. Replaces images, residuals and residuals left out. On failure the images are undefined. */
+icc_status iccp_spline_aim(iccp_spline *spline, const double *targets, const double *tolerances,
+                           const iccp_env *env, icc_error *err);
+
+#endif
