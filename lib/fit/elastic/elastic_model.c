@@ -38,12 +38,13 @@ iccp_simplicial_map iccp_elastic_view(const iccp_elastic_state *state)
 
 static icc_status analyse(iccp_elastic_plan *plan, const iccp_elastic *s, const iccp_env *env)
 {
-    const size_t n = s->n_triangles + plan->n_touches;
+    const size_t n = plan->first_touch + plan->n_touches;
     const size_t n_threads = env->threads > 1 ? (size_t)env->threads : 1;
     const iccp_simplicial_map view = view_of(s, n, plan->corners, NULL);
     icc_status status = iccp_assembly_create(&plan->assembly, &view, NULL, env);
     if (status != ICC_OK)
         return status;
+    iccp_reach_find(&s->reach, &plan->assembly, plan->place);
     const iccp_symmetric hessian = iccp_assembly_hessian(&plan->assembly);
     status = iccp_ldlt_analyse(&plan->factor, &hessian, 2, env);
     if (status != ICC_OK)
@@ -53,23 +54,36 @@ static icc_status analyse(iccp_elastic_plan *plan, const iccp_elastic *s, const 
     return iccp_assembly_divide(&plan->assembly, plan->factor.position, n_parts, env);
 }
 
+/* Lists the corners of triangles, links and pairs. */
+static void fill_plan(iccp_elastic_plan *plan, const iccp_elastic *s, const iccp_touch *touch)
+{
+    uint32_t *corners = plan->corners + 3 * plan->first_touch;
+    memcpy(plan->corners, s->corners, 3 * s->n_triangles * sizeof *corners);
+    if (s->reach.n_links > 0)
+        memcpy(plan->corners + 3 * s->n_triangles, s->reach.links,
+               3 * s->reach.n_links * sizeof *corners);
+    for (size_t k = 0; k < plan->n_touches; ++k) {
+        const uint32_t corner[3] = {touch[k].a, touch[k].b, touch[k].p};
+        plan->touch[k] = touch[k];
+        memcpy(corners + 3 * k, corner, sizeof corner);
+    }
+}
+
 icc_status iccp_elastic_plan_create(iccp_elastic_plan *plan, const iccp_elastic *elastic,
                                     size_t n_touches, const iccp_touch *touch, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    const size_t n_corners = 3 * elastic->n_triangles;
+    const iccp_reach *reach = &elastic->reach;
+    const size_t n_entries = reach->factor > 0 ? reach->gram.first[elastic->n_points] : 0;
     *plan = (iccp_elastic_plan){.n_touches = n_touches};
+    plan->first_touch = elastic->n_triangles + reach->n_links;
     plan->assembly.memory = plan->factor.memory = *memory;
-    plan->corners = iccp_alloc(memory, n_corners + 3 * n_touches, sizeof *plan->corners);
+    plan->corners = iccp_alloc(memory, plan->first_touch + n_touches, 3 * sizeof *plan->corners);
     plan->touch = iccp_alloc(memory, n_touches, sizeof *plan->touch);
+    plan->place = iccp_alloc(memory, n_entries, sizeof *plan->place);
     icc_status status = ICC_ERR_MEMORY;
-    if (plan->corners != NULL && plan->touch != NULL) {
-        memcpy(plan->corners, elastic->corners, n_corners * sizeof *plan->corners);
-        for (size_t k = 0; k < n_touches; ++k) {
-            const uint32_t corner[3] = {touch[k].a, touch[k].b, touch[k].p};
-            plan->touch[k] = touch[k];
-            memcpy(plan->corners + n_corners + 3 * k, corner, sizeof corner);
-        }
+    if (plan->corners != NULL && plan->touch != NULL && plan->place != NULL) {
+        fill_plan(plan, elastic, touch);
         status = analyse(plan, elastic, env);
     }
     if (status != ICC_OK)
@@ -81,6 +95,7 @@ void iccp_elastic_plan_free(iccp_elastic_plan *plan, const iccp_memory *memory)
 {
     iccp_free(memory, plan->corners);
     iccp_free(memory, plan->touch);
+    iccp_free(memory, plan->place);
     iccp_assembly_free(&plan->assembly);
     iccp_ldlt_free(&plan->factor);
     *plan = (iccp_elastic_plan){.assembly.memory = *memory, .factor.memory = *memory};
@@ -143,7 +158,8 @@ static void set_weights(iccp_elastic *s, const iccp_elastic_input *input)
     }
 }
 
-/* The springs of told vertices: the sum of w |grad|^2 over the triangles of each. */
+/* The springs of told vertices: the sum of w |grad|^2 over the triangles of each, and what bending
+ * adds. */
 static void set_springs(iccp_elastic *s)
 {
     for (size_t c = 0; c < 3 * s->n_triangles; ++c) {
@@ -151,10 +167,12 @@ static void set_springs(iccp_elastic *s)
         const double *g = element + 1 + 2 * (c % 3);
         s->spring[s->corners[c]] += STIFF * element[0] * (g[0] * g[0] + g[1] * g[1]);
     }
+    for (size_t v = 0; s->reach.factor > 0 && v < s->n_points; ++v)
+        s->spring[v] += STIFF * s->reach.factor * s->reach.gram.diagonal[v];
 }
 
-/* Finds the rings of the boundary. */
-static icc_status find_outlines(iccp_elastic *s, const iccp_env *env)
+/* Finds the rings of the boundary, and the bending matrix. */
+static icc_status find_outlines(iccp_elastic *s, double reach, const iccp_env *env)
 {
     iccp_corners corners = {.vertex = s->corners, .n_triangles = s->n_triangles};
     uint32_t *next = iccp_alloc(&s->memory, s->n_points, sizeof *next);
@@ -172,6 +190,9 @@ static icc_status find_outlines(iccp_elastic *s, const iccp_env *env)
                 next[s->corners[iccp_after(c)]] = s->corners[iccp_before(c)];
         status = iccp_outlines_create(&s->outlines, s->n_points, next, &s->memory);
     }
+    if (status == ICC_OK)
+        status = iccp_reach_create(&s->reach, reach, s->n_points, s->points, s->n_triangles,
+                                   s->corners, corners.twin, env);
     iccp_free(&s->memory, next);
     iccp_free(&s->memory, corners.twin);
     return status;
@@ -184,8 +205,9 @@ static icc_status set_up(iccp_elastic *s, const iccp_elastic_input *input, const
         return status;
     set_axes(s, input->direction);
     set_weights(s, input);
-    set_springs(s);
-    status = find_outlines(s, env);
+    status = find_outlines(s, input->reach, env);
+    if (status == ICC_OK)
+        set_springs(s);
     s->shape =
         (iccp_contact_shape){.outlines = &s->outlines, .points = s->points, .fixed = s->hold};
     if (status == ICC_OK && s->contact)
@@ -204,7 +226,8 @@ icc_status iccp_elastic_create(iccp_elastic **out, const iccp_elastic_input *inp
     if (s == NULL)
         return ICC_ERR_MEMORY;
     const iccp_env quiet = iccp_quiet(env);
-    s->memory = s->plan.assembly.memory = s->plan.factor.memory = s->outlines.memory = env->memory;
+    s->memory = s->plan.assembly.memory = s->plan.factor.memory = s->outlines.memory =
+        s->reach.memory = s->reach.gram.memory = env->memory;
     atomic_init(&s->references, 1);
     s->n_points = input->n_points;
     s->n_triangles = input->n_triangles;
@@ -232,6 +255,7 @@ void iccp_elastic_release(iccp_elastic *elastic)
     const iccp_memory memory = s->memory;
     iccp_elastic_plan_free(&s->plan, &memory);
     iccp_outlines_free(&s->outlines);
+    iccp_reach_free(&s->reach);
     iccp_free(&memory, s->points);
     iccp_free(&memory, s->corners);
     iccp_free(&memory, s->hold);

@@ -9,7 +9,8 @@
  * - settled: held, and exactly at its place. Then it no longer moves.
  * - range: the distance below which parts of the outline push each other away (contact.h).
  *
- * The energy is the sum of w |J|^2 (1 + 1/det^2) over the triangles, with the barriers of contact.
+ * The energy is the sum of w |J|^2 (1 + 1/det^2) over the triangles, with the bending energy times
+ * the squared reach (reach.h) and the barriers of contact.
  * It is lowered by Newton's method (elastic_step.h). Held vertices go along a path, in parts as
  * long as nothing flips (elastic_solve.c).
  *
@@ -37,7 +38,9 @@ typedef struct iccp_elastic_input {
     const double *direction; /* 2 n_points: of sliding vertices, of any length; NULL: none slides */
     double stiffness;        /* triangles are stiffer by their area to the power of minus this */
     const double *cell_factor; /* a further factor for each triangle, or NULL */
-    bool contact;              /* free parts of the outlines push each other away */
+    double
+        reach; /* a length: how far a vertex carries its surroundings along; 0: as the mesh does */
+    bool contact; /* free parts of the outlines push each other away */
 } iccp_elastic_input;
 
 /* A mesh that is prepared for any number of targets. It never changes, so several threads may share

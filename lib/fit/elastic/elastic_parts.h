@@ -5,17 +5,21 @@
 #include "domain/outlines.h"
 #include "fit/elastic/contact.h"
 #include "fit/elastic/elastic_model.h"
+#include "fit/elastic/reach.h"
 #include "map/energy/assembly.h"
 #include "math/ldlt.h"
 
 #include <stdatomic.h>
 
-/* The places of the Hessian's entries and the order of elimination, for the triangles and for pairs
- * that may touch. Each pair (a, b, p) counts as one more triangle. */
+/* The places of the Hessian's entries and the order of elimination. They serve the triangles, the
+ * bending and pairs that may touch. For the pattern, links (reach.h) and pairs (a, b, p) count as
+ * further triangles. */
 typedef struct iccp_elastic_plan {
-    uint32_t *corners; /* 3 (n_triangles + n_touches) */
+    uint32_t *corners;  /* 3 for each triangle, link and pair, in this order */
+    size_t first_touch; /* number of triangles and links */
     size_t n_touches;
     iccp_touch *touch;
+    uint32_t *place;        /* of each entry of the bending matrix, see iccp_reach_find() */
     iccp_assembly assembly; /* of the shared plan: without sums */
     iccp_ldlt factor;       /* of the shared plan: without numbers */
 } iccp_elastic_plan;
@@ -31,6 +35,7 @@ struct iccp_elastic {
     double *element; /* ICCP_ELEMENT(2) for each triangle, with the weight in place of the area */
     double *spring;  /* n_points: the stiffness of the spring of a held or sliding vertex */
     double weight;   /* sum of the weights */
+    iccp_reach reach;
     bool contact;
     iccp_contact_shape shape; /* the outlines, as contact needs them */
     iccp_outlines outlines;

@@ -75,9 +75,17 @@ static void free_state(iccp_elastic_state *s)
 static icc_status share_plan(iccp_elastic_state *s)
 {
     const iccp_elastic_plan *plan = &s->as->plan;
+    const iccp_reach *reach = &s->as->reach;
+    const size_t n_entries = reach->factor > 0 ? reach->gram.first[s->as->n_points] : 0;
     iccp_simplicial_map view = iccp_elastic_view(s);
     view.corners = plan->corners;
     iccp_ldlt_share(&s->own.factor, &plan->factor, &s->threads.memory);
+    s->own.first_touch = plan->first_touch;
+    s->own.place = iccp_alloc(&s->threads.memory, n_entries, sizeof *s->own.place);
+    if (s->own.place == NULL)
+        return ICC_ERR_MEMORY;
+    if (n_entries > 0)
+        memcpy(s->own.place, plan->place, n_entries * sizeof *s->own.place);
     return iccp_assembly_share(&s->own.assembly, &plan->assembly, &view, &s->threads.memory);
 }
 

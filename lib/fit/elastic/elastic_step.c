@@ -24,6 +24,7 @@ icc_status iccp_elastic_energy(iccp_elastic_state *state, double *energy)
 {
     icc_status status = ICC_OK;
     *energy = iccp_elastic_triangles(state) + iccp_elastic_springs(state);
+    *energy += iccp_reach_energy(&state->as->reach, state->images);
     if (state->as->contact && *energy < HUGE_VAL) {
         status = iccp_contact_find(&state->contact, state->images, 1);
         if (status == ICC_OK)

@@ -112,14 +112,14 @@ static void add_triangles(iccp_elastic_state *s, size_t part, size_t n, const si
 
 static void add_pair(iccp_elastic_state *s, size_t part, size_t e)
 {
-    const iccp_touch *touch = &s->own.touch[e - s->as->n_triangles];
+    const iccp_touch *touch = &s->own.touch[e - s->own.first_touch];
     iccp_local local;
     if (iccp_contact_local(touch, s->as->shape.strength, s->images, &local))
         add(s, part, e, &local);
 }
 
 /* Adds elements list[begin] .. list[end - 1], or begin .. end - 1 if `list` is NULL. Triangles come
- * before pairs. */
+ * first. Links add nothing. */
 static void add_elements(iccp_elastic_state *s, size_t part, const uint32_t *list, size_t begin,
                          size_t end)
 {
@@ -136,8 +136,11 @@ static void add_elements(iccp_elastic_state *s, size_t part, const uint32_t *lis
     }
     if (n > 0)
         add_triangles(s, part, n, t);
-    for (; k < end; ++k)
-        add_pair(s, part, list != NULL ? list[k] : k);
+    for (; k < end; ++k) {
+        const size_t e = list != NULL ? list[k] : k;
+        if (e >= s->own.first_touch)
+            add_pair(s, part, e);
+    }
 }
 
 static icc_status begin_sums(void *argument, size_t begin, size_t end)
@@ -168,6 +171,44 @@ static void add_springs(iccp_elastic_state *s)
             }
 }
 
+/* The frame of a vertex. Axes of fixed unknowns are 0. */
+static void free_axes(const iccp_elastic_state *s, uint32_t v, double axis[2][2])
+{
+    for (size_t k = 0; k < 2; ++k)
+        if (s->settled[v] && iccp_elastic_is_told(s->as, v, k))
+            axis[k][0] = axis[k][1] = 0;
+        else
+            iccp_elastic_axis(s->as, v, k, axis[k]);
+}
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1];
+}
+
+/* Adds row v of the bending matrix. */
+static void add_bending(iccp_elastic_state *s, uint32_t v)
+{
+    const iccp_reach *reach = &s->as->reach;
+    const iccp_gram *q = &reach->gram;
+    iccp_assembly *a = &s->own.assembly;
+    double own[2][2], other[2][2], gradient[2];
+    free_axes(s, v, own);
+    iccp_reach_gradient(reach, s->images, v, gradient);
+    for (size_t k = 0; k < 2; ++k) {
+        a->gradient[2 * (size_t)v + k] += dot(own[k], gradient);
+        a->diagonal[2 * (size_t)v + k] += 2 * reach->factor * q->diagonal[v] * dot(own[k], own[k]);
+    }
+    for (size_t e = q->first[v]; e < q->first[v + 1]; ++e) {
+        free_axes(s, q->column[e], other);
+        for (size_t k = 0; k < 2; ++k) {
+            double *value = a->value + a->first[2 * (size_t)v + k] + 1 + 2 * s->own.place[e];
+            for (size_t c = 0; c < 2; ++c)
+                value[c] += 2 * reach->factor * q->value[e] * dot(own[k], other[c]);
+        }
+    }
+}
+
 void iccp_elastic_sum(iccp_elastic_state *state)
 {
     iccp_elastic_state *s = state;
@@ -177,6 +218,8 @@ void iccp_elastic_sum(iccp_elastic_state *state)
         (void)iccp_for_chunks(&s->threads, "improve", a->n_parts, 1, assemble_parts, s);
     else
         add_elements(s, ICCP_ALL_PARTS, NULL, 0, a->n_elements);
+    for (uint32_t v = 0; s->as->reach.factor > 0 && v < s->as->n_points; ++v)
+        add_bending(s, v);
     iccp_assembly_end(a);
     add_springs(s);
 }

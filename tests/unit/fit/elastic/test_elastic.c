@@ -22,7 +22,7 @@ typedef struct scene {
     double *points, *targets, *images, *direction;
     uint32_t *corners;
     uint8_t *hold;
-    double stiffness;
+    double stiffness, reach;
     bool contact;
 } scene;
 
@@ -181,6 +181,7 @@ static icc_status solve(const scene *s, iccp_elastic_report *report, const iccp_
                                       .hold = s->hold,
                                       .direction = s->direction,
                                       .stiffness = s->stiffness,
+                                      .reach = s->reach,
                                       .contact = s->contact};
     iccp_elastic *elastic;
     icc_status status = iccp_elastic_create(&elastic, &input, env);
@@ -558,16 +559,108 @@ START_TEST(stiff_triangles_stay_as_they_are)
 }
 END_TEST
 
+/* ---- reach ---- */
+
+/* The largest ratio of the singular values of a triangle's map. */
+static double most_aspect(const scene *s)
+{
+    double most = 1;
+    for (size_t t = 0; t < s->n_triangles; ++t) {
+        double u[2][2][2]; /* before and after, edge, coordinate */
+        for (size_t side = 0; side < 2; ++side)
+            for (size_t k = 0; k < 2; ++k)
+                for (size_t d = 0; d < 2; ++d) {
+                    const double *x = side == 0 ? s->points : s->images;
+                    u[side][k][d] = x[2 * (size_t)s->corners[3 * t + 1 + k] + d] -
+                                    x[2 * (size_t)s->corners[3 * t] + d];
+                }
+        const double before = u[0][0][0] * u[0][1][1] - u[0][0][1] * u[0][1][0];
+        const double after = u[1][0][0] * u[1][1][1] - u[1][0][1] * u[1][1][0];
+        double norm2 = 0;
+        for (size_t d = 0; d < 2; ++d) {
+            const double x = (u[1][0][d] * u[0][1][1] - u[1][1][d] * u[0][0][1]) / before;
+            const double y = (u[1][1][d] * u[0][0][0] - u[1][0][d] * u[0][1][0]) / before;
+            norm2 += x * x + y * y;
+        }
+        const double half = norm2 / (2 * after / before);
+        most = fmax(most, half + sqrt(fmax(half * half - 1, 0)));
+    }
+    return most;
+}
+
+/* Pulls the middle of a square away from four other points, which are held. */
+static double pull_middle(uint32_t cells, double reach)
+{
+    scene s = make_box(cells, cells, 0.8, 0.8);
+    s.contact = true;
+    s.reach = reach;
+    for (size_t v = 0; v < s.n_points; ++v) {
+        const size_t i = v / (cells + 1), j = v % (cells + 1);
+        if ((8 * i == cells || 8 * i == 7 * cells) && (8 * j == cells || 8 * j == 7 * cells))
+            hold(&s, v, s.points[2 * v], s.points[2 * v + 1]);
+        if (2 * i == cells && 2 * j == cells)
+            hold(&s, v, s.points[2 * v] + 0.12, s.points[2 * v + 1]);
+    }
+    ck_assert_uint_eq(run(&s).n_off, 0);
+    const double aspect = most_aspect(&s);
+    clear_scene(&s);
+    return aspect;
+}
+
+START_TEST(reach_ends_spikes)
+{
+    const double coarse = pull_middle(16, 0), fine = pull_middle(64, 0);
+    ck_assert_double_gt(fine, 1.5 * coarse);
+    const double smooth = pull_middle(16, 0.1), smoother = pull_middle(64, 0.1);
+    ck_assert_double_le(smoother, 2.3);
+    ck_assert_double_eq_tol(smoother / smooth, 1, 0.1);
+    ck_assert_double_le(pull_middle(32, 0.5), 1.8);
+}
+END_TEST
+
+/* Affine maps do not bend. Where a side slides, only a large reach makes the map affine. */
+START_TEST(reach_leaves_affine_maps)
+{
+    enum { COLUMNS = 9, ROWS = 6 };
+    for (int k = 0; k < 2; ++k) {
+        scene s = make_box(COLUMNS, ROWS, 0.9, 0.6);
+        s.reach = k == 0 ? 0.05 : 100;
+        for (size_t v = 0; v < s.n_points; ++v) {
+            const size_t i = v / (ROWS + 1), j = v % (ROWS + 1);
+            const double x = s.points[2 * v], y = s.points[2 * v + 1];
+            if (i == 0 || i == COLUMNS || j == 0 || (k == 0 && j == ROWS))
+                hold(&s, v, 0.1 + 0.9 * x + 0.2 * y, 0.1 * x + 1.1 * y);
+            else if (j == ROWS) {
+                s.hold[v] = ICCP_SLIDING;
+                s.direction[2 * v] = 0.9;
+                s.direction[2 * v + 1] = 0.1;
+                s.targets[2 * v] = 0.1 + 0.2 * y;
+                s.targets[2 * v + 1] = 1.1 * y;
+            }
+        }
+        ck_assert_uint_eq(run(&s).n_off, 0);
+        for (size_t v = 0; v < s.n_points; ++v) {
+            const double x = s.points[2 * v], y = s.points[2 * v + 1];
+            ck_assert_double_eq_tol(s.images[2 * v], 0.1 + 0.9 * x + 0.2 * y, 1e-4);
+            ck_assert_double_eq_tol(s.images[2 * v + 1], 0.1 * x + 1.1 * y, 1e-4);
+        }
+        clear_scene(&s);
+    }
+}
+END_TEST
+
 /* ---- environments ---- */
 
 START_TEST(threads_change_no_bit)
 {
     size_t pin;
-    scene arm = make_arm(&pin), layers = make_layers();
-    scene *all[2] = {&arm, &layers};
+    scene arm = make_arm(&pin), layers = make_layers(), smooth = make_arm(&pin);
+    scene *all[3] = {&arm, &layers, &smooth};
     hold(&arm, pin + 2, 0.42, 0.2);
     turn_wall(&layers, 0.1);
-    for (size_t k = 0; k < 2; ++k) {
+    hold(&smooth, pin + 2, 0.42, 0.2);
+    smooth.reach = 0.02;
+    for (size_t k = 0; k < 3; ++k) {
         iccp_elastic_report report;
         double *first = malloc(2 * all[k]->n_points * sizeof *first);
         for (int32_t threads = 1; threads <= 4; ++threads) {
@@ -605,6 +698,8 @@ START_TEST(failures_leave_the_images)
     s.contact = true;
     hold(&s, 0, 0, 0.1);
     hold(&s, s.n_points - 1, 0.1, 0.6);
+    faulty_sweep(solve_once, &s);
+    s.reach = 0.1;
     faulty_sweep(solve_once, &s);
     clear_scene(&s);
 }
@@ -709,6 +804,8 @@ int main(void)
     tcase_add_test(tests, layers_turn_with_their_wall);
     tcase_add_test(tests, walls_that_cross_stay_off);
     tcase_add_test(tests, stiff_triangles_stay_as_they_are);
+    tcase_add_test(tests, reach_ends_spikes);
+    tcase_add_test(tests, reach_leaves_affine_maps);
     tcase_add_test(tests, threads_change_no_bit);
     tcase_add_test(tests, failures_leave_the_images);
     tcase_add_test(tests, meshes_fail_cleanly);
