@@ -179,7 +179,7 @@ static icc_status approach(iccp_plmap *map, size_t first, const double *model, b
         s.plan = NULL;
         s.stretch = stretch_of(map);
         s.model = model;
-        status = iccp_approach(&s, movable, &facts->n_iterations, &part);
+        status = iccp_approach(&s, movable, k == 0, &facts->n_iterations, &part);
     }
     iccp_free(&env->memory, marks);
     return status;
