@@ -1,9 +1,14 @@
 /* Moves new vertices of a region's map onto vertices that the region had. */
 #include "map/nearest/adopt.h"
 
+#include "map/compatible/triangle_quality.h"
 #include "math/predicates.h"
 
 #include <string.h>
+
+/* A move makes no triangle of the source flatter than this, unless one is at least as flat. See
+ * iccp_roundness(). */
+static const double LEAST_ROUNDNESS = 0.05;
 
 static const uint32_t NONE = UINT32_MAX;
 
@@ -14,19 +19,31 @@ typedef struct adoption {
     uint8_t *is_used; /* of each lost vertex */
 } adoption;
 
-/* Whether the triangles around a vertex stay positive if it moves to a point of the source. */
-static bool can_move(const adoption *a, uint32_t v, const double *point)
+/* The least roundness before the map of the triangles around a vertex if it is at a point; 0 if one
+ * of them is not positive. */
+static double roundness_at(const adoption *a, uint32_t v, const double *point)
 {
     const iccp_corners *c = &a->map->corners;
     const uint32_t first = a->corner[v];
+    double least = HUGE_VAL;
     uint32_t at = first;
     do {
-        if (iccp_orient2d(point, iccp_plmap_point(a->map, iccp_after(at)),
-                          iccp_plmap_point(a->map, iccp_before(at))) <= 0)
-            return false;
+        const double *p = iccp_plmap_point(a->map, iccp_after(at)),
+                     *q = iccp_plmap_point(a->map, iccp_before(at));
+        if (iccp_orient2d(point, p, q) <= 0)
+            return 0;
+        least = iccp_min(least, iccp_roundness(point, p, q));
         at = iccp_after(c->twin[iccp_after(at)]);
     } while (at != first);
-    return true;
+    return least;
+}
+
+/* Whether a vertex can move to a point of the source. */
+static bool can_move(const adoption *a, uint32_t v, const double *point)
+{
+    const double now = roundness_at(a, v, a->map->points + 2 * (size_t)v);
+    const double then = roundness_at(a, v, point);
+    return then > 0 && then >= iccp_min(now, LEAST_ROUNDNESS);
 }
 
 static bool is_free(const adoption *a, uint32_t given)

@@ -6,7 +6,8 @@
 
 /* Returns true if a flip of the edge that a corner faces makes the mesh more like a Delaunay mesh
  * of the source, keeps both triangles positive before and after the map, and shrinks neither much
- * more than the one that shrinks more now. */
+ * more than the one that shrinks more now. The new edge must not join two held vertices, because a
+ * triangle of three of them could not be improved. */
 bool iccp_may_flip_to_delaunay(const iccp_plmap *map, uint32_t corner);
 
 /* Inserts n points, one after another, at the images that the map gives them. The mesh becomes
