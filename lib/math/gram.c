@@ -70,7 +70,7 @@ static void transpose(iccp_gram *g, const iccp_sparse *b)
     g->row_first[0] = 0;
 }
 
-/* Finds the pattern of row j and returns its length. Writes it to `column` unless that is NULL. */
+/* Writes the pattern of row j to `column` and returns its length. */
 static size_t find_row(const iccp_gram *g, const iccp_sparse *b, uint32_t j, uint32_t *mark,
                        uint32_t *column)
 {
@@ -82,26 +82,41 @@ static size_t find_row(const iccp_gram *g, const iccp_sparse *b, uint32_t j, uin
             if (mark[k] == j)
                 continue;
             mark[k] = j;
-            if (column != NULL)
-                column[length] = k;
-            ++length;
+            column[length++] = k;
         }
     return length;
 }
 
-static icc_status find_rows(iccp_gram *g, const iccp_sparse *b, uint32_t *mark, bool counts,
-                            const iccp_env *env)
+/* Makes room for row j, whatever its pattern is. At first there is none. */
+static icc_status make_room(iccp_gram *g, const iccp_sparse *b, uint32_t j, size_t *room)
+{
+    size_t most = 0;
+    for (size_t q = g->row_first[j]; q < g->row_first[j + 1]; ++q)
+        most += b->first[g->row[q] + 1] - b->first[g->row[q]];
+    most = g->first[j] + (most < b->n_columns ? most : b->n_columns);
+    if (g->column != NULL && most <= *room)
+        return ICC_OK;
+    *room = most + most / 2 + b->first[b->n_rows];
+    return iccp_enlarge(&g->memory, &g->column, g->first[j], *room, sizeof *g->column)
+               ? ICC_OK
+               : ICC_ERR_MEMORY;
+}
+
+static icc_status find_rows(iccp_gram *g, const iccp_sparse *b, uint32_t *mark, const iccp_env *env)
 {
     const size_t n = b->n_columns;
     icc_status status = ICC_OK;
+    size_t room = 0;
     for (uint32_t j = 0; j < n; ++j)
         mark[j] = NONE;
     g->first[0] = 0;
     for (uint32_t j = 0; j < n && status == ICC_OK; ++j) {
         if (j % COLUMNS_PER_REPORT == 0)
             status = iccp_progress(env, "solve", (double)j / (double)n);
-        uint32_t *column = counts ? NULL : g->column + g->first[j];
-        g->first[j + 1] = g->first[j] + find_row(g, b, j, mark, column);
+        if (status == ICC_OK)
+            status = make_room(g, b, j, &room);
+        if (status == ICC_OK)
+            g->first[j + 1] = g->first[j] + find_row(g, b, j, mark, g->column + g->first[j]);
     }
     return status;
 }
@@ -121,13 +136,11 @@ icc_status iccp_gram_create(iccp_gram *gram, const iccp_sparse *b, const iccp_en
     if (gram->first != NULL && gram->diagonal != NULL && gram->sum != NULL &&
         gram->row_first != NULL && gram->row != NULL && gram->row_value != NULL && mark != NULL) {
         transpose(gram, b);
-        status = find_rows(gram, b, mark, true, env);
+        status = find_rows(gram, b, mark, env);
     }
     if (status == ICC_OK) {
-        gram->column = iccp_alloc(&env->memory, gram->first[n], sizeof *gram->column);
         gram->value = iccp_alloc(&env->memory, gram->first[n], sizeof *gram->value);
-        status = gram->column != NULL && gram->value != NULL ? find_rows(gram, b, mark, false, env)
-                                                             : ICC_ERR_MEMORY;
+        status = gram->value != NULL ? ICC_OK : ICC_ERR_MEMORY;
     }
     iccp_free(&env->memory, mark);
     if (status != ICC_OK)

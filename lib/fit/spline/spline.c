@@ -53,8 +53,8 @@ static void find_rest(const iccp_spline *s)
 }
 
 /* Writes the weight of each point for smoothing 1: the square of a mean tolerance over that of its
- * own, or 0 if it is exact. */
-static void find_shares(size_t n, const double *tolerances, double *share)
+ * own, or 0 if it is exact. Returns false if all are exact. */
+static bool find_shares(size_t n, const double *tolerances, double *share)
 {
     double sum = 0, count = 0;
     for (size_t i = 0; i < n; ++i)
@@ -64,16 +64,19 @@ static void find_shares(size_t n, const double *tolerances, double *share)
         }
     for (size_t i = 0; i < n; ++i)
         share[i] = tolerances[i] > 0 ? count / (sum * tolerances[i] * tolerances[i]) : 0;
+    return count > 0;
 }
 
 static icc_status make_room(iccp_spline *s, size_t n)
 {
     s->n = n;
+    s->vertices = iccp_alloc(&s->memory, n, sizeof *s->vertices);
     s->residuals = iccp_alloc(&s->memory, n, 2 * sizeof *s->residuals);
     s->left_out = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out);
     s->left_out_own = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out_own);
     s->told = iccp_alloc(&s->memory, n, 2 * sizeof *s->told);
-    return s->residuals != NULL && s->left_out != NULL && s->left_out_own != NULL && s->told != NULL
+    return s->vertices != NULL && s->residuals != NULL && s->left_out != NULL &&
+                   s->left_out_own != NULL && s->told != NULL
                ? ICC_OK
                : ICC_ERR_MEMORY;
 }
@@ -95,6 +98,12 @@ static double mean_length(size_t n, const double *v)
     return count > 0 ? sqrt(sum / count) : NAN;
 }
 
+/* With fewer than three points nothing bends, and there is no system. */
+static bool has_system(const iccp_spline *s)
+{
+    return s->system.told != NULL;
+}
+
 /* Solves for the bending parts of the images, if there is a system, and leaves out points. */
 static icc_status solve(iccp_spline *s, double *u, const iccp_env *env)
 {
@@ -102,12 +111,17 @@ static icc_status solve(iccp_spline *s, double *u, const iccp_env *env)
     for (size_t k = 0; k < 2 * s->control.n; ++k)
         s->left_out_own[k] = NAN;
     memset(u, 0, 2 * s->solved.n_vertices * sizeof *u);
-    if (s->system.told == NULL)
+    if (!has_system(s))
         return ICC_OK;
     const icc_status status = iccp_spline_system_solve(&s->system, s->told, u, env);
     return status == ICC_OK
                ? iccp_spline_system_leave_out(&s->system, s->told, u, s->left_out_own, env)
                : status;
+}
+
+static bool is_exact(const iccp_spline *s, size_t k)
+{
+    return !has_system(s) || !(s->system.weight[k] > 0);
 }
 
 /* Adds the affine fit to the images. Exact points get their targets. */
@@ -118,9 +132,11 @@ static void add_trend(iccp_spline *s)
         iccp_trend_apply(&s->trend, s->map.points + 2 * v, image);
         for (size_t k = 0; k < 2; ++k)
             s->map.images[2 * v + k] += image[k];
-        if (s->map.fixed[v] == ICCP_ON_POINT)
-            memcpy(s->map.images + 2 * v, s->control.targets + 2 * v, sizeof image);
     }
+    for (size_t k = 0; k < s->control.n; ++k)
+        if (is_exact(s, k))
+            memcpy(s->map.images + 2 * (size_t)s->vertices[k], s->control.targets + 2 * k,
+                   2 * sizeof(double));
 }
 
 /* Computes the residuals of the given points. The own target of a merged point may differ from the
@@ -128,11 +144,11 @@ static void add_trend(iccp_spline *s)
 static void find_residuals(iccp_spline *s, const double *targets)
 {
     for (size_t i = 0; i < s->n; ++i) {
-        const size_t v = s->control.number[i];
-        for (size_t k = 0; k < 2; ++k) {
-            const double off = s->control.targets[2 * v + k] - targets[2 * i + k];
-            s->residuals[2 * i + k] = s->map.images[2 * v + k] - targets[2 * i + k];
-            s->left_out[2 * i + k] = s->left_out_own[2 * v + k] + off;
+        const size_t k = s->control.number[i], v = s->vertices[k];
+        for (size_t c = 0; c < 2; ++c) {
+            const double off = s->control.targets[2 * k + c] - targets[2 * i + c];
+            s->residuals[2 * i + c] = s->map.images[2 * v + c] - targets[2 * i + c];
+            s->left_out[2 * i + c] = s->left_out_own[2 * k + c] + off;
         }
     }
     s->residual = mean_length(s->n, s->residuals);
@@ -156,13 +172,13 @@ static icc_status finish_images(iccp_spline *s, const double *targets, const icc
 /* Exact points and the boundary are fixed. */
 static void mark_fixed(const iccp_spline *s, iccp_plmap *map)
 {
-    for (size_t v = 0; v < map->n_vertices; ++v) {
-        const bool is_exact =
-            v < s->control.n && !(s->smoothing > 0 && s->control.tolerances[v] > 0);
-        map->fixed[v] = is_exact ? ICCP_ON_POINT : ICCP_FREE;
-        map->facet[v] = 0;
+    memset(map->fixed, ICCP_FREE, map->n_vertices * sizeof *map->fixed);
+    memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
+    for (size_t v = 0; v < map->n_vertices; ++v)
         map->along[v] = 0;
-    }
+    for (size_t k = 0; k < s->control.n; ++k)
+        if (is_exact(s, k))
+            map->fixed[s->vertices[k]] = ICCP_ON_POINT;
     for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (map->corners.twin[c] == ICCP_NO_NEIGHBOUR)
             map->fixed[map->corners.vertex[iccp_after(c)]] = ICCP_ALONG;
@@ -211,11 +227,12 @@ static icc_status find_tolerance(const iccp_spline *s, double *tolerance, const 
     return ready ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Makes the map from the bending parts on the solved mesh, refined if that matters. */
-static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
+/* Makes the map from the bending parts on the solved mesh, refined if that is allowed and
+ * matters. */
+static icc_status make_map(iccp_spline *s, const double *u, bool refines, const iccp_env *env)
 {
-    double tolerance;
-    icc_status status = find_tolerance(s, &tolerance, env);
+    double tolerance = 0;
+    icc_status status = refines ? find_tolerance(s, &tolerance, env) : ICC_OK;
     if (status != ICC_OK)
         return status;
     if (!(tolerance > 0))
@@ -229,93 +246,108 @@ static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
     return status;
 }
 
-/* Factorises the system on the fine mesh. */
+/* Factorises the system on the mesh. */
 static icc_status make_system(iccp_spline *s, const double *share, const iccp_env *env)
 {
     const size_t n = s->control.n;
     iccp_bending_mesh bending = iccp_bending_mesh_of(&s->solved);
     memcpy(bending.metric, s->metric, sizeof bending.metric);
     double *weight = iccp_alloc(&env->memory, n, sizeof *weight);
-    uint32_t *vertex = iccp_alloc(&env->memory, n, sizeof *vertex);
-    icc_status status = weight != NULL && vertex != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    for (uint32_t k = 0; status == ICC_OK && k < n; ++k) {
-        vertex[k] = k;
+    if (weight == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t k = 0; k < n; ++k)
         weight[k] = s->smoothing > 0 ? share[k] / s->smoothing : 0;
-    }
-    if (status == ICC_OK)
-        status = iccp_spline_system_create(&s->system, &bending, n, vertex, weight,
-                                           s->trend.is_line, env);
+    const icc_status status = iccp_spline_system_create(&s->system, &bending, n, s->vertices,
+                                                        weight, s->trend.is_line, env);
     iccp_free(&env->memory, weight);
-    iccp_free(&env->memory, vertex);
     return status;
 }
 
 /* Solves and makes the map, with the system if there is one. */
-static icc_status solve_first(iccp_spline *s, const double *targets, const iccp_env *env)
+static icc_status solve_first(iccp_spline *s, const double *targets, bool refines,
+                              const iccp_env *env)
 {
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
     double *u = iccp_alloc(&env->memory, s->solved.n_vertices, 2 * sizeof *u);
     icc_status status = u != NULL ? solve(s, u, &parts[0]) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = make_map(s, u, &parts[1]);
+        status = make_map(s, u, refines, &parts[1]);
     iccp_free(&env->memory, u);
     return status == ICC_OK ? finish_images(s, targets, env) : status;
 }
 
-/* ---- all of it ---- */
+/* ---- beginnings ---- */
 
-static icc_status choose(iccp_spline *s, const iccp_spline_task *task, const double *share,
-                         const iccp_env *env)
+/* Merges the points and fits an affine map to them. */
+static icc_status begin(iccp_spline *s, const iccp_spline_task *task, const double *points,
+                        const iccp_env *env, icc_error *err)
 {
-    const double *m = s->metric;
-    const iccp_frame_question q = {.n = s->control.n,
-                                   .points = s->control.points,
-                                   .values = s->told,
-                                   .share = share,
-                                   .lower = task->lower,
-                                   .upper = task->upper,
-                                   .metric = {m[0], m[1], m[2], m[3]},
-                                   .is_line = s->trend.is_line};
-    s->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN) : 0;
-    s->smoothing = iccp_max(task->smoothing, 0);
-    return iccp_choose_frame(&s->margin, &s->smoothing, &q, env);
+    icc_status status = iccp_distinct_points_create(&s->control, task->n, points, task->targets,
+                                                    task->tolerances, env, err);
+    if (status == ICC_OK)
+        status = make_room(s, task->n);
+    if (status == ICC_OK)
+        status =
+            iccp_trend_fit(&s->trend, s->control.n, s->control.points, s->control.targets, err);
+    s->affine_residual = s->trend.residual;
+    return status;
 }
 
-/* With fewer than three points nothing bends, and there is no system. */
+/* Prepares the values that bend, and the weights of points for smoothing 1. */
+static void prepare(iccp_spline *s, const iccp_spline_task *task, double size, double *share)
+{
+    find_metric(&s->trend, size, s->metric);
+    find_rest(s);
+    const bool has_weights = find_shares(s->control.n, s->control.tolerances, share) &&
+                             !(task->smoothing < 0) && s->control.n >= 3;
+    if (!has_weights)
+        memset(share, 0, s->control.n * sizeof *share);
+    s->smoothing = has_weights ? task->smoothing : 0;
+}
+
+static iccp_frame_question question_of(const iccp_spline *s, const iccp_spline_task *task,
+                                       const double *share)
+{
+    const double *m = s->metric;
+    return (iccp_frame_question){.n = s->control.n,
+                                 .points = s->control.points,
+                                 .values = s->told,
+                                 .share = share,
+                                 .lower = task->lower,
+                                 .upper = task->upper,
+                                 .metric = {m[0], m[1], m[2], m[3]},
+                                 .is_line = s->trend.is_line};
+}
+
+/* ---- frames ---- */
+
 static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, double *share,
                              const iccp_frame_region *region, const iccp_env *env)
 {
     iccp_env parts[4];
     iccp_split(parts, 4, (const double[]){2, 1, 3, 1}, env);
     const bool bends = s->control.n >= 3;
-    find_metric(&s->trend, region->size, s->metric);
-    find_rest(s);
-    find_shares(s->control.n, s->control.tolerances, share);
-    if (task->smoothing < 0 || !bends)
-        memset(share, 0, s->control.n * sizeof *share);
-    s->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN) : USUAL_MARGIN;
-    icc_status status = bends ? choose(s, task, share, &parts[0]) : ICC_OK;
+    prepare(s, task, region->size, share);
+    for (uint32_t k = 0; k < s->control.n; ++k)
+        s->vertices[k] = k;
+    s->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN) : bends ? 0 : USUAL_MARGIN;
+    const iccp_frame_question q = question_of(s, task, share);
+    icc_status status =
+        bends ? iccp_choose_frame(&s->margin, &s->smoothing, &q, &parts[0]) : ICC_OK;
     if (status == ICC_OK)
         status = iccp_frame_mesh(&s->solved, region, s->margin, ACROSS, 0, &parts[1]);
     if (status == ICC_OK && bends)
         status = make_system(s, share, &parts[2]);
-    return status == ICC_OK ? solve_first(s, task->targets, &parts[3]) : status;
+    return status == ICC_OK ? solve_first(s, task->targets, true, &parts[3]) : status;
 }
 
 static icc_status create(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env,
                          icc_error *err)
 {
-    icc_status status = iccp_distinct_points_create(&s->control, task->n, task->points,
-                                                    task->targets, task->tolerances, env, err);
-    if (status == ICC_OK)
-        status = make_room(s, task->n);
-    if (status == ICC_OK)
-        status =
-            iccp_trend_fit(&s->trend, s->control.n, s->control.points, s->control.targets, err);
+    icc_status status = begin(s, task, task->points, env, err);
     if (status != ICC_OK)
         return status;
-    s->affine_residual = s->trend.residual;
     iccp_frame_region region;
     double *share = iccp_alloc(&env->memory, s->control.n, sizeof *share);
     status = share != NULL ? iccp_frame_region_create(&region, s->control.n, s->control.points,
@@ -328,6 +360,78 @@ static icc_status create(iccp_spline *s, const iccp_spline_task *task, const icc
     iccp_free(&env->memory, share);
     return status;
 }
+
+/* ---- given meshes ---- */
+
+static icc_status copy_mesh(iccp_spline *s, const iccp_box_mesh *mesh)
+{
+    const size_t n = 2 * mesh->n_vertices, n_corners = 3 * mesh->n_triangles;
+    iccp_box_mesh *own = &s->solved;
+    own->points = iccp_alloc(&s->memory, n, sizeof *own->points);
+    own->triangles = iccp_alloc(&s->memory, n_corners, sizeof *own->triangles);
+    own->twins = iccp_alloc(&s->memory, n_corners, sizeof *own->twins);
+    if (own->points == NULL || own->triangles == NULL || own->twins == NULL)
+        return ICC_ERR_MEMORY;
+    own->n_vertices = mesh->n_vertices;
+    own->n_triangles = mesh->n_triangles;
+    memcpy(own->points, mesh->points, n * sizeof *own->points);
+    memcpy(own->triangles, mesh->triangles, n_corners * sizeof *own->triangles);
+    memcpy(own->twins, mesh->twins, n_corners * sizeof *own->twins);
+    return ICC_OK;
+}
+
+/* Returns the longest side of the mesh's bounding box. */
+static double size_of(const iccp_box_mesh *mesh)
+{
+    double size = 0;
+    for (size_t k = 0; k < 2; ++k) {
+        double low = mesh->points[k], high = low;
+        for (size_t v = 0; v < mesh->n_vertices; ++v) {
+            low = iccp_min(low, mesh->points[2 * v + k]);
+            high = iccp_max(high, mesh->points[2 * v + k]);
+        }
+        size = iccp_max(size, high - low);
+    }
+    return size;
+}
+
+static icc_status solve_on_mesh(iccp_spline *s, const iccp_spline_task *task, double *share,
+                                const iccp_env *env)
+{
+    iccp_env parts[3];
+    iccp_split(parts, 3, (const double[]){3, 3, 1}, env);
+    const bool bends = s->control.n >= 3;
+    prepare(s, task, size_of(&s->solved), share);
+    const iccp_frame_question q = question_of(s, task, share);
+    icc_status status = ICC_OK;
+    if (!(s->smoothing > 0))
+        status = iccp_choose_smoothing(&s->smoothing, &q, &s->solved, s->vertices, &parts[0]);
+    if (status == ICC_OK && bends)
+        status = make_system(s, share, &parts[1]);
+    return status == ICC_OK ? solve_first(s, task->targets, false, &parts[2]) : status;
+}
+
+static icc_status create_on_mesh(iccp_spline *s, const iccp_box_mesh *mesh,
+                                 const uint32_t *vertices, const iccp_spline_task *task,
+                                 const iccp_env *env, icc_error *err)
+{
+    double *points = iccp_alloc(&env->memory, task->n, 2 * sizeof *points);
+    double *share = iccp_alloc(&env->memory, task->n, sizeof *share);
+    icc_status status = points != NULL && share != NULL ? copy_mesh(s, mesh) : ICC_ERR_MEMORY;
+    for (size_t i = 0; status == ICC_OK && i < task->n; ++i)
+        memcpy(points + 2 * i, mesh->points + 2 * (size_t)vertices[i], 2 * sizeof *points);
+    if (status == ICC_OK)
+        status = begin(s, task, points, env, err);
+    for (size_t i = 0; status == ICC_OK && i < task->n; ++i)
+        s->vertices[s->control.number[i]] = vertices[i];
+    if (status == ICC_OK)
+        status = solve_on_mesh(s, task, share, env);
+    iccp_free(&env->memory, points);
+    iccp_free(&env->memory, share);
+    return status;
+}
+
+/* ---- all of it ---- */
 
 static iccp_spline nothing(const iccp_memory *memory)
 {
@@ -347,6 +451,17 @@ icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
     return status;
 }
 
+icc_status iccp_spline_create_on_mesh(iccp_spline *spline, const iccp_box_mesh *mesh,
+                                      const uint32_t *vertices, const iccp_spline_task *task,
+                                      const iccp_env *env, icc_error *err)
+{
+    *spline = nothing(&env->memory);
+    const icc_status status = create_on_mesh(spline, mesh, vertices, task, env, err);
+    if (status != ICC_OK)
+        iccp_spline_free(spline);
+    return status;
+}
+
 void iccp_spline_free(iccp_spline *spline)
 {
     const iccp_memory memory = spline->memory;
@@ -354,6 +469,7 @@ void iccp_spline_free(iccp_spline *spline)
     iccp_plmap_free(&spline->map);
     iccp_box_mesh_free(&spline->solved);
     iccp_spline_system_free(&spline->system);
+    iccp_free(&memory, spline->vertices);
     iccp_free(&memory, spline->residuals);
     iccp_free(&memory, spline->left_out);
     iccp_free(&memory, spline->left_out_own);
@@ -367,6 +483,10 @@ icc_status iccp_spline_aim(iccp_spline *spline, const double *targets, const dou
 {
     icc_status status =
         iccp_distinct_points_aim(&spline->control, spline->n, targets, tolerances, env, err);
+    if (status == ICC_OK)
+        status = iccp_trend_fit(&spline->trend, spline->control.n, spline->control.points,
+                                spline->control.targets, err);
+    spline->affine_residual = spline->trend.residual;
     if (status == ICC_OK)
         status = solve(spline, spline->map.images, env);
     return status == ICC_OK ? finish_images(spline, targets, env) : status;

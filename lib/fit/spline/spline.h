@@ -19,9 +19,12 @@ typedef struct iccp_spline_task {
 
 typedef struct iccp_spline {
     iccp_memory memory;
-    size_t n;                     /* points as given */
-    iccp_distinct_points control; /* different points: control.number[i] is the vertex of point i */
-    /* Points are the vertices 0 to control.n - 1. Images are local in the target. They may fold.
+    size_t n; /* points as given */
+    /* The different points. Point i is number control.number[i] of them, and the vertex
+     * vertices[control.number[i]]. In a frame, vertices[k] is k */
+    iccp_distinct_points control;
+    uint32_t *vertices; /* control.n */
+    /* Images are local in the target. They may fold.
      * Exact points are ICCP_ON_POINT and the boundary is ICCP_ALONG. Facets and places along them
      * are 0: the caller sets them. */
     iccp_plmap map;
@@ -54,8 +57,17 @@ icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
                               const iccp_env *env, icc_error *err);
 void iccp_spline_free(iccp_spline *spline);
 
-/* Solves for other targets of the same points, with the same factor: margin, smoothing and metric
- * stay. Replaces images, residuals and residuals left out. On failure the images are undefined. */
+/* Makes the spline on a given mesh, in which point i is the vertex vertices[i]. The mesh may have
+ * holes. It is copied, and stays as it is. Points, box and margin of the task are not read. The
+ * boundary is free except for points on it: these, too, have the images of their targets, but are
+ * marked ICCP_ALONG. Failures as in iccp_spline_create(). */
+icc_status iccp_spline_create_on_mesh(iccp_spline *spline, const iccp_box_mesh *mesh,
+                                      const uint32_t *vertices, const iccp_spline_task *task,
+                                      const iccp_env *env, icc_error *err);
+
+/* Solves for other targets of the same points, with the same factor: margin, smoothing, weights and
+ * metric stay. Replaces images, residuals and residuals left out. On failure the images are
+ * undefined. */
 icc_status iccp_spline_aim(iccp_spline *spline, const double *targets, const double *tolerances,
                            const iccp_env *env, icc_error *err);
 

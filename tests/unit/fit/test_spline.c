@@ -367,6 +367,40 @@ START_TEST(threads)
 }
 END_TEST
 
+/* On a given mesh the vertices are found by number, and nothing is added. */
+START_TEST(on_mesh)
+{
+    random_source r = {9};
+    const iccp_env env = default_env();
+    points_set sheet = make_sheet(20, wavy, &r);
+    iccp_spline_task task = task_of(&sheet);
+    iccp_spline frame = spline_of(&task), s;
+    const iccp_box_mesh *mesh = &frame.solved;
+    uint32_t vertices[MOST];
+    for (uint32_t i = 0; i < sheet.n; ++i)
+        vertices[i] = i;
+    ck_assert(iccp_spline_create_on_mesh(&s, mesh, vertices, &task, &env, NULL) == ICC_OK);
+    ck_assert_uint_eq(s.map.n_vertices, mesh->n_vertices);
+    for (size_t k = 0; k < 2 * mesh->n_vertices; ++k)
+        ck_assert_double_eq_tol(s.map.images[k], frame.map.images[k], 1e-10);
+    iccp_spline_free(&s);
+    for (uint32_t i = 0; i < sheet.n; ++i) {
+        vertices[i] = (uint32_t)mesh->n_vertices - 1 - 3 * i;
+        affine(mesh->points + 2 * (size_t)vertices[i], sheet.targets + 2 * i);
+        sheet.tolerances[i] = i % 2 == 0 ? 0 : 0.01;
+    }
+    task.tolerances = sheet.tolerances;
+    ck_assert(iccp_spline_create_on_mesh(&s, mesh, vertices, &task, &env, NULL) == ICC_OK);
+    ck_assert_double_lt(most_off(&s, affine), 1e-13);
+    ck_assert_double_gt(s.smoothing, 0);
+    for (size_t i = 0; i < sheet.n; i += 2)
+        ck_assert_mem_eq(s.map.images + 2 * (size_t)vertices[i], sheet.targets + 2 * i,
+                         2 * sizeof(double));
+    iccp_spline_free(&s);
+    iccp_spline_free(&frame);
+}
+END_TEST
+
 static icc_status call_spline(const icc_env *caller, icc_error *err, void *argument)
 {
     iccp_env env;
@@ -408,6 +442,7 @@ static Suite *make_suite(void)
     tcase_add_test(tc, bad_input);
     tcase_add_test(tc, smoothing);
     tcase_add_test(tc, threads);
+    tcase_add_test(tc, on_mesh);
     tcase_add_test(tc, failures);
     suite_add_tcase(suite, tc);
     return suite;
