@@ -54,8 +54,8 @@ iccp_elastic *iccp_elastic_retain(iccp_elastic *elastic);
 void iccp_elastic_release(iccp_elastic *elastic);
 
 typedef struct iccp_elastic_report {
-    size_t n_off;        /* held vertices that were not reached */
-    double most_off;     /* the largest distance of one from its target */
+    size_t n_off;        /* vertices that are not at their targets or on their lines */
+    double most_off;     /* the largest distance of one from there */
     size_t n_iterations; /* Newton steps */
     double energy;       /* mean of |J|^2 (1 + 1/det^2) with the weights; 4: nothing is distorted */
 } iccp_elastic_report;

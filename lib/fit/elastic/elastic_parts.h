@@ -47,7 +47,7 @@ typedef struct iccp_elastic_state {
     const iccp_elastic *as;
     double *images;          /* the caller's */
     double *place;           /* 2 n_points: where springs pull and settled vertices are */
-    float *pull;             /* n_points: factor of each spring's stiffness */
+    double *pull;            /* n_points: factor of each spring's stiffness */
     uint8_t *settled;        /* n_points: 1: the told unknowns are fixed */
     double *motion, *saved;  /* 2 n_points */
     double *solution, *work; /* 2 n_points */

@@ -30,7 +30,7 @@ static const double MOST_TURN = 1.0 / 24;
 static const double LEAST_PART = 1.0 / 256, LONGER = 1.5, HASTY = 0.5, CAREFUL_PART = 1.0 / 16;
 
 /* Stiffness of the springs of groups that were given up, as a share of that of stiff springs. */
-static const float SOFT = 1e-5F;
+static const double SOFT = 1e-5;
 
 /* Groups are given up if they stay off by more than this share of the largest distance. */
 static const double SHARE_OF_WORST = 0.5;
@@ -44,8 +44,8 @@ static const double TOLERANCE = 1e-6, ROUGH = 1e-2;
 enum { STEPS_TO_PLACE = 6, STEPS_BETWEEN = 2, STEPS_AT_END = 60, SOFT_STEPS = 30, TYPICAL = 16 };
 
 /* MOST_ROUNDS: how often groups are given up; the last time all are. MOST_TRIES: how often groups
- * that were given up are tried again. */
-enum { MOST_ROUNDS = 6, MOST_TRIES = 2 };
+ * that were given up are tried again. After MOST_STEPS Newton steps all are given up at once. */
+enum { MOST_ROUNDS = 6, MOST_TRIES = 2, MOST_STEPS = 400 };
 
 typedef struct drive {
     iccp_elastic_state *state;
@@ -121,25 +121,25 @@ static bool is_off(const drive *d, uint32_t v)
 }
 
 /* Puts the springs' ends after a share of the way. Those of groups that were given up pull softly
- * to the targets. */
+ * to the targets. Held vertices that are at their places already stay there. */
 static void set_places(drive *d, double share)
 {
     iccp_elastic_state *s = d->state;
     const iccp_elastic *as = s->as;
     for (uint32_t v = 0; v < as->n_points; ++v) {
-        double *place = s->place + 2 * (size_t)v;
-        const bool is_given_up = as->hold[v] == ICCP_HELD && is_off(d, v);
+        const size_t at = 2 * (size_t)v;
+        const bool is_held = as->hold[v] == ICCP_HELD, is_given_up = is_held && is_off(d, v);
         s->pull[v] = is_given_up ? SOFT : 1;
-        if (as->hold[v] == ICCP_HELD)
-            iccp_paths_at(&d->paths, v, is_given_up ? 1 : share, place);
+        if (is_held)
+            iccp_paths_at(&d->paths, v, is_given_up ? 1 : share, s->place + at);
         else if (as->hold[v] == ICCP_SLIDING)
             for (size_t k = 0; k < 2; ++k) {
-                const double from = d->paths.from[2 * (size_t)v + k],
-                             to = d->paths.to[2 * (size_t)v + k];
-                place[k] = share < 1 ? from + share * (to - from) : to;
+                const double from = d->paths.from[at + k], to = d->paths.to[at + k];
+                s->place[at + k] = share < 1 ? from + share * (to - from) : to;
             }
+        s->settled[v] = is_held && !is_given_up &&
+                        memcmp(s->images + at, s->place + at, 2 * sizeof *s->place) == 0;
     }
-    memset(s->settled, 0, as->n_points * sizeof *s->settled);
 }
 
 /* Moves a sliding vertex onto its line. */
@@ -261,8 +261,10 @@ static icc_status give_up(drive *d, bool all)
     double most = 0;
     set_places(d, 1);
     for (uint32_t v = 0; v < s->as->n_points; ++v)
-        if (is_leading(d, v))
+        if (is_leading(d, v)) {
             s->pull[v] = SOFT;
+            s->settled[v] = 0;
+        }
     const icc_status status = relax(d, SOFT_STEPS, TOLERANCE);
     for (uint32_t v = 0; v < s->as->n_points; ++v)
         if (is_leading(d, v))
@@ -282,8 +284,11 @@ static icc_status lead(drive *d)
     icc_status status = ICC_OK;
     for (int k = 0; k <= MOST_ROUNDS && status == ICC_OK && !reached; ++k) {
         status = follow(d, &reached);
-        if (status == ICC_OK && !reached && k < MOST_ROUNDS)
-            status = give_up(d, k == MOST_ROUNDS - 1);
+        if (status == ICC_OK && !reached && k < MOST_ROUNDS) {
+            const bool all = k == MOST_ROUNDS - 1 || d->state->n_iterations > MOST_STEPS;
+            status = give_up(d, all);
+            k = all ? MOST_ROUNDS - 1 : k;
+        }
     }
     return status == ICC_OK ? relax(d, STEPS_AT_END, TOLERANCE) : status;
 }
@@ -337,7 +342,9 @@ static icc_status lead_all(drive *d, uint8_t *off)
     if (off != NULL)
         begin_off(d, off);
     icc_status status = lead(d);
-    for (int k = 0; off == NULL && k < MOST_TRIES && status == ICC_OK && try_again(d); ++k)
+    for (int k = 0; off == NULL && k < MOST_TRIES && d->state->n_iterations <= MOST_STEPS &&
+                    status == ICC_OK && try_again(d);
+         ++k)
         status = lead(d);
     if (off != NULL && status == ICC_OK) {
         list_off(d, off);
@@ -347,12 +354,26 @@ static icc_status lead_all(drive *d, uint8_t *off)
     return status;
 }
 
+/* The distance of a told vertex from its target, or from its line. */
+static double distance_left(const drive *d, uint32_t v)
+{
+    const iccp_elastic_state *s = d->state;
+    const double *x = s->images + 2 * (size_t)v, *q = d->paths.to + 2 * (size_t)v;
+    double axis[2];
+    if (s->as->hold[v] == ICCP_HELD)
+        return distance(d, v);
+    if (s->as->hold[v] == ICCP_LOOSE || s->settled[v])
+        return 0;
+    iccp_elastic_axis(s->as, v, 1, axis);
+    return fabs((x[0] - q[0]) * axis[0] + (x[1] - q[1]) * axis[1]);
+}
+
 static void fill_report(const drive *d, iccp_elastic_report *report)
 {
     const iccp_elastic_state *s = d->state;
     *report = (iccp_elastic_report){.n_iterations = s->n_iterations};
     for (uint32_t v = 0; v < s->as->n_points; ++v) {
-        const double off = s->as->hold[v] == ICCP_HELD ? distance(d, v) : 0;
+        const double off = distance_left(d, v);
         report->n_off += off > 0;
         report->most_off = iccp_max(report->most_off, off);
     }
