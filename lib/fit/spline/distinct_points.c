@@ -13,6 +13,10 @@ static const double LINE = 1e-6;
 /* An affine map counts as singular below this share of its determinant if it were a similarity. */
 static const double FLAT = 1e-9;
 
+/* A similarity fits about as well as an affine map if its residual is less than so many times as
+ * large. */
+static const double MUCH_WORSE = 2;
+
 /* Rounds of a least squares fit: each repeats it for what is left, so rounding errors of the first
  * hardly matter. */
 enum { ROUNDS = 3 };
@@ -244,41 +248,68 @@ static bool is_line(size_t n, const sums *s)
     return n < 3 || !(det > LINE * LINE * trace * trace);
 }
 
+/* The determinant, relative to that of a similarity of the same size. */
+static double relative_det(const iccp_trend *t)
+{
+    const double *m = t->matrix;
+    return (m[0] * m[3] - m[1] * m[2]) / (0.5 * iccp_vec_dot(4, m, m));
+}
+
 static icc_status check(const iccp_trend *t, icc_error *err)
 {
-    const double *m = t->matrix, det = m[0] * m[3] - m[1] * m[2];
-    const double most = 0.5 * iccp_vec_dot(4, m, m);
-    if (det < -FLAT * most)
+    const double det = relative_det(t);
+    if (det < -FLAT)
         return iccp_fail(err, ICC_ERR_ARGUMENT,
                          "the targets mirror the points: change the sign of one coordinate");
-    if (!(det > FLAT * most))
+    if (!(det > FLAT))
         return iccp_fail(err, ICC_ERR_ARGUMENT, "the targets lie on a line, or in one place");
     return ICC_OK;
 }
 
-icc_status iccp_trend_fit(iccp_trend *trend, size_t n, const double *points, const double *targets,
-                          icc_error *err)
+static double find_residual(const iccp_trend *t, size_t n, const double *points,
+                            const double *targets)
 {
-    *trend = (iccp_trend){.matrix = {0}};
-    find_mean(n, points, trend->from);
-    find_mean(n, targets, trend->to);
-    sums s = add_up(trend, n, points, targets);
-    trend->is_line = is_line(n, &s);
-    if (n == 1)
-        trend->matrix[0] = trend->matrix[3] = 1;
-    for (int round = 0; n > 1 && round < ROUNDS; ++round) {
-        if (trend->is_line)
-            improve_similarity(trend, &s);
-        else
-            improve_affine(trend, &s);
-        s = add_up(trend, n, points, targets);
-    }
     double sum = 0;
     for (size_t i = 0; i < n; ++i) {
         double image[2];
-        iccp_trend_apply(trend, points + 2 * i, image);
+        iccp_trend_apply(t, points + 2 * i, image);
         sum += iccp_vec_distance2(2, image, targets + 2 * i);
     }
-    trend->residual = sqrt(sum / (double)n);
+    return sqrt(sum / (double)n);
+}
+
+/* Fits an affine map, or a similarity. */
+static iccp_trend fit(size_t n, const double *points, const double *targets, bool is_similarity)
+{
+    iccp_trend t = {.matrix = {0}, .is_line = is_similarity};
+    find_mean(n, points, t.from);
+    find_mean(n, targets, t.to);
+    if (n == 1)
+        t.matrix[0] = t.matrix[3] = 1;
+    for (int round = 0; n > 1 && round < ROUNDS; ++round) {
+        const sums s = add_up(&t, n, points, targets);
+        t.is_line = is_similarity || is_line(n, &s);
+        if (t.is_line)
+            improve_similarity(&t, &s);
+        else
+            improve_affine(&t, &s);
+    }
+    t.is_line |= n == 1;
+    t.residual = find_residual(&t, n, points, targets);
+    return t;
+}
+
+/* The points of a narrow strip hardly tell the affine map across it, so even its sign may be
+ * wrong. Then a similarity fits about as well. */
+icc_status iccp_trend_fit(iccp_trend *trend, size_t n, const double *points, const double *targets,
+                          icc_error *err)
+{
+    *trend = fit(n, points, targets, false);
+    if (!(relative_det(trend) > FLAT) && !trend->is_line) {
+        iccp_trend similarity = fit(n, points, targets, true);
+        similarity.is_line = false;
+        if (similarity.residual < MUCH_WORSE * trend->residual)
+            *trend = similarity;
+    }
     return check(trend, err);
 }

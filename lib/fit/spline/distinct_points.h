@@ -40,8 +40,9 @@ typedef struct iccp_trend {
 } iccp_trend;
 
 /* Fits an affine map by least squares. Points on one line give a similarity, one point gives a
- * shift. Returns ICC_ERR_ARGUMENT if the targets mirror the points, or lie on a line when the
- * points do not. */
+ * shift. If the affine map would mirror, but a similarity fits about as well, takes the similarity.
+ * Returns ICC_ERR_ARGUMENT if the targets mirror the points, or lie on a line when the points do
+ * not. */
 icc_status iccp_trend_fit(iccp_trend *trend, size_t n, const double *points, const double *targets,
                           icc_error *err);
 void iccp_trend_apply(const iccp_trend *trend, const double p[2], double image[2]);

@@ -1,5 +1,19 @@
 /* The natural spline of a frame: of all maps of a box that take control points to their targets,
- * the one that bends the least inside the box. */
+ * the one that bends the least inside the box.
+ *
+ * Words of this folder. Begin with this file.
+ * - frame: the box that the map covers: all points, and a margin around them.
+ * - trend: the affine map that fits the targets best (distinct_points.h). What it leaves bends.
+ * - told: vertices whose values are given, exactly or with a weight (spline_system.h).
+ * - left out: how far a target is from where the other points would take its point.
+ * - share, smoothing: a point's weight is its share, divided by the smoothing.
+ *
+ * Ways: distinct_points.h merges points, frame_choice.h chooses margin and smoothing, frame_mesh.h
+ * makes the mesh, bending.h the matrix, spline_system.h solves and leaves out, jump_refinement.h
+ * refines the result.
+ *
+ * Invariants: a map of affine truths is affine to rounding. Results do not depend on the number of
+ * threads. Nothing here keeps triangles positive: map/nearest/ does that. */
 #ifndef ICCP_SPLINE_H
 #define ICCP_SPLINE_H
 
