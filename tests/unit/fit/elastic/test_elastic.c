@@ -3,11 +3,14 @@
 
 #include "../../../default_env.h"
 #include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../share.h"
 #include "../../../suite.h"
 #include "base/error.h"
 #include "domain/outlines.h"
 #include "fit/elastic/pin_mesh.h"
 #include "math/predicates.h"
+#include "mesh/corners.h"
 
 #include <check.h>
 #include <math.h>
@@ -97,41 +100,68 @@ static scene make_box(uint32_t columns, uint32_t rows, double width, double heig
     return s;
 }
 
-enum { AROUND = 64, LAYERS = 24 };
+/* Layers of cells around a wall, out to a circle. */
+typedef struct layers {
+    uint32_t around, n;
+    double growth; /* of a layer's thickness */
+    bool is_airfoil;
+} layers;
 
-/* Layers around an ellipse in a circle. The first is 0.002 thick before they are scaled to the
- * circle, and each is 1.25 times thicker than the one before. */
-static scene make_layers(void)
+static const layers ellipse = {64, 24, 1.25, false}, airfoil = {120, 47, 1.22, true};
+
+enum { MOST_LAYERS = 48 };
+
+/* A point of the wall, clockwise from the trailing edge, and its outward normal. The airfoil is
+ * NACA 0012. */
+static void wall_at(const layers *l, double turns, double *p, double *normal)
 {
-    const scene s = make_scene(AROUND * (LAYERS + 1), 2 * AROUND * LAYERS);
-    double way[LAYERS + 1] = {0}, layer = 0.002;
-    for (size_t j = 0; j < LAYERS; ++j, layer *= 1.25)
+    double at[3][2];
+    for (int k = 0; k < 3; ++k) {
+        const double t = turns + (k - 1) * 0.01, c = cos(TURN * t), z = sin(TURN * t);
+        const double x = 0.5 * (1 + c);
+        const double y =
+            0.6 * (0.2969 * sqrt(x) + x * (-0.126 + x * (-0.3516 + x * (0.2843 - 0.1036 * x))));
+        at[k][0] = l->is_airfoil ? x - 0.4 : c;
+        at[k][1] = l->is_airfoil ? copysign(y, -z) : -0.35 * z;
+    }
+    const double tx = at[2][0] - at[0][0], ty = at[2][1] - at[0][1];
+    memcpy(p, at[1], sizeof at[1]);
+    normal[0] = -ty / hypot(tx, ty);
+    normal[1] = tx / hypot(tx, ty);
+}
+
+/* The layers leave the wall along its normals. */
+static scene make_layers(const layers *l)
+{
+    const size_t column = l->n + 1;
+    const scene s = make_scene(l->around * column, (size_t)2 * l->around * l->n);
+    double way[MOST_LAYERS] = {0}, layer = 1;
+    for (size_t j = 0; j < l->n; ++j, layer *= l->growth)
         way[j + 1] = way[j] + layer;
     for (size_t v = 0; v < s.n_points; ++v) {
-        const double share = way[v % (LAYERS + 1)] / way[LAYERS];
-        const double angle = -TURN * (double)(v / (LAYERS + 1)) / AROUND;
-        s.points[2 * v] = ((1 - share) * 1 + share * 4) * cos(angle) / 4;
-        s.points[2 * v + 1] = ((1 - share) * 0.35 + share * 4) * sin(angle) / 4;
+        const double share = way[v % column] / way[l->n];
+        const double turns = (double)(v / column) / l->around;
+        const double far[2] = {cos(TURN * turns), -sin(TURN * turns)};
+        double p[2], normal[2];
+        wall_at(l, turns, p, normal);
+        for (size_t d = 0; d < 2; ++d)
+            s.points[2 * v + d] =
+                ((1 - share) * (p[d] + 2 * share * normal[d]) + share * 6 * far[d]) / 8;
     }
-    fill_lattice(&s, AROUND, LAYERS, true);
+    fill_lattice(&s, l->around, l->n, true);
     rest(&s);
     return s;
 }
 
-static bool is_wall(size_t v)
-{
-    return v % (LAYERS + 1) == 0;
-}
-
-/* Turns the ellipse, and holds the circle. */
-static void turn_wall(const scene *s, double turns)
+/* Turns the wall, and holds the circle. */
+static void turn_wall(const scene *s, const layers *l, double turns)
 {
     const double c = cos(TURN * turns), z = sin(TURN * turns);
     for (size_t v = 0; v < s->n_points; ++v) {
         const double *p = s->points + 2 * v;
-        if (is_wall(v))
+        if (v % (l->n + 1) == 0)
             hold(s, v, c * p[0] - z * p[1], z * p[0] + c * p[1]);
-        else if (v % (LAYERS + 1) == LAYERS)
+        else if (v % (l->n + 1) == l->n)
             hold(s, v, p[0], p[1]);
     }
 }
@@ -196,25 +226,26 @@ static void check_valid(const scene *s)
 {
     const iccp_env env = default_env();
     iccp_outlines outlines;
+    iccp_corners corners = {s->corners, malloc(3 * s->n_triangles * sizeof(uint32_t)),
+                            s->n_triangles};
     uint32_t *next = malloc(s->n_points * sizeof *next);
+    bool is_manifold;
+    ck_assert(corners.twin != NULL && next != NULL);
+    ck_assert_int_eq(iccp_find_twins(&corners, s->n_points, &is_manifold, &env), ICC_OK);
+    ck_assert(is_manifold);
     memset(next, 0xff, s->n_points * sizeof *next);
-    for (size_t c = 0; c < 3 * s->n_triangles; ++c) {
-        const uint32_t *v = s->corners + 3 * (c / 3);
-        const uint32_t a = v[c % 3], b = v[(c + 1) % 3];
-        bool is_boundary = true;
-        ck_assert_int_gt(iccp_orient2d(s->images + 2 * (size_t)v[0], s->images + 2 * (size_t)v[1],
-                                       s->images + 2 * (size_t)v[2]),
-                         0);
-        for (size_t d = 0; d < 3 * s->n_triangles && is_boundary; ++d) {
-            const uint32_t *w = s->corners + 3 * (d / 3);
-            is_boundary = w[d % 3] != b || w[(d + 1) % 3] != a;
-        }
-        if (is_boundary)
-            next[a] = b;
+    for (uint32_t c = 0; c < 3 * s->n_triangles; ++c) {
+        const double *p[3];
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = s->images + 2 * (size_t)s->corners[3 * (c / 3) + k];
+        ck_assert_int_gt(iccp_orient2d(p[0], p[1], p[2]), 0);
+        if (corners.twin[c] == ICCP_NO_NEIGHBOUR)
+            next[s->corners[iccp_after(c)]] = s->corners[iccp_before(c)];
     }
     ck_assert_int_eq(iccp_outlines_create(&outlines, s->n_points, next, &env.memory), ICC_OK);
     ck_assert_int_eq(iccp_outlines_check(&outlines, s->images, &env, NULL), ICC_OK);
     iccp_outlines_free(&outlines);
+    free(corners.twin);
     free(next);
 }
 
@@ -396,6 +427,47 @@ START_TEST(a_hand_is_dragged)
 }
 END_TEST
 
+/* Figures with several limbs, and a pin in each. Some pins go elsewhere, often farther than they
+ * can. */
+START_TEST(figures_are_posed)
+{
+    enum { FIGURES = 20, POSES = 10, SIDES = 120, LEAST_LIMBS = 3, MOST_LIMBS = 6 };
+    random_source state = {11};
+    size_t n_reached = 0, n_poses = 0;
+    for (int f = 0; f < share_of(FIGURES); ++f) {
+        double outline[2 * SIDES], pins[2 * (MOST_LIMBS + 1)] = {0};
+        const size_t n = LEAST_LIMBS + (size_t)(random_unit(&state) * (MOST_LIMBS - 2));
+        const double depth = 0.5 + 0.3 * random_unit(&state), twist = random_unit(&state) - 0.5;
+        size_t pin;
+        for (size_t k = 0; k < SIDES; ++k) {
+            const double t = (double)k / SIDES, r = 0.5 + 0.5 * depth * cos(TURN * (double)n * t);
+            outline[2 * k] = r * cos(TURN * t + twist * r);
+            outline[2 * k + 1] = r * sin(TURN * t + twist * r);
+        }
+        for (size_t k = 0; k < n; ++k) {
+            const double r = 0.5 + 0.4 * depth, angle = TURN * (double)k / (double)n + twist * r;
+            pins[2 * k + 2] = r * cos(angle);
+            pins[2 * k + 3] = r * sin(angle);
+        }
+        scene s = make_puppet(SIDES, outline, n + 1, pins, &pin);
+        s.contact = true;
+        for (int q = 0; q < POSES; ++q) {
+            reset(&s);
+            for (size_t k = 0; k <= n; ++k) {
+                const double far = k > 0 && random_unit(&state) < 0.5 ? 0.6 : 0;
+                hold(&s, pin + k, pins[2 * k] + far * (random_unit(&state) - 0.5),
+                     pins[2 * k + 1] + far * (random_unit(&state) - 0.5));
+            }
+            const iccp_elastic_report report = run(&s);
+            n_reached += report.n_off == 0;
+            ++n_poses;
+        }
+        clear_scene(&s);
+    }
+    ck_assert_uint_ge(10 * n_reached, 9 * n_poses);
+}
+END_TEST
+
 /* A pin is dragged onto another one and back: off in between, and not in the end. */
 START_TEST(a_drag_goes_through_the_trunk)
 {
@@ -488,22 +560,32 @@ START_TEST(lines_are_reached)
 }
 END_TEST
 
+/* The first cells keep their heights, and their sides keep their angle with the wall. */
+static void check_layers(const layers *l, double turns)
+{
+    scene s = make_layers(l);
+    const double c = cos(TURN * turns), z = sin(TURN * turns);
+    s.stiffness = 1.5;
+    turn_wall(&s, l, turns);
+    ck_assert_uint_eq(run(&s).n_off, 0);
+    for (size_t v = 0; v < s.n_points; v += l->n + 1) {
+        const double *p = s.points + 2 * v, *x = s.images + 2 * v;
+        const double u[2] = {p[2] - p[0], p[3] - p[1]}, w[2] = {x[2] - x[0], x[3] - x[1]};
+        const double turned[2] = {c * u[0] - z * u[1], z * u[0] + c * u[1]};
+        ck_assert_double_eq_tol(hypot(w[0], w[1]) / hypot(u[0], u[1]), 1, 0.05);
+        ck_assert_double_le(fabs(turned[0] * w[1] - turned[1] * w[0]),
+                            0.06 * hypot(u[0], u[1]) * hypot(w[0], w[1]));
+    }
+    clear_scene(&s);
+}
+
 START_TEST(layers_turn_with_their_wall)
 {
-    for (int k = 0; k < 2; ++k) {
-        scene s = make_layers();
-        s.stiffness = 1.5;
-        turn_wall(&s, k == 0 ? 80 / 360.0 : -165 / 360.0);
-        const iccp_elastic_report report = run(&s);
-        ck_assert_uint_eq(report.n_off, 0);
-        for (size_t v = 0; v < s.n_points; ++v) {
-            const double *p = s.points + 2 * v, *x = s.images + 2 * v;
-            if (is_wall(v))
-                ck_assert_double_eq_tol(
-                    hypot(x[2] - x[0], x[3] - x[1]) / hypot(p[2] - p[0], p[3] - p[1]), 1, 0.05);
-        }
-        clear_scene(&s);
-    }
+    check_layers(&ellipse, 80 / 360.0);
+    check_layers(&ellipse, -165 / 360.0);
+    check_layers(&airfoil, -45 / 360.0);
+    check_layers(&airfoil, 90 / 360.0);
+    check_layers(&airfoil, -170 / 360.0);
 }
 END_TEST
 
@@ -654,10 +736,10 @@ END_TEST
 START_TEST(threads_change_no_bit)
 {
     size_t pin;
-    scene arm = make_arm(&pin), layers = make_layers(), smooth = make_arm(&pin);
-    scene *all[3] = {&arm, &layers, &smooth};
+    scene arm = make_arm(&pin), wall = make_layers(&ellipse), smooth = make_arm(&pin);
+    scene *all[3] = {&arm, &wall, &smooth};
     hold(&arm, pin + 2, 0.42, 0.2);
-    turn_wall(&layers, 0.1);
+    turn_wall(&wall, &ellipse, 0.1);
     hold(&smooth, pin + 2, 0.42, 0.2);
     smooth.reach = 0.02;
     for (size_t k = 0; k < 3; ++k) {
@@ -798,6 +880,7 @@ int main(void)
     tcase_add_test(tests, nothing_told_changes_nothing);
     tcase_add_test(tests, an_arm_is_pushed_against_the_trunk);
     tcase_add_test(tests, a_hand_is_dragged);
+    tcase_add_test(tests, figures_are_posed);
     tcase_add_test(tests, a_drag_goes_through_the_trunk);
     tcase_add_test(tests, sides_slide);
     tcase_add_test(tests, lines_are_reached);
