@@ -151,9 +151,10 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
     return status;
 }
 
-icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
-                                  uint32_t from, uint32_t to, uint32_t *triangles,
-                                  uint32_t *neighbours, size_t *n_triangles, const iccp_env *env)
+icc_status iccp_triangulate_within(size_t n_points, const double *points, const iccp_walls *walls,
+                                   const iccp_walls *bounds, uint32_t from, uint32_t to,
+                                   uint32_t *triangles, uint32_t *neighbours, size_t *n_triangles,
+                                   const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     const size_t room = 2 * n_points - 2;
@@ -166,6 +167,7 @@ icc_status iccp_triangulate_walls(size_t n_points, const double *points, const i
         status = iccp_delaunay(&mesh, env, NULL);
     if (status == ICC_OK)
         status = iccp_constrain(&mesh, env, NULL);
+    mesh.walls = bounds;
     if (status == ICC_OK)
         status = mark_left(&mesh, from, to, number, stack);
     if (status == ICC_OK) {
@@ -176,6 +178,14 @@ icc_status iccp_triangulate_walls(size_t n_points, const double *points, const i
     iccp_free(memory, stack);
     iccp_free(memory, number);
     return status;
+}
+
+icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
+                                  uint32_t from, uint32_t to, uint32_t *triangles,
+                                  uint32_t *neighbours, size_t *n_triangles, const iccp_env *env)
+{
+    return iccp_triangulate_within(n_points, points, walls, walls, from, to, triangles, neighbours,
+                                   n_triangles, env);
 }
 
 icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,

@@ -54,4 +54,11 @@ icc_status iccp_triangulate_walls(size_t n_points, const double *points, const i
                                   uint32_t from, uint32_t to, uint32_t *triangles,
                                   uint32_t *neighbours, size_t *n_triangles, const iccp_env *env);
 
+/* Like iccp_triangulate_walls(), but the part ends only at `bounds`, which are some of the walls.
+ * Other walls may close rings inside it. */
+icc_status iccp_triangulate_within(size_t n_points, const double *points, const iccp_walls *walls,
+                                   const iccp_walls *bounds, uint32_t from, uint32_t to,
+                                   uint32_t *triangles, uint32_t *neighbours, size_t *n_triangles,
+                                   const iccp_env *env);
+
 #endif

@@ -42,7 +42,7 @@ typedef struct builder {
     iccp_pin_mesh *mesh;
     const iccp_env *env;
     double cell;
-    size_t n_sides, n_parts;
+    size_t n_sides, n_parts, n_outline; /* n_outline: parts of the outline, which come first */
     side *sides;
     size_t n_fixed;      /* told vertices, and those that divide sides */
     double *spacing;     /* n_fixed */
@@ -246,17 +246,19 @@ static icc_status triangulate(builder *b)
     const uint32_t from = b->pairs[forward ? 0 : 1], to = b->pairs[forward ? 1 : 0];
     /* room for a cut in every edge, of which there are less than three for each point */
     const size_t room = 4 * mesh->n_points;
-    iccp_walls walls;
+    iccp_walls walls = {0}, outline = {0};
     icc_status status = iccp_walls_create(&walls, mesh->n_points, b->n_parts, b->pairs, memory);
-    if (status != ICC_OK)
-        return status;
+    if (status == ICC_OK)
+        status = iccp_walls_create(&outline, mesh->n_points, b->n_outline, b->pairs, memory);
     mesh->triangles = iccp_alloc(memory, room, 6 * sizeof *mesh->triangles);
     b->twins = iccp_alloc(memory, room, 6 * sizeof *b->twins);
-    status = mesh->triangles == NULL || b->twins == NULL
-                 ? ICC_ERR_MEMORY
-                 : iccp_triangulate_walls(mesh->n_points, mesh->points, &walls, from, to,
-                                          mesh->triangles, b->twins, &mesh->n_triangles, b->env);
+    if (mesh->triangles == NULL || b->twins == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_triangulate_within(mesh->n_points, mesh->points, &walls, &outline, from, to,
+                                         mesh->triangles, b->twins, &mesh->n_triangles, b->env);
     iccp_walls_free(&walls, memory);
+    iccp_walls_free(&outline, memory);
     return status;
 }
 
@@ -336,8 +338,10 @@ static icc_status begin(builder *b, icc_error *err)
                2 * in->n_pins * sizeof *mesh->points);
     list_sides(b);
     const icc_status status = space_pins(b, err);
-    for (size_t k = 0; k < b->n_sides; ++k)
+    for (size_t k = 0; k < b->n_sides; ++k) {
         b->n_parts += b->sides[k].n;
+        b->n_outline += b->sides[k].is_boundary ? b->sides[k].n : 0;
+    }
     b->n_fixed = mesh->n_told + b->n_parts - b->n_sides;
     return status;
 }

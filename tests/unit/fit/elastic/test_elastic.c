@@ -812,6 +812,42 @@ START_TEST(meshes_fail_cleanly)
 }
 END_TEST
 
+static double area_of(const iccp_pin_mesh *mesh)
+{
+    double area = 0;
+    for (size_t t = 0; t < mesh->n_triangles; ++t) {
+        const double *p[3];
+        for (size_t c = 0; c < 3; ++c)
+            p[c] = mesh->points + 2 * (size_t)mesh->triangles[3 * t + c];
+        ck_assert_int_gt(iccp_orient2d(p[0], p[1], p[2]), 0);
+        area += ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
+                 (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])) /
+                2;
+    }
+    return area;
+}
+
+/* Segments may form a ring. What is inside it belongs to the mesh. */
+START_TEST(meshes_contain_rings)
+{
+    static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
+    static const double pins[] = {0.3, 0.3, 0.7, 0.3, 0.5, 0.7};
+    static const uint32_t segments[] = {0, 1, 1, 2, 2, 0};
+    const iccp_env env = default_env();
+    icc_domain *domain;
+    iccp_pin_mesh mesh;
+    ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
+    double *local = localise(domain, 3, pins);
+    const iccp_pin_mesh_input input = {domain, 3, local, 3, segments, 0.1};
+    ck_assert_int_eq(iccp_pin_mesh_create(&mesh, &input, &env, NULL), ICC_OK);
+    ck_assert_double_eq_tol(area_of(&mesh), pow(domain->frame.in[0] * domain->frame.in[1], 2),
+                            1e-12);
+    iccp_pin_mesh_free(&mesh);
+    icc_domain_free(domain);
+    free(local);
+}
+END_TEST
+
 /* A square with a hole, either way round, a segment and a pin close to the outline. */
 START_TEST(meshes_contain_what_is_told)
 {
@@ -833,20 +869,7 @@ START_TEST(meshes_contain_what_is_told)
         const double scale = domain->frame.in[0] * domain->frame.in[1];
         const iccp_pin_mesh_input input = {domain, 3, local, 1, segments, 0.05 * scale};
         ck_assert_int_eq(iccp_pin_mesh_create(&mesh, &input, &env, NULL), ICC_OK);
-        double area = 0;
-        for (size_t t = 0; t < mesh.n_triangles; ++t) {
-            const double *p[3];
-            for (size_t c = 0; c < 3; ++c)
-                p[c] = mesh.points + 2 * (size_t)mesh.triangles[3 * t + c];
-            ck_assert_int_gt(iccp_orient2d(p[0], p[1], p[2]), 0);
-            area += ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
-                     (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])) /
-                    2;
-        }
-        ck_assert_double_eq_tol(area,
-                                0.91 * domain->frame.in[0] * domain->frame.in[0] *
-                                    domain->frame.in[1] * domain->frame.in[1],
-                                1e-12);
+        ck_assert_double_eq_tol(area_of(&mesh), 0.91 * scale * scale, 1e-12);
         ck_assert_uint_eq(mesh.n_told, 11);
         ck_assert_mem_eq(mesh.points + 16, local, sizeof pins);
         size_t n_sides = 0, n_segment = 0;
@@ -892,6 +915,7 @@ int main(void)
     tcase_add_test(tests, threads_change_no_bit);
     tcase_add_test(tests, failures_leave_the_images);
     tcase_add_test(tests, meshes_fail_cleanly);
+    tcase_add_test(tests, meshes_contain_rings);
     tcase_add_test(tests, meshes_contain_what_is_told);
     suite_add_tcase(suite, tests);
     return suite_run(suite);
