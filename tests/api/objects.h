@@ -5,6 +5,7 @@
 
 #include "../flat_mesh.h"
 #include <check.h>
+#include <icc/fit.h>
 #include <icc/kernel.h>
 #include <icc/stages.h>
 #include <math.h>
@@ -890,6 +891,109 @@ static inline icc_status call_map_load(const objects *o, outcome *out, const icc
     return status;
 }
 
+/* The numbers that two fits have in common. */
+static inline icc_status use_fit(const objects *o, const icc_fit *fit, outcome *out, icc_error *err)
+{
+    icc_fit_info info = {.size = sizeof info};
+    ck_assert_int_eq(icc_fit_get_info(fit, &info), ICC_OK);
+    out->indices[0] = (uint32_t)info.n_iterations;
+    ck_assert_int_eq(icc_fit_get_residuals(fit, out->numbers + 2 * N_POINTS, NULL), ICC_OK);
+    return use_map(o, icc_fit_map(fit), out, err);
+}
+
+/* The two points in the middle change places, so that the spline folds. */
+static const double PINS[12] = {0.2, 0.2, 2.8, 0.3, 0.3, 2.8, 0.5, 0.5, 0.9, 0.6, 0.6, 1.2};
+static const double PINNED[12] = {0.2, 0.2, 2.8, 0.3, 0.3, 2.8, 0.9, 0.6, 0.5, 0.5, 0.6, 1.2};
+
+static inline icc_status call_fit_create(const objects *o, outcome *out, const icc_env *env,
+                                         icc_error *err)
+{
+    icc_fit *fit = (icc_fit *)&fit;
+    const icc_constraint pins = {.size = sizeof pins,
+                                 .kind = ICC_CONSTRAINT_POINTS,
+                                 .n = 6,
+                                 .source = PINS,
+                                 .target = PINNED};
+    const icc_fit_options options = {.size = sizeof options, .margin = 0.1};
+    icc_status status = icc_fit_create(&fit, NULL, NULL, 1, &pins, &options, env, err);
+    HANDED_OVER(status, fit);
+    if (status == ICC_OK)
+        status = use_fit(o, fit, out, err);
+    icc_fit_free(fit);
+    return status;
+}
+
+/* An L that bends by its ends. */
+static inline icc_status bend(icc_fit **fit, const objects *o, const icc_env *env, icc_error *err)
+{
+    static const double BENT[6] = {0.2, 0.2, 2.6, 0.9, 0.5, 2.9};
+    const icc_constraint pins = {
+        .size = sizeof pins, .kind = ICC_CONSTRAINT_POINTS, .n = 3, .source = PINS, .target = BENT};
+    const icc_fit_options options = {.size = sizeof options, .cell = 0.5};
+    return icc_fit_create(fit, o->source, NULL, 1, &pins, &options, env, err);
+}
+
+static inline icc_status call_fit_create_figure(const objects *o, outcome *out, const icc_env *env,
+                                                icc_error *err)
+{
+    icc_fit *fit = (icc_fit *)&fit;
+    icc_status status = bend(&fit, o, env, err);
+    HANDED_OVER(status, fit);
+    if (status == ICC_OK)
+        status = use_fit(o, fit, out, err);
+    icc_fit_free(fit);
+    return status;
+}
+
+static inline icc_status call_fit_move(const objects *o, outcome *out, const icc_env *env,
+                                       icc_error *err)
+{
+    static const double BENT[6] = {0.2, 0.2, 2.5, 1.1, 0.6, 2.9};
+    icc_fit *fit, *next = (icc_fit *)&next;
+    ck_assert_int_eq(bend(&fit, o, NULL, NULL), ICC_OK);
+    icc_status status = icc_fit_move(&next, fit, BENT, env, err);
+    HANDED_OVER(status, next);
+    icc_fit_free(fit);
+    if (status == ICC_OK)
+        status = use_fit(o, next, out, err);
+    icc_fit_free(next);
+    return status;
+}
+
+/* A square of four by four cells, with two inner vertices that change places. */
+static inline icc_status call_map_create_nearest(const objects *o, outcome *out, const icc_env *env,
+                                                 icc_error *err)
+{
+    enum { N = 5 };
+    double points[2 * N * N], images[2 * N * N], swap[2];
+    uint32_t cells[6 * (N - 1) * (N - 1)], n = 0;
+    for (uint32_t v = 0; v < N * N; ++v) {
+        points[2 * v] = 0.25 * (v % N);
+        points[2 * v + 1] = 0.25 * (v / N);
+        for (uint32_t k = 0; v % N + 1 < N && v / N + 1 < N && k < 6; ++k)
+            cells[n++] = v + (uint32_t[]){0, 1, N + 1, 0, N + 1, N}[k];
+    }
+    memcpy(images, points, sizeof points);
+    memcpy(swap, images + 2 * 7, sizeof swap);
+    memcpy(images + 2 * 7, images + 2 * 12, sizeof swap);
+    memcpy(images + 2 * 12, swap, sizeof swap);
+    const icc_mesh mesh = {.size = sizeof mesh,
+                           .dim = 2,
+                           .n_vertices = N * N,
+                           .vertices = points,
+                           .n_cells = n / 3,
+                           .cells = cells};
+    icc_nearest_report report = {.size = sizeof report};
+    icc_map *map = (icc_map *)&map;
+    icc_status status = icc_map_create_nearest(&map, &mesh, images, NULL, &report, env, err);
+    HANDED_OVER(status, map);
+    out->indices[0] = (uint32_t)report.n_folded;
+    if (status == ICC_OK)
+        status = use_map(o, map, out, err);
+    icc_map_free(map);
+    return status;
+}
+
 static const call CALLS[] = {
     {"icc_shape_create", call_shape_create},
     {"icc_sampling_create", call_sampling_create},
@@ -929,6 +1033,10 @@ static const call CALLS[] = {
     {"icc_map_certify", call_map_certify},
     {"icc_map_repair", call_map_repair},
     {"icc_map_load", call_map_load},
+    {"icc_map_create_nearest", call_map_create_nearest},
+    {"icc_fit_create: points", call_fit_create},
+    {"icc_fit_create: a figure", call_fit_create_figure},
+    {"icc_fit_move", call_fit_move},
     {"icc_grid_create", call_grid_create},
     {"icc_grid_create_mask", call_grid_create_mask},
     {"icc_grid_refine", call_grid_refine},
@@ -955,8 +1063,9 @@ enum { N_CALLS = sizeof CALLS / sizeof *CALLS };
  * methods. */
 static inline int is_once(const call *c)
 {
-    static const char *const BEGINNINGS[] = {"icc_function_create:", "icc_shape_", "icc_sampling_",
-                                             "icc_kernel_", "icc_binding_"};
+    static const char *const BEGINNINGS[] = {
+        "icc_function_create:", "icc_shape_", "icc_sampling_",         "icc_kernel_",
+        "icc_binding_",         "icc_fit_",   "icc_map_create_nearest"};
     for (size_t i = 0; i < sizeof BEGINNINGS / sizeof *BEGINNINGS; ++i)
         if (strncmp(c->name, BEGINNINGS[i], strlen(BEGINNINGS[i])) == 0)
             return 1;

@@ -1,0 +1,497 @@
+/* Makes the mesh that an elastic fit moves: the caller's own, or one that fills a domain and has
+ * the told points among its vertices. */
+#include "fit/elastic_shape.h"
+
+#include "base/error.h"
+#include "base/sort.h"
+#include "fit/elastic/pin_mesh.h"
+#include "math/predicates.h"
+#include "mesh/corners.h"
+
+#include <math.h>
+#include <string.h>
+
+static const uint32_t NONE = UINT32_MAX;
+
+/* A boundary counts as straight at a vertex if its two edges turn by less than this, in radians. */
+static const double STRAIGHT = 1e-9;
+
+/* ---- the object ---- */
+
+iccp_elastic_shape *iccp_elastic_shape_retain(iccp_elastic_shape *shape)
+{
+    (void)atomic_fetch_add(&shape->references, 1);
+    return shape;
+}
+
+void iccp_elastic_shape_release(iccp_elastic_shape *s)
+{
+    if (s == NULL || atomic_fetch_sub(&s->references, 1) > 1)
+        return;
+    const iccp_memory memory = s->memory;
+    iccp_free(&memory, s->given);
+    iccp_free(&memory, s->points);
+    iccp_free(&memory, s->triangles);
+    iccp_free(&memory, s->ends);
+    iccp_free(&memory, s->share);
+    iccp_free(&memory, s->hold);
+    iccp_free(&memory, s->item);
+    iccp_free(&memory, s->direction);
+    iccp_elastic_release(s->elastic);
+    iccp_free(&memory, s);
+}
+
+static icc_status make_room(iccp_elastic_shape *s, size_t n_points, size_t n_triangles)
+{
+    const iccp_memory *memory = &s->memory;
+    s->n_points = n_points;
+    s->n_triangles = n_triangles;
+    s->given = iccp_alloc(memory, n_points, 2 * sizeof *s->given);
+    s->points = iccp_alloc(memory, n_points, 2 * sizeof *s->points);
+    s->triangles = iccp_alloc(memory, n_triangles, 3 * sizeof *s->triangles);
+    s->hold = iccp_alloc_zero(memory, n_points, sizeof *s->hold);
+    s->item = iccp_alloc(memory, n_points, sizeof *s->item);
+    s->direction = iccp_alloc_zero(memory, n_points, 2 * sizeof *s->direction);
+    if (s->given == NULL || s->points == NULL || s->triangles == NULL || s->hold == NULL ||
+        s->item == NULL || s->direction == NULL)
+        return ICC_ERR_MEMORY;
+    memset(s->item, 0xff, n_points * sizeof *s->item);
+    return ICC_OK;
+}
+
+/* ---- the caller's mesh ---- */
+
+static icc_status copy_vertices(iccp_elastic_shape *s, const icc_mesh *mesh, icc_error *err)
+{
+    const size_t n = mesh->n_vertices;
+    for (size_t v = 0; v < n; ++v)
+        if (!isfinite(mesh->vertices[2 * v]) || !isfinite(mesh->vertices[2 * v + 1]))
+            return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_VERTEX, (int64_t)v,
+                                "vertex %zu of the mesh is not finite", v);
+    memcpy(s->given, mesh->vertices, 2 * n * sizeof *s->given);
+    iccp_frame_fit(&s->frame, 2, n, s->given);
+    return iccp_frame_in_all(&s->frame, n, s->given, s->points)
+               ? ICC_OK
+               : iccp_fail(err, ICC_ERR_ARGUMENT,
+                           "a coordinate of the mesh is too small beside the others");
+}
+
+static icc_status copy_triangle(iccp_elastic_shape *s, const icc_mesh *mesh, size_t t,
+                                icc_error *err)
+{
+    const uint32_t *from = mesh->cells + 3 * t;
+    uint32_t *to = s->triangles + 3 * t;
+    for (size_t k = 0; k < 3; ++k)
+        if (from[k] >= mesh->n_vertices)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
+                                "triangle %zu has vertex %lu; there are %zu", t,
+                                (unsigned long)from[k], mesh->n_vertices);
+    memcpy(to, from, 3 * sizeof *to);
+    const int sign = iccp_orient2d(s->points + 2 * (size_t)to[0], s->points + 2 * (size_t)to[1],
+                                   s->points + 2 * (size_t)to[2]);
+    if (sign == 0)
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
+                            "triangle %zu has no area", t);
+    if (sign < 0) {
+        to[1] = from[2];
+        to[2] = from[1];
+    }
+    return ICC_OK;
+}
+
+static icc_status shape_of_mesh(iccp_elastic_shape *s, const icc_mesh *mesh, icc_error *err)
+{
+    icc_status status = make_room(s, mesh->n_vertices, mesh->n_cells);
+    s->n_vertices = mesh->n_vertices;
+    if (status == ICC_OK)
+        status = copy_vertices(s, mesh, err);
+    for (size_t t = 0; status == ICC_OK && t < mesh->n_cells; ++t)
+        status = copy_triangle(s, mesh, t, err);
+    return iccp_fail_side(err, status, status == ICC_OK || status == ICC_ERR_MEMORY ? 0 : 1);
+}
+
+/* ---- where the told points are in the caller's mesh ---- */
+
+static bool comes_before(const void *context, uint32_t a, uint32_t b)
+{
+    const double *points = context, *p = points + 2 * (size_t)a, *q = points + 2 * (size_t)b;
+    return p[0] < q[0] || (!(p[0] > q[0]) && p[1] < q[1]);
+}
+
+/* Finds the vertex at a point among sorted ones. */
+static uint32_t find_vertex(const double *points, const uint32_t *sorted, size_t n,
+                            const double *point)
+{
+    size_t low = 0, high = n;
+    while (low < high) {
+        const size_t middle = (low + high) / 2;
+        const double *p = points + 2 * (size_t)sorted[middle];
+        if (p[0] < point[0] || (!(p[0] > point[0]) && p[1] < point[1]))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    const double *p = low < n ? points + 2 * (size_t)sorted[low] : NULL;
+    const bool is_there =
+        p != NULL && !(p[0] > point[0]) && !(p[1] < point[1]) && !(p[1] > point[1]);
+    return is_there ? sorted[low] : NONE;
+}
+
+static icc_status find_in_mesh(const iccp_elastic_shape *s, iccp_told *told, const iccp_env *env,
+                               icc_error *err)
+{
+    const size_t n = s->n_points;
+    uint32_t *sorted = iccp_alloc(&env->memory, n, sizeof *sorted);
+    uint32_t *work = iccp_alloc(&env->memory, n, sizeof *work);
+    icc_status status = sorted != NULL && work != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (uint32_t v = 0; status == ICC_OK && v < n; ++v)
+        sorted[v] = v;
+    if (status == ICC_OK)
+        iccp_sort_indices(sorted, work, n, s->given, comes_before);
+    for (size_t i = 0; status == ICC_OK && i < told->n; ++i)
+        if (told->vertex[i] == NONE) {
+            told->vertex[i] = find_vertex(s->given, sorted, n, told->source + 2 * i);
+            if (told->vertex[i] == NONE)
+                status =
+                    iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                 "point %zu is no vertex of the mesh, which is kept as it is", i);
+        }
+    iccp_free(&env->memory, sorted);
+    iccp_free(&env->memory, work);
+    return status;
+}
+
+/* ---- a mesh for a domain ---- */
+
+typedef struct pins {
+    size_t n, n_segments;
+    double *points;     /* 2 n, local */
+    uint32_t *segments; /* 2 n_segments, numbers of pins */
+    uint32_t *of_item;  /* of each told item: its pin, or NONE */
+    uint32_t *sorted, *work;
+} pins;
+
+static void free_pins(pins *p, const iccp_env *env)
+{
+    iccp_free(&env->memory, p->points);
+    iccp_free(&env->memory, p->segments);
+    iccp_free(&env->memory, p->of_item);
+    iccp_free(&env->memory, p->sorted);
+    iccp_free(&env->memory, p->work);
+}
+
+/* Lists the told points, each place once, and the segments of told lines. Points at vertices of the
+ * domain become these vertices. */
+static icc_status list_pins(pins *p, const iccp_elastic_shape *s, const icc_domain *domain,
+                            iccp_told *told, const iccp_env *env)
+{
+    const size_t n = told->n;
+    p->points = iccp_alloc(&env->memory, n, 2 * sizeof *p->points);
+    p->segments = iccp_alloc(&env->memory, n, 2 * sizeof *p->segments);
+    p->of_item = iccp_alloc(&env->memory, n, sizeof *p->of_item);
+    p->sorted = iccp_alloc(&env->memory, domain->n_vertices, sizeof *p->sorted);
+    p->work = iccp_alloc(&env->memory, domain->n_vertices, sizeof *p->work);
+    if (p->points == NULL || p->segments == NULL || p->of_item == NULL || p->sorted == NULL ||
+        p->work == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t v = 0; v < domain->n_vertices; ++v)
+        p->sorted[v] = v;
+    iccp_sort_indices(p->sorted, p->work, domain->n_vertices, domain->vertices, comes_before);
+    for (size_t i = 0; i < n; ++i) {
+        double local[2];
+        p->of_item[i] = NONE;
+        if (told->vertex[i] != NONE)
+            continue;
+        iccp_frame_in(&s->frame, 2, told->source + 2 * i, local);
+        told->vertex[i] = find_vertex(domain->vertices, p->sorted, domain->n_vertices, local);
+        for (size_t k = 0; told->vertex[i] == NONE && k < p->n && p->of_item[i] == NONE; ++k)
+            if (!(p->points[2 * k] < local[0]) && !(p->points[2 * k] > local[0]) &&
+                !(p->points[2 * k + 1] < local[1]) && !(p->points[2 * k + 1] > local[1]))
+                p->of_item[i] = (uint32_t)k;
+        if (told->vertex[i] == NONE && p->of_item[i] == NONE) {
+            memcpy(p->points + 2 * p->n, local, sizeof local);
+            p->of_item[i] = (uint32_t)p->n++;
+        }
+        if (told->joined[i] && p->of_item[i] != NONE && p->of_item[i - 1] != NONE) {
+            p->segments[2 * p->n_segments] = p->of_item[i - 1];
+            p->segments[2 * p->n_segments++ + 1] = p->of_item[i];
+        }
+    }
+    return ICC_OK;
+}
+
+/* Gives a pin's number in an error back as the item's. */
+static void blame_item(const pins *p, size_t n, icc_error *err)
+{
+    if (err == NULL || err->size == 0 || err->index < 0)
+        return;
+    for (size_t i = 0; i < n; ++i)
+        if (p->of_item[i] == (uint32_t)err->index) {
+            (void)iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, (int64_t)i,
+                               "point %zu is not inside the domain", i);
+            return;
+        }
+}
+
+static icc_status take_mesh(iccp_elastic_shape *s, iccp_pin_mesh *mesh, const icc_domain *domain,
+                            iccp_told *told, const pins *p)
+{
+    const icc_status status = make_room(s, mesh->n_points, mesh->n_triangles);
+    if (status != ICC_OK)
+        return status;
+    memcpy(s->points, mesh->points, 2 * s->n_points * sizeof *s->points);
+    memcpy(s->triangles, mesh->triangles, 3 * s->n_triangles * sizeof *s->triangles);
+    for (size_t v = 0; v < s->n_points; ++v)
+        iccp_frame_out(&s->frame, 2, s->points + 2 * v, s->given + 2 * v);
+    for (size_t v = 0; v < domain->n_vertices; ++v)
+        iccp_domain_given(domain, v, s->given + 2 * v);
+    for (size_t i = 0; i < told->n; ++i)
+        if (p->of_item[i] != NONE) {
+            told->vertex[i] = (uint32_t)domain->n_vertices + p->of_item[i];
+            memcpy(s->given + 2 * (size_t)told->vertex[i], told->source + 2 * i,
+                   2 * sizeof *s->given);
+        }
+    s->ends = iccp_alloc(&s->memory, s->n_points, 2 * sizeof *s->ends);
+    s->share = iccp_alloc_zero(&s->memory, s->n_points, sizeof *s->share);
+    if (s->ends == NULL || s->share == NULL)
+        return ICC_ERR_MEMORY;
+    memset(s->ends, 0xff, 2 * mesh->n_told * sizeof *s->ends);
+    memcpy(s->ends + 2 * mesh->n_told, mesh->ends,
+           2 * (s->n_points - mesh->n_told) * sizeof *s->ends);
+    memcpy(s->share + mesh->n_told, mesh->share, (s->n_points - mesh->n_told) * sizeof *s->share);
+    return ICC_OK;
+}
+
+static icc_status shape_of_domain(iccp_elastic_shape *s, const icc_domain *domain, iccp_told *told,
+                                  double cell, const iccp_env *env, icc_error *err)
+{
+    pins p = {0};
+    iccp_pin_mesh mesh;
+    s->frame = domain->frame;
+    s->n_vertices = domain->n_vertices;
+    icc_status status = list_pins(&p, s, domain, told, env);
+    const iccp_pin_mesh_input input = {.domain = domain,
+                                       .n_pins = p.n,
+                                       .pins = p.points,
+                                       .n_segments = p.n_segments,
+                                       .segments = p.segments,
+                                       .cell = cell * s->frame.in[0] * s->frame.in[1]};
+    if (status == ICC_OK) {
+        status = iccp_pin_mesh_create(&mesh, &input, env, err);
+        if (status == ICC_ERR_OUTSIDE)
+            blame_item(&p, told->n, err);
+        if (status == ICC_OK) {
+            status = take_mesh(s, &mesh, domain, told, &p);
+            iccp_pin_mesh_free(&mesh);
+        }
+    }
+    free_pins(&p, env);
+    return status;
+}
+
+/* ---- what is told ---- */
+
+static bool are_equal(const double *a, const double *b)
+{
+    for (size_t k = 0; k < 2; ++k)
+        if (a[k] < b[k] || a[k] > b[k] || isnan(a[k]) != isnan(b[k]))
+            return false;
+    return true;
+}
+
+static icc_status check_tolerance(const iccp_told *told, size_t i, icc_error *err)
+{
+    return told->tolerance[i] > 0
+               ? iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                              "point %zu has a tolerance; an elastic fit takes exact points only",
+                              i)
+               : ICC_OK;
+}
+
+/* Notes what each item tells of its vertex. */
+static icc_status hold_items(iccp_elastic_shape *s, iccp_told *told, icc_error *err)
+{
+    icc_status status = ICC_OK;
+    for (size_t i = 0; status == ICC_OK && i < told->n; ++i) {
+        const uint32_t v = told->vertex[i];
+        const bool is_sliding = told->kind[i] == ICC_CONSTRAINT_SLIDING;
+        const uint32_t other = v < s->n_points ? s->item[v] : NONE;
+        status = check_tolerance(told, i, err);
+        if (status == ICC_OK &&
+            v >= (told->kind[i] < ICC_CONSTRAINT_VERTICES ? s->n_points : s->n_vertices))
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                  "point %zu is vertex %lu; there are %zu", i, (unsigned long)v,
+                                  s->n_vertices);
+        if (status == ICC_OK && other != NONE &&
+            (told->kind[i] == ICC_CONSTRAINT_SLIDING ||
+             told->kind[other] == ICC_CONSTRAINT_SLIDING ||
+             !are_equal(told->target + 2 * i, told->target + 2 * (size_t)other)))
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                  "points %lu and %zu are in the same place and have different "
+                                  "targets",
+                                  (unsigned long)other, i);
+        if (status != ICC_OK)
+            break;
+        s->item[v] = (uint32_t)i;
+        s->hold[v] = is_sliding ? ICCP_SLIDING : ICCP_HELD;
+        memcpy(told->source + 2 * i, s->given + 2 * (size_t)v, 2 * sizeof *s->given);
+        if (is_sliding)
+            memcpy(s->direction + 2 * (size_t)v, told->direction + 2 * i, 2 * sizeof *s->direction);
+    }
+    return status;
+}
+
+/* Sets the direction of a sliding vertex to that of the boundary, which goes to `after`. */
+static icc_status follow_boundary(iccp_elastic_shape *s, uint32_t v, uint32_t before,
+                                  uint32_t after, icc_error *err)
+{
+    const double *p = s->points + 2 * (size_t)v;
+    double in[2], out[2];
+    for (size_t k = 0; k < 2; ++k) {
+        in[k] = p[k] - s->points[2 * (size_t)before + k];
+        out[k] = s->points[2 * (size_t)after + k] - p[k];
+        s->direction[2 * (size_t)v + k] = in[k] + out[k];
+    }
+    const double cross = in[0] * out[1] - in[1] * out[0], dot = in[0] * out[0] + in[1] * out[1];
+    return fabs(cross) <= STRAIGHT * dot
+               ? ICC_OK
+               : iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)s->item[v],
+                              "the boundary bends at point %lu, which is to slide along it: give "
+                              "a direction",
+                              (unsigned long)s->item[v]);
+}
+
+/* Finds the directions of vertices that slide along the boundary. */
+static icc_status find_directions(iccp_elastic_shape *s, const iccp_env *env, icc_error *err)
+{
+    iccp_corners corners = {s->triangles, NULL, s->n_triangles};
+    corners.twin = iccp_alloc(&env->memory, s->n_triangles, 3 * sizeof *corners.twin);
+    uint32_t *next = iccp_alloc(&env->memory, s->n_points, sizeof *next);
+    uint32_t *before = iccp_alloc(&env->memory, s->n_points, sizeof *before);
+    bool is_manifold = false;
+    icc_status status = corners.twin != NULL && next != NULL && before != NULL
+                            ? iccp_find_twins(&corners, s->n_points, &is_manifold, env)
+                            : ICC_ERR_MEMORY;
+    if (status == ICC_OK && (!is_manifold || !iccp_link_boundary(&corners, s->n_points, next)))
+        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the triangles do not form a conforming mesh");
+    for (uint32_t v = 0; status == ICC_OK && v < s->n_points; ++v)
+        if (next[v] != NONE)
+            before[next[v]] = v;
+    for (uint32_t v = 0; status == ICC_OK && v < s->n_points; ++v) {
+        if (s->hold[v] != ICCP_SLIDING || !isnan(s->direction[2 * (size_t)v]))
+            continue;
+        status = next[v] != NONE
+                     ? follow_boundary(s, v, before[v], next[v], err)
+                     : iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)s->item[v],
+                                    "point %lu slides and is not on the boundary: give a direction",
+                                    (unsigned long)s->item[v]);
+    }
+    iccp_free(&env->memory, corners.twin);
+    iccp_free(&env->memory, next);
+    iccp_free(&env->memory, before);
+    return status;
+}
+
+/* Says of vertices on told edges what follows from the edges' ends. They go along linearly if both
+ * ends are held. They slide if an end slides along the edge and the other end is told. */
+static void hold_edges(iccp_elastic_shape *s)
+{
+    for (size_t v = s->n_vertices; s->ends != NULL && v < s->n_points; ++v) {
+        const uint32_t *end = s->ends + 2 * v;
+        if (end[0] == NONE || s->hold[end[0]] == ICCP_LOOSE || s->hold[end[1]] == ICCP_LOOSE)
+            continue;
+        s->hold[v] = ICCP_HELD;
+        for (size_t k = 0; k < 2; ++k)
+            if (s->hold[end[k]] == ICCP_SLIDING) {
+                s->hold[v] = ICCP_SLIDING;
+                memcpy(s->direction + 2 * v, s->direction + 2 * (size_t)end[k],
+                       2 * sizeof *s->direction);
+            }
+    }
+}
+
+/* ---- making it ---- */
+
+static icc_status make_elastic(iccp_elastic_shape *s, const icc_fit_options *options,
+                               const iccp_env *env, icc_error *err)
+{
+    const iccp_elastic_input input = {.n_points = s->n_points,
+                                      .n_triangles = s->n_triangles,
+                                      .points = s->points,
+                                      .corners = s->triangles,
+                                      .hold = s->hold,
+                                      .direction = s->direction,
+                                      .stiffness = options->stiffness,
+                                      .cell_factor = options->cell_stiffness,
+                                      .reach = options->reach * s->frame.in[0] * s->frame.in[1],
+                                      .contact = !options->no_contact};
+    const icc_status status = iccp_elastic_create(&s->elastic, &input, env);
+    return status != ICC_ERR_BOUNDARY
+               ? status
+               : iccp_fail(err, status, "two parts of the boundary share a vertex");
+}
+
+static icc_status create(iccp_elastic_shape *s, const icc_domain *domain, const icc_mesh *mesh,
+                         iccp_told *told, const icc_fit_options *options, const iccp_env *env,
+                         icc_error *err)
+{
+    icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, err)
+                                     : shape_of_domain(s, domain, told, options->cell, env, err);
+    if (status == ICC_OK && mesh != NULL)
+        status = find_in_mesh(s, told, env, err);
+    if (status == ICC_OK)
+        status = hold_items(s, told, err);
+    if (status == ICC_OK)
+        status = find_directions(s, env, err);
+    if (status != ICC_OK)
+        return status;
+    hold_edges(s);
+    return make_elastic(s, options, env, err);
+}
+
+icc_status iccp_elastic_shape_create(iccp_elastic_shape **out, const icc_domain *domain,
+                                     const icc_mesh *mesh, iccp_told *told,
+                                     const icc_fit_options *options, const iccp_env *env,
+                                     icc_error *err)
+{
+    iccp_elastic_shape *s = iccp_alloc_zero(&env->memory, 1, sizeof *s);
+    *out = NULL;
+    if (s == NULL)
+        return ICC_ERR_MEMORY;
+    s->memory = env->memory;
+    s->references = 1;
+    const icc_status status = create(s, domain, mesh, told, options, env, err);
+    if (status == ICC_OK)
+        *out = s;
+    else
+        iccp_elastic_shape_release(s);
+    return status;
+}
+
+/* ---- targets ---- */
+
+static void aim_item(const iccp_elastic_shape *s, const iccp_told *told, uint32_t v, double *target)
+{
+    const double *given = told->target + 2 * (size_t)s->item[v];
+    if (isnan(given[0]))
+        memcpy(target, s->points + 2 * (size_t)v, 2 * sizeof *target);
+    else
+        iccp_frame_in(&s->frame, 2, given, target);
+}
+
+void iccp_elastic_shape_aim(const iccp_elastic_shape *s, const iccp_told *told, double *targets)
+{
+    for (uint32_t v = 0; v < s->n_points; ++v) {
+        if (s->item[v] != NONE)
+            aim_item(s, told, v, targets + 2 * (size_t)v);
+        else if (s->hold[v] == ICCP_LOOSE)
+            memcpy(targets + 2 * (size_t)v, s->points + 2 * (size_t)v, 2 * sizeof *targets);
+    }
+    for (size_t v = s->n_vertices; v < s->n_points; ++v)
+        if (s->item[v] == NONE && s->hold[v] != ICCP_LOOSE) {
+            const double *a = targets + 2 * (size_t)s->ends[2 * v];
+            const double *b = targets + 2 * (size_t)s->ends[2 * v + 1];
+            for (size_t k = 0; k < 2; ++k)
+                targets[2 * v + k] = (1 - s->share[v]) * a[k] + s->share[v] * b[k];
+        }
+}
