@@ -26,7 +26,7 @@ done
 
 
 # Lines fit into a terminal.
-for command in '' map encode decode warp animate mesh check info plot match weights pose demo; do
+for command in '' map fit encode decode warp animate mesh check info plot match weights pose demo; do
     # shellcheck disable=SC2086 # one word or none
     run 0 $command --help-all
     awk 'length > 80 { print; bad = 1 } END { exit bad }' out || complain "$command --help is wider than 80 columns"
@@ -124,7 +124,7 @@ run 0 help
 holds out 'Usage: libicc COMMAND'
 run 2 help nothing
 says "there is no command 'nothing' (see"
-for words in transform:map film:animate maap:map wrap:warp chekc:check anim:animate mathc:match inof:info pse:pose; do
+for words in transform:map georef:fit film:animate maap:map wrap:warp chekc:check anim:animate mathc:match inof:info pse:pose; do
     run 2 ${words%%:*}
     says "there is no command '${words%%:*}'; did you mean ${words#*:}? (see 'libicc --help')"
 done

@@ -74,9 +74,20 @@ const foreign_format foreign_formats[] = {
     {JSON("rings"), "an Esri JSON geometry; its `rings` are the coordinates of a GeoJSON Polygon",
      NO_REMEDY},
     {BEGINS("mapX,mapY,"),
-     "a list of control points (QGIS), not an outline; --landmarks takes it, beside the outlines "
-     "of "
-     "both sheets (-s, -t)",
+     "a list of control points (QGIS), not an outline; 'libicc fit FILE' makes a map from it "
+     "alone, "
+     "and --landmarks takes it beside the outlines of both sheets (-s, -t)",
+     NO_REMEDY},
+    {JSON_TYPE("Annotation"),
+     "a georeference annotation, not an outline; 'libicc fit FILE' makes a map from its control "
+     "points",
+     NO_REMEDY},
+    {JSON_TYPE("AnnotationPage"),
+     "a page of georeference annotations, not an outline; 'libicc fit FILE' makes a map from the "
+     "control points of one",
+     NO_REMEDY},
+    {XML("VRTDataset"),
+     "a VRT of GDAL, not an outline; 'libicc fit FILE' makes a map from its ground control points",
      NO_REMEDY},
     /* surfaces and scenes */
     {AT(0, "Kaydara FBX Binary"), "an FBX file", USE_BLENDER},

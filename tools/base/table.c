@@ -6,6 +6,7 @@
 #include "base/foreign.h"
 #include "base/number.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -122,11 +123,24 @@ double *table_add_row(table *t, size_t line)
     return t->values + t->n * t->columns;
 }
 
-/* The first line from p on that is neither empty nor a comment, or NULL. */
-static const char *first_row(const char *p, const char *end)
+/* True if a line is only the word of the form, perhaps with empty cells after it. */
+static bool is_word(const char *p, const char *end, const table_form *form)
 {
-    while (p < end &&
-           (skip_blanks(p) == end || *skip_blanks(p) == '\n' || *skip_blanks(p) == '#')) {
+    size_t n = form->word != NULL ? strlen(form->word) : 0;
+    p = skip_blanks(p);
+    if (n == 0 || (size_t)(end - p) < n || strncmp(p, form->word, n) != 0)
+        return false;
+    p += n;
+    p += strspn(p, " \t\r,;");
+    return p >= end || *p == '\n';
+}
+
+/* The first line from p on that is neither empty, nor a comment, nor the word of the form; or
+ * NULL. */
+static const char *first_row(const char *p, const char *end, const table_form *form)
+{
+    while (p < end && (skip_blanks(p) == end || *skip_blanks(p) == '\n' || *skip_blanks(p) == '#' ||
+                       is_word(p, end, form))) {
         const char *stop = memchr(p, '\n', (size_t)(end - p));
         p = stop != NULL ? stop + 1 : end;
     }
@@ -143,7 +157,7 @@ bool table_read(table *out, const char *text, size_t n, const table_form *form, 
         return false;
     if (n >= 3 && memcmp(p, "\xef\xbb\xbf", 3) == 0)
         p += 3;
-    const char *first = first_row(p, end);
+    const char *first = first_row(p, end, form);
     if (first != NULL && !columns_learn(&layout, &has_heading, first, form, wrong)) {
         wrong->line = line_of(text, first);
         return false;
@@ -154,9 +168,13 @@ bool table_read(table *out, const char *text, size_t n, const table_form *form, 
             stop = end;
         bool filled = false, is_row = !(p == first && has_heading);
         double *row = table_add_row(out, line);
-        if (is_row && !(layout.separator == '\0' || *skip_blanks(p) == '#'
-                            ? read_row(p, stop, line, form, row, &filled, wrong)
-                            : read_cells(p, stop, line, &layout, form, row, &filled, wrong)))
+        if (is_row && is_word(p, stop, form)) {
+            filled = true;
+            for (size_t k = 0; k < form->columns; k++)
+                row[k] = (double)NAN;
+        } else if (is_row && !(layout.separator == '\0' || *skip_blanks(p) == '#'
+                                   ? read_row(p, stop, line, form, row, &filled, wrong)
+                                   : read_cells(p, stop, line, &layout, form, row, &filled, wrong)))
             return false;
         out->n += filled;
         p = stop + (stop < end);

@@ -20,6 +20,7 @@ typedef struct table_form {
     size_t axes;      /* how many of the first numbers are coordinates, which a heading may name */
     bool special;     /* nan and inf are allowed (a point that already has no image) */
     const char *what; /* for messages: "a point is `x y`" */
+    const char *word; /* a row that is only this word has nan for all its numbers; or NULL */
 } table_form;
 
 /* Reads rows of numbers from text[0..n), with text[n] == '\0'. Numbers are separated by white

@@ -50,6 +50,7 @@ typedef struct cage_choice {
     cage_role role;
     const char *named; /* NULL to choose by role */
     flattening flat;
+    bool may_slide;          /* vertices may slide along a wall */
     const struct cage *like; /* NULL, or the boundary of a mesh. If the file has the same mesh,
                                 moved, it gets vertices and faces in the same order */
 } cage_choice;
@@ -80,6 +81,8 @@ typedef struct cage {
     size_t shape[ICC_MAX_DIM]; /* of a mask: cells along each axis */
     bool cut;                  /* it was cut at the antimeridian into several polygons */
     bool flipped;              /* y is reversed: the file has the opposite sign */
+    size_t n_sliding;          /* vertices of a text whose row says that they may slide along a
+                                  wall; their coordinates are nan */
     size_t n_heights;          /* vertices of a polygon that had further coordinates, which were
                                   ignored */
     size_t n_features;         /* inside a polygon; in the domain's order, except circles */

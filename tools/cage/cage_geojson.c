@@ -288,11 +288,10 @@ static const json_item *choose_feature(const geojson *file, cage_role role, prob
     if (n_chosen == 0 && json_size(features) == 1)
         return json_first(features);
     if (n_chosen == 0 && are_links(features)) {
-        spoilt(wrong, 0,
-               "these are links from one place to another, not an outline; 'jq -r "
-               "\".features[].geometry.coordinates | flatten | @csv\" FILE > OUT.csv' makes pairs "
-               "of points "
-               "from them, which --landmarks takes beside the outlines");
+        spoilt(
+            wrong, 0,
+            "these are links from one place to another, not an outline; 'libicc fit FILE' makes a "
+            "map from them alone, and --landmarks takes them beside the outlines");
         return NULL;
     }
     if (n_chosen != 1) {

@@ -100,7 +100,7 @@ static bool read_any(cage *out, const cage_choice *choice, size_t dim, const cha
     if (is_wkt(p))
         return cage_read_wkt(out, text, n, wrong);
     out->dim = dim;
-    return cage_read_text(out, dim, text, n, wrong);
+    return cage_read_text(out, dim, choice->may_slide, text, n, wrong);
 }
 
 bool cage_read(cage *out, const cage_choice *choice, size_t dim, const char *text, size_t n,

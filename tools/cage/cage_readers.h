@@ -4,7 +4,8 @@
 
 #include "cage/cage.h"
 
-bool cage_read_text(cage *out, size_t dim, const char *text, size_t n, problem *wrong);
+bool cage_read_text(cage *out, size_t dim, bool may_slide, const char *text, size_t n,
+                    problem *wrong);
 bool cage_read_geojson(cage *out, const cage_choice *choice, const char *text, size_t n,
                        problem *wrong);
 bool cage_read_wkt(cage *out, const char *text, size_t n, problem *wrong);

@@ -1,12 +1,10 @@
 /* Reads surfaces from the file formats of meshes. */
 #include "base/allocate.h"
 #include "cage/cage_readers.h"
-#include "mesh/element_kinds.h"
 #include "mesh/mesh_file.h"
+#include "mesh/mesh_flat.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* One pass finds all lines, because the spans are in the order of the text. Binary files have no
  * lines. */
@@ -21,45 +19,13 @@ static size_t *vertex_lines(const mesh_file *m)
     return lines;
 }
 
-/* True if all faces lie in one plane z = constant, so they enclose nothing. */
-static bool is_flat(const mesh_file *m)
-{
-    for (size_t i = 0; i < m->n_vertices; i++)
-        if (m->points[3 * i + 2] < m->points[2] || m->points[3 * i + 2] > m->points[2])
-            return false;
-    return m->n_triangles > 0;
-}
-
-static bool has_bodies(const mesh_file *m)
-{
-    for (size_t i = 0; i < m->n_elements; i++)
-        if (element_kind_find(m->kinds[i])->dim == 3)
-            return true;
-    return false;
-}
-
-/* True if a mesh could not be read in space because its vertices have two coordinates only. */
-static bool lacks_height(const mesh_file *m, const problem *wrong)
-{
-    return (m->n_vertices == 0 && strncmp(wrong->text, "'' is not a finite", 18) == 0) ||
-           strstr(wrong->text, "have no property z") != NULL ||
-           strncmp(wrong->text, "a mesh of dimension 2", 21) == 0;
-}
-
 /* Reads a mesh in the plane if its faces are flat, unless it is the target of a cage in space. */
 static bool read_mesh(mesh_file *m, const cage_choice *choice, size_t dim, const char *text,
                       size_t n, size_t *n_heights, problem *wrong)
 {
-    problem other;
-    bool good = mesh_read(m, 3, text, n, wrong), flat = good && !has_bodies(m) && is_flat(m);
-    if (choice->role == CAGE_TARGET && dim == 3)
-        return good;
-    if (good ? !flat : !lacks_height(m, wrong))
-        return good;
-    *n_heights = flat && fabs(m->points[2]) > 0 ? m->n_vertices : 0;
-    mesh_free(m);
-    return mesh_read(m, 2, text, n, &other) ||
-           (good && spoilt(wrong, other.line, "%s", other.text));
+    return choice->role == CAGE_TARGET && dim == 3
+               ? mesh_read(m, 3, text, n, wrong)
+               : mesh_read_in_own_space(m, text, n, n_heights, wrong);
 }
 
 static void take_surface(cage *out, mesh_file *m)
@@ -82,7 +48,7 @@ bool cage_read_surface(cage *out, const cage_choice *choice, size_t dim, const c
     mesh_file m;
     size_t n_heights = 0;
     bool good = read_mesh(&m, choice, dim, text, n, &n_heights, wrong);
-    if (good && (m.dim == 2 || has_bodies(&m)))
+    if (good && (m.dim == 2 || mesh_has_bodies(&m)))
         good = cage_take_mesh(out, &m, choice->like, wrong);
     else if (good)
         take_surface(out, &m);

@@ -97,7 +97,8 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     name_faults(r, text, names, sizeof names);
     int result = report_all(j, r, text, seconds);
     if (result == DONE && lost && j->args->outside == OUTSIDE_FAIL)
-        return failed(in, 0, "not all of it lies in the cage, so nothing is written: %s", names);
+        return failed(in, 0, "not all of it lies in %s, so nothing is written: %s", job_bound(j),
+                      names);
     if (result == DONE && lost && over)
         return failed(
             in, 0,
@@ -122,8 +123,9 @@ static int finish(const job *j, geo_result *r, const char *text, size_t n, doubl
     result = triangulation_tell(j);
     if (!lost)
         return result;
-    note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: %s",
-         r->n_faults, r->n_features, r->n_without, r->n_positions, names);
+    note("%zu of %zu features are not carried as they were, %zu of %zu positions have no image: "
+         "%s%s",
+         r->n_faults, r->n_features, r->n_without, r->n_positions, names, job_bound_hint(j));
     return PARTIAL;
 }
 
@@ -172,19 +174,14 @@ static int carry_file(job *j)
     return result;
 }
 
-int run_geojson(const args *a)
+int geojson_apply(job *j)
 {
-    job j;
-    job_start(&j, a);
-    int result = job_read_plane(&j, "--geojson");
+    int result = job_read_plane(j, "--geojson");
     if (result == DONE)
-        result = ties_check(&j);
+        result = ties_check(j);
     if (result == DONE)
-        result = job_make_map(&j);
+        result = job_make_map(j);
     if (result == DONE)
-        result = require_maps(&j);
-    if (result == DONE)
-        result = carry_file(&j);
-    job_end(&j);
-    return result;
+        result = require_maps(j);
+    return result == DONE ? carry_file(j) : result;
 }

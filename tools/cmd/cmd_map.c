@@ -28,15 +28,17 @@ static int refuse(const job *j, const table *points, const icc_status *status, s
     size_t i = 0;
     while (status[i] == ICC_OK)
         i++;
-    const char *why = status[i] == ICC_ERR_OUTSIDE ? "lies outside the cage" : "has no image";
+    bool is_outside = status[i] == ICC_ERR_OUTSIDE;
+    const char *why = is_outside ? "lies outside " : "has no image";
+    const char *of = is_outside ? job_bound(j) : "";
     if (j->args->outside == OUTSIDE_FAIL)
         return failed(j->args->points, points->lines[i],
-                      "this point %s (%zu of %zu have no image), so nothing is written", why,
+                      "this point %s%s (%zu of %zu have no image), so nothing is written", why, of,
                       n_failed, points->n);
     return failed(j->args->points, points->lines[i],
-                  "this point %s (%zu of %zu have no image), and the result would overwrite it; "
+                  "this point %s%s (%zu of %zu have no image), and the result would overwrite it; "
                   "write to another file",
-                  why, n_failed, points->n);
+                  why, of, n_failed, points->n);
 }
 
 static int write_points(job *j, const table *points, double *images, const icc_status *status,
@@ -87,28 +89,32 @@ static int map_points(job *j, const table *points)
     return result;
 }
 
-int run_map(const args *a)
+int map_apply(job *j)
 {
-    if (a->geojson)
-        return run_geojson(a);
-    job j;
     table points;
-    job_start(&j, a);
-    int result = triangulation_check(&j);
+    int result = triangulation_check(j);
     if (result == DONE)
-        result = ties_check(&j);
+        result = ties_check(j);
     if (result == DONE)
-        result = job_make_map(&j);
+        result = job_make_map(j);
     if (result == DONE)
-        result = require_maps(&j);
+        result = require_maps(j);
     if (result == DONE) {
-        table_form form = rows_of_points(job_dim(&j));
-        result = rows_read(&points, a->points, &form);
+        table_form form = rows_of_points(job_dim(j));
+        result = rows_read(&points, j->args->points, &form);
     }
     if (result == DONE) {
-        result = map_points(&j, &points);
+        result = map_points(j, &points);
         table_free(&points);
     }
+    return result;
+}
+
+int run_map(const args *a)
+{
+    job j;
+    job_start(&j, a);
+    int result = a->geojson ? geojson_apply(&j) : map_apply(&j);
     job_end(&j);
     return result;
 }

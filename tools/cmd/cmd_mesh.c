@@ -4,10 +4,13 @@
 #include "cmd/commands.h"
 
 #include "base/allocate.h"
+#include "fit/mesh_fit.h"
 #include "job/attached.h"
 #include "job/job.h"
 #include "job/output_name.h"
+#include "job/triangulation.h"
 #include "mesh/mesh_file.h"
+#include "mesh/mesh_flat.h"
 #include "mesh/tally.h"
 
 #include <stdio.h>
@@ -23,6 +26,7 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
     bool whole = tally_is_simplicial(m);
     if (j->args->inverse || n == 0 || !(whole || j->args->repair_mesh))
         return DONE;
+    bool has_images = j->args->moves != NULL || j->args->nearest != NULL;
     certificate->size = sizeof *certificate;
     const icc_mesh mesh = {.size = sizeof mesh,
                            .dim = (int32_t)m->dim,
@@ -31,7 +35,7 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
                            .n_cells = n,
                            .cells = m->dim == 2 ? m->triangles : m->tetrahedra};
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
-        j->map, &mesh, images, certificate, &j->env, &err);
+        j->map, &mesh, has_images ? NULL : images, certificate, &j->env, &err);
 
     progress_end(&j->bar);
     certificate->size = whole ? certificate->size : 0;
@@ -193,6 +197,8 @@ static int finish(job *j, const mesh_file *m, const double *images, const icc_st
     bool writes = n_failed + attached->n_beyond == 0 || j->args->outside == OUTSIDE_KEEP;
     bool refused = j->args->require != 0 && (certificate->size == 0 || !certificate->certified);
     int result = writes && !refused ? write_mesh(j, m, images, status) : DONE;
+    if (result == DONE && writes && !refused)
+        result = triangulation_write(j);
     if (result == DONE && (writes || j->args->json))
         result = report_tally(j, m, t, n_failed, certificate);
     return result != DONE ? result
@@ -218,20 +224,15 @@ static int count_and_finish(job *j, const mesh_file *m, const double *images,
     return result;
 }
 
-/* Maps the vertices, certifies the simplices, and carries normals and similar data before anything
- * is written. */
-static int map_mesh(job *j, mesh_file *m)
+/* Certifies the simplices, and carries normals and similar data before anything is written. */
+static int carry_mesh(job *j, mesh_file *m, double *images, const icc_status *status,
+                      size_t n_failed)
 {
-    size_t n = m->n_vertices, n_failed = 0;
-    double *images = need(n, m->dim * sizeof *images);
-    icc_status *status = need(n, sizeof *status);
-    icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
-        j->map, n, m->points, images, status, &n_failed, &j->env);
     icc_certificate certificate = {0};
     tally plain = {0};
-    if (ran == ICC_OK && j->args->repair_mesh)
+    if (j->args->repair_mesh)
         tally_make(&plain, m, images);
-    int result = ran == ICC_OK ? certify(j, m, images, &certificate) : job_failed_status(j, ran);
+    int result = certify(j, m, images, &certificate);
     if (result == DONE)
         result = round_images(j, m, images, &certificate);
     progress_end(&j->bar);
@@ -241,9 +242,39 @@ static int map_mesh(job *j, mesh_file *m)
     if (result == DONE)
         result = count_and_finish(j, m, images, status, n_failed, &certificate, &attached, &plain);
     tally_free(&plain);
+    return result;
+}
+
+static int map_mesh(job *j, mesh_file *m)
+{
+    size_t n = m->n_vertices, n_failed = 0;
+    double *images = need(n, m->dim * sizeof *images);
+    icc_status *status = need(n, sizeof *status);
+    icc_status ran = (j->args->inverse ? icc_map_apply_inverse : icc_map_apply)(
+        j->map, n, m->points, images, status, &n_failed, &j->env);
+    int result =
+        ran == ICC_OK ? carry_mesh(j, m, images, status, n_failed) : job_failed_status(j, ran);
     free(images);
     free(status);
     return result;
+}
+
+/* Moves a mesh without a cage: --fit and --nearest. */
+static int move_mesh(job *j, mesh_file *m)
+{
+    int result = output_fits(j->args->command, j->args->operands[1], m->format);
+    if (result != DONE)
+        return result;
+    double *images = need(m->n_vertices, 2 * sizeof *images);
+    icc_status *status = need(m->n_vertices, sizeof *status); /* all are ICC_OK */
+    int made = (j->args->moves != NULL ? mesh_fit : mesh_nearest)(j, m, images);
+    if (made == PARTIAL && j->args->require != 0)
+        result = FAILED;
+    else if (made == DONE || made == PARTIAL)
+        result = carry_mesh(j, m, images, status, 0);
+    free(images);
+    free(status);
+    return made == DONE || result != DONE ? result : made;
 }
 
 /* The output has the format of the input, and its name must agree. */
@@ -267,9 +298,13 @@ static int read_and_map(job *j)
         return FAILED;
     mesh_file m;
     problem wrong;
-    int result = mesh_read(&m, job_dim(j), text, n, &wrong)
-                     ? make_and_map(j, &m)
-                     : failed(name, wrong.line, "%s", wrong.text);
+    size_t n_heights;
+    bool moves = j->args->moves != NULL || j->args->nearest != NULL;
+    bool good = moves ? mesh_read_in_own_space(&m, text, n, &n_heights, &wrong)
+                      : mesh_read(&m, job_dim(j), text, n, &wrong);
+    int result = !good   ? failed(name, wrong.line, "%s", wrong.text)
+                 : moves ? move_mesh(j, &m)
+                         : make_and_map(j, &m);
     mesh_free(&m);
     free(text);
     return result;
@@ -289,7 +324,9 @@ int run_mesh(const args *a)
         return run_fill(a);
     job j;
     job_start(&j, a);
-    int result = check_dimension(&j);
+    int result = a->moves != NULL || a->nearest != NULL ? DONE : check_dimension(&j);
+    if (result == DONE && a->source != NULL)
+        result = triangulation_check(&j);
     if (result == DONE)
         result = read_and_map(&j);
     job_end(&j);

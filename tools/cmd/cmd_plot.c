@@ -25,7 +25,8 @@ typedef struct column {
 } column;
 
 typedef struct plot {
-    job job;
+    job *job;
+    const char *name; /* of the file */
     size_t n_functions;
     icc_map *maps[MAX_FUNCTIONS];
     icc_chart *charts[MAX_FUNCTIONS];
@@ -52,7 +53,7 @@ static int lay_out(plot *x)
         double width = box->upper[0] - box->lower[0], height = box->upper[1] - box->lower[1];
         double scale = x->size / fmax(width, height);
         if (!(isfinite(scale) && scale > 0 && isfinite(width) && isfinite(height)))
-            return failed(job_file(&x->job, c->side), 0,
+            return failed(job_file(x->job, c->side), 0,
                           "the shape is too large or too small to draw");
         c->left = left;
         c->width =
@@ -90,7 +91,7 @@ static panel make_panel(const plot *x, int what, size_t i)
     const icc_domain_info *box = &c->stages.box;
     double width = box->upper[0] - box->lower[0], height = box->upper[1] - box->lower[1];
     panel p = {.svg = x->svg, .stages = &c->stages, .side = c->side};
-    const args *a = x->job.args;
+    const args *a = x->job->args;
     p.y_down = a->y_down && (a->y_down_side == 0 || a->y_down_side == SIDE_BOTH);
     snprintf(p.clip, sizeof p.clip, "shape-%d-%zu", what, i);
     p.scale = x->size / fmax(width, height);
@@ -145,7 +146,7 @@ static void write_heading(const plot *x, const column *c)
 static int draw_panel(plot *x, int what, size_t i, places *from)
 {
     const column *c = &x->columns[i];
-    job *j = &x->job;
+    job *j = x->job;
     panel p = make_panel(x, what, i);
     int result = DONE;
     write_captions(x, what, c, shows_triangles(&c->stages, j));
@@ -195,14 +196,14 @@ static int make_drawing(plot *x)
     x->svg = x->drawing.stream;
     int result = draw(x);
     bool good = collector_end(&x->drawing);
-    progress_end(&x->job.bar);
+    progress_end(&x->job->bar);
     return result == DONE && !good ? failed(NULL, 0, "not enough memory for the drawing") : result;
 }
 
 static int write_drawing(plot *x)
 {
     outfile file;
-    if (!outfile_open(&file, x->job.args->operands[0]))
+    if (!outfile_open(&file, x->name))
         return FAILED;
     fwrite(x->drawing.bytes, 1, x->drawing.n, file.stream);
     return outfile_close(&file) ? DONE : FAILED;
@@ -214,13 +215,13 @@ static int add_column(plot *x, int side, bool undrawn)
 {
     column *c = &x->columns[x->n_columns++];
     *c = (column){.side = side, .undrawn = undrawn};
-    return stages_make(&c->stages, &x->job, side);
+    return stages_make(&c->stages, x->job, side);
 }
 
 /* Makes the chart or the map of one function, and its columns. */
 static int make_function(plot *x, size_t i)
 {
-    job *j = &x->job;
+    job *j = x->job;
     bool pair = j->args->target != NULL, several = x->n_functions > 1;
     j->function = i;
     int result = pair ? job_make_map(j) : job_make_chart(j);
@@ -228,19 +229,22 @@ static int make_function(plot *x, size_t i)
         result = add_column(x, 1, pair && several);
     if (result == DONE && pair)
         result = add_column(x, 2, false);
-    x->maps[i] = j->map;
+    if (j->fit == NULL) {
+        x->maps[i] = j->map;
+        j->map = NULL;
+    }
     x->charts[i] = j->chart;
-    j->map = NULL;
     j->chart = NULL;
     return result;
 }
 
 static int make_columns(plot *x)
 {
-    const args *a = x->job.args;
+    const args *a = x->job->args;
     int result = DONE;
     x->n_functions = a->n_functions > 1 ? a->n_functions : 1;
-    x->rows[ROW_UV] = x->rows[ROW_CHECKERBOARD] = a->target != NULL;
+    x->rows[ROW_CHECKERBOARD] = a->target != NULL;
+    x->rows[ROW_UV] = a->target != NULL && a->drawing == NULL;
     x->rows[ROW_SHAPE] = true;
     x->rows[ROW_SURFACE] = a->elevation;
     for (size_t i = 0; i < x->n_functions && result == DONE; i++)
@@ -251,26 +255,40 @@ static int make_columns(plot *x)
 /* Draws figures of the plane. */
 static int plot_plane(plot *x)
 {
-    const args *a = x->job.args;
-    const char *format = output_format(a->operands[0]);
+    const args *a = x->job->args;
+    const char *format = output_format(x->name);
     if (a->n_slice > 0 || a->n_view > 0)
         return misused(a->command, "--%s is for shapes in space",
                        a->n_slice > 0 ? "slice" : "view");
     if (format != NULL && strcmp(format, "PNG") == 0)
         return misused(a->command, "in the plane OUT is an SVG or a VTK file; "
                                    "'rsvg-convert OUT.svg -o OUT.png' makes a PNG of OUT.svg");
-    int result = job_read_plane(&x->job, "an SVG (unlike OUT.vtk)");
+    int result = job_read_plane(x->job, "an SVG (unlike OUT.vtk)");
     if (result == DONE && a->triangles && a->target == NULL)
         result = misused(a->command, "--triangles needs a mesh map: --target FILE --map mesh");
     if (result == DONE)
         result = make_columns(x);
-    if (result == DONE && a->lines > 0 && shows_triangles(&x->columns[0].stages, &x->job))
+    if (result == DONE && a->lines > 0 && shows_triangles(&x->columns[0].stages, x->job))
         result = misused(
             a->command,
             "--lines draws integral curves, which a mesh map does not have; add --map curves");
     if (result == DONE)
         result = make_drawing(x);
     return result == DONE ? write_drawing(x) : result;
+}
+
+int plot_apply(job *j, const char *name)
+{
+    plot x = {.job = j, .name = name};
+    int result = plot_plane(&x);
+    for (size_t i = 0; i < x.n_columns; i++)
+        stages_free(&x.columns[i].stages);
+    for (size_t i = 0; i < x.n_functions; i++) {
+        icc_map_free(x.maps[i]);
+        icc_chart_free(x.charts[i]);
+    }
+    free(x.drawing.bytes);
+    return result;
 }
 
 int run_plot(const args *a)
@@ -281,21 +299,14 @@ int run_plot(const args *a)
         return misused(a->command, "--y-down is for drawings in the plane");
     if (vtk)
         return plot_vtk(a);
-    plot x = {0};
     double began = seconds_now();
-    job_start(&x.job, a);
-    int result = job_read_cages(&x.job);
+    job j;
+    job_start(&j, a);
+    int result = job_read_cages(&j);
     if (result == DONE)
-        result = job_dim(&x.job) == 3 ? plot_solid(&x.job) : plot_plane(&x);
+        result = job_dim(&j) == 3 ? plot_solid(&j) : plot_apply(&j, a->operands[0]);
     if (result == DONE)
-        result = report_points(&x.job, 0, 0, seconds_now() - began);
-    for (size_t i = 0; i < x.n_columns; i++)
-        stages_free(&x.columns[i].stages);
-    for (size_t i = 0; i < x.n_functions; i++) {
-        icc_map_free(x.maps[i]);
-        icc_chart_free(x.charts[i]);
-    }
-    free(x.drawing.bytes);
-    job_end(&x.job);
+        result = report_points(&j, 0, 0, seconds_now() - began);
+    job_end(&j);
     return result;
 }

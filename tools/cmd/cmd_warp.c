@@ -8,7 +8,7 @@
 #include "plot/picture_warp.h"
 
 typedef struct warp {
-    job job;
+    job *job;
     picture from, to;
     picture_style style; /* of `to` */
     size_t n_failed;
@@ -16,7 +16,7 @@ typedef struct warp {
 
 static int read_picture(warp *w)
 {
-    const args *a = w->job.args;
+    const args *a = w->job->args;
     int result = picture_read(&w->from, a->operands[0]);
     return result == DONE ? picture_begin(&w->to, &w->style, &w->from, a, a->operands[1]) : result;
 }
@@ -24,7 +24,7 @@ static int read_picture(warp *w)
 /* Each polygon of the target has its own pixels. */
 static icc_status warp_parts(warp *w, icc_error *err)
 {
-    const job *j = &w->job;
+    const job *j = w->job;
     icc_status status = picture_warp(j->map, &w->from, &w->to, &w->n_failed, &j->env, err);
     for (size_t i = 0; i < j->n_parts && status == ICC_OK; i++) {
         size_t n_failed;
@@ -39,19 +39,19 @@ static int warp_picture(warp *w)
 {
     icc_error err = {.size = sizeof err, .index = -1};
     double began = seconds_now();
-    progress_expect(&w->job.bar, 0.9);
+    progress_expect(&w->job->bar, 0.9);
     icc_status ran = warp_parts(w, &err);
     double seconds = seconds_now() - began;
-    progress_end(&w->job.bar);
-    const args *a = w->job.args;
+    progress_end(&w->job->bar);
+    const args *a = w->job->args;
     if (ran == ICC_OK && w->n_failed > 0 && a->outside == OUTSIDE_FAIL)
         return failed(a->operands[0], 0,
                       "%zu of %zu pixels have no image in the source, so nothing is written",
                       w->n_failed, w->to.width * w->to.height);
     int result =
-        ran == ICC_OK ? picture_save(&w->to, &w->style, a->operands[1]) : job_failed(&w->job, &err);
+        ran == ICC_OK ? picture_save(&w->to, &w->style, a->operands[1]) : job_failed(w->job, &err);
     if (result == DONE)
-        result = report_points(&w->job, w->to.width * w->to.height, w->n_failed, seconds);
+        result = report_points(w->job, w->to.width * w->to.height, w->n_failed, seconds);
     if (result != DONE || w->n_failed == 0)
         return result;
     note("%zu of %zu pixels have no image in the source: the curves do not reach them", w->n_failed,
@@ -59,21 +59,28 @@ static int warp_picture(warp *w)
     return PARTIAL;
 }
 
-int run_warp(const args *a)
+int warp_apply(job *j)
 {
-    warp w = {0};
-    job_start(&w.job, a);
-    int result = job_read_plane(&w.job, "warp");
+    warp w = {.job = j};
+    int result = job_read_plane(j, "warp");
     if (result == DONE)
         result = read_picture(&w);
     if (result == DONE)
-        result = job_make_map(&w.job);
-    if (result == DONE && w.job.n_parts == 0)
-        coverage_tell(&w.job, w.from.width, w.from.height);
+        result = job_make_map(j);
+    if (result == DONE && j->n_parts == 0)
+        coverage_tell(j, w.from.width, w.from.height);
     if (result == DONE)
         result = warp_picture(&w);
     picture_free(&w.from);
     picture_free(&w.to);
-    job_end(&w.job);
+    return result;
+}
+
+int run_warp(const args *a)
+{
+    job j;
+    job_start(&j, a);
+    int result = warp_apply(&j);
+    job_end(&j);
     return result;
 }

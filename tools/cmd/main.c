@@ -44,6 +44,31 @@ static const command commands[] = {
          "A cage may hold holes, lines and points whose places in the target are known. One "
          "GeoJSON or SVG file may hold both cages; then --target is not needed. See "
          "libicc-files(5).\n"},
+    {.name = "fit",
+     .bit = FOR_FIT,
+     .n_operands = 1,
+     .n_operands_geojson = 3,
+     .run = run_fit,
+     .usage = "[OPTION]... POINTS\n"
+              "[OPTION]... POINTS --points FILE > IMAGES\n"
+              "[OPTION]... --geojson POINTS IN OUT\n"
+              "[OPTION]... --rectify POINTS IN OUT\n"
+              "[OPTION]... --outline FILE --warp POINTS IN OUT",
+     .summary = "Makes a map from control points alone, or poses a figure by pins",
+     .example = "sheet.points --geojson roads.geojson moved.geojson",
+     .details =
+         "POINTS are places whose places in the target are known: points of the QGIS "
+         "georeferencer (.points), lines `x y to_x to_y`, CSV, links in GeoJSON, ground control "
+         "points of GDAL, or an annotation of Allmaps. The map goes through all of them, is as "
+         "smooth as possible between them, and is proved one-to-one. It covers the box of the "
+         "points and a margin. If y points down in the source only, it is turned over.\n"
+         "\n"
+         "Alone, the command prints how far each point is off: from the best affine map; left "
+         "out, which is from where all other points would take it; and in the map. The root mean "
+         "square of the second is the accuracy that you can expect between the points. A mistake "
+         "stands out in the first two.\n"
+         "\n"
+         "With --outline the points are pins of a figure, whose outline goes where it may.\n"},
     {.name = "warp",
      .bit = FOR_WARP,
      .n_operands = 2,
@@ -83,6 +108,8 @@ static const command commands[] = {
      .needs_target = true,
      .run = run_mesh,
      .usage = "--source FILE --target FILE [OPTION]... IN OUT\n"
+              "--fit MOVES [OPTION]... IN OUT\n"
+              "--nearest WARPED [OPTION]... IN OUT\n"
               "--fill [OPTION]... SURFACE OUT",
      .summary = "Moves the vertices of a mesh with their cage, or fills a surface",
      .example = "-s before.off -t after.off part.vtk moved.vtk",
@@ -94,7 +121,11 @@ static const command commands[] = {
                 "whether the mesh and its image are one-to-one. The signs are exact. The exit code "
                 "is 4 if an element is inverted, collapsed or undecided; OUT is written all the "
                 "same. A coarse mesh can invert although its map is one-to-one; --untangle repairs "
-                "it where that is possible.\n"},
+                "it where that is possible.\n"
+                "\n"
+                "With --fit the mesh needs no cage: some of its vertices are told where to go, and "
+                "all others follow as rigidly as possible. With --nearest another program has "
+                "moved all vertices, and only what it has folded changes.\n"},
     {.name = "check",
      .bit = FOR_CHECK,
      .run = run_check,
@@ -268,12 +299,19 @@ static const command *find_command(const char *name)
 }
 
 /* Words that people try, and the command that does it. */
-static const char *const other_names[][2] = {
-    {"transform", "map"}, {"apply", "map"},      {"deform", "warp"},  {"morph", "warp"},
-    {"video", "animate"}, {"film", "animate"},   {"fill", "mesh"},    {"tetrahedralize", "mesh"},
-    {"verify", "check"},  {"validate", "check"}, {"repair", "check"}, {"register", "match"},
-    {"report", "info"},   {"draw", "plot"},      {"show", "plot"},    {"bind", "weights"},
-    {"skin", "weights"},  {"bones", "pose"},     {"rig", "pose"},     {"example", "demo"}};
+static const char *const other_names[][2] = {{"transform", "map"},    {"apply", "map"},
+                                             {"deform", "warp"},      {"morph", "warp"},
+                                             {"video", "animate"},    {"film", "animate"},
+                                             {"fill", "mesh"},        {"tetrahedralize", "mesh"},
+                                             {"verify", "check"},     {"validate", "check"},
+                                             {"repair", "check"},     {"register", "match"},
+                                             {"report", "info"},      {"georef", "fit"},
+                                             {"georeference", "fit"}, {"rubbersheet", "fit"},
+                                             {"gcps", "fit"},         {"nearest", "mesh"},
+                                             {"draw", "plot"},        {"show", "plot"},
+                                             {"bind", "weights"},     {"skin", "weights"},
+                                             {"bones", "pose"},       {"rig", "pose"},
+                                             {"example", "demo"}};
 
 static int no_command(const char *name)
 {
@@ -304,9 +342,9 @@ int main(int argc, char **argv)
 {
     system_begin();
     if (argc < 2)
-        return misused(NULL,
-                       "which command? one of demo, map, warp, animate, mesh, check, match, info, "
-                       "plot, pose, weights, encode, decode");
+        return misused(
+            NULL, "which command? one of demo, map, fit, warp, animate, mesh, check, match, info, "
+                  "plot, pose, weights, encode, decode");
     const char *name = argv[1];
     const command *c = find_command(name);
     if (c != NULL)

@@ -16,7 +16,7 @@ static bool read_json(control_points *out, const char *text, size_t n, problem *
     if (good && control_is_annotation(&tree))
         good = control_read_annotation(out, &tree, text, wrong);
     else if (good)
-        good = control_read_links(out, &tree, text, wrong);
+        good = !foreign_told(text, n, wrong) && control_read_links(out, &tree, text, wrong);
     json_tree_free(&tree);
     return good;
 }
@@ -34,9 +34,11 @@ bool control_decode(control_points *out, const char *text, size_t n, problem *wr
         return control_read_qgis(out, text, wrong);
     if (control_is_vrt(text))
         return control_read_vrt(out, text, wrong);
+    if (*first == '{')
+        return read_json(out, text, n, wrong);
     if (foreign_told(text, n, wrong))
         return false;
-    if (*first == '{' || *first == '[')
+    if (*first == '[')
         return read_json(out, text, n, wrong);
     if (control_has_gcp_options(text))
         return control_read_gcp_options(out, text, wrong);

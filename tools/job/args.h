@@ -17,6 +17,7 @@ typedef struct args {
     const char *triangulation, *source_crs, *target_crs, *ties;
     const char *match, *landmarks, *target_output;
     const char *json_file, *handles, *pose, *binding, *picture;
+    const char *outline, *moves, *nearest, *drawing;
     char **operands; /* moved to the front of argv */
     size_t n_operands;
     /* how charts and maps are made; 0 is the library's choice */
@@ -28,6 +29,7 @@ typedef struct args {
     double tolerance;    /* 0: the command's choice */
     int32_t outside;     /* one of the policies below; 0: the command's choice */
     int32_t require;     /* required of the result, or nothing is written; 0: nothing */
+    int32_t fallback;    /* of triangulations; 0: none */
     int32_t quality;     /* of JPEG; 0: not given */
     int32_t turning;     /* of outlines to match; 0: the library's choice */
     int32_t y_down_side; /* the cages in which y points down; 0: not given */
@@ -40,6 +42,10 @@ typedef struct args {
     /* The command's use of two cages. */
     bool needs_target, may_pair, takes_parts, flips_cages;
     bool constrained, unconstrained;
+    /* how fits are made; 0 is the library's choice */
+    double box[ICC_MAX_DIM], resolution, margin, smoothing, reach, stiffness;
+    size_t n_box; /* numbers of the box; 0: not given */
+    bool exact, smooths, slides, frees;
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
     double spacing, sigma;
@@ -53,7 +59,7 @@ typedef struct args {
     size_t n_slice, n_view;
     /* what to do */
     bool fill, fill_holes, keep_source, inverse, repair_mesh, geojson, quiet, json, elevation,
-        triangles, y_down, compression, has_background, welds;
+        triangles, y_down, compression, has_background, welds, warps, rectifies, residuals;
     unsigned char background[4];
     int32_t lines;
 } args;
@@ -66,6 +72,9 @@ enum { MESHER_OWN = 1, MESHER_TETGEN };
 
 /* Policies for parts outside the cage. */
 enum { OUTSIDE_KEEP = 1, OUTSIDE_NULL, OUTSIDE_CLIP, OUTSIDE_FAIL };
+
+/* What other programs do with points outside of a triangulation. */
+enum { FALLBACK_NONE = 1, FALLBACK_SIDE, FALLBACK_CENTROID };
 
 /* What --require demands of a result. */
 enum { REQUIRE_CERTIFIED = 1 };
@@ -90,16 +99,17 @@ enum {
     FOR_MATCH = 1024,
     FOR_ANIMATE = 2048,
     FOR_DEMO = 4096,
+    FOR_FIT = 8192,
     HAS_CAGES = FOR_CHARTS | FOR_MATCH,
     TAKES_TARGET = MAY_PAIR | FOR_MATCH,
-    FOR_ALL = HAS_CAGES | FOR_KERNEL | FOR_ANIMATE
+    FOR_ALL = HAS_CAGES | FOR_KERNEL | FOR_ANIMATE | FOR_FIT
 };
 
 typedef struct command {
     const char *name;
     unsigned bit;
     size_t n_operands;
-    size_t n_operands_geojson; /* with --geojson */
+    size_t n_operands_geojson; /* with --geojson, and for a fit with --warp */
     size_t n_operands_more;    /* this many more are accepted */
     bool needs_target;
     int (*run)(const args *a);

@@ -9,6 +9,28 @@
 #include <math.h>
 #include <string.h>
 
+/* True if two operands are a file to read and a file to write. */
+static bool has_layer(const args *a)
+{
+    return a->geojson || a->warps || a->rectifies;
+}
+
+static const char *layer_option(const args *a)
+{
+    return a->geojson ? "geojson" : a->warps ? "warp" : "rectify";
+}
+
+/* Checks options of the file of --triangulation. */
+static int check_triangulation(const args *a, const command *c)
+{
+    if (a->triangulation == NULL && (a->source_crs != NULL || a->target_crs != NULL))
+        return misused(c->name, "--%s-crs needs --triangulation, whose file notes it",
+                       a->source_crs != NULL ? "source" : "target");
+    if (a->triangulation == NULL && a->fallback != 0)
+        return misused(c->name, "--fallback needs --triangulation, whose file notes it");
+    return DONE;
+}
+
 /* Checks options that only some methods have. */
 static int check_method(const args *a, const command *c)
 {
@@ -29,9 +51,11 @@ static int check_method(const args *a, const command *c)
         return misused(c->name, "--triangles needs a mesh map: --target FILE --map mesh");
     if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangulation needs a mesh map, which is the default");
-    if (a->triangulation == NULL && (a->source_crs != NULL || a->target_crs != NULL))
-        return misused(c->name, "--%s-crs needs --triangulation, whose file notes it",
-                       a->source_crs != NULL ? "source" : "target");
+    if (a->reach > 0 && (a->method != 0 || a->map == ICC_MAP_CURVES || a->mesh != NULL))
+        return misused(c->name, "--%s does not go with --reach",
+                       a->method != 0    ? "method"
+                       : a->mesh != NULL ? "mesh"
+                                         : "map");
     if (a->method == ICC_METHOD_DISC && (a->n_maximum > 0 || a->n_target_maximum > 0))
         return misused(c->name, "--method disc has no --maximum: it finds its own");
     return DONE;
@@ -72,9 +96,10 @@ static void settle_functions(args *a)
  * depends on --geojson, and on --binding, which replaces one. */
 static int check_operands(const args *a, const command *c)
 {
-    size_t n_operands = a->geojson ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
-    if (a->n_operands < n_operands && a->geojson)
-        return misused(c->name, "--geojson needs two files, IN and OUT");
+    size_t n_operands = has_layer(a) ? c->n_operands_geojson : c->n_operands - has_bound(a, c);
+    if (a->n_operands < n_operands && has_layer(a))
+        return misused(c->name, "--%s needs two files, IN and OUT%s", layer_option(a),
+                       c->bit & FOR_FIT ? ", after POINTS" : "");
     if (a->n_operands < n_operands)
         return misused(c->name, "usage: libicc %s %.*s", c->name, (int)strcspn(c->usage, "\n"),
                        c->usage);
@@ -82,9 +107,10 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "the --binding file holds the points; give one file, OUT");
     if (a->n_operands > n_operands + c->n_operands_more)
         return misused(c->name, "'%.60s' is one argument too many without --geojson",
-                       a->operands[0]);
-    if (a->geojson && (a->points != NULL || a->output != NULL))
-        return misused(c->name, "--points and --output do not go with --geojson IN OUT");
+                       a->operands[n_operands]);
+    if (has_layer(a) && (a->points != NULL || a->output != NULL))
+        return misused(c->name, "--points and --output do not go with --%s IN OUT",
+                       layer_option(a));
     if (a->repair_mesh && a->inverse)
         return misused(c->name, "--untangle does not go with --inverse");
     if (a->tolerance > 0 && !a->geojson && !(c->bit & FOR_POSE))
@@ -142,10 +168,83 @@ static int check_fill(const args *a, const command *c)
                           : a->outside != 0   ? "outside"
                           : a->match != NULL  ? "match"
                           : a->json           ? "json"
+                          : a->triangulation  ? "triangulation"
                                               : NULL;
     if (of_maps != NULL)
         return misused(c->name, "--%s does not go with --fill", of_maps);
     return a->n_operands < 2 ? misused(c->name, "usage: libicc mesh --fill SURFACE OUT") : DONE;
+}
+
+/* The mesh of --fit or --nearest is moved itself, without a cage. */
+static int check_moved_mesh(const args *a, const command *c)
+{
+    if (check_triangulation(a, c) != DONE)
+        return MISUSED;
+    const char *by = a->moves != NULL ? "fit" : "nearest";
+    const char *of_maps = a->source != NULL   ? "source"
+                          : a->target != NULL ? "target"
+                          : a->mesh != NULL   ? "mesh"
+                          : a->target_mesh    ? "target-mesh"
+                          : a->inverse        ? "inverse"
+                          : a->repair_mesh    ? "untangle"
+                          : a->mesher != 0    ? "mesher"
+                          : a->method != 0    ? "method"
+                          : a->map != 0       ? "map"
+                          : a->match != NULL  ? "match"
+                          : a->fill           ? "fill"
+                                              : NULL;
+    const char *of_fit = a->slides          ? "slide"
+                         : a->frees         ? "free"
+                         : a->reach > 0     ? "reach"
+                         : a->stiffness > 0 ? "stiffness"
+                                            : NULL;
+    if (a->moves != NULL && a->nearest != NULL)
+        return misused(c->name, "--fit and --nearest exclude each other");
+    if (of_maps != NULL)
+        return misused(c->name, "--%s does not go with --%s", of_maps, by);
+    if (a->nearest != NULL && of_fit != NULL)
+        return misused(c->name, "--%s goes with --fit", of_fit);
+    if (a->slides && a->frees)
+        return misused(c->name, "--slide and --free exclude each other");
+    return DONE;
+}
+
+/* Options of fits without a mesh or with cages. */
+static int check_fit(const args *a, const command *c)
+{
+    const char *of_frame = a->n_box > 0    ? "box"
+                           : a->margin > 0 ? "margin"
+                           : a->smooths    ? "smooth"
+                                           : NULL;
+    const char *of_outline = a->reach > 0 ? "reach" : a->stiffness > 0 ? "stiffness" : NULL;
+    if (a->n_box != 0 && (a->n_box != 4 || !(a->box[0] < a->box[2]) || !(a->box[1] < a->box[3])))
+        return misused(c->name, "--box must be X0,Y0,X1,Y1: the lower and the upper corner");
+    if (a->outline != NULL && of_frame != NULL)
+        return misused(c->name, "--%s does not go with --outline", of_frame);
+    if (a->outline == NULL && of_outline != NULL)
+        return misused(c->name, "--%s goes with --outline", of_outline);
+    if (a->exact && a->smooths)
+        return misused(c->name, "--exact and --smooth exclude each other");
+    if (a->geojson + a->warps + a->rectifies > 1)
+        return misused(c->name, "--geojson, --warp and --rectify exclude each other");
+    if (a->inverse && !a->geojson && has_layer(a))
+        return misused(c->name, "--inverse does not go with --%s", layer_option(a));
+    if ((a->geojson || !has_layer(a)) && (a->has_background || a->quality > 0))
+        return misused(c->name, "--%s goes with --warp or --rectify",
+                       a->quality > 0 ? "quality" : "background");
+    if (a->rectifies && (a->outline != NULL || a->triangulation != NULL || a->drawing != NULL))
+        return misused(c->name, "--%s does not go with --rectify",
+                       a->outline != NULL         ? "outline"
+                       : a->triangulation != NULL ? "triangulation"
+                                                  : "plot");
+    if (!a->rectifies && a->resolution > 0)
+        return misused(c->name, "--resolution goes with --rectify");
+    if (a->residuals && a->points != NULL && (a->output == NULL || strcmp(a->output, "-") == 0))
+        return misused(c->name,
+                       "images and residuals cannot both go to standard output; use -o FILE");
+    if (a->residuals && a->json && strcmp(a->json_file, "-") == 0)
+        return misused(c->name, "the report of --json has the residuals");
+    return check_triangulation(a, c);
 }
 
 static bool is_zero(const double v[3])
@@ -187,11 +286,18 @@ static int check_match(const args *a, const command *c)
 
 static int check_charts(const args *a, const command *c)
 {
+    if (a->moves != NULL || a->nearest != NULL)
+        return check_moved_mesh(a, c);
+    if (a->slides || a->frees || a->stiffness > 0)
+        return misused(c->name, "--%s goes with --fit",
+                       a->slides  ? "slide"
+                       : a->frees ? "free"
+                                  : "stiffness");
     if (a->fill)
         return check_fill(a, c);
     if (a->source == NULL)
         return misused(c->name, "--source FILE is missing");
-    if (check_match(a, c) != DONE)
+    if (check_match(a, c) != DONE || check_triangulation(a, c) != DONE)
         return MISUSED;
     int result = check_method(a, c);
     if (result == DONE)
@@ -216,6 +322,7 @@ static int check_together(const args *a, const command *c)
 {
     int result = c->bit & FOR_DEMO     ? DONE
                  : c->bit & FOR_KERNEL ? check_kernel(a, c)
+                 : c->bit & FOR_FIT    ? check_fit(a, c)
                                        : check_charts(a, c);
     if (result == DONE)
         result = check_operands(a, c);
@@ -244,7 +351,7 @@ static int settle_match(args *a, const command *c)
 
 const char *args_result(const args *a, const command *c)
 {
-    size_t at = c->bit & FOR_ANIMATE ? 1 : a->n_operands - 1;
+    size_t at = c->bit & FOR_ANIMATE ? 1 : c->bit & FOR_FIT ? 2 : a->n_operands - 1;
     return a->n_operands > 0 && at < a->n_operands ? a->operands[at] : NULL;
 }
 
@@ -259,13 +366,19 @@ static int settle_streams(args *a, const command *c)
     if (c->bit & FOR_WEIGHTS && a->output == NULL && a->picture == NULL && a->binding == NULL)
         a->output = "-";
     bool may_lack = (c->bit & (FOR_WEIGHTS | FOR_MATCH)) != 0;
+    if (c->bit & FOR_FIT && !has_layer(a) && a->points == NULL && (a->output != NULL || a->inverse))
+        a->points = "-";
     const char *result = a->output != NULL || may_lack ? a->output : "-";
-    if (c->n_operands > 0 || a->geojson)
+    if (c->bit & FOR_FIT && a->points == NULL)
+        result = NULL;
+    if ((c->n_operands > 1 && !(c->bit & FOR_FIT)) || c->bit & FOR_PLOT || has_layer(a))
         result = args_result(a, c);
     if (a->json && !(c->bit & (FOR_CHECK | FOR_INFO)) && strcmp(a->json_file, "-") == 0 &&
         result != NULL && strcmp(result, "-") == 0)
         return misused(c->name,
                        "result and report cannot both go to standard output; use --json=FILE");
+    if (a->drawing != NULL && strcmp(a->drawing, "-") == 0)
+        return misused(c->name, "--plot goes to a file, beside the result");
     if (a->triangulation != NULL && strcmp(a->triangulation, "-") == 0)
         return misused(c->name, "--triangulation goes to a file, beside the result");
     if (a->ties != NULL && strcmp(a->ties, "-") == 0)
@@ -285,9 +398,10 @@ static void settle_meshes(args *a)
 
 int args_check(args *a, const command *c)
 {
-    if (!a->fill)
+    bool has_cage = !a->fill && a->moves == NULL && a->nearest == NULL;
+    if (has_cage)
         settle_meshes(a);
-    a->needs_target = (c->needs_target || a->match != NULL) && !a->fill;
+    a->needs_target = (c->needs_target || a->match != NULL) && has_cage;
     a->may_pair = (c->bit & MAY_PAIR) != 0;
     a->takes_parts = (c->bit & TAKES_PARTS) != 0;
     a->flips_cages = (c->bit & FLIPS_CAGES) != 0;

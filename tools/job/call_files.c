@@ -19,9 +19,15 @@ bool has_bound(const args *a, const command *c)
 /* The input at place `i`. False if there are not so many. */
 static bool call_input(call_file *out, const args *a, const command *c, size_t i)
 {
-    bool has_operand = (c->n_operands >= 2 || a->geojson) && !has_bound(a, c) && a->n_operands > 0;
+    bool is_fit = (c->bit & FOR_FIT) != 0;
+    bool has_operand = (c->n_operands >= 2 || a->geojson || a->warps || a->rectifies) &&
+                       !has_bound(a, c) && a->n_operands > is_fit;
     const call_file inputs[] = {
-        {has_operand ? a->operands[0] : NULL, a->fill ? "SURFACE" : "IN", 0},
+        {is_fit && a->n_operands > 0 ? a->operands[0] : NULL, "POINTS", 0},
+        {has_operand ? a->operands[is_fit] : NULL, a->fill ? "SURFACE" : "IN", 0},
+        {a->outline, "--outline", 0},
+        {a->moves, "--fit", 0},
+        {a->nearest, "--nearest", 0},
         {a->source, "--source", 0},
         {a->target, "--target", 0},
         {a->mesh, "--mesh", 0},
@@ -45,12 +51,12 @@ static bool call_input(call_file *out, const args *a, const command *c, size_t i
 /* The formats that the last operand may have, before its input has been read. */
 static const char *formats_of_operand(const args *a, const command *c)
 {
-    return a->geojson                          ? "GeoJSON, GeoJSONSeq, JSON"
-           : c->bit & (FOR_WARP | FOR_ANIMATE) ? PICTURES
-           : a->fill                           ? "Medit, VTK"
-           : c->bit & FOR_MESH                 ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
-           : c->bit & FOR_PLOT                 ? "SVG, PNG, VTK"
-           : c->bit & FOR_POSE && a->binding   ? "text"
+    return a->geojson ? "GeoJSON, GeoJSONSeq, JSON"
+           : c->bit & (FOR_WARP | FOR_ANIMATE) || a->warps || a->rectifies ? PICTURES
+           : a->fill                                                       ? "Medit, VTK"
+           : c->bit & FOR_MESH               ? "OBJ, OFF, PLY, STL, glTF, Medit, VTK"
+           : c->bit & FOR_PLOT               ? "SVG, PNG, VTK"
+           : c->bit & FOR_POSE && a->binding ? "text"
            : c->bit & FOR_POSE ? "text, OBJ, OFF, PLY, STL, glTF, Medit, VTK, " PICTURES
                                : NULL;
 }
@@ -66,6 +72,7 @@ bool call_output(call_file *out, const args *a, const command *c, size_t i)
         {a->repair, "--repair", "text, GeoJSON, JSON, " SURFACES ", NumPy"},
         {a->boundary, "--boundary", "text, " SURFACES},
         {a->picture, "--picture", "SVG"},
+        {a->drawing, "--plot", "SVG"},
         {c->bit & FOR_WEIGHTS ? a->binding : NULL, "--binding", "libicc's own"},
         {a->json ? a->json_file : NULL, "--json", "JSON"},
         {of_operand != NULL ? args_result(a, c) : NULL, "OUT", of_operand}};
@@ -91,7 +98,7 @@ int call_inputs_check(const args *a, const command *c)
  * if all of it has an image. */
 static bool is_image_of(const call_file *in, const call_file *out, const args *a, const command *c)
 {
-    return c->bit & FOR_MAP &&
+    return c->bit & (FOR_MAP | FOR_FIT) &&
            (a->geojson ? strcmp(in->role, "IN") == 0 && strcmp(out->role, "OUT") == 0
                        : strcmp(in->role, "--points") == 0 && strcmp(out->role, "--output") == 0);
 }

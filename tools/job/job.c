@@ -5,6 +5,7 @@
 #include "cage/cage_features.h"
 #include "cage/cage_ties.h"
 #include "job/fill.h"
+#include "job/fit_cages.h"
 #include "job/match_cages.h"
 
 #include <stdio.h>
@@ -28,7 +29,9 @@ void job_start(job *j, const args *a)
 void job_end(job *j)
 {
     progress_end(&j->bar);
-    icc_map_free(j->map);
+    if (j->fit == NULL)
+        icc_map_free(j->map);
+    icc_fit_free(j->fit);
     icc_chart_free(j->chart);
     icc_match_free(j->match);
     for (size_t side = 0; side < 2; side++) {
@@ -157,12 +160,8 @@ int job_make_chart(job *j)
     return DONE;
 }
 
-int job_make_map(job *j)
+static int make_own_map(job *j)
 {
-    int result = fill_domains(j);
-    if (result != DONE)
-        return result;
-    double began = seconds_now();
     icc_chart_options chart = chart_options(j);
     icc_map_options options = {.size = sizeof options, .kind = j->args->map, .chart = &chart};
     options.iterations = j->args->improve > 0 ? j->args->improve : j->args->improve == 0 ? -1 : 0;
@@ -172,12 +171,21 @@ int job_make_map(job *j)
     icc_tie *ties = ties_list(&j->cages[0], &j->cages[1]);
     options.n_ties = j->cages[0].n_ties;
     options.ties = ties;
-    progress_expect(&j->bar, MADE);
     icc_status status =
         icc_map_create(&j->map, j->domains[0], j->domains[1], &options, &j->env, &err);
     free(ties);
-    if (status != ICC_OK)
-        return job_failed(j, &err);
+    return status == ICC_OK ? DONE : job_failed(j, &err);
+}
+
+int job_make_map(job *j)
+{
+    int result = fill_domains(j);
+    if (result != DONE)
+        return result;
+    double began = seconds_now();
+    progress_expect(&j->bar, MADE);
+    if (j->map == NULL)
+        result = j->args->reach > 0 ? fit_cages(j) : make_own_map(j);
     for (size_t i = 0; i < j->n_parts && result == DONE; i++)
         result = job_make_map(&j->parts[i]);
     j->seconds_made = seconds_now() - began;
@@ -207,6 +215,18 @@ int job_start_carrier(job *j, carrier *c)
     return ran == ICC_OK ? DONE : job_failed_status(j, ran);
 }
 
+const char *job_bound(const job *j)
+{
+    bool is_fit = strcmp(j->args->command, "fit") == 0;
+    return !is_fit ? "the cage" : j->args->outline != NULL ? "the outline" : "the frame";
+}
+
+const char *job_bound_hint(const job *j)
+{
+    bool has_frame = strcmp(j->args->command, "fit") == 0 && j->args->outline == NULL;
+    return has_frame ? " (--box or --margin makes the frame larger)" : "";
+}
+
 int job_partial(job *j, size_t n, const icc_status *status, const char *what)
 {
     size_t n_failed = 0, n_outside = 0, n_illegal = 0;
@@ -221,8 +241,12 @@ int job_partial(job *j, size_t n, const icc_status *status, const char *what)
     char illegal[64] = "";
     if (n_illegal > 0)
         snprintf(illegal, sizeof illegal, ", %zu not finite or out of range", n_illegal);
-    note("%zu of %zu %s have no image: %zu outside the cage, %zu that the curves do not reach%s",
-         n_failed, n, what, n_outside, n_failed - n_outside - n_illegal, illegal);
+    char unreached[64] = "";
+    if (n_failed > n_outside + n_illegal || j->fit == NULL)
+        snprintf(unreached, sizeof unreached, ", %zu that the curves do not reach",
+                 n_failed - n_outside - n_illegal);
+    note("%zu of %zu %s have no image: %zu outside %s%s%s%s", n_failed, n, what, n_outside,
+         job_bound(j), unreached, illegal, n_outside > 0 ? job_bound_hint(j) : "");
     return PARTIAL;
 }
 
@@ -263,6 +287,8 @@ bool report_open(report *r, const job *j)
         match_report(&r->json, &j->matched);
     if (j->cages[0].n_facets > 0)
         json_count(&r->json, "facets", j->cages[0].n_facets);
+    if (j->describe != NULL)
+        j->describe(&r->json, j);
     return true;
 }
 

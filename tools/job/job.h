@@ -14,6 +14,7 @@
  *   args_help.c prints.
  * - Cages: job_cages.c reads and makes domains, correspond.h compares, match_cages.h matches,
  *   landmark_file.h. Several polygons: parts.h, nesting.h. Meshes inside: fill.h.
+ * - Maps of what is known only in part: fit_cages.h.
  * - Files: output_name.h, call_files.h (nothing overwritten), point_file.h, cage_file.h,
  *   ties_file.h, triangulation.h (axes: axis_order.h). Requirements: require.h. Normals:
  *   attached.h.
@@ -59,12 +60,14 @@ typedef struct job {
                                several */
     icc_chart *chart;       /* of the source */
     icc_map *map;
+    icc_fit *fit;      /* NULL, or the fit that owns the map */
     char name[48];     /* the name of one polygon of several, as in "polygon 2: "; else "" */
     cage_hole place;   /* the hole of another polygon in which it lies */
     size_t n_parts;    /* the others: polygons, then insides of holes */
     size_t n_polygons; /* all polygons, including this one */
     struct job *parts;
     double started, seconds_read, seconds_made;
+    void (*describe)(json *out, const struct job *j); /* adds members to reports; may be NULL */
 } job;
 
 /* The functions below return DONE, or FAILED with a message on stderr. Each does the steps that it
@@ -84,6 +87,9 @@ size_t job_dim(const job *j);
 /* Reads the cages and makes their domains, including those of all parts. A mask then has the
  * vertices and facets of its boundary. */
 int job_make_domains(job *j);
+
+/* Makes the domain of one side from its cage. */
+int job_make_domain(job *j, size_t side);
 
 /* Makes the domain of a polygon with the features inside. */
 icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env, icc_error *err);
@@ -121,6 +127,12 @@ int job_failed_status(job *j, icc_status status);
 
 /* The name of the source's or the target's file. */
 const char *job_file(const job *j, int side);
+
+/* What bounds the map, for messages: "the cage", or "the frame" or "the outline" of a fit. */
+const char *job_bound(const job *j);
+
+/* The options that make a frame larger, as the end of a message; else "". */
+const char *job_bound_hint(const job *j);
 
 /* If points have no image, prints how many and returns PARTIAL; else returns DONE. */
 int job_partial(job *j, size_t n, const icc_status *status, const char *what);

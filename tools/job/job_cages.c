@@ -8,6 +8,7 @@
 #include "cage/cage_read.h"
 #include "cage/weld.h"
 #include "job/correspond.h"
+#include "job/fit_cages.h"
 #include "job/match_cages.h"
 #include "job/parts.h"
 
@@ -41,6 +42,17 @@ static int flip_cage(job *j, size_t side)
     return DONE;
 }
 
+/* Puts the name of a file into a remedy that is a call of this program. */
+static const char *with_name(char out[512], const char *text, const char *name)
+{
+    static const char call[] = "'libicc fit FILE'";
+    const char *at = strstr(text, call);
+    if (at == NULL || strlen(name) > 200)
+        return text;
+    snprintf(out, 512, "%.*s'libicc fit %s'%s", (int)(at - text), text, name, at + sizeof call - 1);
+    return out;
+}
+
 /* Reads a cage. If both cages are to correspond, its curves are cut into at least as many edges as
  * those of the other one, if that has been read. */
 static int read_cage(job *j, size_t side, const char *named, const char *text, size_t n)
@@ -49,6 +61,7 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
     const cage *other = &j->cages[!side];
     const cage_choice choice = {.role = side == 0 ? CAGE_SOURCE : CAGE_TARGET,
                                 .named = named,
+                                .may_slide = side == 1 && j->args->match == NULL,
                                 .flat = {j->args->flatten,
                                          j->args->match == NULL ? other->n_curves : 0,
                                          other->curve_edges},
@@ -58,8 +71,10 @@ static int read_cage(job *j, size_t side, const char *named, const char *text, s
         return flip_cage(j, side) == DONE ? join_vertices(j, side) : FAILED;
     j->both = j->both || (j->args->target == NULL && cage_is_named(CAGE_TARGET, text, n));
     side_text where;
-    return failed(job_file(j, (int)side + 1), wrong.line, "%s%s", job_side(where, j, (int)side + 1),
-                  wrong.text);
+    char text_with_name[512];
+    const char *name = job_file(j, (int)side + 1);
+    return failed(name, wrong.line, "%s%s", job_side(where, j, (int)side + 1),
+                  with_name(text_with_name, wrong.text, name));
 }
 
 /* Reads the target from its own file. If none is given, reads it from the source's file, if that
@@ -169,7 +184,7 @@ icc_status job_make_polygon(icc_domain **out, const cage *c, const icc_env *env,
     return status;
 }
 
-static int make_domain(job *j, size_t side)
+int job_make_domain(job *j, size_t side)
 {
     const cage *c = &j->cages[side];
     icc_error err = {.size = sizeof err, .index = -1};
@@ -193,7 +208,7 @@ static int match(job *j)
 {
     int result = match_check(j);
     for (size_t side = 0; side < 2 && result == DONE; side++)
-        result = make_domain(j, side);
+        result = job_make_domain(j, side);
     return result == DONE ? match_cages(j) : result;
 }
 
@@ -221,6 +236,8 @@ int job_read_cages(job *j)
         result = match(j);
     if (result == DONE)
         result = parts_make(j);
+    if (result == DONE && j->cages[1].n_sliding > 0)
+        result = fit_cages(j);
     j->seconds_read = seconds_now() - j->started;
     return result;
 }
@@ -237,7 +254,7 @@ int job_read_plane(job *j, const char *what)
 /* Makes the source's domain. The domain of a mask finds its boundary. */
 static int make_source(job *j)
 {
-    int result = make_domain(j, 0);
+    int result = j->domains[0] == NULL ? job_make_domain(j, 0) : DONE;
     if (result != DONE || j->cages[0].cells == NULL)
         return result;
     cage_take_boundary(&j->cages[0], j->domains[0]);
@@ -271,7 +288,7 @@ int job_make_domains(job *j)
     if (result == DONE && j->match == NULL)
         result = make_source(j);
     if (result == DONE && j->match == NULL && j->args->target != NULL)
-        result = make_domain(j, 1);
+        result = job_make_domain(j, 1);
     for (size_t i = 0; i < j->n_parts && result == DONE; i++)
         result = job_make_domains(&j->parts[i]);
     if (result == DONE && j->n_parts > 0)

@@ -48,7 +48,8 @@ typedef struct option {
 } option;
 
 extern const choice methods[], maps[], functions[], solvers[], trees[], meshers[], samplings[],
-    weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[];
+    weightings[], kernels[], initials[], outsides[], turnings[], sides[], requirements[],
+    fallbacks[];
 
 /* The name of a value that the library returned. */
 const char *choice_name(const choice *choices, int32_t value);

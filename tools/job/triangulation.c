@@ -5,6 +5,7 @@
 #include "base/allocate.h"
 #include "base/json.h"
 #include "job/axis_order.h"
+#include "job/option_table.h"
 
 #include <stdlib.h>
 
@@ -76,8 +77,10 @@ static void write_meshes(FILE *stream, const args *a, size_t n, const part_mesh 
     fprintf(stream, "\"publisher\": \"libicc %s\",\n", icc_version());
     write_crs(stream, "input_crs", a->source_crs);
     write_crs(stream, "output_crs", a->target_crs);
-    fputs("\"transformed_components\": [\"horizontal\"],\n\"fallback_strategy\": \"none\",\n"
-          "\"vertices_columns\": [\"source_x\", \"source_y\", \"target_x\", \"target_y\"],\n"
+    fprintf(stream,
+            "\"transformed_components\": [\"horizontal\"],\n\"fallback_strategy\": \"%s\",\n",
+            a->fallback != 0 ? choice_name(fallbacks, a->fallback) : "none");
+    fputs("\"vertices_columns\": [\"source_x\", \"source_y\", \"target_x\", \"target_y\"],\n"
           "\"triangles_columns\": [\"idx_vertex1\", \"idx_vertex2\", \"idx_vertex3\"],\n"
           "\"vertices\": [",
           stream);
