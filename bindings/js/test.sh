@@ -15,9 +15,11 @@ need clang lld llvm wasi-libc libclang-rt-dev-wasm32 binaryen
 mkdir -p build/wasm
 quietly build/wasm/configure.log cmake --preset wasm
 quietly build/wasm/build.log cmake --build --preset wasm --parallel "$(nproc)"
+# 450,000 without fits. Fits take 44,000, all compiled for size: the spline, the elastic model and the repair of folds.
+most=495000
 bytes=$(gzip -9nc build/wasm/package/src/libicc.wasm | wc -c)
-if [ "$bytes" -gt 450000 ]; then
-    echo "libicc.wasm has $bytes bytes when gzipped, more than 450,000" >&2
+if [ "$bytes" -gt "$most" ]; then
+    echo "libicc.wasm has $bytes bytes when gzipped, more than $most" >&2
     exit 1
 fi
 run="node --no-warnings bindings/js/tools/run.js build/wasm/bindings/js/golden.wasm"

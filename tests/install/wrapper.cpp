@@ -425,6 +425,51 @@ void takes_matrices()
 }
 #endif
 
+// Vertices and triangles of a square of 2 x 2 smaller ones, whose middle is vertex 4.
+const std::vector<double> mesh_vertices{0, 0, 1, 0, 2, 0, 0, 1, 1, 1, 2, 1, 0, 2, 1, 2, 2, 2};
+const std::vector<std::uint32_t> mesh_triangles{0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4,
+                                                3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7};
+
+void fits()
+{
+    const std::vector<double> points{0, 0, 4, 0, 4, 3, 0, 3, 2, 1}, targets{1, 1, 5, 2, 6, 5, 1, 4, 3, 2};
+    const icc::fit fit(points, targets);
+    check(fit.certified() && is_times(fit.apply(points), 1, targets), "a fit");
+    check(is_times(fit.residuals(), 0, points) && !std::isnan(fit.left_out()[0]), "residuals");
+    check(fit.fit_info().model == ICC_FIT_SPLINE && fit.fit_info().n_items == 5, "about a fit");
+    std::vector<double> others = targets;
+    others[8] = 3.5;
+    icc::fit moved = fit.move(others);
+    check(is_times(moved.apply({2, 1}), 1, {3.5, 2}) && is_times(fit.apply({2, 1}), 1, {3, 2}),
+          "a fit that moves");
+    const icc::map kept = std::move(moved); // keeps the whole fit alive
+    check(is_times(kept.apply({2, 1}), 1, {3.5, 2}), "the map of a fit");
+    check(thrown([&] { fit.move({1, 2}); }, none).status == ICC_ERR_ARGUMENT, "too few targets");
+    check(thrown([&] { icc::fit(points, {1, 2}); }, none).status == ICC_ERR_ARGUMENT, "fewer targets than points");
+
+    const icc::fit posed(source, {icc::constraint::points({1, 1, 3, 2}, {1, 1, 3, 2.5})});
+    check(is_times(posed.apply({3, 2}), 1, {3, 2.5}) && posed.fit_info().model == ICC_FIT_ELASTIC, "pins");
+    const std::vector<std::uint32_t> told{0, 1, 2, 6, 7, 8}, sides{3, 5};
+    const std::vector<double> places{0, 0, 1, 0, 2, 0, 0, 3, 1, 3, 2, 3};
+    const icc::fit wall =
+        icc::fit::on_mesh(mesh_vertices, mesh_triangles,
+                          {icc::constraint::vertices(told, places), icc::constraint::sliding(sides)});
+    check(wall.mesh().simplices.size() == mesh_triangles.size() && wall.apply({0, 1})[0] == 0, "a wall");
+    std::vector<double> tolerance(5, 0.1);
+    const icc::fit loose({icc::constraint::points(points, targets, tolerance)});
+    check(loose.certified() && loose.get_fit() != nullptr, "points with a tolerance");
+
+    auto report = icc::sized<icc_nearest_report>();
+    std::vector<double> images = mesh_vertices;
+    check(icc::map::nearest(mesh_vertices, mesh_triangles, images).mesh().images == images,
+          "a warp that does not fold");
+    images[8] = 2.5;
+    const icc::map nearest = icc::map::nearest(mesh_vertices, mesh_triangles, images, {}, &report);
+    check(nearest.certified() && report.n_folded > 0, "a warp that folds");
+    check(thrown([&] { icc::map::nearest(mesh_vertices, mesh_triangles, {1, 2}); }, none).status == ICC_ERR_ARGUMENT,
+          "too few images");
+}
+
 void saves()
 {
     const icc::map map(source, target);
@@ -453,6 +498,7 @@ int main()
     makes_maps_of_maps();
     asks_charts_and_domains();
     has_features();
+    fits();
 #ifdef HAS_EIGEN
     takes_matrices();
 #endif

@@ -155,6 +155,46 @@ test('outlines that do not correspond are matched', () => {
   assert.throws(() => new icc.Match(SQUARE, SQUARE, [], { turning: 'free' }), { code: 'AMBIGUOUS' });
 });
 
+// A square of 2 x 2 smaller ones, whose middle is vertex 4.
+const NET = { vertices: [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1], [0, 2], [1, 2], [2, 2]],
+  simplices: [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 7, 3, 7, 6, 4, 5, 8, 4, 8, 7] };
+
+test('control points, pins and walls make maps', () => {
+  const points = [[0, 0], [4, 0], [4, 3], [0, 3], [2, 1]], to = [[1, 1], [5, 2], [6, 5], [1, 4], [3, 2]];
+  const fit = new icc.Fit(points, to), moved = fit.move([...to.slice(0, 4), [3.5, 2]]);
+  assert.equal(fit.map.certified, true);
+  near(fit.map.apply(points), to.flat(), 1e-9);
+  near(moved.map.apply([[2, 1]]), [3.5, 2], 1e-9);
+  near(fit.residuals(), Array(10).fill(0), 1e-9);
+  assert.ok(fit.leftOut().every(Number.isFinite) && fit.dim === 2);
+  assert.equal(fit.info.model, 'spline');
+  const wide = new icc.Fit(points, to, null, { box: [[-9, -9], [9, 9]], margin: 0.1, tolerance: 0.1 });
+  assert.ok(wide.map.apply([[-9, -9], [9, 9]]).every(Number.isFinite));
+  const posed = new icc.Fit([[1, 1], [3, 3]], [[1, 1], [3, 3.5]], SQUARE, { lines: [[[[1, 3], [2, 3]], [[1, 3], [2, 3]]]], reach: 0.2 });
+  near(posed.map.apply([[3, 3], [1.5, 3]]), [3, 3.5, 1.5, 3], 1e-9);
+  assert.equal(posed.info.model, 'elastic');
+  const wall = new icc.Fit(null, null, null, { mesh: NET, vertices: [0, 1, 2, 6, 7, 8], sliding: [3, 5], along: [[0, 1], [0, 1]],
+    places: [[0, 0], [1, 0], [2, 0], [0, 3], [1, 3], [2, 3]], stiffness: 1.5, cellStiffness: Array(8).fill(1) });
+  const { vertices, images } = wall.map.mesh();
+  assert.deepEqual([...vertices], NET.vertices.flat());
+  near([images[6], images[10], images[15]], [0, 2, 3], 1e-9);
+  assert.throws(() => new icc.Fit(points, to.slice(1)), /5 need targets, but there are 4/);
+  assert.throws(() => fit.move([[1, 2]]), /5 need targets/);
+  assert.throws(() => new icc.Fit([[9, 9]], [[9, 9]], SQUARE), { code: 'OUTSIDE' });
+  const kept = fit.map;
+  fit.free();
+  assert.throws(() => kept.apply(points), /has been freed/);
+});
+
+test('a warp of a mesh becomes one-to-one', () => {
+  const { map, report } = icc.Map.nearest(NET.vertices, NET.simplices, NET.vertices);
+  assert.deepEqual([...map.mesh().images], NET.vertices.flat());
+  assert.equal(report.repair, 'none');
+  const images = NET.vertices.map((p, i) => (i === 4 ? [2.5, 1] : p)), folded = icc.Map.nearest(NET.vertices, NET.simplices, images);
+  assert.ok(folded.map.certified && folded.report.nFolded > 0);
+  assert.throws(() => icc.Map.nearest(NET.vertices, NET.simplices, [1, 2]), /^TypeError: images has 2 numbers/);
+});
+
 test('features go to their places', () => {
   const inside = (x) => icc.Domain.polygon(SQUARE, {
     points: [[x, 1]], lines: [[[2, 2], [3, 3]]], holes: [[[1, 2.5], [1.5, 2.5], [1.2, 3]]],

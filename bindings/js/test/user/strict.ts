@@ -27,12 +27,16 @@ export async function near(): Promise<number> {
   // @ts-expect-error: no such member
   map.info.energie;
   const energy: number = map.info.energy, kind: 'mesh' | 'curves' | 'none' = map.info.kind, made: number = map.report.nInverted;
+  using fit = new icc.Fit(square, square, null, { model: 'spline', tolerance: [1, 1, 1, 1], lines: [[square, square]] });
+  const changed: number = icc.Map.nearest(square, [0, 1, 2], square).report.changed + fit.info.leftOut + fit.map.dim;
+  // @ts-expect-error: no such member
+  new icc.Fit(square, square, null, { modle: 'spline' });
   const weights = new icc.Weights(new icc.Sampling(new icc.Shape([icc.Domain.polygon(square)]), { spacing: 1, fixed: square }),
     square, { method: 'qp', edges: [[0, 1]], lines: [{ from: [0, 0], to: [4, 0] }] });
   const info: WeightsInfo = weights.withMethod('equality').info;
   const seconds: object = [weights.timings, new icc.Chart(square).timings];
   const given: ImageData = map.warp(new ImageData(4, 4), new ImageData(8, 8));
-  if (seconds instanceof icc.IccError) return energy + made + info.nHandles + given.width + kind.length;
+  if (seconds instanceof icc.IccError) return energy + changed + made + info.nHandles + given.width + kind.length;
   return out[0]! + other.dim;
 }
 
@@ -47,7 +51,8 @@ export async function far(signal: AbortSignal): Promise<Float64Array | undefined
   const t: Float64Array | undefined = (await chart?.encode([[1, 1]]))?.t;
   const { images } = await map.mesh();
   const painted: ImageData = await map.warp(new ImageData(4, 4), new ImageData(8, 8));
-  const energy: number = (await map.info).energy + painted.width;
+  const near = await icc.Map.nearest(square, [0, 1, 2], square), fit = await icc.Fit.create(square, square, domain);
+  const energy: number = (await map.info).energy + painted.width + (await (await fit.map).info).energy + near.report.moved;
   // @ts-expect-error: no such member
   await icc.Map.create(domain, square, { knd: energy });
   const shape = await icc.Shape.create([domain]);
