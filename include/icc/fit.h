@@ -107,12 +107,13 @@ typedef struct icc_fit icc_fit;
 /** Kinds of constraints: icc_constraint::kind. */
 enum {
     ICC_CONSTRAINT_POINTS = 1, /**< points go to their targets. They may lie anywhere */
-    /** a polyline goes to a polyline: vertex to vertex, and edge to edge linearly */
+    /** inside a domain, a polyline goes to a polyline: vertex to vertex, and edge to edge
+     *  linearly */
     ICC_CONSTRAINT_LINE = 2,
     /** vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes
      *  along linearly if both its ends are told */
     ICC_CONSTRAINT_VERTICES = 3,
-    /** vertices of the boundary may move along a straight line only */
+    /** vertices of the domain or of the mesh may move along a straight line only */
     ICC_CONSTRAINT_SLIDING = 4
 };
 
@@ -138,7 +139,7 @@ typedef struct icc_constraint {
 enum {
     /** as smoothly as possible: of all functions through the points the one that bends the least
      *  inside the region. Affine functions do not bend, so three points give their affine map.
-     *  For maps and pictures */
+     *  For maps and pictures. It takes points, and neither a domain nor a mesh */
     ICC_FIT_SPLINE = 1,
     /** as rigidly as possible: every small piece keeps its shape and size. For characters, and for
      *  meshes whose boundary moves */
@@ -204,8 +205,8 @@ typedef struct icc_fit_info {
  * *Neither*: the map covers a box around the points. This is the way to use control points on a
  * map or a picture. One point gives a shift, and two points give a similarity.
  *
- * *A domain*: its outline is free except where constraints tell it. It has no features other than
- * holes. libicc makes the mesh. This is the way to pose a figure by pins.
+ * *A domain*: its outline is free except where constraints tell it. It may have holes, but no lines
+ * and points. libicc makes the mesh. This is the way to pose a figure by pins.
  *
  * *A mesh*: it is kept, vertex for vertex and cell for cell. It may have holes. This is the way to
  * move a wall in a mesh.
@@ -228,10 +229,13 @@ typedef struct icc_fit_info {
  * - ::ICC_ERR_OUTSIDE if a point or line is not inside the domain
  * - ::ICC_ERR_BOUNDARY if told parts of the boundary cross in the target
  * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found
- * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane
+ * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane, if the domain is a mask or has
+ *   lines or points, or for lines and vertices without a domain and mesh
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Deterministic.
+ * Cost: control points some 30 ms up to 100 and 0.6 s for 3,000, several times as much if they fold.
+ * Figures and meshes 5 to 20 us for each triangle, several times as much where they turn far or
+ * touch. Deterministic.
  */
 ICC_API icc_status icc_fit_create(icc_fit **out, const icc_domain *domain, const icc_mesh *mesh,
                                   size_t n_constraints, const icc_constraint *constraints,

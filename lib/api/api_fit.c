@@ -2,6 +2,7 @@
 #include "api/check.h"
 #include "base/error.h"
 #include "base/options.h"
+#include "domain/features.h"
 #include "fit/fit.h"
 
 #include <math.h>
@@ -35,7 +36,7 @@ static icc_status check_arrays(size_t c, const icc_constraint *given, icc_error 
 }
 
 static icc_status check_constraint(size_t c, const icc_constraint *given, size_t n_before,
-                                   icc_error *err)
+                                   bool has_shape, icc_error *err)
 {
     const size_t least = given->kind == ICC_CONSTRAINT_LINE ? 2 : 1;
     if (given->kind < ICC_CONSTRAINT_POINTS || given->kind > ICC_CONSTRAINT_SLIDING)
@@ -47,12 +48,15 @@ static icc_status check_constraint(size_t c, const icc_constraint *given, size_t
                          "icc_constraint.n of constraint %zu is %zu; it must be at least %zu, and "
                          "at most %zu for all constraints together",
                          c, given->n, least, ICCP_MAX_COUNT);
+    if (!has_shape && given->kind != ICC_CONSTRAINT_POINTS)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "constraint %zu: only points can be told without a domain or mesh", c);
     return check_arrays(c, given, err);
 }
 
 /* Reads the caller's constraints. Their size gives the distance from one to the next. */
 static icc_status read_constraints(icc_constraint *full, size_t n, const icc_constraint *given,
-                                   icc_error *err)
+                                   bool has_shape, icc_error *err)
 {
     const size_t stride = given->size;
     size_t n_items = 0;
@@ -64,7 +68,7 @@ static icc_status read_constraints(icc_constraint *full, size_t n, const icc_con
                 iccp_fail(err, ICC_ERR_ARGUMENT,
                           "icc_constraint.size of constraint %zu is not that of constraint 0", c);
         if (status == ICC_OK)
-            status = check_constraint(c, &full[c], n_items, err);
+            status = check_constraint(c, &full[c], n_items, has_shape, err);
         if (status != ICC_OK)
             return status;
         n_items += full[c].n;
@@ -170,6 +174,10 @@ static icc_status check_shape(icc_mesh *full, const icc_domain *domain, const ic
                          (long)domain->dim);
     if (domain != NULL && domain->mask != NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "the domain is a mask; it must be a polygon");
+    if (domain != NULL && domain->features != NULL &&
+        domain->features->n_holes < domain->features->n)
+        return iccp_fail(err, ICC_ERR_UNSUPPORTED,
+                         "the domain has lines or points inside; pass them as constraints");
     if (mesh == NULL)
         return ICC_OK;
     const icc_status status = iccp_read_mesh(full, mesh, err);
@@ -197,7 +205,7 @@ static icc_status create(icc_fit **out, const icc_domain *domain, const icc_mesh
     icc_constraint *read = iccp_alloc(&env->memory, n, sizeof *read);
     if (read == NULL)
         return iccp_fail_memory(err);
-    status = read_constraints(read, n, constraints, err);
+    status = read_constraints(read, n, constraints, domain != NULL || mesh != NULL, err);
     if (status == ICC_OK)
         status = iccp_fit_create(out, domain, mesh != NULL ? &full_mesh : NULL, n, read, &full, env,
                                  err);

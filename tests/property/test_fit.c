@@ -389,6 +389,7 @@ START_TEST(wrong_requests_are_refused)
                             .vertices = &vertex,
                             .target = p};
     check_refused(ICC_ERR_ARGUMENT, domain, NULL, &told, NULL, "vertex 99");
+    check_refused(ICC_ERR_UNSUPPORTED, NULL, NULL, &told, NULL, "only points");
     icc_domain_free(domain);
 }
 END_TEST
