@@ -23,9 +23,10 @@ static const double LEAST_ROUNDNESS = 0.05;
  * edge goes, so rounding of the image does not matter. */
 static const double NEXT_TO_EDGE = 1e-6;
 
-/* If rounding spoils the image of a point, the image moves to the triangle's centroid in so many
- * steps. */
-enum { ATTEMPTS = 3 };
+/* If rounding spoils the image of a point, the image moves to the middle of the triangle or edge,
+ * by these shares of the way. */
+enum { ATTEMPTS = 5 };
+static const double SHARE[ATTEMPTS] = {0, 1e-12, 1e-8, 1e-4, 1};
 
 static const uint32_t NONE = UINT32_MAX;
 
@@ -235,16 +236,18 @@ static void find_weights(const insertion *s, uint32_t t, uint32_t i, double weig
         weight[k] /= sum;
 }
 
-/* Finds the image of a point from its weights, and nearer to the image's centroid in later
- * attempts. */
-static void interpolate(const iccp_plmap *map, uint32_t t, const double weight[3], int attempt,
-                        double image[2])
+/* Finds the image of a point from its weights, and a share of the way to the middle of the
+ * triangle, or of the edge that corner `on` faces. */
+static void interpolate(const iccp_plmap *map, uint32_t t, uint32_t on, const double weight[3],
+                        double share, double image[2])
 {
-    const double share = (double)attempt / ATTEMPTS;
     image[0] = image[1] = 0;
-    for (uint32_t k = 0; k < 3; ++k)
+    for (uint32_t k = 0; k < 3; ++k) {
+        const double middle = on == NONE ? 1.0 / 3 : 3 * t + k == on ? 0 : 0.5;
         for (int d = 0; d < 2; ++d)
-            image[d] += ((1 - share) * weight[k] + share / 3) * iccp_plmap_image(map, 3 * t + k)[d];
+            image[d] +=
+                ((1 - share) * weight[k] + share * middle) * iccp_plmap_image(map, 3 * t + k)[d];
+    }
 }
 
 /* Whether a new vertex leaves all triangles positive, if it replaces triangle t, or the edge that
@@ -305,8 +308,8 @@ static bool insert(insertion *s, uint32_t i, uint32_t m, uint32_t *vertex)
     const uint32_t on = find_edge(s, t, i, weight);
     int attempt = 0;
     do
-        interpolate(map, t, weight, attempt, image);
-    while (!fits(s, t, on, map->images, image) && on == NONE && ++attempt <= ATTEMPTS);
+        interpolate(map, t, on, weight, SHARE[attempt], image);
+    while (!fits(s, t, on, map->images, image) && ++attempt < ATTEMPTS);
     if (!fits(s, t, on, map->images, image) || !fits(s, t, on, map->points, point))
         return false;
     set_vertex(map, m, point, image);

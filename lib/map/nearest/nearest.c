@@ -238,7 +238,9 @@ icc_status iccp_nearest(iccp_plmap *map, bool boundary_moves, iccp_nearest_facts
         return ICC_OK;
     if (status == ICC_OK || (needs_frame && boundary_moves))
         status = repair(map, needs_frame, boundary_moves, facts, env);
-    return status == ICC_ERR_CERTIFICATE
-               ? iccp_fail(err, status, "no one-to-one map was found near the given one")
-               : status;
+    if (status == ICC_ERR_CERTIFICATE)
+        (void)iccp_fail(err, status,
+                        "no one-to-one map was found. Images of held vertices must lie inside that "
+                        "of the boundary, and apart");
+    return status;
 }
