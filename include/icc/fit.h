@@ -233,9 +233,9 @@ typedef struct icc_fit_info {
  *   lines or points, or for lines and vertices without a domain and mesh
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Cost: control points some 30 ms up to 100 and 0.6 s for 3,000, several times as much if they fold.
- * Figures and meshes 5 to 20 us for each triangle, several times as much where they turn far or
- * touch. Deterministic.
+ * Cost: control points some 30 ms up to 100 and 0.6 s for 3,000, several times as much if they
+ * fold. Figures and meshes 5 to 20 us for each triangle, several times as much where they turn far
+ * or touch. Deterministic.
  */
 ICC_API icc_status icc_fit_create(icc_fit **out, const icc_domain *domain, const icc_mesh *mesh,
                                   size_t n_constraints, const icc_constraint *constraints,

@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Converts the images to the caller's coordinates. Items that were reached get the caller's bits. */
+/* Converts the images to the caller's coordinates. Items that were reached get the caller's
+ * bits. */
 static void give_back(icc_fit *fit, double *images)
 {
     const iccp_elastic_shape *s = fit->shape;

@@ -3991,12 +3991,12 @@ opaque!(
 // Kinds of constraints: `icc_constraint.kind`.
 /// points go to their targets. They may lie anywhere
 pub const ICC_CONSTRAINT_POINTS: i32 = 1;
-/// a polyline goes to a polyline: vertex to vertex, and edge to edge linearly
+/// inside a domain, a polyline goes to a polyline: vertex to vertex, and edge to edge linearly
 pub const ICC_CONSTRAINT_LINE: i32 = 2;
 /// vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes along linearly
 /// if both its ends are told
 pub const ICC_CONSTRAINT_VERTICES: i32 = 3;
-/// vertices of the boundary may move along a straight line only
+/// vertices of the domain or of the mesh may move along a straight line only
 pub const ICC_CONSTRAINT_SLIDING: i32 = 4;
 
 /// What is known of a map: where some points, a line or some vertices go.
@@ -4026,7 +4026,8 @@ sized!(icc_constraint);
 
 // How a fit carries everything that is not told: `icc_fit_options.model`.
 /// as smoothly as possible: of all functions through the points the one that bends the least inside the
-/// region. Affine functions do not bend, so three points give their affine map. For maps and pictures
+/// region. Affine functions do not bend, so three points give their affine map. For maps and pictures. It
+/// takes points, and neither a domain nor a mesh
 pub const ICC_FIT_SPLINE: i32 = 1;
 /// as rigidly as possible: every small piece keeps its shape and size. For characters, and for meshes whose
 /// boundary moves
@@ -4152,8 +4153,8 @@ extern "C" {
     /// *Neither*: the map covers a box around the points. This is the way to use control points on a map or a
     /// picture. One point gives a shift, and two points give a similarity.
     ///
-    /// *A domain*: its outline is free except where constraints tell it. It has no features other than holes.
-    /// libicc makes the mesh. This is the way to pose a figure by pins.
+    /// *A domain*: its outline is free except where constraints tell it. It may have holes, but no lines and
+    /// points. libicc makes the mesh. This is the way to pose a figure by pins.
     ///
     /// *A mesh*: it is kept, vertex for vertex and cell for cell. It may have holes. This is the way to move
     /// a wall in a mesh.
@@ -4178,9 +4179,12 @@ extern "C" {
     /// - `ICC_ERR_OUTSIDE` if a point or line is not inside the domain
     /// - `ICC_ERR_BOUNDARY` if told parts of the boundary cross in the target
     /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found
-    /// - `ICC_ERR_UNSUPPORTED` if the domain or mesh is not in the plane
+    /// - `ICC_ERR_UNSUPPORTED` if the domain or mesh is not in the plane, if the domain is a mask or has
+    ///   lines or points, or for lines and vertices without a domain and mesh
     /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
     ///
+    /// Cost: control points some 30 ms up to 100 and 0.6 s for 3,000, several times as much if they fold.
+    /// Figures and meshes 5 to 20 us for each triangle, several times as much where they turn far or touch.
     /// Deterministic.
     pub fn icc_fit_create(
         out: *mut *mut icc_fit,
