@@ -4,10 +4,10 @@
 #include "fit/spline/frame_mesh.h"
 #include "fit/spline/spline.h"
 
-#include "../../default_env.h"
-#include "../../faulty.h"
-#include "../../random.h"
-#include "../../suite.h"
+#include "../../../default_env.h"
+#include "../../../faulty.h"
+#include "../../../random.h"
+#include "../../../suite.h"
 
 #include <check.h>
 #include <math.h>
