@@ -1016,7 +1016,7 @@ public:
         c.of_c_.tolerance = tolerance.data();
         return c;
     }
-    /** A polyline and its target, vertex by vertex. */
+    /** A polyline inside a domain and its target, vertex by vertex. */
     static constraint line(view<const double> source, view<const double> target)
     {
         constraint c(ICC_CONSTRAINT_LINE, count(source, 2), target);
@@ -1030,7 +1030,7 @@ public:
         c.of_c_.vertices = numbers.data();
         return c;
     }
-    /** Vertices of the boundary that slide along straight lines, whose directions may be left out. */
+    /** Vertices that slide along straight lines. On the boundary the directions may be left out. */
     static constraint sliding(view<const std::uint32_t> numbers, view<const double> direction = {})
     {
         constraint c(ICC_CONSTRAINT_SLIDING, numbers.size(), {});

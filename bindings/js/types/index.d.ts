@@ -171,13 +171,12 @@ export interface MapClass {
 export interface FitInput extends FitOptions {
   /** A mesh of triangles, in place of a domain. It is kept as it is. */
   mesh?: { readonly vertices: Points; readonly simplices: Indices } | null;
-  /** Polylines, each before and after. */
+  /** In a domain: polylines, each before and after. */
   lines?: readonly (readonly [Points, Points])[];
   /** Vertices of the domain or the mesh, and where they go. */
   vertices?: Indices | null;
   places?: Points | null;
-  /** Vertices of the boundary that may move along a straight line only, and its directions. Without directions they move along
-   *  the boundary. */
+  /** Vertices that may move along a straight line only, and its directions. Without directions they move along the boundary. */
   sliding?: Indices | null;
   along?: Points | null;
   /** Spline: how far the points may be off their targets: one number, or one for each. */

@@ -51,7 +51,7 @@ pub enum Constraint<'a> {
         /// with the spline: how far each may be off its target; `None`: not at all
         tolerance: Option<&'a [f64]>,
     },
-    /// a polyline goes to a polyline, vertex by vertex
+    /// inside a domain, a polyline goes to a polyline, vertex by vertex
     Line {
         /// the polyline
         source: &'a [f64],
@@ -65,7 +65,7 @@ pub enum Constraint<'a> {
         /// where they go
         target: &'a [f64],
     },
-    /// vertices of the boundary may move along straight lines only
+    /// vertices may move along straight lines only
     Sliding {
         /// their numbers
         vertices: &'a [u32],
