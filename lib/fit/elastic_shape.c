@@ -263,19 +263,22 @@ static icc_status take_mesh(iccp_elastic_shape *s, iccp_pin_mesh *mesh, const ic
 }
 
 static icc_status shape_of_domain(iccp_elastic_shape *s, const icc_domain *domain, iccp_told *told,
-                                  double cell, const iccp_env *env, icc_error *err)
+                                  const icc_fit_options *options, const iccp_env *env,
+                                  icc_error *err)
 {
     pins p = {0};
     iccp_pin_mesh mesh;
     s->frame = domain->frame;
     s->n_vertices = domain->n_vertices;
     icc_status status = list_pins(&p, s, domain, told, env);
+    const double scale = s->frame.in[0] * s->frame.in[1];
     const iccp_pin_mesh_input input = {.domain = domain,
                                        .n_pins = p.n,
                                        .pins = p.points,
                                        .n_segments = p.n_segments,
                                        .segments = p.segments,
-                                       .cell = cell * s->frame.in[0] * s->frame.in[1]};
+                                       .cell = options->cell * scale,
+                                       .reach = options->reach * scale};
     if (status == ICC_OK) {
         status = iccp_pin_mesh_create(&mesh, &input, env, err);
         if (status == ICC_ERR_OUTSIDE)
@@ -436,7 +439,7 @@ static icc_status create(iccp_elastic_shape *s, const icc_domain *domain, const 
                          icc_error *err)
 {
     icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, err)
-                                     : shape_of_domain(s, domain, told, options->cell, env, err);
+                                     : shape_of_domain(s, domain, told, options, env, err);
     if (status == ICC_OK && mesh != NULL)
         status = find_in_mesh(s, told, env, err);
     if (status == ICC_OK)

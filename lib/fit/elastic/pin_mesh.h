@@ -12,6 +12,9 @@ typedef struct iccp_pin_mesh_input {
     size_t n_segments; /* pairs of pins that edges of the mesh must join. They do not cross */
     const uint32_t *segments; /* 2 n_segments */
     double cell;              /* the longest edge, about; 0: as short as for some 1,500 triangles */
+    double
+        reach; /* how far a pin carries its surroundings, or 0. Triangles at pins are much smaller.
+                     Without a cell some edges fit into it, with up to four times the triangles */
 } iccp_pin_mesh_input;
 
 /* The vertices of the domain come first, then the pins. These are told. Others follow. */

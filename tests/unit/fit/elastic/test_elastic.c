@@ -795,7 +795,7 @@ static icc_status mesh_once(const icc_env *env, icc_error *err, void *argument)
     iccp_pin_mesh mesh;
     ck_assert_int_eq(iccp_env_read(&full, env, err), ICC_OK);
     double *local = localise(argument, 3, pins);
-    const iccp_pin_mesh_input input = {argument, 3, local, 1, segments, 0.2};
+    const iccp_pin_mesh_input input = {argument, 3, local, 1, segments, 0.2, 0};
     const icc_status status = iccp_pin_mesh_create(&mesh, &input, &full, err);
     iccp_pin_mesh_free(&mesh);
     free(local);
@@ -838,7 +838,7 @@ START_TEST(meshes_contain_rings)
     iccp_pin_mesh mesh;
     ck_assert_int_eq(icc_domain_create(&domain, 2, 4, square, 0, NULL, NULL, NULL), ICC_OK);
     double *local = localise(domain, 3, pins);
-    const iccp_pin_mesh_input input = {domain, 3, local, 3, segments, 0.1};
+    const iccp_pin_mesh_input input = {domain, 3, local, 3, segments, 0.1, 0};
     ck_assert_int_eq(iccp_pin_mesh_create(&mesh, &input, &env, NULL), ICC_OK);
     ck_assert_double_eq_tol(area_of(&mesh), pow(domain->frame.in[0] * domain->frame.in[1], 2),
                             1e-12);
@@ -867,7 +867,7 @@ START_TEST(meshes_contain_what_is_told)
                          ICC_OK);
         double *local = localise(domain, 3, pins);
         const double scale = domain->frame.in[0] * domain->frame.in[1];
-        const iccp_pin_mesh_input input = {domain, 3, local, 1, segments, 0.05 * scale};
+        const iccp_pin_mesh_input input = {domain, 3, local, 1, segments, 0.05 * scale, 0};
         ck_assert_int_eq(iccp_pin_mesh_create(&mesh, &input, &env, NULL), ICC_OK);
         ck_assert_double_eq_tol(area_of(&mesh), 0.91 * scale * scale, 1e-12);
         ck_assert_uint_eq(mesh.n_told, 11);
