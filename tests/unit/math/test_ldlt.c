@@ -634,6 +634,55 @@ START_TEST(marked_rows_are_solved_alone)
 }
 END_TEST
 
+/* b' A^-1 b of sparse b is the product of b and the solution. Working memory is zero again. */
+START_TEST(forms_are_those_of_solutions)
+{
+    enum { SIDE = 40, ROWS = SIDE * SIDE, N = 9, TRIES = 20 };
+    lattice g = make_lattice(SIDE, SIDE, 1, everywhere);
+    const iccp_env env = default_env();
+    random_source r = {9};
+    iccp_ldlt l;
+    ck_assert_int_eq(iccp_ldlt_analyse(&l, &g.m, 1, &env), ICC_OK);
+    ck_assert_int_eq(iccp_ldlt_factorise(&l, &g.m, &env), ICC_OK);
+    uint8_t *needed = calloc(l.nodes.n, 1);
+    uint32_t *path = calloc(l.nodes.n, sizeof *path);
+    double *work = calloc(ICCP_LDLT_FORMS * ROWS, sizeof *work);
+    double *b = calloc(ROWS, sizeof *b), *x = calloc(ROWS, sizeof *x);
+    double *room = calloc(ROWS, sizeof *room);
+    for (int k = 0; k < TRIES; ++k) {
+        uint32_t rows[N];
+        double values[N * ICCP_LDLT_FORMS], form[ICCP_LDLT_FORMS];
+        for (size_t i = 0; i < N; ++i)
+            rows[i] = i == 1 ? rows[0] : (uint32_t)random_below(&r, ROWS);
+        fill(values, N * ICCP_LDLT_FORMS, &r);
+        iccp_ldlt_forms(&l, N, rows, values, form, work, needed, path);
+        for (size_t c = 0; c < ICCP_LDLT_FORMS; ++c) {
+            memset(b, 0, ROWS * sizeof *b);
+            for (size_t i = 0; i < N; ++i)
+                b[rows[i]] += values[ICCP_LDLT_FORMS * i + c];
+            memcpy(x, b, ROWS * sizeof *b);
+            iccp_ldlt_solve(&l, 1, x, room);
+            double want = 0;
+            for (size_t i = 0; i < ROWS; ++i)
+                want += b[i] * x[i];
+            ck_assert_double_eq_tol(form[c], want, 1e-11 * want);
+        }
+        for (size_t i = 0; i < ICCP_LDLT_FORMS * ROWS; ++i)
+            ck_assert(!(work[i] > 0) && !(work[i] < 0));
+        for (size_t i = 0; i < l.nodes.n; ++i)
+            ck_assert_uint_eq(needed[i], 0);
+    }
+    free(needed);
+    free(path);
+    free(work);
+    free(b);
+    free(x);
+    free(room);
+    iccp_ldlt_free(&l);
+    lattice_clear(&g);
+}
+END_TEST
+
 typedef struct watch {
     int n_reports;
     double share;
@@ -1029,6 +1078,7 @@ int main(void)
     tcase_add_test(tests, rings_are_solved_in_order_of_distance);
     tcase_add_test(tests, stored_zeros_carry_nothing);
     tcase_add_test(tests, marked_rows_are_solved_alone);
+    tcase_add_test(tests, forms_are_those_of_solutions);
     tcase_add_test(tests, long_factorisations_report_often);
     tcase_add_test(tests, threads_change_nothing);
     tcase_add_test(tests, groups_are_analysed_as_their_rows);
