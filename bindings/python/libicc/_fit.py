@@ -147,6 +147,15 @@ def _pair(source: Any, target: Any, names: Tuple[str, str]) -> Tuple[Floats, Flo
     return source, target
 
 
+def _spread(values: ArrayLike, shape: Tuple[int, ...], name: str) -> Floats:
+    """Numbers of this shape, of which one may stand for all."""
+    array = np.asarray(values, dtype=np.float64)
+    try:
+        return np.ascontiguousarray(np.broadcast_to(array, shape))
+    except ValueError:
+        raise ValueError(f"{name} must have the shape {shape}, not {array.shape}") from None
+
+
 def _numbers(values: Any, name: str) -> Indices:
     return indices(np.atleast_1d(np.asarray(values)).reshape(-1, 1), 1, name).ravel()
 
@@ -160,8 +169,7 @@ def _add_sliding(constraints: _Constraints, sliding: Any, places: Optional[Float
         raise ValueError("sliding is for a domain or a mesh, which have vertices")
     if numbers.size and numbers.max() >= len(places):
         raise ValueError(f"sliding: there is no vertex {numbers.max()}, only {len(places)} vertices")
-    along = None if given[1] is None else np.ascontiguousarray(
-        np.broadcast_to(np.asarray(given[1], dtype=np.float64), (len(numbers), 2)))
+    along = None if given[1] is None else _spread(given[1], (len(numbers), 2), "directions")
     constraints.add("sliding", len(numbers), places[numbers], vertices=numbers, direction=along)
 
 
@@ -207,7 +215,8 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
         vertices: (numbers, places): vertices of the domain or the mesh, (k,), and where they go, (k, 2). An edge of the
             boundary goes along if both its ends are told
         sliding: vertices that may move along a straight line only: their numbers (k,), or a pair (numbers, directions)
-            with directions (k, 2) or (2,). Without directions they move along the boundary, which must be straight there
+            with directions (k, 2) or (2,). Without directions they move along the boundary, which must be straight
+            there
         tolerance: spline: how far points may be off their targets, in units of the target: a number or (n,). None and
             0: not at all
         model: "spline" bends as little as possible. It takes points alone and is for maps and pictures. "elastic" keeps
@@ -233,8 +242,8 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
 
     Raises:
         ArgumentError: for two points in one place with different targets, or if the targets mirror the points (change
-            the sign of y). OutsideError: for a point outside the domain. BoundaryError: if told parts of the boundary
-            cross. CertificateError: if no one-to-one map was found. ``index`` is the point or vertex at fault, counted
+            the sign of y); OutsideError: for a point outside the domain; BoundaryError: if told parts of the boundary
+            cross; CertificateError: if no one-to-one map was found. ``index`` is the point or vertex at fault, counted
             in the order of `Fit.targets`
     """
     if domain is not None and mesh is not None:
@@ -246,8 +255,7 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
         if points is None or to is None:
             raise ValueError("points and to come together")
         source, target = _pair(points, to, ("points", "to"))
-        loose = None if tolerance is None else np.ascontiguousarray(
-            np.broadcast_to(np.asarray(tolerance, dtype=np.float64), len(source)))
+        loose = None if tolerance is None else _spread(tolerance, (len(source),), "tolerance")
         constraints.add("points", len(source), target, source=source, target=target, tolerance=loose)
     elif tolerance is not None:
         raise ValueError("a tolerance is for points")
@@ -255,6 +263,8 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
         source, target = _pair(before, after, ("a line", "its target"))
         constraints.add("line", len(source), target, source=source, target=target)
     if vertices is not None:
+        if len(vertices) != 2:
+            raise ValueError("vertices must be a pair (numbers, places)")
         numbers, places = _numbers(vertices[0], "vertices"), points_of(vertices[1], 2, "the places of vertices")
         if len(numbers) != len(places):
             raise ValueError(f"vertices has {len(numbers)} numbers, but {len(places)} places")
@@ -308,9 +318,9 @@ def nearest(vertices: ArrayLike, triangles: ArrayLike, images: ArrayLike, held: 
         vertices have moved
 
     Raises:
-        BoundaryError: if the mesh is not valid, or if the image of its boundary meets itself. TopologyError: if the
-        mesh has several pieces. ArgumentError: also if the images are a mirror image (change the sign of y).
-        CertificateError: if no one-to-one map was found
+        BoundaryError: if the mesh is not valid, or if the image of its boundary meets itself; TopologyError: if the
+            mesh has several pieces; ArgumentError: also if the images are a mirror image (change the sign of y);
+            CertificateError: if no one-to-one map was found
     """
     vertices, triangles = points_of(vertices, 2, "vertices"), indices(triangles, 3, "triangles")
     images = floats(images, vertices.shape, "images")

@@ -118,7 +118,8 @@ def test_bytes_keep_the_map(known):
 
 
 def test_what_is_refused():
-    for wrong in (dict(), dict(points=CORNERS), dict(points=CORNERS, to=CORNERS[:3]),
+    for wrong in (dict(), dict(points=CORNERS), dict(points=CORNERS, to=CORNERS, tolerance=[1, 2]),
+                  dict(vertices=[0]), dict(points=CORNERS, to=CORNERS[:3]),
                   dict(vertices=([0], [[0, 0]]), tolerance=1), dict(points=CORNERS, to=CORNERS, sliding=[0]),
                   dict(points=CORNERS, to=CORNERS, cell_stiffness=[1]), dict(points=CORNERS, to=CORNERS, model="stiff"),
                   dict(points=CORNERS, to=CORNERS, box=[0, 1]),
