@@ -69,13 +69,18 @@ typedef struct icc_nearest_report {
  *
  * If every triangle keeps its orientation and the image of the boundary is simple, the map is the
  * given one, bit for bit. So this is also the way to make an icc_map of a mesh map from another
- * program. Otherwise the folded triangles and their surroundings are cut out and mapped anew. The
- * mesh is refined there. The rest of the map stays close to its images. "Near" is measured by the
- * squared difference of the derivatives, with a small share of the symmetric Dirichlet energy,
- * which keeps triangles from collapsing.
+ * program. Otherwise the folded triangles and their surroundings are cut out and mapped anew. From
+ * there, the map goes back towards the given images as far as triangles stay positive. "Near" is
+ * measured by the squared difference of the derivatives, with a small share of the symmetric
+ * Dirichlet energy, which keeps triangles from collapsing.
  *
- * The images of the boundary's vertices do not change. So the image of the boundary must be simple
- * already. Holes are allowed.
+ * A collar around the patches gives way a little. Beyond it, the images do not change at all. All
+ * vertices stay where they are in the source and keep their numbers. Patches may get new vertices,
+ * with higher numbers, and other triangles.
+ *
+ * The images of the boundary's vertices and of held ones do not change. So the image of the
+ * boundary must be simple already, and held images must lie inside it. Holes are allowed. Held
+ * vertices inside become point features of the map.
  *
  * @param[out] out    the map; owned by the caller. It has no charts
  * @param mesh        a conforming mesh of triangles in one piece. It may have holes
@@ -89,10 +94,12 @@ typedef struct icc_nearest_report {
  * - ::ICC_ERR_TOPOLOGY if the mesh has several pieces
  * - ::ICC_ERR_ARGUMENT, also if the images are a mirror image: change the sign of one coordinate
  * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found
+ * - ::ICC_ERR_RESOLUTION if a coordinate is too small beside the others for exact signs
  * - ::ICC_ERR_UNSUPPORTED if the mesh is not in the plane
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
  *
- * Cost: about 1 us a triangle if nothing folds. Deterministic.
+ * Cost: below 1 us a triangle if nothing folds. Otherwise about 20 us for each triangle in and
+ * around the patches. Deterministic.
  */
 ICC_API icc_status icc_map_create_nearest(icc_map **out, const icc_mesh *mesh, const double *images,
                                           const icc_nearest_options *options,
