@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import matplotlib
 import numpy as np
@@ -23,7 +24,7 @@ from libicc import stages
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt                                 # noqa: E402
-from matplotlib.collections import LineCollection               # noqa: E402
+from matplotlib.collections import LineCollection, PolyCollection   # noqa: E402
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection         # noqa: E402
 
 TOP = Path(__file__).resolve().parents[2]
@@ -38,6 +39,15 @@ def block(page, name):
     """A file that a page shows."""
     text = (TOP / "docs" / page).read_text(encoding="utf-8")
     return re.search(rf"<!-- file: {name} -->\n```\w+\n(.*?)```", text, re.S)[1]
+
+
+def names_of(page, n_blocks):
+    """The names that the first Python blocks of a page define. They find the examples as on the page."""
+    text, names = (TOP / "docs" / page).read_text(encoding="utf-8"), {}
+    Path("examples").symlink_to(TOP / "examples")
+    for code in re.findall(r"```python\n(.*?)```", text, re.S)[:n_blocks]:
+        exec(code, names)
+    return SimpleNamespace(**names)
 
 
 def beside(pictures, width, gap=16):
@@ -247,7 +257,85 @@ def mesh():
     return figure
 
 
-PICTURES = {"fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
+def control_points():
+    """The scan with its points, and the fitted scan with the distances of left-out points, five times as long."""
+    wrong = block("howto/control-points.md", "sheet.csv")
+    Path("corrected.csv").write_text(wrong.replace("2683690.82", "2683590.82"), encoding="utf-8")
+    run(sys.executable, TOP / "examples/cadastre.py", ".")
+    page = names_of("howto/control-points.md", 1)
+    left, lower, right, upper, step = 2683080, 1247340, 2683920, 1247980, 0.6
+    run("libicc", "fit", "corrected.csv", "--box", "0,0,1420,1080", "--triangulation", "sheet.json")
+    run("gdalwarp", "-q", "-t_srs", "EPSG:2056", "-te", left, lower, right, upper, "-tr", step, step, "-dstnodata", 255, "-r",
+        "cubic", "-to", "SRC_METHOD=NO_GEOTRANSFORM", "-ct", "+proj=tinshift +file=./sheet.json", "sheet.png", "sheet.tif")
+    scan, fitted = Image.open("sheet.png").convert("RGB"), Image.open("sheet.tif").convert("RGB")
+    pens = ImageDraw.Draw(scan), ImageDraw.Draw(fitted)
+    for pixel, place, off in zip(page.pixels * [1, -1], page.places, page.mapping.left_out):
+        at = (place - [left, upper]) / [step, -step]
+        pens[1].line([*at, *(at + 5 * off / [step, -step])], fill=RED, width=6)
+        dot(pens[0], pixel, 13, RED)
+        dot(pens[1], at, 13, RED)
+    heights = [p.resize((round(p.width * 600 / p.height), 600), Image.LANCZOS) for p in (scan, fitted)]
+    return beside(heights, 1000, 30)
+
+
+def puppet():
+    """The figure of the page at rest and posed, with its pins."""
+    Path("pins.txt").write_text(block("howto/pins.md", "pins.txt"), encoding="utf-8")
+    page = names_of("howto/pins.md", 2)
+    pictures = [twice("figure.png"), twice("posed.png")]
+    for picture, places in zip(pictures, (page.pins[:, :2], page.pins[:, 2:])):
+        pen = ImageDraw.Draw(picture)
+        for place in 2 * places:
+            dot(pen, place, 15, (20, 40, 60))
+    return beside(pictures, 700)
+
+
+def few_colours(figure):
+    """A figure of thin lines as a picture, which is small with few colours."""
+    figure.canvas.draw()
+    return Image.fromarray(np.asarray(figure.canvas.buffer_rgba())[..., :3].copy()).quantize(24, dither=0)
+
+
+def moving_mesh():
+    """The airfoil of the page before and after its turn, and its nose close up."""
+    page = names_of("howto/moving-mesh.md", 2)
+    figure, axes = panels(3, (12, 4.1))
+    nose = page.turn @ [-.52, 0]
+    for ax, places, (x, y), size in zip(axes, (page.vertices, page.after, page.after), ((0, 0), (0, 0), nose), (1, 1, .09)):
+        ax.triplot(*places.T, page.triangles, color=INK, lw=.5)
+        ax.fill(*places[page.wall].T, fc=SHAPE, ec=INK, lw=1.2)
+        ax.set(xlim=(x - size, x + size), ylim=(y - size, y + size))
+    figure.subplots_adjust(0, 0, 1, 1, .03)
+    return few_colours(figure)
+
+
+def certify():
+    """The displacement field of the page with its folds, and its nearest one-to-one map."""
+    page = names_of("howto/certify.md", 3)
+    _, images, triangles = page.warp.mesh()
+    figure, axes = panels(2, (10, 5))
+    for ax, places, cells in zip(axes, (page.images, images), (page.triangles, triangles)):
+        p = places[cells]
+        a, b = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
+        lines = [page.warp(np.column_stack(line)) if places is images else places[numbers] for line, numbers in grid_lines(page.n)]
+        ax.add_collection(LineCollection(lines, color=INK, lw=.6))
+        wrong = a[:, 0] * b[:, 1] <= a[:, 1] * b[:, 0]
+        ax.add_collection(PolyCollection(p[wrong], facecolors=RED, edgecolors=RED, lw=.3, zorder=3))
+        ax.set(xlim=(-1, page.n + 1), ylim=(page.n + 1, -1))
+    figure.subplots_adjust(0, 0, 1, 1, .02)
+    return few_colours(figure)
+
+
+def grid_lines(n):
+    """Lines of a grid of n x n cells: finely sampled places, and the numbers of their vertices."""
+    fine, k = np.linspace(0, n, 8 * n + 1), np.arange(n + 1)
+    for at in range(n + 1):
+        yield (fine, 0 * fine + at), at * (n + 1) + k
+        yield (0 * fine + at, fine), k * (n + 1) + at
+
+
+PICTURES = {"control-points": control_points, "puppet": puppet, "moving-mesh": moving_mesh, "certify": certify,
+            "fish-pair": fish_pair, "pins": pins, "chessboard": chessboard, "old-map": old_map, "island": island,
             "matched": matched, "stages": stages_of_the_papers, "mesh": mesh}
 
 
