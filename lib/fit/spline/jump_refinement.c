@@ -147,18 +147,29 @@ static void add_middle(builder *b, const edge *e)
     interpolate(b->u, b->gradient, m->points, v, e->a, e->b);
 }
 
-/* Adds the middles of listed edges, as far as there is room, those that are farthest off first. */
+/* Adds the middles of listed edges: of all, or of those that are farthest off if there is no room
+ * for all. */
+static void add_middles(builder *b, size_t room)
+{
+    const bool chooses = b->n_edges > room;
+    const size_t n = chooses ? room : b->n_edges;
+    if (chooses)
+        iccp_sort_begin(b->edges, b->n_edges, sizeof *b->edges, by_jump);
+    for (size_t k = 0; k < n; ++k) {
+        add_middle(b, &b->edges[chooses ? 0 : k]);
+        if (chooses)
+            iccp_sort_next(b->edges, b->n_edges - k, sizeof *b->edges, by_jump);
+    }
+}
+
 static icc_status refine_once(builder *b, double tolerance, const iccp_env *env)
 {
-    icc_status status = list_edges(b, tolerance);
     const size_t room = b->room - b->mesh->n_vertices;
-    const size_t n = b->n_edges < room ? b->n_edges : room;
-    if (status == ICC_OK && n > 0) {
-        iccp_sort_begin(b->edges, b->n_edges, sizeof *b->edges, by_jump);
-        for (size_t k = 0; k < n; ++k) {
-            add_middle(b, &b->edges[0]);
-            iccp_sort_next(b->edges, b->n_edges - k, sizeof *b->edges, by_jump);
-        }
+    if (room == 0)
+        return ICC_OK;
+    icc_status status = list_edges(b, tolerance);
+    if (status == ICC_OK && b->n_edges > 0) {
+        add_middles(b, room);
         iccp_free(b->memory, b->mesh->triangles);
         iccp_free(b->memory, b->mesh->twins);
         b->mesh->triangles = b->mesh->twins = NULL;
