@@ -243,6 +243,10 @@ START_TEST(test_bad_links)
                 "target", "\"id\": 7", "[1,0]") ",\n" PAIR("target", "\"id\": 7", "[2,0]")),
             3, "same name");
     refused(COLLECTION(PAIR("source", "\"a\": 7", "[0,0]")), 2, "which pairs it");
+    refused(COLLECTION("{\"type\": \"Feature\", \"properties\": {\"role\": \"source\", \"id\": 1}, "
+                       "\"geometry\": {\"type\": \"Point\"}}"),
+            2, "pair of finite numbers");
+    refused(COLLECTION("{\"type\": \"LineString\"}"), 2, "at least 2 vertices");
     refused("{\"a\": ", 1, "");
 }
 END_TEST

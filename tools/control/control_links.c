@@ -81,11 +81,17 @@ static bool take_properties(links *l, const json_item *feature, size_t line, pro
     return true;
 }
 
+/* The line of a feature's coordinates, or of the feature if they are missing. */
+static size_t line_at(links *l, const json_item *feature, const json_item *coordinates)
+{
+    return line_finder_at(&l->at, l->text + (coordinates != NULL ? coordinates : feature)->begin);
+}
+
 static bool read_link(links *l, const json_item *feature, const json_item *line_string,
                       problem *wrong)
 {
     double from[2], to[2];
-    size_t line = line_finder_at(&l->at, l->text + line_string->begin);
+    size_t line = line_at(l, feature, line_string);
     const json_item *first = json_first(line_string), *last = first;
     if (json_is(property(feature, "enabled"), JSON_FALSE)) {
         l->out->n_disabled++;
@@ -109,7 +115,7 @@ static bool keep_point(links *l, const json_item *feature, const json_item *posi
     if (!is_target && (role == NULL || strcmp(role, "source") != 0))
         return true;
     lone_point p = {.feature = feature, .key = key_of(feature), .is_target = is_target};
-    p.line = line_finder_at(&l->at, l->text + position->begin);
+    p.line = line_at(l, feature, position);
     if (p.key == NULL)
         return spoilt(wrong, p.line,
                       "a Point with a role has no property \"feature\" or \"id\", which pairs it");
