@@ -18,7 +18,7 @@ static const double FAR = 1, NEAR = 0.05;
  * five samples of each, the error is then at most 1.2 times a thin plate's, in the mean 0.91. */
 static const double ADVANTAGE = 0.72;
 
-/* Cells across the box. With 20 cells, two of 140 choices differ, and their errors hardly do. */
+/* Cells across the box. */
 enum { ACROSS = 16 };
 
 /* Smoothings to choose from: 1 over powers of ten, from the first. It is as good as exact. */
