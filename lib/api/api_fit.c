@@ -271,6 +271,7 @@ icc_status icc_fit_get_info(const icc_fit *fit, icc_fit_info *info)
 
 icc_status icc_fit_get_residuals(const icc_fit *fit, double *residuals, double *left_out)
 {
+    ICCP_ENTER;
     if (fit == NULL)
         return ICC_ERR_ARGUMENT;
     const size_t size = 2 * fit->told.n * sizeof(double);
