@@ -216,7 +216,7 @@ static icc_status find_tolerance(const iccp_spline *s, double *tolerance, const 
     for (size_t i = 0; ready && i < n; ++i) {
         length[count] = iccp_vec_norm(2, s->left_out_own + 2 * i);
         order[count] = (uint32_t)count;
-        count += isfinite(length[count]);
+        count += isfinite(length[count]) ? 1 : 0;
     }
     if (ready && count > 0) {
         iccp_sort_indices(order, order + n, count, length, is_less);
