@@ -36,7 +36,9 @@ static int certify(job *j, const mesh_file *m, double *images, icc_certificate *
                            .cells = m->dim == 2 ? m->triangles : m->tetrahedra};
     icc_status ran = (j->args->repair_mesh ? icc_map_repair : icc_map_certify)(
         j->map, &mesh, has_images ? NULL : images, certificate, &j->env, &err);
-
+    /* The nearest map has a finer mesh, in which these elements may still be inverted. */
+    if (ran == ICC_OK && j->args->nearest != NULL && !certificate->certified)
+        ran = icc_map_repair(j->map, &mesh, images, certificate, &j->env, &err);
     progress_end(&j->bar);
     certificate->size = whole ? certificate->size : 0;
     return ran == ICC_OK ? DONE : job_failed(j, &err);

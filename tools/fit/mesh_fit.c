@@ -421,21 +421,6 @@ static void print_nearest(const job *j, const icc_nearest_report *r)
              j->args->nearest, r->n_folded, text, r->moved, r->most_moved);
 }
 
-/* The images of the faces themselves. Where the map has a finer mesh, straight faces may still be
- * inverted, so their inner vertices move until none is. */
-static int take_repaired(job *j, const faces *f, const mesh_file *m, double *images)
-{
-    icc_error err = {.size = sizeof err, .index = -1};
-    icc_certificate found = {.size = sizeof found};
-    double *own = need(f->mesh.n_vertices, 2 * sizeof *own);
-    icc_status status = icc_map_repair(j->map, &f->mesh, own, &found, &j->env, &err);
-    memcpy(images, m->points, m->n_vertices * 2 * sizeof *images);
-    for (size_t i = 0; i < f->mesh.n_vertices; i++)
-        memcpy(images + 2 * (size_t)f->origin[i], own + 2 * i, 2 * sizeof *images);
-    free(own);
-    return status == ICC_OK ? DONE : fit_failed(j, j->args->nearest, 0, &err);
-}
-
 static int make_nearest(job *j, const faces *f, const mesh_file *m, const mesh_file *warped,
                         double *images)
 {
@@ -449,13 +434,8 @@ static int make_nearest(job *j, const faces *f, const mesh_file *m, const mesh_f
     free(own);
     if (status != ICC_OK)
         return fit_failed(j, err.side == 1 ? j->args->operands[0] : j->args->nearest, 0, &err);
-    int result = DONE;
-    if (made.repair == ICC_REPAIR_NONE)
-        take_images(j, f, m, images);
-    else
-        result = take_repaired(j, f, m, images);
-    if (result == DONE)
-        result = fit_take_cages(j);
+    take_images(j, f, m, images);
+    int result = fit_take_cages(j);
     progress_end(&j->bar);
     if (result == DONE)
         print_nearest(j, &made);
