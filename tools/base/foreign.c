@@ -241,7 +241,7 @@ bool foreign_told(const char *text, size_t n, problem *wrong)
     if (is_3ds(text, n))
         return told(wrong, "a 3DS file", MAKE_OBJ);
     if (is_portable_map(text))
-        return told(wrong, "a PNM picture, which only warp, animate and pose read", NO_REMEDY);
+        return told(wrong, "a PNM picture, which only warp, fit, animate and pose read", NO_REMEDY);
     if (is_bitmap(text, n))
         return told(wrong, "a BMP picture", MAKE_PNG);
     size_t at = has(text, n, 0, "\xef\xbb\xbf", 3) ? 3 : 0;

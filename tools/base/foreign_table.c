@@ -20,7 +20,7 @@ const char *const foreign_remedies[] = {
     [MAKE_STL_OF_PRINTS] = "'prusa-slicer --export-stl -o OUT.stl FILE' makes STL of it",
     [MAKE_PNG] = "'convert FILE OUT.png' makes a PNG picture of it (ImageMagick)",
     [MAKE_PNG_OR_KEEP] =
-        "gdalwarp (libicc map --triangulation) and Python (libicc.raster) keep its "
+        "gdalwarp (libicc fit or map --triangulation) and Python (libicc.raster) keep its "
         "values and its place; 'convert FILE OUT.png' makes a plain PNG picture of it",
     [MAKE_SVG] = "'pdftocairo -svg FILE OUT.svg' makes an SVG drawing of it",
     [MAKE_MASK] = "'python3 -c \"import sys, numpy, SimpleITK as s; numpy.save(sys.argv[2], "
@@ -155,8 +155,9 @@ const foreign_format foreign_formats[] = {
     {BEGINS("[gd_scene"), "a Godot scene", WRITE_VERTICES},
     {BEGINS("[gd_resource"), "a Godot resource", WRITE_VERTICES},
     /* pictures and documents */
-    {AT(0, "\xff\xd8\xff"), "a JPEG picture, which only warp, animate and pose read", NO_REMEDY},
-    {AT(0, "\x89PNG"), "a PNG picture, which only warp, animate and pose read", NO_REMEDY},
+    {AT(0, "\xff\xd8\xff"), "a JPEG picture, which only warp, fit, animate and pose read",
+     NO_REMEDY},
+    {AT(0, "\x89PNG"), "a PNG picture, which only warp, fit, animate and pose read", NO_REMEDY},
     {AT(0, "II*\0"), "a TIFF picture", MAKE_PNG_OR_KEEP},
     {AT(0, "MM\0*"), "a TIFF picture", MAKE_PNG_OR_KEEP},
     {AT(0, "II+\0"), "a TIFF picture", MAKE_PNG_OR_KEEP},

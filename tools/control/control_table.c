@@ -131,7 +131,8 @@ static bool learn_heading(layout *out, size_t n, const cell *cells, problem *wro
     for (size_t k = 0; k < 4 && n_found == 0 && n == 4; k++)
         out->column[k] = k;
     return n_found == 4 || (n_found == 0 && n == 4) ||
-           spoilt(wrong, 0, "the heading lacks columns; call them x, y, to_x and to_y");
+           spoilt(wrong, 0,
+                  "the heading lacks columns; call them x, y, to_x and to_y, or remove it");
 }
 
 /* Learns the columns from the first row, which is no heading. */

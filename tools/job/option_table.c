@@ -223,8 +223,9 @@ const option options[] = {
      .commands = FOR_MESH,
      .offset = AT(moves),
      .value = "MOVES",
-     .help = "move the mesh itself: its vertices go where MOVES says, in lines `vertex x y` or `x "
-             "y to_x to_y`, other vertices of its boundary stay, and the inside follows"},
+     .help = "move the mesh itself: MOVES says where vertices go, in lines `vertex x y`, counted "
+             "from 0, or `x y to_x to_y`. Other vertices of the boundary stay, and the inside "
+             "follows"},
     {.name = "slide",
      .kind = OPTION_FLAG,
      .commands = FOR_MESH,
