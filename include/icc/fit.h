@@ -215,15 +215,16 @@ typedef struct icc_fit_info {
  * *A domain*: its outline is free except where constraints tell it. It may have holes, but no lines
  * and points. libicc makes the mesh. This is the way to pose a figure by pins.
  *
- * *A mesh*: it is kept, vertex for vertex and cell for cell. It may have holes. This is the way to
- * move a wall in a mesh.
+ * *A mesh*: it is kept, vertex for vertex and cell for cell. It may have holes. Its cells are
+ * triangles or, with offsets, convex quadrilaterals, which stay convex. In the map each
+ * quadrilateral is two triangles. This is the way to move a wall in a mesh.
  *
  * Exact items end exactly at their targets. If an elastic shape cannot get there without folding or
  * overlapping, the result is the map as far as it got: check icc_fit_info::n_off.
  *
  * @param[out] out      the fit; owned by the caller, see icc_fit_free()
  * @param domain        a domain of the plane, or NULL
- * @param mesh          a mesh of triangles in the plane, or NULL
+ * @param mesh          a mesh of triangles and quadrilaterals in the plane, or NULL
  * @param n_constraints at least 1
  * @param constraints   n_constraints of them; they are copied
  * @param options       may be NULL

@@ -246,8 +246,8 @@ typedef struct icc_mesh {
     /** NULL if every cell has dim + 1 vertices. Otherwise n_cells + 1 numbers as in VTK: where
      *  each cell begins in `cells`, and where the last one ends */
     const size_t *offsets;
-    /** VTK's types of the n_cells cells, or NULL. Only simplices are supported: 5 in 2-D and 10
-     *  in 3-D. Other types give ::ICC_ERR_UNSUPPORTED */
+    /** VTK's types of the n_cells cells, or NULL. Only simplices are supported, 5 in 2-D and 10 in
+     *  3-D, and quadrilaterals, 9, by icc_fit_create(). Other types give ::ICC_ERR_UNSUPPORTED */
     const uint8_t *types;
     const int32_t *regions; /**< reserved: NULL. Anything else gives ::ICC_ERR_UNSUPPORTED */
 } icc_mesh;

@@ -180,7 +180,7 @@ static icc_status check_shape(icc_mesh *full, const icc_domain *domain, const ic
                          "the domain has lines or points inside; pass them as constraints");
     if (mesh == NULL)
         return ICC_OK;
-    const icc_status status = iccp_read_mesh(full, mesh, err);
+    const icc_status status = iccp_read_faces(full, mesh, err);
     return status != ICC_OK || full->dim == 2
                ? status
                : iccp_fail(err, ICC_ERR_UNSUPPORTED, "the mesh has dimension %ld; it must be 2",

@@ -30,10 +30,12 @@ icc_status iccp_check_counts(size_t n_vertices, const double *vertices, size_t n
     return ICC_OK;
 }
 
-/* VTK's numbers of the simplex of this dimension; 0 beyond space, where it has none. */
+/* VTK's numbers of cells. */
+enum { VTK_TRIANGLE = 5, VTK_QUAD = 9, VTK_TETRA = 10 };
+
+/* VTK's number of the simplex of this dimension; 0 beyond space, where it has none. */
 static unsigned vtk_simplex(int32_t dim)
 {
-    enum { VTK_TRIANGLE = 5, VTK_TETRA = 10 };
     return dim == 2 ? VTK_TRIANGLE : dim == 3 ? VTK_TETRA : 0;
 }
 
@@ -47,7 +49,21 @@ static bool is_simplex(const icc_mesh *mesh, size_t cell)
                                      mesh->offsets[cell + 1] == n_corners * (cell + 1));
 }
 
-icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
+/* Whether a cell of the plane is a triangle or a quadrilateral, and begins where the one before
+ * it ends. */
+static bool is_face(const icc_mesh *mesh, size_t cell)
+{
+    if (mesh->dim != 2 || mesh->offsets == NULL)
+        return is_simplex(mesh, cell);
+    const size_t begin = mesh->offsets[cell], end = mesh->offsets[cell + 1];
+    const bool is_triangle = end == begin + 3, is_quad = end == begin + 4;
+    return (cell > 0 || begin == 0) && (is_triangle || is_quad) &&
+           (mesh->types == NULL || mesh->types[cell] == (is_quad ? VTK_QUAD : VTK_TRIANGLE));
+}
+
+static icc_status read_mesh(icc_mesh *full, const icc_mesh *mesh,
+                            bool (*is_taken)(const icc_mesh *, size_t), const char *taken,
+                            icc_error *err)
 {
     icc_status status = iccp_read_struct(full, sizeof *full, mesh, "icc_mesh", err);
     if (status != ICC_OK)
@@ -64,10 +80,20 @@ icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
     if (full->regions != NULL)
         return iccp_fail(err, ICC_ERR_UNSUPPORTED, "icc_mesh.regions are not supported");
     for (size_t cell = 0; cell < full->n_cells; ++cell)
-        if (!is_simplex(full, cell))
+        if (!is_taken(full, cell))
             return iccp_fail_at(err, ICC_ERR_UNSUPPORTED, ICC_ITEM_SIMPLEX, (int64_t)cell,
-                                "cell %zu is not a simplex; other cells are not supported", cell);
+                                "cell %zu is not a %s; other cells are not supported", cell, taken);
     return ICC_OK;
+}
+
+icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
+{
+    return read_mesh(full, mesh, is_simplex, "simplex", err);
+}
+
+icc_status iccp_read_faces(icc_mesh *full, const icc_mesh *mesh, icc_error *err)
+{
+    return read_mesh(full, mesh, is_face, "triangle or quadrilateral", err);
 }
 
 icc_status iccp_size_mesh(double **vertices, uint32_t **cells, icc_mesh *mesh, int32_t dim,

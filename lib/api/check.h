@@ -44,6 +44,9 @@ icc_status iccp_check_counts(size_t n_vertices, const double *vertices, size_t n
  * vertex and no index. */
 icc_status iccp_read_mesh(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
 
+/* Like iccp_read_mesh(). In the plane the mesh may have quadrilaterals, too. */
+icc_status iccp_read_faces(icc_mesh *full, const icc_mesh *mesh, icc_error *err);
+
 /* Finds the arrays of a mesh that the caller has room for; NULL where nothing is to be filled. Sets
  * the numbers of the caller's struct. ICC_ERR_ARGUMENT if there is too little room. */
 icc_status iccp_size_mesh(double **vertices, uint32_t **cells, icc_mesh *mesh, int32_t dim,

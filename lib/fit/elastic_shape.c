@@ -32,6 +32,7 @@ void iccp_elastic_shape_release(iccp_elastic_shape *s)
     iccp_free(&memory, s->given);
     iccp_free(&memory, s->points);
     iccp_free(&memory, s->triangles);
+    iccp_free(&memory, s->factor);
     iccp_free(&memory, s->ends);
     iccp_free(&memory, s->share);
     iccp_free(&memory, s->hold);
@@ -41,14 +42,16 @@ void iccp_elastic_shape_release(iccp_elastic_shape *s)
     iccp_free(&memory, s);
 }
 
-static icc_status make_room(iccp_elastic_shape *s, size_t n_points, size_t n_triangles)
+static icc_status make_room(iccp_elastic_shape *s, size_t n_points, size_t n_triangles,
+                            size_t n_more)
 {
     const iccp_memory *memory = &s->memory;
     s->n_points = n_points;
     s->n_triangles = n_triangles;
+    s->n_more = n_more;
     s->given = iccp_alloc(memory, n_points, 2 * sizeof *s->given);
     s->points = iccp_alloc(memory, n_points, 2 * sizeof *s->points);
-    s->triangles = iccp_alloc(memory, n_triangles, 3 * sizeof *s->triangles);
+    s->triangles = iccp_alloc(memory, n_triangles + n_more, 3 * sizeof *s->triangles);
     s->hold = iccp_alloc_zero(memory, n_points, sizeof *s->hold);
     s->item = iccp_alloc(memory, n_points, sizeof *s->item);
     s->direction = iccp_alloc_zero(memory, n_points, 2 * sizeof *s->direction);
@@ -76,37 +79,78 @@ static icc_status copy_vertices(iccp_elastic_shape *s, const icc_mesh *mesh, icc
                            "a coordinate of the mesh is too small beside the others");
 }
 
-static icc_status copy_triangle(iccp_elastic_shape *s, const icc_mesh *mesh, size_t t,
-                                icc_error *err)
+/* Copies a triangle of a cell, counter-clockwise. *turn is 0 before the first one of the cell, and
+ * then 1 or -1: all of them must turn alike. */
+static icc_status copy_triangle(iccp_elastic_shape *s, size_t t, const uint32_t corners[3],
+                                size_t cell, int *turn, icc_error *err)
 {
-    const uint32_t *from = mesh->cells + 3 * t;
     uint32_t *to = s->triangles + 3 * t;
-    for (size_t k = 0; k < 3; ++k)
-        if (from[k] >= mesh->n_vertices)
-            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
-                                "triangle %zu has vertex %lu; there are %zu", t,
-                                (unsigned long)from[k], mesh->n_vertices);
-    memcpy(to, from, 3 * sizeof *to);
+    memcpy(to, corners, 3 * sizeof *to);
     const int sign = iccp_orient2d(s->points + 2 * (size_t)to[0], s->points + 2 * (size_t)to[1],
                                    s->points + 2 * (size_t)to[2]);
-    if (sign == 0)
-        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)t,
-                            "triangle %zu has no area", t);
+    if (sign == 0 || sign * *turn < 0)
+        return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)cell,
+                            sign == 0 ? "cell %zu has no area, or none at a corner"
+                                      : "cell %zu is a quadrilateral that is not convex",
+                            cell);
     if (sign < 0) {
-        to[1] = from[2];
-        to[2] = from[1];
+        to[1] = corners[2];
+        to[2] = corners[1];
     }
+    *turn = sign;
     return ICC_OK;
 }
 
-static icc_status shape_of_mesh(iccp_elastic_shape *s, const icc_mesh *mesh, icc_error *err)
+static const uint32_t *cell_of(const icc_mesh *mesh, size_t cell, size_t *n)
 {
-    icc_status status = make_room(s, mesh->n_vertices, mesh->n_cells);
+    const size_t begin = mesh->offsets != NULL ? mesh->offsets[cell] : 3 * cell;
+    *n = mesh->offsets != NULL ? mesh->offsets[cell + 1] - begin : 3;
+    return mesh->cells + begin;
+}
+
+/* Copies a cell, which becomes triangles from *t on. A quadrilateral also becomes the two
+ * triangles from *more on, and all four weigh half. */
+static icc_status copy_cell(iccp_elastic_shape *s, const icc_mesh *mesh, size_t cell, size_t *t,
+                            size_t *more, double stiffness, icc_error *err)
+{
+    size_t n;
+    int turn = 0;
+    const uint32_t *v = cell_of(mesh, cell, &n);
+    for (size_t k = 0; k < n; ++k)
+        if (v[k] >= mesh->n_vertices)
+            return iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_SIMPLEX, (int64_t)cell,
+                                "cell %zu has vertex %lu; there are %zu", cell, (unsigned long)v[k],
+                                mesh->n_vertices);
+    icc_status status = ICC_OK;
+    for (size_t k = 0; status == ICC_OK && k < (n == 4 ? 4 : 1); ++k) {
+        const uint32_t corners[3] = {v[k], v[(k + 1) % n], v[(k + 2) % n]};
+        const size_t at = k % 2 == 0 ? (*t)++ : (*more)++;
+        status = copy_triangle(s, at, corners, cell, &turn, err);
+        if (s->factor != NULL)
+            s->factor[at] = n == 4 ? stiffness / 2 : stiffness;
+    }
+    return status;
+}
+
+static icc_status shape_of_mesh(iccp_elastic_shape *s, const icc_mesh *mesh,
+                                const double *stiffness, icc_error *err)
+{
+    size_t n_quads = 0, t = 0, n;
+    for (size_t cell = 0; cell < mesh->n_cells; ++cell) {
+        (void)cell_of(mesh, cell, &n);
+        n_quads += n == 4;
+    }
+    icc_status status = make_room(s, mesh->n_vertices, mesh->n_cells + n_quads, 2 * n_quads);
+    size_t more = s->n_triangles;
     s->n_vertices = mesh->n_vertices;
+    if (status == ICC_OK && (n_quads > 0 || stiffness != NULL)) {
+        s->factor = iccp_alloc(&s->memory, s->n_triangles + s->n_more, sizeof *s->factor);
+        status = s->factor != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    }
     if (status == ICC_OK)
         status = copy_vertices(s, mesh, err);
-    for (size_t t = 0; status == ICC_OK && t < mesh->n_cells; ++t)
-        status = copy_triangle(s, mesh, t, err);
+    for (size_t cell = 0; status == ICC_OK && cell < mesh->n_cells; ++cell)
+        status = copy_cell(s, mesh, cell, &t, &more, stiffness != NULL ? stiffness[cell] : 1, err);
     return iccp_fail_side(err, status, status == ICC_OK || status == ICC_ERR_MEMORY ? 0 : 1);
 }
 
@@ -236,7 +280,7 @@ static void blame_item(const pins *p, size_t n, icc_error *err)
 static icc_status take_mesh(iccp_elastic_shape *s, iccp_pin_mesh *mesh, const icc_domain *domain,
                             iccp_told *told, const pins *p)
 {
-    const icc_status status = make_room(s, mesh->n_points, mesh->n_triangles);
+    const icc_status status = make_room(s, mesh->n_points, mesh->n_triangles, 0);
     if (status != ICC_OK)
         return status;
     memcpy(s->points, mesh->points, 2 * s->n_points * sizeof *s->points);
@@ -419,13 +463,14 @@ static icc_status make_elastic(iccp_elastic_shape *s, const icc_fit_options *opt
                                const iccp_env *env, icc_error *err)
 {
     const iccp_elastic_input input = {.n_points = s->n_points,
-                                      .n_triangles = s->n_triangles,
+                                      .n_triangles = s->n_triangles + s->n_more,
+                                      .n_more = s->n_more,
                                       .points = s->points,
                                       .corners = s->triangles,
                                       .hold = s->hold,
                                       .direction = s->direction,
                                       .stiffness = options->stiffness,
-                                      .cell_factor = options->cell_stiffness,
+                                      .cell_factor = s->factor,
                                       .reach = options->reach * s->frame.in[0] * s->frame.in[1],
                                       .contact = !options->no_contact};
     const icc_status status = iccp_elastic_create(&s->elastic, &input, env);
@@ -438,7 +483,7 @@ static icc_status create(iccp_elastic_shape *s, const icc_domain *domain, const 
                          iccp_told *told, const icc_fit_options *options, const iccp_env *env,
                          icc_error *err)
 {
-    icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, err)
+    icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, options->cell_stiffness, err)
                                      : shape_of_domain(s, domain, told, options, env, err);
     if (status == ICC_OK && mesh != NULL)
         status = find_in_mesh(s, told, env, err);

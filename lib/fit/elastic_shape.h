@@ -15,7 +15,11 @@ typedef struct iccp_elastic_shape {
     size_t n_points, n_triangles, n_vertices; /* n_vertices: of the caller's mesh or domain */
     double *given;                            /* 2 n_points, the caller's coordinates */
     double *points;                           /* 2 n_points, local */
-    uint32_t *triangles;                      /* 3 n_triangles, counter-clockwise */
+    /* 3 n_triangles, counter-clockwise. Then 3 n_more: the halves of quadrilaterals by their other
+     * diagonals */
+    uint32_t *triangles;
+    size_t n_more;
+    double *factor; /* of the weight of each of both; NULL: all are 1 */
     /* For each vertex that libicc made on a told edge: the ends of that edge, and its place there.
      * UINT32_MAX elsewhere. NULL for a mesh of the caller's. */
     uint32_t *ends;

@@ -338,6 +338,65 @@ START_TEST(walls_slide)
 }
 END_TEST
 
+/* The same cells as quadrilaterals stay convex, whatever the diagonal: the top is pushed aside until
+ * triangles alone would let some of them turn concave. */
+START_TEST(quadrilaterals_stay_convex)
+{
+    box_mesh b;
+    box_init(&b);
+    uint32_t cells[4 * CELLS * CELLS], held[2 * SIDE];
+    size_t offsets[CELLS * CELLS + 1], n = 0;
+    double to[4 * SIDE];
+    for (uint32_t v = 0; v < SIDE * SIDE; ++v)
+        for (size_t k = 0; v % SIDE < CELLS && v / SIDE < CELLS && k < 4; ++k)
+            cells[n++] = v + (uint32_t[]){0, 1, SIDE + 1, SIDE}[k];
+    for (size_t c = 0; c <= CELLS * CELLS; ++c)
+        offsets[c] = 4 * c;
+    b.mesh.n_cells = CELLS * CELLS;
+    b.mesh.cells = cells;
+    b.mesh.offsets = offsets;
+    for (uint32_t i = 0; i < SIDE; ++i) {
+        held[i] = i;
+        held[SIDE + i] = CELLS * SIDE + i;
+        for (size_t k = 0; k < 2; ++k) {
+            to[2 * i + k] = b.vertices[2 * i + k];
+            to[2 * (SIDE + i) + k] =
+                b.vertices[2 * held[SIDE + i] + k] + (k == 0 ? 1.5 : -0.1 * (i % 3));
+        }
+    }
+    const icc_constraint told = {.size = sizeof told,
+                                 .kind = ICC_CONSTRAINT_VERTICES,
+                                 .n = 2 * SIDE,
+                                 .vertices = held,
+                                 .target = to};
+    icc_fit *fit;
+    icc_error err = {.size = sizeof err};
+    ck_assert_msg(icc_fit_create(&fit, NULL, &b.mesh, 1, &told, NULL, NULL, &err) == ICC_OK, "%s",
+                  err.message);
+    check_certified(icc_fit_map(fit));
+    ck_assert_uint_eq(info_of(fit).n_off, 0);
+    double images[2 * SIDE * SIDE];
+    uint32_t triangles[6 * CELLS * CELLS];
+    icc_mesh mesh = {.size = sizeof mesh, .n_cells = 2 * CELLS * CELLS, .cells = triangles};
+    ck_assert_int_eq(icc_map_get_mesh(icc_fit_map(fit), &mesh, images), ICC_OK);
+    ck_assert_uint_eq(mesh.n_cells, 2 * CELLS * CELLS);
+    for (size_t c = 0; c < 4 * CELLS * CELLS; ++c) {
+        const double *p[3];
+        for (size_t k = 0; k < 3; ++k)
+            p[k] = images + 2 * (size_t)cells[c / 4 * 4 + (c + k) % 4];
+        ck_assert_double_gt((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
+                                (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]),
+                            0);
+    }
+    icc_fit_free(fit);
+    cells[1] = SIDE + 1; /* lists a vertex twice */
+    ck_assert_int_eq(icc_fit_create(&fit, NULL, &b.mesh, 1, &told, NULL, NULL, &err),
+                     ICC_ERR_BOUNDARY);
+    ck_assert_int_eq(err.side, 1);
+    ck_assert_int_eq(err.index, 0);
+}
+END_TEST
+
 /* ---- what is refused ---- */
 
 static void check_refused(icc_status status, const icc_domain *domain, const icc_mesh *mesh,
@@ -407,6 +466,7 @@ int main(void)
     tcase_add_test(tc, a_bar_bends);
     tcase_add_test(tc, told_edges_are_straight);
     tcase_add_test(tc, walls_slide);
+    tcase_add_test(tc, quadrilaterals_stay_convex);
     tcase_add_test(tc, wrong_requests_are_refused);
     suite_add_tcase(suite, tc);
     return suite_run(suite);

@@ -174,11 +174,15 @@ def _add_sliding(constraints: _Constraints, sliding: Any, places: Optional[Float
 
 
 def _mesh(mesh: Any) -> Tuple[Floats, Indices]:
-    """The arrays of a mesh of triangles: a pair, or a mesh of meshio."""
+    """The arrays of a mesh of triangles or of quadrilaterals: a pair, or a mesh of meshio."""
     if hasattr(mesh, "cells_dict"):
-        mesh = mesh.points[:, :2], mesh.cells_dict["triangle"]
-    vertices, triangles = mesh
-    return points_of(vertices, 2, "the vertices of the mesh"), indices(triangles, 3, "triangles")
+        kinds = [kind for kind in ("triangle", "quad") if kind in mesh.cells_dict]
+        if len(kinds) != 1:
+            raise ValueError("the mesh needs cells of one kind: triangles or quadrilaterals")
+        mesh = mesh.points[:, :2], mesh.cells_dict[kinds[0]]
+    vertices, cells = mesh
+    width = 4 if np.ndim(cells) == 2 and np.shape(cells)[1] == 4 else 3
+    return points_of(vertices, 2, "the vertices of the mesh"), indices(cells, width, "cells")
 
 
 def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, domain: Optional[ShapeLike] = None, *,
@@ -209,8 +213,8 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
             affine map
         domain: what the map covers; anything that `as_domain` takes. Its outline is free except for `vertices` and
             `sliding`. It may have holes but no lines and points. None: a box around the points
-        mesh: (vertices, triangles), (n, 2) and (m, 3), or a mesh of meshio. It is kept as it is and may have holes. It
-            comes instead of `domain`
+        mesh: (vertices, cells), (n, 2) and (m, 3) triangles or (m, 4) convex quadrilaterals, or a mesh of meshio. It is
+            kept as it is and may have holes. Quadrilaterals stay convex. It comes instead of `domain`
         lines: in a domain: pairs (before, after) of polylines, (k, 2) each. Vertex goes to vertex
         vertices: (numbers, places): vertices of the domain or the mesh, (k,), and where they go, (k, 2). An edge of the
             boundary goes along if both its ends are told
@@ -231,7 +235,7 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
             makes it, so a single point pulls a spike
         stiffness: elastic: triangles are stiffer by their area to the power of minus this number, from 0 to 3. With 1.5
             thin layers of cells move as if glued to their wall
-        cell_stiffness: elastic, with a mesh: a further factor above 0 for each triangle, (m,)
+        cell_stiffness: elastic, with a mesh: a further factor above 0 for each cell, (m,)
         cell: elastic: the longest edge of the mesh that libicc makes, a length in the source. None: chosen
         contact: elastic: parts of the free outline push each other away. False: the result is refused if they overlap
         progress, threads: as for `Domain`
@@ -284,6 +288,9 @@ def fit(points: Optional[ArrayLike] = None, to: Optional[ArrayLike] = None, doma
         factors = floats(cell_stiffness, (len(net[1]),), "cell_stiffness")
     options.box, options.cell_stiffness = address(corners), address(factors)
     own = None if net is None else mesh_of(*net)
+    starts = None if net is None else np.arange(0, net[1].size + 1, net[1].shape[1], dtype=np.uintp)
+    if own is not None and net is not None and net[1].shape[1] == 4:
+        own.offsets = address(starts)
     all_constraints = constraints.array()
     made = create(lib.fit_create, shape, None if own is None else ctypes.addressof(own), len(constraints),
                   ctypes.addressof(all_constraints), ctypes.addressof(options), progress=progress, threads=threads)

@@ -94,6 +94,21 @@ def test_a_wall_that_moves():
     assert np.allclose(along(vertices[sides])[:, 0], vertices[sides, 0])
 
 
+def test_quadrilaterals():
+    vertices, _ = grid(4, 3)
+    corner = np.add.outer(5 * np.arange(3), np.arange(4)).ravel()
+    cells = np.stack([corner, corner + 1, corner + 6, corner + 5], 1)
+    numbers = np.r_[np.arange(5), 15 + np.arange(5)]
+    places = vertices[numbers] + np.c_[np.repeat([0, 1.5], 5), np.zeros(10)]
+    mapping = libicc.fit(mesh=(vertices, cells), vertices=(numbers, places), stiffness=1.0)
+    before, after, triangles = mapping.mesh()
+    assert np.array_equal(before, vertices) and len(triangles) == 24
+    assert np.array_equal(after[numbers], places)
+    edges = np.roll(after[cells], -1, 1) - after[cells]
+    following = np.roll(edges, -1, 1)
+    assert (edges[..., 0] * following[..., 1] - edges[..., 1] * following[..., 0] > 0).all()
+
+
 def test_a_line_in_a_domain():
     square = np.array([[0, 0], [8, 0], [8, 8], [0, 8]], float)
     before, after = [[2, 4], [6, 4]], [[2.5, 3.5], [5.5, 4.5]]

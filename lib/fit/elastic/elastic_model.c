@@ -174,25 +174,20 @@ static void set_springs(iccp_elastic *s)
 /* Finds the rings of the boundary, and the bending matrix. */
 static icc_status find_outlines(iccp_elastic *s, double reach, const iccp_env *env)
 {
-    iccp_corners corners = {.vertex = s->corners, .n_triangles = s->n_triangles};
+    iccp_corners corners = {.vertex = s->corners, .n_triangles = s->n_mesh};
     uint32_t *next = iccp_alloc(&s->memory, s->n_points, sizeof *next);
     bool is_manifold = false;
-    corners.twin = iccp_alloc(&s->memory, s->n_triangles, 3 * sizeof *corners.twin);
+    corners.twin = iccp_alloc(&s->memory, s->n_mesh, 3 * sizeof *corners.twin);
     icc_status status = ICC_ERR_MEMORY;
     if (next != NULL && corners.twin != NULL)
         status = iccp_find_twins(&corners, s->n_points, &is_manifold, env);
-    if (status == ICC_OK && !is_manifold)
+    if (status == ICC_OK && (!is_manifold || !iccp_link_boundary(&corners, s->n_points, next)))
         status = ICC_ERR_BOUNDARY;
-    if (status == ICC_OK) {
-        memset(next, 0xff, s->n_points * sizeof *next);
-        for (uint32_t c = 0; c < 3 * s->n_triangles; ++c)
-            if (corners.twin[c] == ICCP_NO_NEIGHBOUR)
-                next[s->corners[iccp_after(c)]] = s->corners[iccp_before(c)];
-        status = iccp_outlines_create(&s->outlines, s->n_points, next, &s->memory);
-    }
     if (status == ICC_OK)
-        status = iccp_reach_create(&s->reach, reach, s->n_points, s->points, s->n_triangles,
-                                   s->corners, corners.twin, env);
+        status = iccp_outlines_create(&s->outlines, s->n_points, next, &s->memory);
+    if (status == ICC_OK)
+        status = iccp_reach_create(&s->reach, reach, s->n_points, s->points, s->n_mesh, s->corners,
+                                   corners.twin, env);
     iccp_free(&s->memory, next);
     iccp_free(&s->memory, corners.twin);
     return status;
@@ -231,6 +226,7 @@ icc_status iccp_elastic_create(iccp_elastic **out, const iccp_elastic_input *inp
     atomic_init(&s->references, 1);
     s->n_points = input->n_points;
     s->n_triangles = input->n_triangles;
+    s->n_mesh = input->n_triangles - input->n_more;
     s->contact = input->contact;
     const icc_status status = set_up(s, input, &quiet);
     if (status != ICC_OK) {

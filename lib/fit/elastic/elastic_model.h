@@ -34,6 +34,9 @@ typedef struct iccp_elastic_input {
     size_t n_points, n_triangles;
     const double *points;    /* 2 n_points */
     const uint32_t *corners; /* 3 n_triangles, exactly positive; the outlines are simple */
+    /* The last ones of these are no part of the mesh. They only count in the energy, and stay
+     * positive: the other halves of quadrilaterals */
+    size_t n_more;
     const uint8_t *hold;     /* n_points: ICCP_LOOSE, ICCP_HELD or ICCP_SLIDING */
     const double *direction; /* 2 n_points: of sliding vertices, of any length; NULL: none slides */
     double stiffness;        /* triangles are stiffer by their area to the power of minus this */

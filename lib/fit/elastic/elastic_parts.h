@@ -28,6 +28,7 @@ struct iccp_elastic {
     iccp_memory memory;
     atomic_size_t references;
     size_t n_points, n_triangles;
+    size_t n_mesh; /* the first triangles, which form the mesh */
     double *points;
     uint32_t *corners;
     uint8_t *hold;
