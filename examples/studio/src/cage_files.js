@@ -1,10 +1,8 @@
 // Pictures, cages and links that come in and go out of mode cage.
-import { download, draw, pick } from './dom.js';
-import { readShape, writeGeoJson, writeText } from './formats.js';
+import { download, pick } from './dom.js';
+import { isPicture, saveWarped, shapeFrom } from './files.js';
+import { writeGeoJson, writeText } from './formats.js';
 import { writeLink } from './link.js';
-import { boxOf } from './shape.js';
-
-const SMALL = 1 / 8;           // of the picture: a cage that is smaller is made larger
 
 export class CageFiles {
   #mode; #remote; #say;
@@ -17,22 +15,11 @@ export class CageFiles {
   /** A file that was opened, dropped or pasted: a picture or a cage. */
   async take(file) {
     try {
-      if (file.type.startsWith('image/') && file.type !== 'image/svg+xml') this.#mode.own(await createImageBitmap(file));
-      else this.#mode.edit(this.#fitted(readShape(await file.text(), draw)));
+      if (isPicture(file)) this.#mode.own(await createImageBitmap(file));
+      else this.#mode.edit(await shapeFrom(file, this.#mode.image));
     } catch (error) {
       this.#say(`${file.name || 'What was pasted'} could not be read. ${error.message}`);
     }
-  }
-
-  /** A shape as it is, or scaled to the picture when it does not lie there. */
-  #fitted(shape) {
-    const { width: w, height: h } = this.#mode.image;
-    const [left, top, right, bottom] = boxOf(shape.flatMap((part) => part.points));
-    const away = left < -w || top < -h || right > 2 * w || bottom > 2 * h;
-    if (!away && Math.max(right - left, bottom - top) > w * SMALL) return shape;
-    const scale = 0.8 * Math.min(w / (right - left), h / (bottom - top));
-    return shape.map((part) => ({ ...part, points: part.points.map(([x, y]) =>
-      [w / 2 + (x - (left + right) / 2) * scale, h / 2 + (y - (top + bottom) / 2) * scale]) }));
   }
 
   saveCage(format) {
@@ -42,18 +29,7 @@ export class CageFiles {
     download(`after.${ending}`, write(target), type);
   }
 
-  /** The picture as the library warps it, in its own size. */
-  async savePicture() {
-    const { image } = this.#mode, { width, height } = image;
-    const sheet = Object.assign(document.createElement('canvas'), { width, height }), g = sheet.getContext('2d');
-    g.drawImage(image, 0, 0);
-    const picture = g.getImageData(0, 0, width, height);
-    const { pixels, error } = await this.#remote.call('cage.warp',
-      { picture: { width, height, data: picture.data }, width, height });
-    if (error) { this.#say(error.message); return; }
-    g.putImageData(new ImageData(pixels, width, height), 0, 0);
-    sheet.toBlob((blob) => download('warped.png', blob));
-  }
+  savePicture() { return saveWarped(this.#remote, 'cage.warp', this.#mode.image, this.#say); }
 
   async copyLink() {
     location.hash = await writeLink(this.#mode.state);

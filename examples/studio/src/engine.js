@@ -2,6 +2,7 @@
 // and give plain values.
 import { cageOperations } from './cage_engine.js';
 import { handleOperations } from './handle_engine.js';
+import { pinOperations } from './pin_engine.js';
 import { stageOperations } from './stage_engine.js';
 import { spaceOperations } from './space_engine.js';
 
@@ -19,7 +20,8 @@ const answering = (icc, operation) => (argument) => {
 /** The operations by their names, as serve() takes them. */
 export function operationsOf(icc) {
   const all = {
-    ...cageOperations(icc), ...handleOperations(icc), ...stageOperations(icc), ...spaceOperations(icc),
+    ...cageOperations(icc), ...handleOperations(icc), ...pinOperations(icc),
+    ...stageOperations(icc), ...spaceOperations(icc),
     version: () => ({ version: icc.version }),
   };
   return Object.fromEntries(Object.keys(all).map((name) => [name, answering(icc, (argument) => all[name](argument))]));

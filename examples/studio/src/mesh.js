@@ -52,8 +52,8 @@ export function linesOf(triangles) {
   return Uint32Array.from(lines);
 }
 
-/** The outline of the images: edges of one triangle only, in the order of their ring. */
-export function rimOf({ images, triangles }) {
+/** The rings around the images: edges of one triangle only, in their order. The first is not always the outer one. */
+export function rimsOf({ images, triangles }) {
   const edges = new Set(), next = new Map();
   for (let t = 0; t < triangles.length; t += 3)
     for (let k = 0; k < 3; ++k) edges.add(triangles[t + k] * MOST_VERTICES + triangles[t + ((k + 1) % 3)]);
@@ -61,7 +61,17 @@ export function rimOf({ images, triangles }) {
     const a = Math.floor(key / MOST_VERTICES), b = key % MOST_VERTICES;
     if (!edges.has(b * MOST_VERTICES + a)) next.set(a, b);
   }
-  const rim = [];
-  for (let [at] = next.keys(); rim.length < next.size; at = next.get(at)) rim.push([images[2 * at], images[2 * at + 1]]);
-  return rim;
+  const rims = [];
+  while (next.size > 0) {
+    const rim = [];
+    for (let [at] = next.keys(), to; (to = next.get(at)) !== undefined; at = to) {
+      rim.push([images[2 * at], images[2 * at + 1]]);
+      next.delete(at);
+    }
+    rims.push(rim);
+  }
+  return rims;
 }
+
+/** The outline of images without holes. */
+export const rimOf = (mesh) => rimsOf(mesh)[0];

@@ -20,7 +20,7 @@ const KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDo
  */
 export class Overlay {
   #panel; #acts; #shape = null; #handles = []; #held = new Map(); #paths = []; #marks; #bad = new Set();
-  #placed = null; #unit = 0;
+  #placed = null; #unit = 0; #labels = [];
 
   constructor(panel, acts) {
     this.#panel = panel;
@@ -41,14 +41,15 @@ export class Overlay {
 
   get busy() { return this.#held.size > 0; }
 
-  /** Shows a shape. Elements are made anew only when its make-up changes. */
-  show(shape, { editable = true, bad = [] } = {}) {
+  /** Shows a shape, red edges, and red words { text, at }. Elements are made anew only when its make-up changes. */
+  show(shape, { editable = true, bad = [], labels = [] } = {}) {
     const before = this.#shape;
     const alike = before && editable === this.editable && before.length === shape.length
       && before.every((part, k) => part.kind === shape[k].kind && part.points.length === shape[k].points.length);
     this.#shape = shape;
     this.editable = editable;
     this.#bad = new Set(bad);
+    this.#labels = labels;
     if (!alike) this.#build();
     this.#place();
   }
@@ -109,16 +110,15 @@ export class Overlay {
     this.#unit = u;
   }
 
-  /** Edges that are in each other's way: red, with their numbers. */
+  /** Edges that are in each other's way: red, with their numbers. And the labels. */
   #placeBad(u) {
     const outline = this.#shape[0].points, n = outline.length;
     const edges = [...this.#bad].filter((i) => i < n).map((i) => ({ name: String(i + 1), ends: [outline[i], outline[(i + 1) % n]] }));
-    if (edges.length === 0 && !this.bad.getAttribute('d')) return;
+    if (edges.length + this.#labels.length === 0 && !this.bad.getAttribute('d') && !this.numbers.firstChild) return;
     this.bad.setAttribute('d', edges.map(({ ends: [a, b] }) => `M${a.join()}L${b.join()}`).join(''));
-    this.numbers.replaceChildren(...edges.map(({ name, ends }) => {
-      const [x, y] = centreOf(ends);
-      return draw('text', { class: 'number', x, y, 'font-size': NUMBER * u }, name);
-    }));
+    const words = [...edges.map(({ name, ends }) => ({ text: name, at: centreOf(ends) })), ...this.#labels];
+    this.numbers.replaceChildren(...words.map(({ text, at: [x, y] }) =>
+      draw('text', { class: 'number', x, y, 'font-size': NUMBER * u }, text)));
   }
 
   #placeOne(handle, u) {

@@ -5,8 +5,9 @@ import { draw } from './dom.js';
 const textOf = (point) => `${point[0].toFixed(1)}, ${point[1].toFixed(1)}`;
 const spot = (panel, at) => draw('circle', { class: 'spot', cx: at[0], cy: at[1], r: 5 * panel.unit });
 
-/** Marks them in the panels `before` and `after` of a mode, while nothing is drawn or dragged there. */
-export function watchPointer(mode, drawings, remote) {
+/** Marks them in the panels `before` and `after` of a mode, while nothing is drawn or dragged there. `operation` maps points.
+ *  Returns what clears the marks. */
+export function watchPointer(mode, drawings, remote, operation = 'cage.points') {
   const { before, after, overlays } = mode, drawing = () => drawings.some((d) => d.active);
   const clear = () => {
     for (const side of ['before', 'after']) {
@@ -20,7 +21,7 @@ export function watchPointer(mode, drawings, remote) {
     here.svg.addEventListener('pointermove', (event) => {
       if (drawing() || Object.values(overlays).some((o) => o.busy)) return;
       const at = here.at(event);
-      ask(remote, 'spot', 'cage.points', { points: Float64Array.from(at), forth }, ({ points }) => {
+      ask(remote, 'spot', operation, { points: Float64Array.from(at), forth }, ({ points }) => {
         if (drawing()) return;
         if (!points?.length || Number.isNaN(points[0])) {
           clear();
@@ -33,4 +34,5 @@ export function watchPointer(mode, drawings, remote) {
       });
     });
   }
+  return clear;
 }

@@ -1,13 +1,11 @@
 // Shapes with handles to begin with: those of the thesis, and the cage of mode cage.
-import { SAMPLES, mirrored } from './samples.js';
+import { SAMPLES } from './samples.js';
 
 const star = Array.from({ length: 10 }, (_, k) => {
   const r = k % 2 ? 112 : 262, a = (k * Math.PI) / 5 - Math.PI / 2;
   return [320 + r * Math.cos(a), 345 + r * Math.sin(a)];
 });
 const frame = [[64, 64], [576, 64], [576, 576], [64, 576]];
-const figure = mirrored([[320, 66], [364, 82], [384, 128], [366, 172], [340, 192], [352, 208], [520, 206], [532, 228], [520, 252],
-  [358, 262], [354, 384], [444, 560], [428, 586], [398, 582], [320, 432]]);
 const joints = [[320, 112], [320, 230], [320, 388], [430, 230], [510, 229], [210, 230], [130, 229], [370, 482], [418, 566],
   [270, 482], [222, 566]];
 
@@ -17,7 +15,7 @@ const caged = (sample, outline) => ({ sample, outline, handles: outline, bones: 
 /** name -> [what it is called, { sample, outline, handles, bones, method, grid }] */
 export const RIGS = {
   star: ['Star, 10 handles', { ...caged('squares', star), method: 'l1' }],
-  figure: ['Stick figure, bones', { sample: 'squares', outline: figure, handles: joints,
+  figure: ['Stick figure, bones', { sample: 'squares', outline: SAMPLES.figure[2], handles: joints,
     bones: [[0, 1], [1, 2], [1, 3], [3, 4], [1, 5], [5, 6], [2, 7], [7, 8], [2, 9], [9, 10]] }],
   butterfly: ['Butterfly, a cage', { ...caged('butterfly', SAMPLES.butterfly[2]), method: 'l1' }],
   frame: ['Rectangle, 4 corners', { ...caged('squares', frame), grid: true }],

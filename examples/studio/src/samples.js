@@ -141,7 +141,36 @@ const around = ([left, top, right, bottom], per) => {
     a.map((v, axis) => v + ((corners[(k + 1) % 4][axis] - v) * i) / per)));
 };
 
-export const mirrored = (half) => [...half, ...half.filter(([x]) => x !== 320).reverse().map(([x, y]) => [640 - x, y])];
+const mirrored = (half) => [...half, ...half.filter(([x]) => x !== 320).reverse().map(([x, y]) => [640 - x, y])];
+
+const FIGURE = mirrored([[320, 66], [364, 82], [384, 128], [366, 172], [340, 192], [352, 208], [520, 206], [532, 228], [520, 252],
+  [358, 262], [354, 384], [444, 560], [428, 586], [398, 582], [320, 432]]);
+
+function figure() {
+  const [c, g] = canvas(), path = new Path2D(`M${FIGURE.map((p) => p.join()).join('L')}Z`);
+  backdrop(g, '#e4edf2', '#c9dbe3', 'rgba(40,80,100,.13)');
+  g.save();
+  g.clip(path);
+  curve(g, '#a8652f', 'M0 0H640V640H0Z');
+  g.strokeStyle = 'rgba(80,38,12,.35)';
+  g.lineWidth = 3;
+  g.beginPath();
+  for (let k = 0; k < SIZE; k += 24) { g.moveTo(0, k); g.lineTo(SIZE, k); g.moveTo(k + 8, 0); g.lineTo(k + 8, SIZE); }
+  g.stroke();
+  g.strokeStyle = '#fbf3e4';
+  g.lineWidth = 12;
+  g.lineJoin = 'round';
+  g.stroke(path);
+  g.restore();
+  for (const x of [298, 342]) blob(g, '#2a1a10', x, 112, 6, 8);
+  g.strokeStyle = '#fbf3e4';
+  g.lineWidth = 5;
+  g.lineCap = 'round';
+  g.stroke(new Path2D('M296 138Q320 162 344 138'));
+  for (const [y, fill] of [[250, '#c8372d'], [296, '#2f8f5b'], [342, '#c8372d']]) blob(g, fill, 320, y, 10, 10);
+  for (const x of [176, 464]) { g.strokeStyle = '#fbf3e4'; g.stroke(new Path2D(`M${x} 212l8 12l-8 12l8 12`)); }
+  return c;
+}
 
 /** name -> [what it is called, the picture, its cage] */
 export const SAMPLES = {
@@ -150,5 +179,6 @@ export const SAMPLES = {
   owl: ['Owl', owl, mirrored([[320, 160], [468, 126], [490, 250], [512, 360], [480, 480], [410, 580], [320, 604]])],
   squares: ['Squares', squares, around([40, 40, 600, 600], 4)],
   harbour: ['Harbour', harbour, around([64, 64, 576, 576], 3)],
+  figure: ['Gingerbread figure', figure, FIGURE],
   letter: ['Letter', letter, around([110, 90, 560, 545], 5)],
 };
