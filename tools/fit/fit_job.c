@@ -50,7 +50,8 @@ int fit_take_cages(job *j)
     return result;
 }
 
-static int read_points(fit_job *f, const char *name)
+/* Pins of a figure are never turned over: limbs that cross or bend may look mirrored. */
+static int read_points(fit_job *f, const char *name, bool are_pins)
 {
     int result = control_read(&f->points, name);
     if (result == DONE && f->points.n == 0)
@@ -58,7 +59,7 @@ static int read_points(fit_job *f, const char *name)
                         f->points.n_disabled > 0 ? ": all of them are disabled" : "");
     if (result != DONE)
         return result;
-    f->turned = affine_mirrors(&f->points);
+    f->turned = !are_pins && affine_mirrors(&f->points);
     f->affine = need(f->points.n, 2 * sizeof *f->affine);
     f->residuals = need(f->points.n, 2 * sizeof *f->residuals);
     f->left_out = need(f->points.n, 2 * sizeof *f->left_out);
@@ -185,7 +186,7 @@ static void start_job(fit_job *f, const args *a)
 int fit_job_start(fit_job *f, const args *a)
 {
     *f = (fit_job){.turned = false};
-    int result = read_points(f, a->operands[0]);
+    int result = read_points(f, a->operands[0], a->outline != NULL);
     start_job(f, a);
     if (result == DONE && a->outline != NULL)
         result = read_outline(f, a);

@@ -164,16 +164,21 @@ static icc_status read_mesh(maker *m, const iccp_env *env, icc_error *err)
 
 /* ---- the images ---- */
 
+/* The areas of the images add up to what the image of the boundary encloses. */
 static icc_status check_mirror(const maker *m, icc_error *err)
 {
     const uint32_t *v = m->map.corners.vertex;
     const double *q = m->map.images;
-    for (size_t t = 0; t < m->map.corners.n_triangles; ++t, v += 3)
-        if (iccp_orient2d(q + 2 * (size_t)v[0], q + 2 * (size_t)v[1], q + 2 * (size_t)v[2]) >= 0)
-            return ICC_OK;
-    return iccp_fail(err, ICC_ERR_ARGUMENT,
-                     "the images are a mirror image: every triangle is reversed. Change the sign "
-                     "of one coordinate of all images");
+    double area = 0;
+    for (size_t t = 0; t < m->map.corners.n_triangles; ++t, v += 3) {
+        const double *a = q + 2 * (size_t)v[0], *b = q + 2 * (size_t)v[1],
+                     *c = q + 2 * (size_t)v[2];
+        area += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    }
+    return area >= 0 ? ICC_OK
+                     : iccp_fail(err, ICC_ERR_ARGUMENT,
+                                 "the images are a mirror image: their boundary runs the other way "
+                                 "round. Change the sign of one coordinate of all images");
 }
 
 static bool is_at(const double *p, const double *q)
