@@ -20,12 +20,16 @@ if [ ! -d "$folder/node_modules/puppeteer-core" ]; then
     quietly "$folder/npm.log" npm install --silent --no-audit --no-fund --prefix "$folder" puppeteer-core@24
 fi
 [ "${1:-}" != --long ] || export STUDIO_LONG=1
-# A native build, if there is one, has to give the same poses.
+# A native build, if there is one, has to give the same poses, and the same maps from control points.
 poses=
 for program in "$PWD"/build/*/tests/poses; do
     [ ! -x "$program" ] || poses=$program
 done
+libicc=
+for program in "$PWD"/build/*/tools/libicc; do
+    [ ! -x "$program" ] || libicc=$program
+done
 STUDIO=$PWD/build/wasm/studio.html STUDIO_PACKAGE=$PWD/build/wasm/package \
     TUTORIAL=$PWD/docs/tutorials/browser.md CHROMIUM=$(command -v chromium) \
-    SHOTS=$folder/shots LIVE=$PWD/docs/live.js POSES=$poses \
+    SHOTS=$folder/shots LIVE=$PWD/docs/live.js POSES=$poses LIBICC=$libicc \
     node --test --test-reporter=spec "$folder"/*.test.js

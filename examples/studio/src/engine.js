@@ -2,6 +2,7 @@
 // and give plain values.
 import { cageOperations } from './cage_engine.js';
 import { handleOperations } from './handle_engine.js';
+import { pairOperations } from './pair_engine.js';
 import { pinOperations } from './pin_engine.js';
 import { stageOperations } from './stage_engine.js';
 import { spaceOperations } from './space_engine.js';
@@ -20,7 +21,7 @@ const answering = (icc, operation) => (argument) => {
 /** The operations by their names, as serve() takes them. */
 export function operationsOf(icc) {
   const all = {
-    ...cageOperations(icc), ...handleOperations(icc), ...pinOperations(icc),
+    ...cageOperations(icc), ...handleOperations(icc), ...pinOperations(icc), ...pairOperations(icc),
     ...stageOperations(icc), ...spaceOperations(icc),
     version: () => ({ version: icc.version }),
   };

@@ -19,14 +19,15 @@ export async function shapeFrom(file, { width: w, height: h }) {
     [w / 2 + (x - (left + right) / 2) * scale, h / 2 + (y - (top + bottom) / 2) * scale]) }));
 }
 
-/** Saves the picture as the library warps it by `operation`, in its own size. */
-export async function saveWarped(remote, operation, image, say) {
+/** Saves the picture as the library warps it by `operation`, in its own size or that of `to`. */
+export async function saveWarped(remote, operation, image, say, to = image) {
   const { width, height } = image;
   const sheet = Object.assign(document.createElement('canvas'), { width, height }), g = sheet.getContext('2d');
   g.drawImage(image, 0, 0);
   const picture = g.getImageData(0, 0, width, height);
-  const { pixels, error } = await remote.call(operation, { picture: { width, height, data: picture.data }, width, height });
+  const { pixels, error } = await remote.call(operation, { picture: { width, height, data: picture.data }, width: to.width, height: to.height });
   if (error) { say(error.message); return; }
-  g.putImageData(new ImageData(pixels, width, height), 0, 0);
+  [sheet.width, sheet.height] = [to.width, to.height];
+  g.putImageData(new ImageData(pixels, to.width, to.height), 0, 0);
   sheet.toBlob((blob) => download('warped.png', blob));
 }

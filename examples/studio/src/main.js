@@ -2,6 +2,7 @@
 import { $, button, make } from './dom.js';
 import { CageMode } from './cage.js';
 import { HandleMode } from './handles.js';
+import { PairMode } from './pairs.js';
 import { PinMode } from './pins.js';
 import { StageMode } from './stages.js';
 import { SpaceMode } from './space.js';
@@ -10,8 +11,8 @@ import { Remote, serve } from 'libicc';
 import { operationsOf } from './engine.js';
 
 const UNDO = 'M8 5L4 9l4 4M4 9h9a6 6 0 0 1 0 12h-3', REDO = 'M16 5l4 4-4 4M20 9h-9a6 6 0 0 0 0 12h3';
-const MODES = { cage: ['Cage', CageMode], pins: ['Pins', PinMode], handles: ['Handles', HandleMode], stages: ['Stages', StageMode],
-  space: ['Space', SpaceMode] };
+const MODES = { cage: ['Cage', CageMode], pins: ['Pins', PinMode], points: ['Points', PairMode], handles: ['Handles', HandleMode],
+  stages: ['Stages', StageMode], space: ['Space', SpaceMode] };
 const SHOWN_MS = 5000;
 
 async function unpack(text) {

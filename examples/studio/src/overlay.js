@@ -41,7 +41,7 @@ export class Overlay {
 
   get busy() { return this.#held.size > 0; }
 
-  /** Shows a shape, red edges, and red words { text, at }. Elements are made anew only when its make-up changes. */
+  /** Shows a shape, red edges, and words { text, at, kind }. Elements are made anew only when its make-up changes. */
   show(shape, { editable = true, bad = [], labels = [] } = {}) {
     const before = this.#shape;
     const alike = before && editable === this.editable && before.length === shape.length
@@ -117,8 +117,8 @@ export class Overlay {
     if (edges.length + this.#labels.length === 0 && !this.bad.getAttribute('d') && !this.numbers.firstChild) return;
     this.bad.setAttribute('d', edges.map(({ ends: [a, b] }) => `M${a.join()}L${b.join()}`).join(''));
     const words = [...edges.map(({ name, ends }) => ({ text: name, at: centreOf(ends) })), ...this.#labels];
-    this.numbers.replaceChildren(...words.map(({ text, at: [x, y] }) =>
-      draw('text', { class: 'number', x, y, 'font-size': NUMBER * u }, text)));
+    this.numbers.replaceChildren(...words.map(({ text, kind = '', at: [x, y] }) =>
+      draw('text', { class: `number ${kind}`, x, y, 'font-size': NUMBER * u }, text)));
   }
 
   #placeOne(handle, u) {

@@ -307,7 +307,7 @@ test('space: the bar is bent and cut, certified', async () => {
 });
 
 test('every control has a name and is 24 pixels across at least', async () => {
-  for (const mode of ['cage', 'pins', 'handles', 'stages', 'space']) {
+  for (const mode of ['cage', 'pins', 'points', 'handles', 'stages', 'space']) {
     await page.click(`[data-mode=${mode}]`);
     await settle(page);
     const bad = await page.evaluate(() => [...document.querySelectorAll('button, select, input, [role=button], canvas[tabindex]')]
