@@ -38,7 +38,7 @@ void iccp_elastic_shape_release(iccp_elastic_shape *s)
     iccp_free(&memory, s->hold);
     iccp_free(&memory, s->item);
     iccp_free(&memory, s->direction);
-    iccp_elastic_release(s->elastic);
+    iccp_elastic_free(s->elastic);
     iccp_free(&memory, s);
 }
 

@@ -140,7 +140,7 @@ static void give_back(const spline_job *j, double *points, double *images)
         iccp_frame_out(&j->frame[1], 2, s->map.images + 2 * v, images + 2 * v);
     }
     for (size_t i = 0; i < told->n; ++i) {
-        const size_t v = s->vertices[s->control.number[i]];
+        const size_t v = s->control.number[i];
         memcpy(points + 2 * v, told->source + 2 * i, 2 * sizeof *points);
         if (s->map.fixed[v] == ICCP_ON_POINT)
             memcpy(images + 2 * v, told->target + 2 * i, 2 * sizeof *images);
@@ -174,8 +174,8 @@ static void note_residuals(spline_job *j, const double *images)
     double sum = 0;
     for (size_t i = 0; i < fit->told.n; ++i)
         for (size_t k = 0; k < 2; ++k) {
-            const double off = images[2 * (size_t)s->vertices[s->control.number[i]] + k] -
-                               fit->told.target[2 * i + k];
+            const double off =
+                images[2 * (size_t)s->control.number[i] + k] - fit->told.target[2 * i + k];
             fit->residuals[2 * i + k] = off;
             fit->left_out[2 * i + k] =
                 s->left_out[2 * i + k] * j->frame[1].out[0] * j->frame[1].out[1];

@@ -223,30 +223,22 @@ icc_status iccp_elastic_create(iccp_elastic **out, const iccp_elastic_input *inp
     const iccp_env quiet = iccp_quiet(env);
     s->memory = s->plan.assembly.memory = s->plan.factor.memory = s->outlines.memory =
         s->reach.memory = s->reach.gram.memory = env->memory;
-    atomic_init(&s->references, 1);
     s->n_points = input->n_points;
     s->n_triangles = input->n_triangles;
     s->n_mesh = input->n_triangles - input->n_more;
     s->contact = input->contact;
     const icc_status status = set_up(s, input, &quiet);
     if (status != ICC_OK) {
-        iccp_elastic_release(s);
+        iccp_elastic_free(s);
         *out = NULL;
     }
     return status;
 }
 
-iccp_elastic *iccp_elastic_retain(iccp_elastic *elastic)
-{
-    if (elastic != NULL)
-        atomic_fetch_add(&elastic->references, 1);
-    return elastic;
-}
-
-void iccp_elastic_release(iccp_elastic *elastic)
+void iccp_elastic_free(iccp_elastic *elastic)
 {
     iccp_elastic *s = elastic;
-    if (s == NULL || atomic_fetch_sub(&s->references, 1) != 1)
+    if (s == NULL)
         return;
     const iccp_memory memory = s->memory;
     iccp_elastic_plan_free(&s->plan, &memory);

@@ -53,8 +53,7 @@ typedef struct iccp_elastic iccp_elastic;
 /* Returns ICC_ERR_BOUNDARY if boundary edges do not form rings. */
 icc_status iccp_elastic_create(iccp_elastic **out, const iccp_elastic_input *input,
                                const iccp_env *env);
-iccp_elastic *iccp_elastic_retain(iccp_elastic *elastic);
-void iccp_elastic_release(iccp_elastic *elastic);
+void iccp_elastic_free(iccp_elastic *elastic);
 
 typedef struct iccp_elastic_report {
     size_t n_off;        /* vertices that are not at their targets or on their lines */

@@ -9,8 +9,6 @@
 #include "map/energy/assembly.h"
 #include "math/ldlt.h"
 
-#include <stdatomic.h>
-
 /* The places of the Hessian's entries and the order of elimination. They serve the triangles, the
  * bending and pairs that may touch. For the pattern, links (reach.h) and pairs (a, b, p) count as
  * further triangles. */
@@ -26,7 +24,6 @@ typedef struct iccp_elastic_plan {
 
 struct iccp_elastic {
     iccp_memory memory;
-    atomic_size_t references;
     size_t n_points, n_triangles;
     size_t n_mesh; /* the first triangles, which form the mesh */
     double *points;

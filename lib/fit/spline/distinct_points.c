@@ -76,37 +76,6 @@ static icc_status allocate(iccp_distinct_points *c, size_t n)
                : ICC_ERR_MEMORY;
 }
 
-icc_status iccp_distinct_points_create(iccp_distinct_points *control, size_t n,
-                                       const double *points, const double *targets,
-                                       const double *tolerances, const iccp_env *env,
-                                       icc_error *err)
-{
-    *control = (iccp_distinct_points){.memory = env->memory};
-    uint32_t *order = iccp_alloc(&env->memory, n, 2 * sizeof *order);
-    icc_status status = allocate(control, n);
-    if (order == NULL)
-        status = ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        sort_points(order, order + n, n, points);
-        find_first(points, n, order, order + n);
-        number_points(control, n, points, order + n);
-        status = iccp_distinct_points_aim(control, n, targets, tolerances, env, err);
-    }
-    iccp_free(&env->memory, order);
-    if (status != ICC_OK)
-        iccp_distinct_points_free(control);
-    return status;
-}
-
-void iccp_distinct_points_free(iccp_distinct_points *control)
-{
-    iccp_free(&control->memory, control->number);
-    iccp_free(&control->memory, control->points);
-    iccp_free(&control->memory, control->targets);
-    iccp_free(&control->memory, control->tolerances);
-    *control = (iccp_distinct_points){.memory = control->memory};
-}
-
 /* Returns the first of the given points with a number. */
 static size_t first_given(const iccp_distinct_points *c, uint32_t number)
 {
@@ -151,24 +120,56 @@ static icc_status check_targets(const iccp_distinct_points *c, const iccp_env *e
     return status;
 }
 
-icc_status iccp_distinct_points_aim(iccp_distinct_points *control, size_t n, const double *targets,
-                                    const double *tolerances, const iccp_env *env, icc_error *err)
+/* Merges the targets of points that coincide. */
+static icc_status merge_targets(iccp_distinct_points *c, size_t n, const double *targets,
+                                const double *tolerances, const iccp_env *env, icc_error *err)
 {
     uint32_t next = 0;
     for (size_t i = 0; i < n; ++i) {
-        const uint32_t k = control->number[i];
+        const uint32_t k = c->number[i];
         const double tolerance = tolerances != NULL ? tolerances[i] : 0;
         if (k == next) {
-            memcpy(control->targets + 2 * (size_t)k, targets + 2 * i, 2 * sizeof *targets);
-            control->tolerances[k] = tolerance;
+            memcpy(c->targets + 2 * (size_t)k, targets + 2 * i, 2 * sizeof *targets);
+            c->tolerances[k] = tolerance;
             ++next;
-        } else if (!merge(control, k, targets + 2 * i, tolerance)) {
+        } else if (!merge(c, k, targets + 2 * i, tolerance)) {
             return iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
                                 "points %zu and %zu coincide and have different targets",
-                                first_given(control, k), i);
+                                first_given(c, k), i);
         }
     }
-    return check_targets(control, env, err);
+    return check_targets(c, env, err);
+}
+
+icc_status iccp_distinct_points_create(iccp_distinct_points *control, size_t n,
+                                       const double *points, const double *targets,
+                                       const double *tolerances, const iccp_env *env,
+                                       icc_error *err)
+{
+    *control = (iccp_distinct_points){.memory = env->memory};
+    uint32_t *order = iccp_alloc(&env->memory, n, 2 * sizeof *order);
+    icc_status status = allocate(control, n);
+    if (order == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        sort_points(order, order + n, n, points);
+        find_first(points, n, order, order + n);
+        number_points(control, n, points, order + n);
+        status = merge_targets(control, n, targets, tolerances, env, err);
+    }
+    iccp_free(&env->memory, order);
+    if (status != ICC_OK)
+        iccp_distinct_points_free(control);
+    return status;
+}
+
+void iccp_distinct_points_free(iccp_distinct_points *control)
+{
+    iccp_free(&control->memory, control->number);
+    iccp_free(&control->memory, control->points);
+    iccp_free(&control->memory, control->targets);
+    iccp_free(&control->memory, control->tolerances);
+    *control = (iccp_distinct_points){.memory = control->memory};
 }
 
 /* ---- the affine map ---- */

@@ -18,19 +18,13 @@ typedef struct iccp_distinct_points {
 
 /* Merges points that coincide. `tolerances`: one for each point, or NULL if all are exact. Returns
  * ICC_ERR_ARGUMENT if points coincide and have different targets, unless both have a tolerance, or
- * if different exact points have the same target.
- * `err` then names one of them, and its message both. On failure nothing stays allocated. O(n log
- * n). */
+ * if different exact points have the same target. `err` then names one of them, and its message
+ * both. On failure nothing stays allocated. O(n log n). */
 icc_status iccp_distinct_points_create(iccp_distinct_points *control, size_t n,
                                        const double *points, const double *targets,
                                        const double *tolerances, const iccp_env *env,
                                        icc_error *err);
 void iccp_distinct_points_free(iccp_distinct_points *control);
-
-/* Computes targets again for other targets of the given points, with the same merging. Returns
- * ICC_ERR_ARGUMENT as above. */
-icc_status iccp_distinct_points_aim(iccp_distinct_points *control, size_t n, const double *targets,
-                                    const double *tolerances, const iccp_env *env, icc_error *err);
 
 /* y = to + matrix (x - from) */
 typedef struct iccp_trend {

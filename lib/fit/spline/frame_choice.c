@@ -204,25 +204,3 @@ icc_status iccp_choose_frame(double *margin, double *smoothing, const iccp_frame
     free_choice(&c);
     return status;
 }
-
-icc_status iccp_choose_smoothing(double *smoothing, const iccp_frame_question *question,
-                                 const iccp_box_mesh *mesh, const uint32_t *vertices,
-                                 const iccp_env *env)
-{
-    choice c = {.question = question, .memory = &env->memory};
-    c.has_weights = have_weights(question);
-    c.region.n = question->n;
-    if (!c.has_weights)
-        return ICC_OK;
-    icc_status status = make_room(&c, question->n);
-    for (size_t i = 0; status == ICC_OK && i < question->n; ++i) {
-        take_point(&c, i, i);
-        c.vertex[i] = vertices[i];
-    }
-    if (status == ICC_OK)
-        status = try_mesh(&c, mesh, FAR, 0, env);
-    if (status == ICC_OK)
-        *smoothing = c.smoothing;
-    free_choice(&c);
-    return status;
-}

@@ -20,10 +20,4 @@ typedef struct iccp_frame_question {
 icc_status iccp_choose_frame(double *margin, double *smoothing, const iccp_frame_question *question,
                              const iccp_env *env);
 
-/* Replaces *smoothing by the best one on a mesh that has the points as vertices, unless all points
- * are exact. Makes one factor for each smoothing that it tries. */
-icc_status iccp_choose_smoothing(double *smoothing, const iccp_frame_question *question,
-                                 const iccp_box_mesh *mesh, const uint32_t *vertices,
-                                 const iccp_env *env);
-
 #endif

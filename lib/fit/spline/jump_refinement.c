@@ -24,9 +24,8 @@ typedef struct edge {
 typedef struct builder {
     const iccp_memory *memory;
     iccp_box_mesh *mesh;
-    size_t n_solved, room; /* vertices that there is room for */
-    double *u, *gradient;  /* of all vertices */
-    uint32_t *parents;
+    size_t room;          /* vertices that there is room for */
+    double *u, *gradient; /* of all vertices */
     edge *edges;
     size_t n_edges;
 } builder;
@@ -142,8 +141,6 @@ static void add_middle(builder *b, const edge *e)
     for (size_t k = 0; k < 2; ++k)
         m->points[2 * v + k] =
             0.5 * (m->points[2 * (size_t)e->a + k] + m->points[2 * (size_t)e->b + k]);
-    b->parents[2 * (v - b->n_solved)] = e->a;
-    b->parents[2 * (v - b->n_solved) + 1] = e->b;
     interpolate(b->u, b->gradient, m->points, v, e->a, e->b);
 }
 
@@ -189,9 +186,8 @@ static icc_status begin(builder *b, const iccp_box_mesh *solved, const double *u
     m->twins = iccp_alloc(b->memory, count, sizeof *m->twins);
     b->u = iccp_alloc(b->memory, b->room, 2 * sizeof *b->u);
     b->gradient = iccp_alloc(b->memory, b->room, PARTS * sizeof *b->gradient);
-    b->parents = iccp_alloc(b->memory, b->room - n, 2 * sizeof *b->parents);
     if (m->points == NULL || m->triangles == NULL || m->twins == NULL || b->u == NULL ||
-        b->gradient == NULL || b->parents == NULL)
+        b->gradient == NULL)
         return ICC_ERR_MEMORY;
     m->n_vertices = n;
     m->n_triangles = solved->n_triangles;
@@ -202,13 +198,10 @@ static icc_status begin(builder *b, const iccp_box_mesh *solved, const double *u
     return find_gradients(solved, u, b->gradient, b->memory);
 }
 
-icc_status iccp_jump_refine(iccp_box_mesh *fine, uint32_t **parents, const iccp_box_mesh *solved,
+icc_status iccp_jump_refine(iccp_box_mesh *fine, double **fine_u, const iccp_box_mesh *solved,
                             const double *u, double tolerance, size_t most, const iccp_env *env)
 {
-    builder b = {.memory = &env->memory,
-                 .mesh = fine,
-                 .n_solved = solved->n_vertices,
-                 .room = most * solved->n_vertices};
+    builder b = {.memory = &env->memory, .mesh = fine, .room = most * solved->n_vertices};
     *fine = (iccp_box_mesh){.memory = env->memory};
     icc_status status = begin(&b, solved, u);
     for (int k = 0; status == ICC_OK && k < ROUNDS; ++k) {
@@ -218,29 +211,12 @@ icc_status iccp_jump_refine(iccp_box_mesh *fine, uint32_t **parents, const iccp_
         if (fine->n_vertices == before)
             break;
     }
-    iccp_free(&env->memory, b.u);
     iccp_free(&env->memory, b.gradient);
     if (status != ICC_OK) {
-        iccp_free(&env->memory, b.parents);
+        iccp_free(&env->memory, b.u);
         iccp_box_mesh_free(fine);
-        b.parents = NULL;
+        b.u = NULL;
     }
-    *parents = b.parents;
-    return status;
-}
-
-icc_status iccp_jump_interpolate(double *u, const iccp_box_mesh *solved, const double *points,
-                                 size_t n, const uint32_t *parents, const iccp_env *env)
-{
-    const size_t n_solved = solved->n_vertices;
-    if (n == n_solved)
-        return ICC_OK;
-    double *gradient = iccp_alloc(&env->memory, n, PARTS * sizeof *gradient);
-    const icc_status status =
-        gradient != NULL ? find_gradients(solved, u, gradient, &env->memory) : ICC_ERR_MEMORY;
-    for (size_t v = n_solved; status == ICC_OK && v < n; ++v)
-        interpolate(u, gradient, points, v, parents[2 * (v - n_solved)],
-                    parents[2 * (v - n_solved) + 1]);
-    iccp_free(&env->memory, gradient);
+    *fine_u = b.u;
     return status;
 }

@@ -8,15 +8,10 @@
 
 /* Adds vertices at the middles of edges at which the solution `u` (2 coordinates per vertex) is off
  * by more than `tolerance`. There are at most `most` vertices for each vertex of `solved`. The
- * vertices of `solved` stay the first ones. *parents becomes an array in the mesh's memory with two
- * earlier vertices for each new one, the ends of its edge; the caller frees it. On failure nothing
- * stays allocated. */
-icc_status iccp_jump_refine(iccp_box_mesh *fine, uint32_t **parents, const iccp_box_mesh *solved,
+ * vertices of `solved` stay the first ones. *fine_u becomes the solution at all vertices: at new
+ * ones it follows cubics along their edges. The caller frees it with the memory of `env`. On
+ * failure nothing stays allocated. */
+icc_status iccp_jump_refine(iccp_box_mesh *fine, double **fine_u, const iccp_box_mesh *solved,
                             const double *u, double tolerance, size_t most, const iccp_env *env);
-
-/* Computes `u` at the vertices that were added, by cubics along their edges, from its values at
- * those of `solved`. `points` and `n` belong to the fine mesh. */
-icc_status iccp_jump_interpolate(double *u, const iccp_box_mesh *solved, const double *points,
-                                 size_t n, const uint32_t *parents, const iccp_env *env);
 
 #endif

@@ -70,15 +70,11 @@ static bool find_shares(size_t n, const double *tolerances, double *share)
 static icc_status make_room(iccp_spline *s, size_t n)
 {
     s->n = n;
-    s->vertices = iccp_alloc(&s->memory, n, sizeof *s->vertices);
-    s->residuals = iccp_alloc(&s->memory, n, 2 * sizeof *s->residuals);
     s->left_out = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out);
     s->left_out_own = iccp_alloc(&s->memory, n, 2 * sizeof *s->left_out_own);
     s->told = iccp_alloc(&s->memory, n, 2 * sizeof *s->told);
-    return s->vertices != NULL && s->residuals != NULL && s->left_out != NULL &&
-                   s->left_out_own != NULL && s->told != NULL
-               ? ICC_OK
-               : ICC_ERR_MEMORY;
+    return s->left_out != NULL && s->left_out_own != NULL && s->told != NULL ? ICC_OK
+                                                                             : ICC_ERR_MEMORY;
 }
 
 /* ---- images and residuals ---- */
@@ -107,7 +103,6 @@ static bool has_system(const iccp_spline *s)
 /* Solves for the bending parts of the images, if there is a system, and leaves out points. */
 static icc_status solve(iccp_spline *s, double *u, const iccp_env *env)
 {
-    find_rest(s);
     for (size_t k = 0; k < 2 * s->control.n; ++k)
         s->left_out_own[k] = NAN;
     memset(u, 0, 2 * s->solved.n_vertices * sizeof *u);
@@ -135,36 +130,21 @@ static void add_trend(iccp_spline *s)
     }
     for (size_t k = 0; k < s->control.n; ++k)
         if (is_exact(s, k))
-            memcpy(s->map.images + 2 * (size_t)s->vertices[k], s->control.targets + 2 * k,
-                   2 * sizeof(double));
+            memcpy(s->map.images + 2 * k, s->control.targets + 2 * k, 2 * sizeof(double));
 }
 
-/* Computes the residuals of the given points. The own target of a merged point may differ from the
- * common one. */
-static void find_residuals(iccp_spline *s, const double *targets)
+/* Computes the residuals left out of the given points. The own target of a merged point may differ
+ * from the common one. */
+static void find_left_out(iccp_spline *s, const double *targets)
 {
     for (size_t i = 0; i < s->n; ++i) {
-        const size_t k = s->control.number[i], v = s->vertices[k];
+        const size_t k = s->control.number[i];
         for (size_t c = 0; c < 2; ++c) {
             const double off = s->control.targets[2 * k + c] - targets[2 * i + c];
-            s->residuals[2 * i + c] = s->map.images[2 * v + c] - targets[2 * i + c];
             s->left_out[2 * i + c] = s->left_out_own[2 * k + c] + off;
         }
     }
-    s->residual = mean_length(s->n, s->residuals);
     s->left_out_residual = mean_length(s->n, s->left_out);
-}
-
-/* Completes images that are bending parts so far, on the vertices of the system. */
-static icc_status finish_images(iccp_spline *s, const double *targets, const iccp_env *env)
-{
-    const icc_status status = iccp_jump_interpolate(s->map.images, &s->solved, s->map.points,
-                                                    s->map.n_vertices, s->parents, env);
-    if (status != ICC_OK)
-        return status;
-    add_trend(s);
-    find_residuals(s, targets);
-    return ICC_OK;
 }
 
 /* ---- the map ---- */
@@ -178,13 +158,13 @@ static void mark_fixed(const iccp_spline *s, iccp_plmap *map)
         map->along[v] = 0;
     for (size_t k = 0; k < s->control.n; ++k)
         if (is_exact(s, k))
-            map->fixed[s->vertices[k]] = ICCP_ON_POINT;
+            map->fixed[k] = ICCP_ON_POINT;
     for (uint32_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (map->corners.twin[c] == ICCP_NO_NEIGHBOUR)
             map->fixed[map->corners.vertex[iccp_after(c)]] = ICCP_ALONG;
 }
 
-/* Copies the mesh into the map, and the bending parts of its first vertices. */
+/* Copies the mesh into the map, with the bending parts of its vertices for images. */
 static icc_status fill_map(iccp_spline *s, const iccp_box_mesh *mesh, const double *u)
 {
     const double *m = s->trend.matrix;
@@ -192,8 +172,7 @@ static icc_status fill_map(iccp_spline *s, const iccp_box_mesh *mesh, const doub
                                                sqrt(m[0] * m[3] - m[1] * m[2]), &s->memory);
     if (status != ICC_OK)
         return status;
-    iccp_plmap_fill(&s->map, mesh->points, mesh->points, mesh->triangles, mesh->twins);
-    memcpy(s->map.images, u, 2 * s->solved.n_vertices * sizeof *u);
+    iccp_plmap_fill(&s->map, mesh->points, u, mesh->triangles, mesh->twins);
     mark_fixed(s, &s->map);
     return ICC_OK;
 }
@@ -227,21 +206,22 @@ static icc_status find_tolerance(const iccp_spline *s, double *tolerance, const 
     return ready ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* Makes the map from the bending parts on the solved mesh, refined if that is allowed and
- * matters. */
-static icc_status make_map(iccp_spline *s, const double *u, bool refines, const iccp_env *env)
+/* Makes the map from the bending parts on the solved mesh, refined if that matters. */
+static icc_status make_map(iccp_spline *s, const double *u, const iccp_env *env)
 {
-    double tolerance = 0;
-    icc_status status = refines ? find_tolerance(s, &tolerance, env) : ICC_OK;
+    double tolerance;
+    icc_status status = find_tolerance(s, &tolerance, env);
     if (status != ICC_OK)
         return status;
     if (!(tolerance > 0))
         return fill_map(s, &s->solved, u);
     iccp_box_mesh fine;
-    status = iccp_jump_refine(&fine, &s->parents, &s->solved, u, tolerance, MOST_REFINED, env);
+    double *fine_u;
+    status = iccp_jump_refine(&fine, &fine_u, &s->solved, u, tolerance, MOST_REFINED, env);
     if (status != ICC_OK)
         return status;
-    status = fill_map(s, &fine, u);
+    status = fill_map(s, &fine, fine_u);
+    iccp_free(&env->memory, fine_u);
     iccp_box_mesh_free(&fine);
     return status;
 }
@@ -253,38 +233,45 @@ static icc_status make_system(iccp_spline *s, const double *share, const iccp_en
     iccp_bending_mesh bending = iccp_bending_mesh_of(&s->solved);
     memcpy(bending.metric, s->metric, sizeof bending.metric);
     double *weight = iccp_alloc(&env->memory, n, sizeof *weight);
-    if (weight == NULL)
-        return ICC_ERR_MEMORY;
-    for (uint32_t k = 0; k < n; ++k)
+    uint32_t *told = iccp_alloc(&env->memory, n, sizeof *told);
+    const bool ready = weight != NULL && told != NULL;
+    for (uint32_t k = 0; ready && k < n; ++k) {
         weight[k] = s->smoothing > 0 ? share[k] / s->smoothing : 0;
-    const icc_status status = iccp_spline_system_create(&s->system, &bending, n, s->vertices,
-                                                        weight, s->trend.is_line, env);
+        told[k] = k;
+    }
+    const icc_status status = ready ? iccp_spline_system_create(&s->system, &bending, n, told,
+                                                                weight, s->trend.is_line, env)
+                                    : ICC_ERR_MEMORY;
     iccp_free(&env->memory, weight);
+    iccp_free(&env->memory, told);
     return status;
 }
 
 /* Solves and makes the map, with the system if there is one. */
-static icc_status solve_first(iccp_spline *s, const double *targets, bool refines,
-                              const iccp_env *env)
+static icc_status solve_and_map(iccp_spline *s, const double *targets, const iccp_env *env)
 {
     iccp_env parts[2];
     iccp_split(parts, 2, (const double[]){1, 1}, env);
     double *u = iccp_alloc(&env->memory, s->solved.n_vertices, 2 * sizeof *u);
     icc_status status = u != NULL ? solve(s, u, &parts[0]) : ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = make_map(s, u, refines, &parts[1]);
+        status = make_map(s, u, &parts[1]);
     iccp_free(&env->memory, u);
-    return status == ICC_OK ? finish_images(s, targets, env) : status;
+    if (status != ICC_OK)
+        return status;
+    add_trend(s);
+    find_left_out(s, targets);
+    return ICC_OK;
 }
 
 /* ---- beginnings ---- */
 
 /* Merges the points and fits an affine map to them. */
-static icc_status begin(iccp_spline *s, const iccp_spline_task *task, const double *points,
-                        const iccp_env *env, icc_error *err)
+static icc_status begin(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env,
+                        icc_error *err)
 {
-    icc_status status = iccp_distinct_points_create(&s->control, task->n, points, task->targets,
-                                                    task->tolerances, env, err);
+    icc_status status = iccp_distinct_points_create(&s->control, task->n, task->points,
+                                                    task->targets, task->tolerances, env, err);
     if (status == ICC_OK)
         status = make_room(s, task->n);
     if (status == ICC_OK)
@@ -329,8 +316,6 @@ static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, doubl
     iccp_split(parts, 4, (const double[]){2, 1, 3, 1}, env);
     const bool bends = s->control.n >= 3;
     prepare(s, task, region->size, share);
-    for (uint32_t k = 0; k < s->control.n; ++k)
-        s->vertices[k] = k;
     s->margin = task->margin > 0 ? iccp_max(task->margin, LEAST_MARGIN) : bends ? 0 : USUAL_MARGIN;
     const iccp_frame_question q = question_of(s, task, share);
     icc_status status =
@@ -339,13 +324,13 @@ static icc_status make_frame(iccp_spline *s, const iccp_spline_task *task, doubl
         status = iccp_frame_mesh(&s->solved, region, s->margin, ACROSS, 0, &parts[1]);
     if (status == ICC_OK && bends)
         status = make_system(s, share, &parts[2]);
-    return status == ICC_OK ? solve_first(s, task->targets, true, &parts[3]) : status;
+    return status == ICC_OK ? solve_and_map(s, task->targets, &parts[3]) : status;
 }
 
 static icc_status create(iccp_spline *s, const iccp_spline_task *task, const iccp_env *env,
                          icc_error *err)
 {
-    icc_status status = begin(s, task, task->points, env, err);
+    icc_status status = begin(s, task, env, err);
     if (status != ICC_OK)
         return status;
     iccp_frame_region region;
@@ -357,76 +342,6 @@ static icc_status create(iccp_spline *s, const iccp_spline_task *task, const icc
         status = make_frame(s, task, share, &region, env);
         iccp_free(&env->memory, region.spacing);
     }
-    iccp_free(&env->memory, share);
-    return status;
-}
-
-/* ---- given meshes ---- */
-
-static icc_status copy_mesh(iccp_spline *s, const iccp_box_mesh *mesh)
-{
-    const size_t n = 2 * mesh->n_vertices, n_corners = 3 * mesh->n_triangles;
-    iccp_box_mesh *own = &s->solved;
-    own->points = iccp_alloc(&s->memory, n, sizeof *own->points);
-    own->triangles = iccp_alloc(&s->memory, n_corners, sizeof *own->triangles);
-    own->twins = iccp_alloc(&s->memory, n_corners, sizeof *own->twins);
-    if (own->points == NULL || own->triangles == NULL || own->twins == NULL)
-        return ICC_ERR_MEMORY;
-    own->n_vertices = mesh->n_vertices;
-    own->n_triangles = mesh->n_triangles;
-    memcpy(own->points, mesh->points, n * sizeof *own->points);
-    memcpy(own->triangles, mesh->triangles, n_corners * sizeof *own->triangles);
-    memcpy(own->twins, mesh->twins, n_corners * sizeof *own->twins);
-    return ICC_OK;
-}
-
-/* Returns the longest side of the mesh's bounding box. */
-static double size_of(const iccp_box_mesh *mesh)
-{
-    double size = 0;
-    for (size_t k = 0; k < 2; ++k) {
-        double low = mesh->points[k], high = low;
-        for (size_t v = 0; v < mesh->n_vertices; ++v) {
-            low = iccp_min(low, mesh->points[2 * v + k]);
-            high = iccp_max(high, mesh->points[2 * v + k]);
-        }
-        size = iccp_max(size, high - low);
-    }
-    return size;
-}
-
-static icc_status solve_on_mesh(iccp_spline *s, const iccp_spline_task *task, double *share,
-                                const iccp_env *env)
-{
-    iccp_env parts[3];
-    iccp_split(parts, 3, (const double[]){3, 3, 1}, env);
-    const bool bends = s->control.n >= 3;
-    prepare(s, task, size_of(&s->solved), share);
-    const iccp_frame_question q = question_of(s, task, share);
-    icc_status status = ICC_OK;
-    if (!(s->smoothing > 0))
-        status = iccp_choose_smoothing(&s->smoothing, &q, &s->solved, s->vertices, &parts[0]);
-    if (status == ICC_OK && bends)
-        status = make_system(s, share, &parts[1]);
-    return status == ICC_OK ? solve_first(s, task->targets, false, &parts[2]) : status;
-}
-
-static icc_status create_on_mesh(iccp_spline *s, const iccp_box_mesh *mesh,
-                                 const uint32_t *vertices, const iccp_spline_task *task,
-                                 const iccp_env *env, icc_error *err)
-{
-    double *points = iccp_alloc(&env->memory, task->n, 2 * sizeof *points);
-    double *share = iccp_alloc(&env->memory, task->n, sizeof *share);
-    icc_status status = points != NULL && share != NULL ? copy_mesh(s, mesh) : ICC_ERR_MEMORY;
-    for (size_t i = 0; status == ICC_OK && i < task->n; ++i)
-        memcpy(points + 2 * i, mesh->points + 2 * (size_t)vertices[i], 2 * sizeof *points);
-    if (status == ICC_OK)
-        status = begin(s, task, points, env, err);
-    for (size_t i = 0; status == ICC_OK && i < task->n; ++i)
-        s->vertices[s->control.number[i]] = vertices[i];
-    if (status == ICC_OK)
-        status = solve_on_mesh(s, task, share, env);
-    iccp_free(&env->memory, points);
     iccp_free(&env->memory, share);
     return status;
 }
@@ -451,17 +366,6 @@ icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
     return status;
 }
 
-icc_status iccp_spline_create_on_mesh(iccp_spline *spline, const iccp_box_mesh *mesh,
-                                      const uint32_t *vertices, const iccp_spline_task *task,
-                                      const iccp_env *env, icc_error *err)
-{
-    *spline = nothing(&env->memory);
-    const icc_status status = create_on_mesh(spline, mesh, vertices, task, env, err);
-    if (status != ICC_OK)
-        iccp_spline_free(spline);
-    return status;
-}
-
 void iccp_spline_free(iccp_spline *spline)
 {
     const iccp_memory memory = spline->memory;
@@ -469,25 +373,8 @@ void iccp_spline_free(iccp_spline *spline)
     iccp_plmap_free(&spline->map);
     iccp_box_mesh_free(&spline->solved);
     iccp_spline_system_free(&spline->system);
-    iccp_free(&memory, spline->vertices);
-    iccp_free(&memory, spline->residuals);
     iccp_free(&memory, spline->left_out);
     iccp_free(&memory, spline->left_out_own);
     iccp_free(&memory, spline->told);
-    iccp_free(&memory, spline->parents);
     *spline = nothing(&memory);
-}
-
-icc_status iccp_spline_aim(iccp_spline *spline, const double *targets, const double *tolerances,
-                           const iccp_env *env, icc_error *err)
-{
-    icc_status status =
-        iccp_distinct_points_aim(&spline->control, spline->n, targets, tolerances, env, err);
-    if (status == ICC_OK)
-        status = iccp_trend_fit(&spline->trend, spline->control.n, spline->control.points,
-                                spline->control.targets, err);
-    spline->affine_residual = spline->trend.residual;
-    if (status == ICC_OK)
-        status = solve(spline, spline->map.images, env);
-    return status == ICC_OK ? finish_images(spline, targets, env) : status;
 }

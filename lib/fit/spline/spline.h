@@ -34,19 +34,17 @@ typedef struct iccp_spline_task {
 typedef struct iccp_spline {
     iccp_memory memory;
     size_t n; /* points as given */
-    /* The different points. Point i is number control.number[i] of them, and the vertex
-     * vertices[control.number[i]]. In a frame, vertices[k] is k */
+    /* The different points. They are the map's first vertices, so point i is vertex
+     * control.number[i] */
     iccp_distinct_points control;
-    uint32_t *vertices; /* control.n */
     /* Images are local in the target. They may fold.
      * Exact points are ICCP_ON_POINT and the boundary is ICCP_ALONG. Facets and places along them
      * are 0: the caller sets them. */
     iccp_plmap map;
-    double *residuals; /* 2 n: image minus target */
-    double *left_out;  /* 2 n: where the other points would take each point, minus its target. NaN
+    double *left_out; /* 2 n: where the other points would take each point, minus its target. NaN
                           if they do not determine it */
-    double residual, left_out_residual, affine_residual; /* root mean square; NaN if not known */
-    double margin;                                       /* as used */
+    double left_out_residual, affine_residual; /* root mean square; NaN if not known */
+    double margin;                             /* as used */
     /* As used; 0: all points are exact. The spline minimises s E + sum_i (t / t_i)^2 |off_i|^2 with
      * the smoothing s. E is the integral of the squared second derivatives, in a metric in which
      * lengths are those of the affine fit and the box's longest side is about 1. t_i are the
@@ -56,7 +54,6 @@ typedef struct iccp_spline {
     double metric[4];          /* see iccp_bending_mesh */
     iccp_box_mesh solved;      /* the mesh of the system. Its vertices are the map's first */
     iccp_spline_system system; /* factorised; without told vertices if nothing can bend */
-    uint32_t *parents;         /* of each further vertex: the ends of the edge that it halves */
     double *told;              /* 2 control.n: targets less the affine fit */
     double *left_out_own;      /* 2 control.n: working memory */
 } iccp_spline;
@@ -70,19 +67,5 @@ typedef struct iccp_spline {
 icc_status iccp_spline_create(iccp_spline *spline, const iccp_spline_task *task,
                               const iccp_env *env, icc_error *err);
 void iccp_spline_free(iccp_spline *spline);
-
-/* Makes the spline on a given mesh, in which point i is the vertex vertices[i]. The mesh may have
- * holes. It is copied, and stays as it is. Points, box and margin of the task are not read. The
- * boundary is free except for points on it: these, too, have the images of their targets, but are
- * marked ICCP_ALONG. Failures as in iccp_spline_create(). */
-icc_status iccp_spline_create_on_mesh(iccp_spline *spline, const iccp_box_mesh *mesh,
-                                      const uint32_t *vertices, const iccp_spline_task *task,
-                                      const iccp_env *env, icc_error *err);
-
-/* Solves for other targets of the same points, with the same factor: margin, smoothing, weights and
- * metric stay. Replaces images, residuals and residuals left out. On failure the images are
- * undefined. */
-icc_status iccp_spline_aim(iccp_spline *spline, const double *targets, const double *tolerances,
-                           const iccp_env *env, icc_error *err);
 
 #endif

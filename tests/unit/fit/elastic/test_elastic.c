@@ -217,7 +217,7 @@ static icc_status solve(const scene *s, iccp_elastic_report *report, const iccp_
     icc_status status = iccp_elastic_create(&elastic, &input, env);
     if (status == ICC_OK)
         status = iccp_elastic_solve(elastic, s->targets, s->images, report, env, err);
-    iccp_elastic_release(elastic);
+    iccp_elastic_free(elastic);
     return iccp_explain(err, status);
 }
 
@@ -422,7 +422,7 @@ START_TEST(a_hand_is_dragged)
     }
     for (size_t i = 0; i < 2 * s.n_points; ++i)
         ck_assert_double_eq_tol(s.images[i], s.points[i], 0.01);
-    iccp_elastic_release(elastic);
+    iccp_elastic_free(elastic);
     clear_scene(&s);
 }
 END_TEST
@@ -498,7 +498,7 @@ START_TEST(a_drag_goes_through_the_trunk)
     }
     ck_assert_uint_gt(n_off, 0);
     ck_assert_uint_eq(report.n_off, 0);
-    iccp_elastic_release(elastic);
+    iccp_elastic_free(elastic);
     clear_scene(&s);
     free(off);
 }
@@ -636,7 +636,7 @@ START_TEST(stiff_triangles_stay_as_they_are)
     const size_t middle = (size_t)COLUMNS / 2 * (ROWS + 1) + ROWS / 2;
     const size_t end = (size_t)COLUMNS * (ROWS + 1) + ROWS / 2;
     ck_assert_double_eq_tol(s.images[2 * end] - s.images[2 * middle], 0.4, 0.002);
-    iccp_elastic_release(elastic);
+    iccp_elastic_free(elastic);
     clear_scene(&s);
 }
 END_TEST
