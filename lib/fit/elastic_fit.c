@@ -2,13 +2,10 @@
  * rigidly as it can. */
 #include "fit/elastic_fit.h"
 
-#include "base/error.h"
 #include "fit/elastic_shape.h"
 #include "map/given_mesh.h"
-#include "mesh/corners.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Converts the images to the caller's coordinates. Items that were reached get the caller's
  * bits. */
@@ -35,58 +32,22 @@ static void give_back(icc_fit *fit, double *images)
     fit->info.residual = sqrt(sum / (double)told->n);
 }
 
-/* Lists the held vertices inside as points of the map. */
-static icc_status list_points(const iccp_elastic_shape *s, uint32_t **vertices,
-                              iccp_given_feature **features, size_t *n, const iccp_env *env)
-{
-    uint8_t *outline = iccp_alloc_zero(&env->memory, s->n_points, 1);
-    iccp_corners corners = {s->triangles, NULL, s->n_triangles};
-    bool is_manifold;
-    corners.twin = iccp_alloc(&env->memory, s->n_triangles, 3 * sizeof *corners.twin);
-    *vertices = iccp_alloc(&env->memory, s->n_points, sizeof **vertices);
-    *features = iccp_alloc(&env->memory, s->n_points, sizeof **features);
-    icc_status status =
-        outline != NULL && corners.twin != NULL && *vertices != NULL && *features != NULL
-            ? iccp_find_twins(&corners, s->n_points, &is_manifold, env)
-            : ICC_ERR_MEMORY;
-    for (uint32_t c = 0; status == ICC_OK && c < 3 * s->n_triangles; ++c)
-        if (corners.twin[c] == ICCP_NO_NEIGHBOUR)
-            outline[s->triangles[iccp_after(c)]] = 1;
-    *n = 0;
-    for (uint32_t v = 0; status == ICC_OK && v < s->n_points; ++v)
-        if (s->hold[v] == ICCP_HELD && !outline[v]) {
-            (*vertices)[*n] = v;
-            (*features)[*n] = (iccp_given_feature){ICC_FEATURE_POINT, 1, *vertices + *n};
-            ++*n;
-        }
-    iccp_free(&env->memory, outline);
-    iccp_free(&env->memory, corners.twin);
-    return status;
-}
-
 static icc_status make_map(icc_fit *fit, const iccp_env *env, icc_error *err)
 {
     const iccp_elastic_shape *s = fit->shape;
-    uint32_t *vertices = NULL;
-    iccp_given_feature *features = NULL;
-    size_t n_features = 0;
     double *images = iccp_alloc(&env->memory, s->n_points, 2 * sizeof *images);
-    icc_status status =
-        images != NULL ? list_points(s, &vertices, &features, &n_features, env) : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        give_back(fit, images);
-        const iccp_given_mesh mesh = {.n_vertices = s->n_points,
-                                      .points = s->given,
-                                      .images = images,
-                                      .n_triangles = s->n_triangles,
-                                      .triangles = s->triangles,
-                                      .n_features = n_features,
-                                      .features = features};
-        status = iccp_map_of_mesh(&fit->map, &mesh, env, err);
-    }
+    if (images == NULL)
+        return ICC_ERR_MEMORY;
+    give_back(fit, images);
+    const iccp_given_mesh mesh = {.n_vertices = s->n_points,
+                                  .points = s->given,
+                                  .images = images,
+                                  .n_triangles = s->n_triangles,
+                                  .triangles = s->triangles,
+                                  .n_held = s->n_inner,
+                                  .held = s->inner};
+    const icc_status status = iccp_map_of_mesh(&fit->map, &mesh, env, err);
     iccp_free(&env->memory, images);
-    iccp_free(&env->memory, vertices);
-    iccp_free(&env->memory, features);
     return status;
 }
 

@@ -6,7 +6,7 @@
 #include "base/sort.h"
 #include "fit/elastic/pin_mesh.h"
 #include "math/predicates.h"
-#include "mesh/corners.h"
+#include "mesh/given_triangles.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,6 +37,7 @@ void iccp_elastic_shape_release(iccp_elastic_shape *s)
     iccp_free(&memory, s->share);
     iccp_free(&memory, s->hold);
     iccp_free(&memory, s->item);
+    iccp_free(&memory, s->inner);
     iccp_free(&memory, s->direction);
     iccp_elastic_free(s->elastic);
     iccp_free(&memory, s);
@@ -54,9 +55,10 @@ static icc_status make_room(iccp_elastic_shape *s, size_t n_points, size_t n_tri
     s->triangles = iccp_alloc(memory, n_triangles + n_more, 3 * sizeof *s->triangles);
     s->hold = iccp_alloc_zero(memory, n_points, sizeof *s->hold);
     s->item = iccp_alloc(memory, n_points, sizeof *s->item);
+    s->inner = iccp_alloc(memory, n_points, sizeof *s->inner);
     s->direction = iccp_alloc_zero(memory, n_points, 2 * sizeof *s->direction);
     if (s->given == NULL || s->points == NULL || s->triangles == NULL || s->hold == NULL ||
-        s->item == NULL || s->direction == NULL)
+        s->item == NULL || s->inner == NULL || s->direction == NULL)
         return ICC_ERR_MEMORY;
     memset(s->item, 0xff, n_points * sizeof *s->item);
     return ICC_OK;
@@ -133,7 +135,7 @@ static icc_status copy_cell(iccp_elastic_shape *s, const icc_mesh *mesh, size_t 
 }
 
 static icc_status shape_of_mesh(iccp_elastic_shape *s, const icc_mesh *mesh,
-                                const double *stiffness, icc_error *err)
+                                const double *stiffness, const iccp_env *env, icc_error *err)
 {
     size_t n_quads = 0, t = 0, n;
     for (size_t cell = 0; cell < mesh->n_cells; ++cell) {
@@ -151,6 +153,8 @@ static icc_status shape_of_mesh(iccp_elastic_shape *s, const icc_mesh *mesh,
         status = copy_vertices(s, mesh, err);
     for (size_t cell = 0; status == ICC_OK && cell < mesh->n_cells; ++cell)
         status = copy_cell(s, mesh, cell, &t, &more, stiffness != NULL ? stiffness[cell] : 1, err);
+    if (status == ICC_OK)
+        status = iccp_check_used(mesh->n_vertices, s->n_triangles, s->triangles, env, err);
     return iccp_fail_side(err, status, status == ICC_OK || status == ICC_ERR_MEMORY ? 0 : 1);
 }
 
@@ -408,20 +412,13 @@ static icc_status follow_boundary(iccp_elastic_shape *s, uint32_t v, uint32_t be
                               (unsigned long)s->item[v]);
 }
 
-/* Finds the directions of vertices that slide along the boundary. */
-static icc_status find_directions(iccp_elastic_shape *s, const iccp_env *env, icc_error *err)
+/* Finds the directions of vertices that slide along the boundary. `before` has room for all
+ * vertices. */
+static icc_status find_directions(iccp_elastic_shape *s, const uint32_t *next, uint32_t *before,
+                                  icc_error *err)
 {
-    iccp_corners corners = {s->triangles, NULL, s->n_triangles};
-    corners.twin = iccp_alloc(&env->memory, s->n_triangles, 3 * sizeof *corners.twin);
-    uint32_t *next = iccp_alloc(&env->memory, s->n_points, sizeof *next);
-    uint32_t *before = iccp_alloc(&env->memory, s->n_points, sizeof *before);
-    bool is_manifold = false;
-    icc_status status = corners.twin != NULL && next != NULL && before != NULL
-                            ? iccp_find_twins(&corners, s->n_points, &is_manifold, env)
-                            : ICC_ERR_MEMORY;
-    if (status == ICC_OK && (!is_manifold || !iccp_link_boundary(&corners, s->n_points, next)))
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, "the triangles do not form a conforming mesh");
-    for (uint32_t v = 0; status == ICC_OK && v < s->n_points; ++v)
+    icc_status status = ICC_OK;
+    for (uint32_t v = 0; v < s->n_points; ++v)
         if (next[v] != NONE)
             before[next[v]] = v;
     for (uint32_t v = 0; status == ICC_OK && v < s->n_points; ++v) {
@@ -433,9 +430,6 @@ static icc_status find_directions(iccp_elastic_shape *s, const iccp_env *env, ic
                                     "point %lu slides and is not on the boundary: give a direction",
                                     (unsigned long)s->item[v]);
     }
-    iccp_free(&env->memory, corners.twin);
-    iccp_free(&env->memory, next);
-    iccp_free(&env->memory, before);
     return status;
 }
 
@@ -457,10 +451,39 @@ static void hold_edges(iccp_elastic_shape *s)
     }
 }
 
+static void list_inner(iccp_elastic_shape *s, const uint32_t *next)
+{
+    for (uint32_t v = 0; v < s->n_points; ++v)
+        if (s->hold[v] == ICCP_HELD && next[v] == NONE)
+            s->inner[s->n_inner++] = v;
+}
+
+/* Completes what is told by what the boundary tells. */
+static icc_status hold_boundary(iccp_elastic_shape *s, const iccp_env *env, icc_error *err)
+{
+    iccp_corners corners = {s->triangles, NULL, s->n_triangles};
+    corners.twin = iccp_alloc(&env->memory, s->n_triangles, 3 * sizeof *corners.twin);
+    uint32_t *next = iccp_alloc(&env->memory, s->n_points, 2 * sizeof *next);
+    icc_status status = corners.twin != NULL && next != NULL
+                            ? iccp_link_triangles(&corners, s->n_points, next, env, err)
+                            : ICC_ERR_MEMORY;
+    if (status == ICC_ERR_BOUNDARY)
+        status = iccp_fail_side(err, status, 1);
+    if (status == ICC_OK)
+        status = find_directions(s, next, next + s->n_points, err);
+    if (status == ICC_OK) {
+        hold_edges(s);
+        list_inner(s, next);
+    }
+    iccp_free(&env->memory, corners.twin);
+    iccp_free(&env->memory, next);
+    return status;
+}
+
 /* ---- making it ---- */
 
 static icc_status make_elastic(iccp_elastic_shape *s, const icc_fit_options *options,
-                               const iccp_env *env, icc_error *err)
+                               const iccp_env *env)
 {
     const iccp_elastic_input input = {.n_points = s->n_points,
                                       .n_triangles = s->n_triangles + s->n_more,
@@ -473,28 +496,22 @@ static icc_status make_elastic(iccp_elastic_shape *s, const icc_fit_options *opt
                                       .cell_factor = s->factor,
                                       .reach = options->reach * s->frame.in[0] * s->frame.in[1],
                                       .contact = !options->no_contact};
-    const icc_status status = iccp_elastic_create(&s->elastic, &input, env);
-    return status != ICC_ERR_BOUNDARY
-               ? status
-               : iccp_fail(err, status, "two parts of the boundary share a vertex");
+    return iccp_elastic_create(&s->elastic, &input, env);
 }
 
 static icc_status create(iccp_elastic_shape *s, const icc_domain *domain, const icc_mesh *mesh,
                          iccp_told *told, const icc_fit_options *options, const iccp_env *env,
                          icc_error *err)
 {
-    icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, options->cell_stiffness, err)
+    icc_status status = mesh != NULL ? shape_of_mesh(s, mesh, options->cell_stiffness, env, err)
                                      : shape_of_domain(s, domain, told, options, env, err);
     if (status == ICC_OK && mesh != NULL)
         status = find_in_mesh(s, told, env, err);
     if (status == ICC_OK)
         status = hold_items(s, told, err);
     if (status == ICC_OK)
-        status = find_directions(s, env, err);
-    if (status != ICC_OK)
-        return status;
-    hold_edges(s);
-    return make_elastic(s, options, env, err);
+        status = hold_boundary(s, env, err);
+    return status == ICC_OK ? make_elastic(s, options, env) : status;
 }
 
 icc_status iccp_elastic_shape_create(iccp_elastic_shape **out, const icc_domain *domain,

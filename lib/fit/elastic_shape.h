@@ -27,6 +27,8 @@ typedef struct iccp_elastic_shape {
     uint8_t *hold;     /* n_points: ICCP_LOOSE, ICCP_HELD or ICCP_SLIDING */
     uint32_t *item;    /* n_points: the told item of a vertex, or UINT32_MAX */
     double *direction; /* 2 n_points: of sliding vertices */
+    size_t n_inner;
+    uint32_t *inner; /* n_inner: held vertices inside, which become points of the map */
     iccp_elastic *elastic;
 } iccp_elastic_shape;
 

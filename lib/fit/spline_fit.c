@@ -147,24 +147,14 @@ static void give_back(const spline_job *j, double *points, double *images)
     }
 }
 
-static icc_status list_exact(const iccp_plmap *map, uint32_t **vertices,
-                             iccp_given_feature **features, size_t *n, const iccp_env *env)
+/* Lists the vertices of exact points, and returns their number. */
+static size_t list_exact(uint32_t *vertices, const iccp_plmap *map)
 {
-    *n = 0;
-    for (size_t v = 0; v < map->n_vertices; ++v)
-        *n += map->fixed[v] == ICCP_ON_POINT;
-    *vertices = iccp_alloc(&env->memory, *n, sizeof **vertices);
-    *features = iccp_alloc(&env->memory, *n, sizeof **features);
-    if (*vertices == NULL || *features == NULL)
-        return ICC_ERR_MEMORY;
-    size_t at = 0;
+    size_t n = 0;
     for (uint32_t v = 0; v < map->n_vertices; ++v)
-        if (map->fixed[v] == ICCP_ON_POINT) {
-            (*vertices)[at] = v;
-            (*features)[at] = (iccp_given_feature){ICC_FEATURE_POINT, 1, *vertices + at};
-            ++at;
-        }
-    return ICC_OK;
+        if (map->fixed[v] == ICCP_ON_POINT)
+            vertices[n++] = v;
+    return n;
 }
 
 static void note_residuals(spline_job *j, const double *images)
@@ -193,15 +183,11 @@ static icc_status make_map(spline_job *j, const iccp_env *env, icc_error *err)
 {
     const iccp_plmap *map = &j->spline.map;
     const size_t n = map->n_vertices;
-    uint32_t *vertices = NULL;
-    iccp_given_feature *features = NULL;
-    size_t n_features = 0;
+    uint32_t *exact = iccp_alloc(&env->memory, n, sizeof *exact);
     double *points = iccp_alloc(&env->memory, n, 2 * sizeof *points);
     double *images = iccp_alloc(&env->memory, n, 2 * sizeof *images);
-    icc_status status = points != NULL && images != NULL
-                            ? list_exact(map, &vertices, &features, &n_features, env)
-                            : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
+    icc_status status = ICC_ERR_MEMORY;
+    if (exact != NULL && points != NULL && images != NULL) {
         give_back(j, points, images);
         note_residuals(j, images);
         const iccp_given_mesh mesh = {.n_vertices = n,
@@ -209,14 +195,13 @@ static icc_status make_map(spline_job *j, const iccp_env *env, icc_error *err)
                                       .images = images,
                                       .n_triangles = map->corners.n_triangles,
                                       .triangles = map->corners.vertex,
-                                      .n_features = n_features,
-                                      .features = features};
+                                      .n_held = list_exact(exact, map),
+                                      .held = exact};
         status = iccp_map_of_mesh(&j->fit->map, &mesh, env, err);
     }
+    iccp_free(&env->memory, exact);
     iccp_free(&env->memory, points);
     iccp_free(&env->memory, images);
-    iccp_free(&env->memory, vertices);
-    iccp_free(&env->memory, features);
     return status;
 }
 

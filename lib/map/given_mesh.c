@@ -7,6 +7,7 @@
 #include "domain/features.h"
 #include "domain/outlines.h"
 #include "map/plane/plane_kind.h"
+#include "mesh/given_triangles.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,60 +19,30 @@ typedef struct maker {
     size_t outer;          /* the outer ring's number */
     uint32_t *vertex;      /* of each vertex of the domains: its number in the mesh */
     double *places;        /* of the same vertices, on one side */
-    icc_feature *features; /* of the domains: holes, then lines and points */
+    icc_feature *features; /* of the domains: holes, then points */
     icc_domain *domains[2];
 } maker;
 
 /* ---- the boundary ---- */
 
-static icc_status link_triangles(maker *m, const iccp_env *env, icc_error *err)
-{
-    const iccp_given_mesh *mesh = m->mesh;
-    bool is_manifold = false;
-    m->corners.n_triangles = mesh->n_triangles;
-    m->corners.vertex = iccp_alloc(&env->memory, mesh->n_triangles, 3 * sizeof(uint32_t));
-    m->corners.twin = iccp_alloc(&env->memory, mesh->n_triangles, 3 * sizeof(uint32_t));
-    if (m->corners.vertex == NULL || m->corners.twin == NULL)
-        return ICC_ERR_MEMORY;
-    memcpy(m->corners.vertex, mesh->triangles, 3 * mesh->n_triangles * sizeof(uint32_t));
-    const icc_status status = iccp_find_twins(&m->corners, mesh->n_vertices, &is_manifold, env);
-    return status != ICC_OK || is_manifold
-               ? status
-               : iccp_fail(err, ICC_ERR_BOUNDARY,
-                           "an edge belongs to two triangles on the same side, or a triangle "
-                           "lists a vertex twice");
-}
-
+/* Links the triangles and finds the rings of the boundary. */
 static icc_status find_rings(maker *m, const iccp_env *env, icc_error *err)
 {
-    uint32_t *next = iccp_alloc(&env->memory, m->mesh->n_vertices, sizeof *next);
-    if (next == NULL)
-        return ICC_ERR_MEMORY;
-    icc_status status = ICC_ERR_BOUNDARY;
-    if (iccp_link_boundary(&m->corners, m->mesh->n_vertices, next))
-        status = iccp_outlines_create(&m->rings, m->mesh->n_vertices, next, &env->memory);
-    iccp_free(&env->memory, next);
-    return status != ICC_ERR_BOUNDARY
-               ? status
-               : iccp_fail(err, status, "two parts of the boundary share a vertex");
-}
-
-/* Checks that every vertex belongs to a triangle. */
-static icc_status check_vertices(const maker *m, const iccp_env *env, icc_error *err)
-{
     const iccp_given_mesh *mesh = m->mesh;
-    uint8_t *used = iccp_alloc_zero(&env->memory, mesh->n_vertices, 1);
-    if (used == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t c = 0; c < 3 * mesh->n_triangles; ++c)
-        used[mesh->triangles[c]] = 1;
-    size_t v = 0;
-    while (v < mesh->n_vertices && used[v])
-        ++v;
-    iccp_free(&env->memory, used);
-    return v == mesh->n_vertices ? ICC_OK
-                                 : iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)v,
-                                                "vertex %zu belongs to no triangle", v);
+    const size_t n = mesh->n_triangles;
+    uint32_t *next = iccp_alloc(&env->memory, mesh->n_vertices, sizeof *next);
+    m->corners.n_triangles = n;
+    m->corners.vertex = iccp_alloc(&env->memory, n, 3 * sizeof *m->corners.vertex);
+    m->corners.twin = iccp_alloc(&env->memory, n, 3 * sizeof *m->corners.twin);
+    icc_status status = ICC_ERR_MEMORY;
+    if (next != NULL && m->corners.vertex != NULL && m->corners.twin != NULL) {
+        memcpy(m->corners.vertex, mesh->triangles, 3 * n * sizeof *mesh->triangles);
+        status = iccp_link_triangles(&m->corners, mesh->n_vertices, next, env, err);
+    }
+    if (status == ICC_OK)
+        status = iccp_outlines_create(&m->rings, mesh->n_vertices, next, &env->memory);
+    iccp_free(&env->memory, next);
+    return status;
 }
 
 /* Twice the area that a ring encloses, from its first vertex, so that a shape far from the origin
@@ -104,15 +75,14 @@ static void find_outer(maker *m)
 
 static size_t count_features(const maker *m)
 {
-    return m->rings.n - 1 + m->mesh->n_features;
+    return m->rings.n - 1 + m->mesh->n_held;
 }
 
-/* Lists the vertices of the domains: the outer ring, the holes, the features. */
+/* Lists the vertices of the domains: the outer ring, the holes, the held vertices. */
 static icc_status list_vertices(maker *m, const iccp_env *env)
 {
-    size_t n = m->rings.n_points, at = 0, f = 0;
-    for (size_t i = 0; i < m->mesh->n_features; ++i)
-        n += m->mesh->features[i].n;
+    const size_t n = m->rings.n_points + m->mesh->n_held;
+    size_t at = 0, f = 0;
     m->vertex = iccp_alloc(&env->memory, n, sizeof *m->vertex);
     m->places = iccp_alloc(&env->memory, n, 2 * sizeof *m->places);
     m->features = iccp_alloc_zero(&env->memory, count_features(m) + 1, sizeof *m->features);
@@ -131,14 +101,12 @@ static icc_status list_vertices(maker *m, const iccp_env *env)
                                              .vertices = m->places + 2 * at};
         at += ring->n;
     }
-    for (size_t i = 0; i < m->mesh->n_features; ++i) {
-        const iccp_given_feature *given = &m->mesh->features[i];
-        memcpy(m->vertex + at, given->vertices, given->n * sizeof *m->vertex);
+    for (size_t i = 0; i < m->mesh->n_held; ++i) {
+        m->vertex[at] = m->mesh->held[i];
         m->features[f++] = (icc_feature){.size = sizeof *m->features,
-                                         .kind = given->kind,
-                                         .n_vertices = given->n,
-                                         .vertices = m->places + 2 * at};
-        at += given->n;
+                                         .kind = ICC_FEATURE_POINT,
+                                         .n_vertices = 1,
+                                         .vertices = m->places + 2 * at++};
     }
     return ICC_OK;
 }
@@ -193,14 +161,13 @@ static icc_status localise(double *local, const icc_domain *domain, size_t n, co
     return ICC_OK;
 }
 
-static void fix(iccp_plmap *pl, uint32_t vertex, uint8_t kind, size_t facet, double along)
+static void fix(iccp_plmap *pl, uint32_t vertex, uint8_t kind, size_t facet)
 {
     pl->fixed[vertex] = kind;
     pl->facet[vertex] = (uint32_t)facet;
-    pl->along[vertex] = along;
 }
 
-/* Fixes the vertices of the boundary and of the features to the facets of the domain. */
+/* Fixes the vertices of the boundary and the held ones to the facets of the domain. */
 static void fix_all(iccp_plmap *pl, const maker *m)
 {
     const size_t n_outer = m->rings.ring[m->outer].n;
@@ -210,19 +177,12 @@ static void fix_all(iccp_plmap *pl, const maker *m)
     for (size_t v = 0; v < pl->n_vertices; ++v)
         pl->along[v] = 0;
     for (size_t k = 0; k < n_outer; ++k)
-        fix(pl, m->vertex[k], ICCP_ALONG, k, 0);
+        fix(pl, m->vertex[k], ICCP_ALONG, k);
     for (size_t i = 0; features != NULL && i < features->n; ++i) {
         const iccp_feature *f = &features->item[i];
-        const uint32_t *v = m->vertex + f->first;
-        const bool is_line = f->kind == ICC_FEATURE_LINE;
         for (size_t k = 0; k < f->n; ++k)
-            fix(pl, v[k],
-                f->kind == ICC_FEATURE_HOLE    ? ICCP_ALONG
-                : f->kind == ICC_FEATURE_POINT ? ICCP_ON_POINT
-                : k == 0                       ? ICCP_LINE_BEGIN
-                                               : ICCP_ON_LINE,
-                f->first_facet + (is_line && k == f->n_facets ? k - 1 : k),
-                is_line && k == f->n_facets ? 1 : 0);
+            fix(pl, m->vertex[f->first + k],
+                f->kind == ICC_FEATURE_HOLE ? ICCP_ALONG : ICCP_ON_POINT, f->first_facet + k);
     }
 }
 
@@ -258,9 +218,8 @@ static icc_status fill_in(icc_map *map, maker *m, const iccp_env *env, icc_error
 
 static icc_status make(icc_map **out, maker *m, const iccp_env *env, icc_error *err)
 {
-    icc_status status = check_vertices(m, env, err);
-    if (status == ICC_OK)
-        status = link_triangles(m, env, err);
+    icc_status status =
+        iccp_check_used(m->mesh->n_vertices, m->mesh->n_triangles, m->mesh->triangles, env, err);
     if (status == ICC_OK)
         status = find_rings(m, env, err);
     if (status == ICC_OK) {

@@ -4,29 +4,22 @@
 
 #include "map/map.h"
 
-/* A line or a point inside, as vertices of the mesh. Its edges are edges of the mesh. */
-typedef struct iccp_given_feature {
-    int32_t kind; /* ICC_FEATURE_LINE or ICC_FEATURE_POINT */
-    uint32_t n;
-    const uint32_t *vertices;
-} iccp_given_feature;
-
 /* All arrays are borrowed. */
 typedef struct iccp_given_mesh {
     size_t n_vertices;
     const double *points, *images; /* 2 n_vertices each, in the caller's coordinates */
     size_t n_triangles;
     const uint32_t *triangles; /* 3 n_triangles, counter-clockwise before the map */
-    size_t n_features;
-    const iccp_given_feature *features;
+    size_t n_held;
+    const uint32_t *held; /* n_held vertices inside that become point features */
 } iccp_given_mesh;
 
 /* Makes and certifies the map. Its domains are the outline of the mesh and of its image, whose
- * holes and features become features. Vertices and triangles keep their numbers and their bits.
+ * holes and held vertices become features. Vertices and triangles keep their numbers and their bits.
  *
  * Returns
  * - ICC_ERR_BOUNDARY if the mesh is not a manifold or has a vertex without triangles, or if the
- *   boundary or a feature meets itself or another one, before or after the map
+ *   boundary meets itself or a held vertex, before or after the map
  * - ICC_ERR_RESOLUTION if a coordinate is too small for exact signs
  * - ICC_ERR_CERTIFICATE if a triangle is not positive on both sides, or the mesh is not in one
  *   piece. */

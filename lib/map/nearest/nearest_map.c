@@ -8,7 +8,7 @@
 #include "geometry/frame.h"
 #include "map/given_mesh.h"
 #include "map/nearest/nearest.h"
-#include "math/predicates.h"
+#include "mesh/given_triangles.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,7 +21,6 @@ typedef struct maker {
     double *points, *images; /* of all vertices in the end, in the caller's coordinates */
     uint32_t *inner;         /* held vertices that are not on the boundary */
     size_t n_inner;
-    iccp_given_feature *features; /* one for each of them */
 } maker;
 
 /* ---- the mesh ---- */
@@ -41,31 +40,6 @@ static icc_status localise(maker *m, int side, icc_error *err)
                                "a coordinate is too small beside others for exact signs");
     }
     return status == ICC_OK ? status : iccp_fail_side(err, status, side + 1);
-}
-
-/* Copies the triangles, counter-clockwise before the map. */
-static icc_status orient(maker *m, icc_error *err)
-{
-    const iccp_warp *w = m->warp;
-    uint32_t *v = m->map.corners.vertex;
-    for (size_t c = 0; c < 3 * w->n_triangles; ++c)
-        if (w->triangles[c] >= w->n_vertices)
-            return iccp_fail(err, ICC_ERR_BOUNDARY, "triangle %zu lists vertex %lu of %zu", c / 3,
-                             (unsigned long)w->triangles[c], w->n_vertices);
-    memcpy(v, w->triangles, 3 * w->n_triangles * sizeof *v);
-    for (size_t t = 0; t < w->n_triangles; ++t, v += 3) {
-        const double *p = m->map.points;
-        const int sign =
-            iccp_orient2d(p + 2 * (size_t)v[0], p + 2 * (size_t)v[1], p + 2 * (size_t)v[2]);
-        const uint32_t second = v[1];
-        if (sign == 0)
-            return iccp_fail(err, ICC_ERR_BOUNDARY, "triangle %zu is flat", t);
-        if (sign < 0) {
-            v[1] = v[2];
-            v[2] = second;
-        }
-    }
-    return ICC_OK;
 }
 
 /* Whether all triangles are connected across edges. */
@@ -95,17 +69,18 @@ static icc_status check_pieces(const iccp_corners *c, const iccp_env *env, icc_e
                : status;
 }
 
-/* Marks the vertices of the boundary and the held ones. Checks the boundary before the map, and
- * that every vertex belongs to a triangle. */
+/* Links the triangles, and marks the vertices of the boundary and the held ones. Checks the
+ * boundary before the map. */
 static icc_status fix(maker *m, const iccp_env *env, icc_error *err)
 {
     iccp_plmap *map = &m->map;
     const size_t n = map->n_vertices;
     uint32_t *next = iccp_alloc(&env->memory, n, sizeof *next);
     iccp_outlines outlines = {.memory = env->memory};
-    icc_status status = next != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK && !iccp_link_boundary(&map->corners, n, next))
-        status = iccp_fail(err, ICC_ERR_BOUNDARY, "two parts of the boundary share a vertex");
+    icc_status status =
+        next != NULL ? iccp_link_triangles(&map->corners, n, next, env, err) : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = check_pieces(&map->corners, env, err);
     for (uint32_t v = 0; status == ICC_OK && v < n; ++v) {
         map->fixed[v] = next[v] != UINT32_MAX ? ICCP_ALONG : ICCP_FREE;
         map->facet[v] = v;
@@ -125,38 +100,15 @@ static icc_status fix(maker *m, const iccp_env *env, icc_error *err)
     return status;
 }
 
-static icc_status check_vertices(const maker *m, const iccp_env *env, icc_error *err)
-{
-    const size_t n = m->map.n_vertices;
-    uint8_t *is_used = iccp_alloc_zero(&env->memory, n, 1);
-    size_t v = 0;
-    if (is_used == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t c = 0; c < 3 * m->map.corners.n_triangles; ++c)
-        is_used[m->map.corners.vertex[c]] = 1;
-    while (v < n && is_used[v])
-        ++v;
-    iccp_free(&env->memory, is_used);
-    return v == n ? ICC_OK
-                  : iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)v,
-                                 "vertex %zu belongs to no triangle", v);
-}
-
 static icc_status read_mesh(maker *m, const iccp_env *env, icc_error *err)
 {
-    bool is_manifold = true;
+    const iccp_warp *w = m->warp;
     icc_status status = localise(m, 0, err);
     if (status == ICC_OK)
-        status = orient(m, err);
+        status = iccp_orient_triangles(m->map.corners.vertex, w->n_triangles, w->triangles,
+                                       w->n_vertices, m->map.points, err);
     if (status == ICC_OK)
-        status = check_vertices(m, env, err);
-    if (status == ICC_OK)
-        status = iccp_find_twins(&m->map.corners, m->map.n_vertices, &is_manifold, env);
-    if (status == ICC_OK && !is_manifold)
-        status =
-            iccp_fail(err, ICC_ERR_BOUNDARY, "an edge belongs to two triangles on the same side");
-    if (status == ICC_OK)
-        status = check_pieces(&m->map.corners, env, err);
+        status = iccp_check_used(w->n_vertices, w->n_triangles, w->triangles, env, err);
     if (status == ICC_OK)
         status = fix(m, env, err);
     return status == ICC_OK ? status : iccp_fail_side(err, status, 1);
@@ -175,10 +127,13 @@ static icc_status check_mirror(const maker *m, icc_error *err)
                      *c = q + 2 * (size_t)v[2];
         area += (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     }
-    return area >= 0 ? ICC_OK
-                     : iccp_fail(err, ICC_ERR_ARGUMENT,
-                                 "the images are a mirror image: their boundary runs the other way "
-                                 "round. Change the sign of one coordinate of all images");
+    if (area >= 0)
+        return ICC_OK;
+    (void)iccp_fail(
+        err, ICC_ERR_ARGUMENT,
+        "the images are a mirror image: their boundary runs the other way round. Change "
+        "the sign of one coordinate of all images");
+    return iccp_fail_side(err, ICC_ERR_ARGUMENT, 2);
 }
 
 static bool is_at(const double *p, const double *q)
@@ -227,19 +182,16 @@ static void fill_report(icc_nearest_report *report, const maker *m, const iccp_n
 
 static icc_status conclude(icc_map **out, maker *m, const iccp_env *env, icc_error *err)
 {
-    icc_status status = bring_out(m, env);
-    m->features = iccp_alloc(&env->memory, m->n_inner, sizeof *m->features);
-    if (status != ICC_OK || m->features == NULL)
-        return ICC_ERR_MEMORY;
-    for (size_t i = 0; i < m->n_inner; ++i)
-        m->features[i] = (iccp_given_feature){ICC_FEATURE_POINT, 1, &m->inner[i]};
+    const icc_status status = bring_out(m, env);
+    if (status != ICC_OK)
+        return status;
     const iccp_given_mesh mesh = {.n_vertices = m->map.n_vertices,
                                   .points = m->points,
                                   .images = m->images,
                                   .n_triangles = m->map.corners.n_triangles,
                                   .triangles = m->map.corners.vertex,
-                                  .n_features = m->n_inner,
-                                  .features = m->features};
+                                  .n_held = m->n_inner,
+                                  .held = m->inner};
     return iccp_map_of_mesh(out, &mesh, env, err);
 }
 
@@ -285,6 +237,5 @@ icc_status iccp_nearest_map_create(icc_map **out, const iccp_warp *warp, icc_nea
     iccp_free(&env->memory, m.points);
     iccp_free(&env->memory, m.images);
     iccp_free(&env->memory, m.inner);
-    iccp_free(&env->memory, m.features);
     return iccp_explain(err, status);
 }
