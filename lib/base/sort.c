@@ -99,3 +99,28 @@ void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift)
     sort_by_digit(work, keys, n, shift + 2 * DIGIT_BITS);
     sort_by_digit(keys, work, n, shift + 3 * DIGIT_BITS);
 }
+
+double iccp_select(double *x, size_t n, size_t k)
+{
+    size_t low = 0, high = n - 1;
+    while (low < high) {
+        const double pivot = x[low + (high - low) / 2];
+        size_t i = low, j = high;
+        while (true) {
+            while (x[i] < pivot)
+                ++i;
+            while (x[j] > pivot)
+                --j;
+            if (i >= j)
+                break;
+            const double other = x[i];
+            x[i++] = x[j];
+            x[j--] = other;
+        }
+        if (k <= j)
+            high = j;
+        else
+            low = j + 1;
+    }
+    return x[k];
+}

@@ -13,6 +13,10 @@
  * log n). */
 void iccp_sort(void *items, size_t n, size_t size, int (*compare)(const void *, const void *));
 
+/* Returns the value that belongs at place k of n numbers in rising order, and moves it there. C. A.
+ * R. Hoare, Algorithm 65: Find, 1961. Expected time O(n). */
+double iccp_select(double *x, size_t n, size_t k);
+
 /* Sorts keys by their bits from `shift` (28 to 36) upwards. Equal keys keep their order. `work` has
  * room for n. O(n). */
 void iccp_sort_keys(uint64_t *keys, uint64_t *work, size_t n, int shift);

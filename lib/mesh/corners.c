@@ -45,6 +45,23 @@ void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m)
     link_twins(corners, twin, 3 * near_half);
 }
 
+void iccp_cut_triangle(iccp_corners *corners, uint32_t triangle, uint32_t m)
+{
+    iccp_corners *c = corners;
+    const uint32_t first = 3 * triangle, second = 3 * (uint32_t)c->n_triangles, third = second + 3;
+    const uint32_t v[3] = {c->vertex[first], c->vertex[first + 1], c->vertex[first + 2]};
+    const uint32_t beyond[2] = {c->twin[first], c->twin[first + 1]};
+    c->n_triangles += 2;
+    set_triangle(c, triangle, v[0], v[1], m);
+    set_triangle(c, second / 3, v[1], v[2], m);
+    set_triangle(c, third / 3, v[2], v[0], m);
+    link_twins(c, second + 2, beyond[0]);
+    link_twins(c, third + 2, beyond[1]);
+    link_twins(c, first, second + 1);
+    link_twins(c, second, third + 1);
+    link_twins(c, third, first + 1);
+}
+
 void iccp_flip_edge(iccp_corners *corners, uint32_t corner)
 {
     iccp_corners *c = corners;

@@ -17,12 +17,6 @@ static const double RANGE = 0.3, SHARE_OF_DISTANCE = 0.5;
 /* Strength of a barrier as a share of the mean weight of a triangle. */
 static const double STRENGTH = 1;
 
-static int by_length(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* Lists the lengths of edges that are not told. */
 static size_t list_lengths(const iccp_contact_shape *shape, double *length)
 {
@@ -44,8 +38,7 @@ icc_status iccp_contact_measure(iccp_contact_shape *shape, double weight, const 
     if (length == NULL)
         return ICC_ERR_MEMORY;
     const size_t n = list_lengths(shape, length);
-    iccp_sort(length, n, sizeof *length, by_length);
-    shape->range = n > 0 ? RANGE * length[n / 2] : 0;
+    shape->range = n > 0 ? RANGE * iccp_select(length, n, n / 2) : 0;
     shape->strength = STRENGTH * weight;
     iccp_free(&env->memory, length);
     return ICC_OK;

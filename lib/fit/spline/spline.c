@@ -177,33 +177,23 @@ static icc_status fill_map(iccp_spline *s, const iccp_box_mesh *mesh, const doub
     return ICC_OK;
 }
 
-static bool is_less(const void *context, uint32_t a, uint32_t b)
-{
-    const double *length = context;
-    return length[a] < length[b];
-}
-
 /* Sets *tolerance to a share of the median length of residuals left out, or 0 if none is known. */
 static icc_status find_tolerance(const iccp_spline *s, double *tolerance, const iccp_env *env)
 {
     const size_t n = s->control.n;
-    uint32_t *order = iccp_alloc(&env->memory, n, 2 * sizeof *order);
     double *length = iccp_alloc(&env->memory, n, sizeof *length);
-    const bool ready = order != NULL && length != NULL;
     size_t count = 0;
     *tolerance = 0;
-    for (size_t i = 0; ready && i < n; ++i) {
+    if (length == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t i = 0; i < n; ++i) {
         length[count] = iccp_vec_norm(2, s->left_out_own + 2 * i);
-        order[count] = (uint32_t)count;
         count += isfinite(length[count]) ? 1 : 0;
     }
-    if (ready && count > 0) {
-        iccp_sort_indices(order, order + n, count, length, is_less);
-        *tolerance = TOLERANCE * length[order[count / 2]];
-    }
-    iccp_free(&env->memory, order);
+    if (count > 0)
+        *tolerance = TOLERANCE * iccp_select(length, count, count / 2);
     iccp_free(&env->memory, length);
-    return ready ? ICC_OK : ICC_ERR_MEMORY;
+    return ICC_OK;
 }
 
 /* Makes the map from the bending parts on the solved mesh, refined if that matters. */

@@ -142,35 +142,11 @@ static void flip_around(insertion *s)
     }
 }
 
-static void link_corners(iccp_corners *c, uint32_t a, uint32_t b)
-{
-    c->twin[a] = b;
-    if (b != ICCP_NO_NEIGHBOUR)
-        c->twin[b] = a;
-}
-
-/* Cuts triangle t into three around vertex m. The corners at m are the last ones. */
-static void cut_in_three(iccp_corners *c, uint32_t t, uint32_t m)
-{
-    const uint32_t old = 3 * t, second = 3 * (uint32_t)c->n_triangles, third = second + 3;
-    const uint32_t v[3] = {c->vertex[old], c->vertex[old + 1], c->vertex[old + 2]};
-    const uint32_t beyond[2] = {c->twin[old], c->twin[old + 1]};
-    const uint32_t at[9] = {v[0], v[1], m, v[1], v[2], m, v[2], v[0], m};
-    memcpy(c->vertex + old, at, 3 * sizeof *at);
-    memcpy(c->vertex + second, at + 3, 6 * sizeof *at);
-    c->n_triangles += 2;
-    link_corners(c, second + 2, beyond[0]);
-    link_corners(c, third + 2, beyond[1]);
-    link_corners(c, old, second + 1);
-    link_corners(c, second, third + 1);
-    link_corners(c, third, old + 1);
-}
-
 static void insert_inside(insertion *s, uint32_t t, uint32_t i, uint32_t m)
 {
     iccp_corners *c = &s->map->corners;
     const uint32_t list = take_list(s, t), second = (uint32_t)c->n_triangles, third = second + 1;
-    cut_in_three(c, t, m);
+    iccp_cut_triangle(c, t, m);
     const uint32_t *v = c->vertex + 3 * (size_t)t, last = c->vertex[3 * (size_t)second + 1];
     s->head[second] = s->head[third] = NONE;
     for (uint32_t k = list, next; k != NONE; k = next) {

@@ -123,7 +123,7 @@ static icc_status fill_regions(iccp_pieces *p, bool *is_done, const iccp_env *en
     for (size_t k = 0; status == ICC_OK && k < r->n; ++k)
         if (!is_filled(p, &r->item[k])) {
             *is_done = false;
-            status = iccp_regions_widen(r, k, env);
+            status = iccp_regions_widen(r, k);
         }
     return status;
 }

@@ -5,6 +5,7 @@
 #include "map/nearest/regions.h"
 
 #include "base/minmax.h"
+#include "base/sort.h"
 
 #include <string.h>
 
@@ -31,7 +32,7 @@ static icc_status reserve(iccp_regions *r, const iccp_plmap *map, const iccp_mem
                         .region = iccp_alloc(memory, n_triangles, sizeof *r->region),
                         .chosen = iccp_alloc(memory, n_triangles, sizeof *r->chosen),
                         .settled = iccp_alloc_zero(memory, n_triangles, sizeof *r->settled),
-                        .begin = iccp_alloc_zero(memory, n + 2, sizeof *r->begin),
+                        .begin = iccp_alloc_zero(memory, n + 1, sizeof *r->begin),
                         .star = iccp_alloc(memory, 3 * n_triangles, sizeof *r->star),
                         .link = iccp_alloc(memory, n, sizeof *r->link),
                         .seen = iccp_alloc_zero(memory, n, sizeof *r->seen),
@@ -61,49 +62,12 @@ void iccp_regions_free(iccp_regions *regions)
     iccp_free(&memory, r->visited);
 }
 
-static void list_stars(iccp_regions *r)
-{
-    const iccp_corners *c = &r->map->corners;
-    for (size_t k = 0; k < 3 * c->n_triangles; ++k)
-        ++r->begin[c->vertex[k] + 2];
-    for (size_t v = 2; v < r->map->n_vertices + 2; ++v)
-        r->begin[v] += r->begin[v - 1];
-    for (uint32_t k = 0; k < 3 * c->n_triangles; ++k)
-        r->star[r->begin[c->vertex[k] + 1]++] = k / 3;
-}
-
 /* Twice the area of a triangle whose corners have these coordinates. */
 static double twice_area(const iccp_plmap *map, const double *at, size_t triangle)
 {
     const uint32_t *v = map->corners.vertex + 3 * triangle;
     const double *a = at + 2 * (size_t)v[0], *b = at + 2 * (size_t)v[1], *c = at + 2 * (size_t)v[2];
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-/* Moves the element that belongs at place k in rising order there. Hoare's selection. */
-static double select_at(double *x, size_t n, size_t k)
-{
-    size_t low = 0, high = n - 1;
-    while (low < high) {
-        const double pivot = x[low + (high - low) / 2];
-        size_t i = low, j = high;
-        while (true) {
-            while (x[i] < pivot)
-                ++i;
-            while (x[j] > pivot)
-                --j;
-            if (i >= j)
-                break;
-            const double other = x[i];
-            x[i++] = x[j];
-            x[j--] = other;
-        }
-        if (k <= j)
-            high = j;
-        else
-            low = j + 1;
-    }
-    return x[k];
 }
 
 static void choose(iccp_regions *r, uint32_t triangle)
@@ -121,7 +85,7 @@ static icc_status choose_folded(iccp_regions *r)
     for (size_t t = 0; t < n; ++t)
         ratio[t] = ratio[n + t] =
             twice_area(r->map, r->map->images, t) / twice_area(r->map, r->map->points, t);
-    const double least = NEARLY_FOLDED * select_at(ratio + n, n, n / 2);
+    const double least = NEARLY_FOLDED * iccp_select(ratio + n, n, n / 2);
     for (uint32_t t = 0; t < n; ++t)
         if (!(ratio[t] > least) || !iccp_plmap_positive_image(r->map, t))
             choose(r, t);
@@ -180,7 +144,8 @@ icc_status iccp_regions_create(iccp_regions *regions, const iccp_plmap *map, con
 {
     icc_status status = reserve(regions, map, &env->memory);
     if (status == ICC_OK) {
-        list_stars(regions);
+        iccp_list_groups(regions->star, regions->begin, map->n_vertices, map->corners.vertex,
+                         map->corners.n_triangles, 3);
         status = choose_folded(regions);
     }
     return status == ICC_OK ? grow(regions, regions->n_chosen, regions->chosen, FIRST_RINGS)
@@ -462,11 +427,10 @@ void iccp_regions_take_all(iccp_regions *regions)
     }
 }
 
-icc_status iccp_regions_widen(iccp_regions *regions, size_t region, const iccp_env *env)
+icc_status iccp_regions_widen(iccp_regions *regions, size_t region)
 {
     iccp_regions *r = regions;
     const iccp_region *own = &r->item[region];
-    (void)env;
     r->settled[own->first] = 0;
     if (own->n == r->map->corners.n_triangles) {
         r->is_stuck = true;

@@ -64,7 +64,7 @@ icc_status iccp_regions_settle(iccp_regions *regions, const iccp_env *env);
 void iccp_regions_take_all(iccp_regions *regions);
 
 /* Lets a sound region grow, because it could not be mapped. Then call iccp_regions_settle(). */
-icc_status iccp_regions_widen(iccp_regions *regions, size_t region, const iccp_env *env);
+icc_status iccp_regions_widen(iccp_regions *regions, size_t region);
 
 /* Lists the rim of a sound region. */
 icc_status iccp_rim_create(iccp_rim *rim, iccp_regions *regions, size_t region,
