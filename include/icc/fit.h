@@ -175,8 +175,8 @@ typedef struct icc_fit_options {
     double stiffness;
     /** elastic, with a mesh: a further factor above 0 for each cell; or NULL */
     const double *cell_stiffness;
-    /** elastic: the longest edge of the mesh that libicc makes, as a length in the source; 0:
-     *  chosen */
+    /** elastic, with a domain: the longest edge of the mesh that libicc makes, as a length in the
+     *  source; 0: chosen */
     double cell;
     /** elastic, 1: parts of the free outline may come to lie on each other. Then the result is
      *  refused if they do. 0: they push each other away */
@@ -188,17 +188,18 @@ typedef struct icc_fit_info {
     size_t size;      /**< set by the caller: `sizeof(icc_fit_info)` */
     int32_t model;    /**< `ICC_FIT_*`: never 0 */
     size_t n_items;   /**< points and vertices of all constraints */
-    double margin;    /**< spline without a domain: as used */
+    double margin;    /**< spline: as used */
     double smoothing; /**< spline: as used; 0: all points are exact */
     double residual;  /**< root mean square distance of the images of points from their targets */
     /** spline: root mean square distance of the targets from where the other points alone would
      *  take them. An honest estimate of the accuracy between points. NaN if not known */
     double left_out;
     double affine_residual; /**< spline: like `residual`, of the best affine map alone */
-    /** elastic: number of exact items that were not reached, because the shape would have
-     *  overlapped or folded on the way */
+    /** elastic: number of told vertices that did not reach their targets or lines, because the shape
+     *  would have overlapped or folded on the way. Vertices that libicc made on edges between told
+     *  ones count, too, so this may be more than n_items */
     size_t n_off;
-    double most_off;     /**< elastic: the largest distance of such an item from its target */
+    double most_off;     /**< elastic: the largest distance of such a vertex from its target */
     int32_t repair;      /**< spline: `ICC_REPAIR_*` */
     size_t n_folded;     /**< spline: triangles of the model that are flat or reversed */
     size_t n_patches;    /**< spline: patches that were mapped anew */
@@ -229,14 +230,18 @@ typedef struct icc_fit_info {
  * @param constraints   n_constraints of them; they are copied
  * @param options       may be NULL
  * @param env           may be NULL
- * @param err           may be NULL; `index` is the point or vertex at fault, counted over all
- *                      constraints (::ICC_ITEM_POINT)
+ * @param err           may be NULL; if an item is at fault, `index` counts it over all constraints
+ *                      (::ICC_ITEM_POINT). `side` is 1 for the source, and 2 for the target
  * @return ::ICC_OK, or
- * - ::ICC_ERR_ARGUMENT if two items coincide and have different targets, or the other way round; if
- *   the targets mirror the points; or if an option does not suit the model
- * - ::ICC_ERR_OUTSIDE if a point or line is not inside the domain
- * - ::ICC_ERR_BOUNDARY if told parts of the boundary cross in the target
- * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found
+ * - ::ICC_ERR_ARGUMENT if two items coincide and have different targets, if a number is not finite
+ *   or too small beside the others, or if an option does not suit the model. For control points
+ *   also if different exact ones have the same target, or if the targets mirror the points or lie
+ *   on a line
+ * - ::ICC_ERR_OUTSIDE if a point is not inside the domain
+ * - ::ICC_ERR_BOUNDARY if the mesh is not valid
+ * - ::ICC_ERR_TOPOLOGY if the mesh has several pieces
+ * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found, or if lines meet one another or the
+ *   outline
  * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane, if the domain is a mask or has
  *   lines or points, or for lines and vertices without a domain and mesh
  * - ::ICC_ERR_MEMORY, ::ICC_ERR_VERSION or ::ICC_ERR_CANCELLED
@@ -252,7 +257,8 @@ ICC_API icc_status icc_fit_create(icc_fit **out, const icc_domain *domain, const
 
 /**
  * Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged.
- * The mesh stays. An elastic fit continues from its present shape.
+ * An elastic fit keeps its mesh and continues from its present shape. A spline keeps its margin, but
+ * its mesh may change.
  *
  * @param[out] out the fit; owned by the caller
  * @param fit      the fit before. It does not change

@@ -10,7 +10,7 @@
 
 ICCP_END(fit)
 
-static const double most_stiffness = 3;
+static const double MOST_STIFFNESS = 3;
 
 /* ---- constraints ---- */
 
@@ -80,11 +80,13 @@ static icc_status read_constraints(icc_constraint *full, size_t n, const icc_con
 
 static icc_status check_number(double value, double most, const char *name, icc_error *err)
 {
-    return value >= 0 && value <= most && isfinite(value)
-               ? ICC_OK
+    if (value >= 0 && value <= most && isfinite(value))
+        return ICC_OK;
+    return most < HUGE_VAL
+               ? iccp_fail(err, ICC_ERR_ARGUMENT, "icc_fit_options.%s is %g; it must lie in 0..%g",
+                           name, value, most)
                : iccp_fail(err, ICC_ERR_ARGUMENT,
-                           "icc_fit_options.%s is %g; it must be finite, at least 0%s", name, value,
-                           most < HUGE_VAL ? " and at most 3" : "");
+                           "icc_fit_options.%s is %g; it must be finite, at least 0", name, value);
 }
 
 static icc_status check_box(const double *box, icc_error *err)
@@ -120,6 +122,9 @@ static icc_status check_model(const icc_fit_options *o, bool has_shape, bool has
     if (wrong != NULL)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_fit_options.%s needs a domain or a mesh",
                          wrong);
+    if (o->cell > 0 && has_mesh)
+        return iccp_fail(err, ICC_ERR_ARGUMENT,
+                         "icc_fit_options.cell needs a domain; a mesh is kept as it is");
     if (o->cell_stiffness != NULL && !has_mesh)
         return iccp_fail(err, ICC_ERR_ARGUMENT, "icc_fit_options.cell_stiffness needs a mesh");
     return ICC_OK;
@@ -140,7 +145,7 @@ static icc_status check_options(const icc_fit_options *o, const icc_domain *doma
     if (status == ICC_OK)
         status = check_number(o->reach, HUGE_VAL, "reach", err);
     if (status == ICC_OK)
-        status = check_number(o->stiffness, most_stiffness, "stiffness", err);
+        status = check_number(o->stiffness, MOST_STIFFNESS, "stiffness", err);
     if (status == ICC_OK)
         status = check_number(o->cell, HUGE_VAL, "cell", err);
     if (status == ICC_OK && (o->no_contact < 0 || o->no_contact > 1))

@@ -378,8 +378,8 @@ static icc_status hold_items(iccp_elastic_shape *s, iccp_told *told, icc_error *
              told->kind[other] == ICC_CONSTRAINT_SLIDING ||
              !are_equal(told->target + 2 * i, told->target + 2 * (size_t)other)))
             status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
-                                  "points %lu and %zu are in the same place and have different "
-                                  "targets",
+                                  "points %lu and %zu are in the same place: they must have the "
+                                  "same target, and must not slide",
                                   (unsigned long)other, i);
         if (status != ICC_OK)
             break;
@@ -433,8 +433,8 @@ static icc_status find_directions(iccp_elastic_shape *s, const uint32_t *next, u
     return status;
 }
 
-/* Says of vertices on told edges what follows from the edges' ends. They go along linearly if both
- * ends are held. They slide if an end slides along the edge and the other end is told. */
+/* Vertices on edges whose two ends are told are told, too. They go along linearly if both ends are
+ * held, and slide in the direction of the end that slides. */
 static void hold_edges(iccp_elastic_shape *s)
 {
     for (size_t v = s->n_vertices; s->ends != NULL && v < s->n_points; ++v) {
@@ -467,7 +467,7 @@ static icc_status hold_boundary(iccp_elastic_shape *s, const iccp_env *env, icc_
     icc_status status = corners.twin != NULL && next != NULL
                             ? iccp_link_triangles(&corners, s->n_points, next, env, err)
                             : ICC_ERR_MEMORY;
-    if (status == ICC_ERR_BOUNDARY)
+    if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_TOPOLOGY)
         status = iccp_fail_side(err, status, 1);
     if (status == ICC_OK)
         status = find_directions(s, next, next + s->n_points, err);

@@ -21,8 +21,8 @@ typedef struct iccp_given_mesh {
  * - ICC_ERR_BOUNDARY if the mesh is not a manifold or has a vertex without triangles, or if the
  *   boundary meets itself or a held vertex, before or after the map
  * - ICC_ERR_RESOLUTION if a coordinate is too small for exact signs
- * - ICC_ERR_CERTIFICATE if a triangle is not positive on both sides, or the mesh is not in one
- *   piece. */
+ * - ICC_ERR_TOPOLOGY if the mesh is not in one piece
+ * - ICC_ERR_CERTIFICATE if a triangle is not positive on both sides. */
 icc_status iccp_map_of_mesh(icc_map **out, const iccp_given_mesh *mesh, const iccp_env *env,
                             icc_error *err);
 

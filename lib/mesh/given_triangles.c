@@ -50,6 +50,33 @@ icc_status iccp_check_used(size_t n_vertices, size_t n, const uint32_t *triangle
                                           "vertex %zu belongs to no triangle", v);
 }
 
+/* Walks from triangle to triangle across edges. */
+static icc_status check_pieces(const iccp_corners *c, const iccp_env *env, icc_error *err)
+{
+    const size_t n = c->n_triangles;
+    uint32_t *list = iccp_alloc(&env->memory, n, sizeof *list);
+    uint8_t *is_met = iccp_alloc_zero(&env->memory, n, 1);
+    size_t n_met = 0;
+    icc_status status = list != NULL && is_met != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK) {
+        list[n_met++] = 0;
+        is_met[0] = 1;
+    }
+    for (size_t i = 0; i < n_met; ++i)
+        for (size_t k = 0; k < 3; ++k) {
+            const uint32_t twin = c->twin[3 * (size_t)list[i] + k];
+            if (twin == ICCP_NO_NEIGHBOUR || is_met[twin / 3])
+                continue;
+            is_met[twin / 3] = 1;
+            list[n_met++] = twin / 3;
+        }
+    iccp_free(&env->memory, list);
+    iccp_free(&env->memory, is_met);
+    return status == ICC_OK && n_met < n
+               ? iccp_fail(err, ICC_ERR_TOPOLOGY, "the mesh is not in one piece")
+               : status;
+}
+
 icc_status iccp_link_triangles(iccp_corners *corners, size_t n_vertices, uint32_t *next,
                                const iccp_env *env, icc_error *err)
 {
@@ -62,6 +89,6 @@ icc_status iccp_link_triangles(iccp_corners *corners, size_t n_vertices, uint32_
                          "an edge belongs to two triangles on the same side, or a triangle lists a "
                          "vertex twice");
     return iccp_link_boundary(corners, n_vertices, next)
-               ? ICC_OK
+               ? check_pieces(corners, env, err)
                : iccp_fail(err, ICC_ERR_BOUNDARY, "two parts of the boundary share a vertex");
 }

@@ -1,5 +1,5 @@
 /* Checks of triangles that a caller gives. Each function returns ICC_ERR_BOUNDARY, with a message,
- * if they are no mesh. */
+ * if they are not a mesh. */
 #ifndef ICCP_GIVEN_TRIANGLES_H
 #define ICCP_GIVEN_TRIANGLES_H
 
@@ -16,7 +16,8 @@ icc_status iccp_check_used(size_t n_vertices, size_t n, const uint32_t *triangle
                            const iccp_env *env, icc_error *err);
 
 /* Finds the twins, and next[v] as iccp_link_boundary() does. The triangles must form a manifold,
- * so no two parts of the boundary may share a vertex. */
+ * so no two parts of the boundary may share a vertex. Returns ICC_ERR_TOPOLOGY if they are not in
+ * one piece. */
 icc_status iccp_link_triangles(iccp_corners *corners, size_t n_vertices, uint32_t *next,
                                const iccp_env *env, icc_error *err);
 

@@ -390,8 +390,8 @@ static icc_status build(builder *b, icc_error *err)
     if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE || status == ICC_ERR_ARGUMENT ||
         status == ICC_ERR_TOPOLOGY)
         status = iccp_fail(err, ICC_ERR_CERTIFICATE,
-                           "the domain cannot be meshed: points or sides are closer than rounding "
-                           "errors");
+                           "the domain cannot be meshed: lines meet one another or the outline, or "
+                           "points or sides are closer than rounding errors");
     return status;
 }
 

@@ -9,7 +9,7 @@ typedef struct iccp_pin_mesh_input {
     const icc_domain *domain; /* a polygon, with or without holes */
     size_t n_pins;            /* points inside, all different */
     const double *pins;       /* 2 n_pins */
-    size_t n_segments; /* pairs of pins that edges of the mesh must join. They do not cross */
+    size_t n_segments;        /* pairs of pins that edges of the mesh must join */
     const uint32_t *segments; /* 2 n_segments */
     double cell;              /* the longest edge, about; 0: as short as for some 1,500 triangles */
     double
@@ -31,7 +31,8 @@ typedef struct iccp_pin_mesh {
 
 /* Edges of the outline and segments are divided. Near pins that are close to one another, or to
  * the outline, triangles are smaller. Returns ICC_ERR_OUTSIDE if a pin is not inside, with its
- * number in `err`, and ICC_ERR_CERTIFICATE if points are so close that rounded ones touch. */
+ * number in `err`, and ICC_ERR_CERTIFICATE if segments meet the outline or one another, or if points are so
+ * close that rounded ones touch. */
 icc_status iccp_pin_mesh_create(iccp_pin_mesh *mesh, const iccp_pin_mesh_input *input,
                                 const iccp_env *env, icc_error *err);
 void iccp_pin_mesh_free(iccp_pin_mesh *mesh);

@@ -42,33 +42,6 @@ static icc_status localise(maker *m, int side, icc_error *err)
     return status == ICC_OK ? status : iccp_fail_side(err, status, side + 1);
 }
 
-/* Whether all triangles are connected across edges. */
-static icc_status check_pieces(const iccp_corners *c, const iccp_env *env, icc_error *err)
-{
-    const size_t n = c->n_triangles;
-    uint32_t *list = iccp_alloc(&env->memory, n, sizeof *list);
-    uint8_t *is_met = iccp_alloc_zero(&env->memory, n, 1);
-    size_t n_met = 1;
-    icc_status status = list != NULL && is_met != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    if (status == ICC_OK) {
-        list[0] = 0;
-        is_met[0] = 1;
-    }
-    for (size_t i = 0; status == ICC_OK && i < n_met; ++i)
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t twin = c->twin[3 * (size_t)list[i] + k];
-            if (twin == ICCP_NO_NEIGHBOUR || is_met[twin / 3])
-                continue;
-            is_met[twin / 3] = 1;
-            list[n_met++] = twin / 3;
-        }
-    iccp_free(&env->memory, list);
-    iccp_free(&env->memory, is_met);
-    return status == ICC_OK && n_met < n
-               ? iccp_fail(err, ICC_ERR_TOPOLOGY, "the mesh is not in one piece")
-               : status;
-}
-
 /* Links the triangles, and marks the vertices of the boundary and the held ones. Checks the
  * boundary before the map. */
 static icc_status fix(maker *m, const iccp_env *env, icc_error *err)
@@ -79,8 +52,6 @@ static icc_status fix(maker *m, const iccp_env *env, icc_error *err)
     iccp_outlines outlines = {.memory = env->memory};
     icc_status status =
         next != NULL ? iccp_link_triangles(&map->corners, n, next, env, err) : ICC_ERR_MEMORY;
-    if (status == ICC_OK)
-        status = check_pieces(&map->corners, env, err);
     for (uint32_t v = 0; status == ICC_OK && v < n; ++v) {
         map->fixed[v] = next[v] != UINT32_MAX ? ICCP_ALONG : ICCP_FREE;
         map->facet[v] = v;

@@ -4059,7 +4059,8 @@ pub struct icc_fit_options {
     pub stiffness: f64,
     /// elastic, with a mesh: a further factor above 0 for each cell; or NULL
     pub cell_stiffness: *const f64,
-    /// elastic: the longest edge of the mesh that libicc makes, as a length in the source; 0: chosen
+    /// elastic, with a domain: the longest edge of the mesh that libicc makes, as a length in the source; 0:
+    /// chosen
     pub cell: f64,
     /// elastic, 1: parts of the free outline may come to lie on each other. Then the result is refused if
     /// they do. 0: they push each other away
@@ -4077,7 +4078,7 @@ pub struct icc_fit_info {
     pub model: i32,
     /// points and vertices of all constraints
     pub n_items: usize,
-    /// spline without a domain: as used
+    /// spline: as used
     pub margin: f64,
     /// spline: as used; 0: all points are exact
     pub smoothing: f64,
@@ -4088,10 +4089,11 @@ pub struct icc_fit_info {
     pub left_out: f64,
     /// spline: like `residual`, of the best affine map alone
     pub affine_residual: f64,
-    /// elastic: number of exact items that were not reached, because the shape would have overlapped or
-    /// folded on the way
+    /// elastic: number of told vertices that did not reach their targets or lines, because the shape would
+    /// have overlapped or folded on the way. Vertices that libicc made on edges between told ones count, too,
+    /// so this may be more than n_items
     pub n_off: usize,
-    /// elastic: the largest distance of such an item from its target
+    /// elastic: the largest distance of such a vertex from its target
     pub most_off: f64,
     /// spline: `ICC_REPAIR_*`
     pub repair: i32,
@@ -4177,16 +4179,18 @@ extern "C" {
     /// - `constraints`: n_constraints of them; they are copied
     /// - `options`: may be NULL
     /// - `env`: may be NULL
-    /// - `err`: may be NULL; `index` is the point or vertex at fault, counted over all constraints
-    ///   (`ICC_ITEM_POINT`)
+    /// - `err`: may be NULL; if an item is at fault, `index` counts it over all constraints
+    ///   (`ICC_ITEM_POINT`). `side` is 1 for the source, and 2 for the target
     ///
     /// Returns `ICC_OK`, or
     ///
-    /// - `ICC_ERR_ARGUMENT` if two items coincide and have different targets, or the other way round; if the
-    ///   targets mirror the points; or if an option does not suit the model
-    /// - `ICC_ERR_OUTSIDE` if a point or line is not inside the domain
-    /// - `ICC_ERR_BOUNDARY` if told parts of the boundary cross in the target
-    /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found
+    /// - `ICC_ERR_ARGUMENT` if two items coincide and have different targets, if a number is not finite or
+    ///   too small beside the others, or if an option does not suit the model. For control points also if
+    ///   different exact ones have the same target, or if the targets mirror the points or lie on a line
+    /// - `ICC_ERR_OUTSIDE` if a point is not inside the domain
+    /// - `ICC_ERR_BOUNDARY` if the mesh is not valid
+    /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces
+    /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found, or if lines meet one another or the outline
     /// - `ICC_ERR_UNSUPPORTED` if the domain or mesh is not in the plane, if the domain is a mask or has
     ///   lines or points, or for lines and vertices without a domain and mesh
     /// - `ICC_ERR_MEMORY`, `ICC_ERR_VERSION` or `ICC_ERR_CANCELLED`
@@ -4205,8 +4209,9 @@ extern "C" {
         err: *mut icc_error,
     ) -> icc_status;
 
-    /// Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged. The
-    /// mesh stays. An elastic fit continues from its present shape.
+    /// Makes the fit to targets that have moved, starting from `fit`. Use it while something is dragged. An
+    /// elastic fit keeps its mesh and continues from its present shape. A spline keeps its margin, but its
+    /// mesh may change.
     ///
     /// - `out` (out): the fit; owned by the caller
     /// - `fit`: the fit before. It does not change
