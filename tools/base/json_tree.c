@@ -173,6 +173,12 @@ const char *json_string_of(const json_item *item)
     return item != NULL ? item->string : NULL;
 }
 
+bool json_has_type(const json_item *object, const char *type)
+{
+    const char *own = json_string_of(json_get(object, "type"));
+    return own != NULL && strcmp(own, type) == 0;
+}
+
 size_t json_size(const json_item *list)
 {
     return json_is(list, JSON_LIST) ? list->n : 0;

@@ -44,6 +44,9 @@ bool json_is(const json_item *item, json_kind kind);
 /* NULL unless it is a string. */
 const char *json_string_of(const json_item *item);
 
+/* True for an object whose member "type" is this text. */
+bool json_has_type(const json_item *object, const char *type);
+
 /* The number of values of a list, the first of them, and the first member of an object. */
 size_t json_size(const json_item *list);
 const json_item *json_first(const json_item *list);

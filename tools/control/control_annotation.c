@@ -13,17 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_type(const json_item *object, const char *type)
-{
-    const char *own = json_string_of(json_get(object, "type"));
-    return own != NULL && strcmp(own, type) == 0;
-}
-
 bool control_is_annotation(const json_tree *tree)
 {
     const json_item *object = json_first(tree->root);
-    return is_type(object, "Annotation") || is_type(object, "AnnotationPage") ||
-           is_type(object, "GeoreferencedMap");
+    return json_has_type(object, "Annotation") || json_has_type(object, "AnnotationPage") ||
+           json_has_type(object, "GeoreferencedMap");
 }
 
 /* Reads a pair of numbers. */
@@ -64,8 +58,9 @@ static bool read_point(control_points *out, const json_item *point, size_t line,
 /* The list of points of an annotation or a map. */
 static const json_item *points_of(const json_item *object)
 {
-    return is_type(object, "GeoreferencedMap") ? json_get(object, "gcps")
-                                               : json_get(json_get(object, "body"), "features");
+    return json_has_type(object, "GeoreferencedMap")
+               ? json_get(object, "gcps")
+               : json_get(json_get(object, "body"), "features");
 }
 
 bool control_read_annotation(control_points *out, const json_tree *tree, const char *text,
@@ -75,7 +70,7 @@ bool control_read_annotation(control_points *out, const json_tree *tree, const c
     const json_item *object = json_first(tree->root);
     out->format = "a georeference annotation";
     out->rows_down = true;
-    if (is_type(object, "AnnotationPage")) {
+    if (json_has_type(object, "AnnotationPage")) {
         const json_item *items = json_get(object, "items");
         if (json_size(items) != 1)
             return spoilt(

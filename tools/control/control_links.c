@@ -28,12 +28,6 @@ typedef struct links {
     lone_point *points;
 } links;
 
-static bool is_type(const json_item *object, const char *type)
-{
-    const char *own = json_string_of(json_get(object, "type"));
-    return own != NULL && strcmp(own, type) == 0;
-}
-
 static const json_item *property(const json_item *feature, const char *name)
 {
     return json_get(json_get(feature, "properties"), name);
@@ -130,15 +124,15 @@ static bool keep_point(links *l, const json_item *feature, const json_item *posi
 static bool read_feature(links *l, const json_item *feature, problem *wrong)
 {
     const json_item *geometry =
-        is_type(feature, "Feature") ? json_get(feature, "geometry") : feature;
+        json_has_type(feature, "Feature") ? json_get(feature, "geometry") : feature;
     const json_item *coordinates = json_get(geometry, "coordinates");
     bool has_role = property(feature, "role") != NULL;
-    if (is_type(geometry, "Point"))
+    if (json_has_type(geometry, "Point"))
         return keep_point(l, feature, coordinates, wrong);
-    if (is_type(geometry, "LineString") && !has_role)
+    if (json_has_type(geometry, "LineString") && !has_role)
         return read_link(l, feature, coordinates, wrong);
     bool good = true;
-    if (is_type(geometry, "MultiLineString") && !has_role)
+    if (json_has_type(geometry, "MultiLineString") && !has_role)
         for (const json_item *x = json_first(coordinates); x != NULL && good; x = json_next(x))
             good = read_link(l, feature, x, wrong);
     return good;

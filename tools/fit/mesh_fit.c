@@ -23,9 +23,6 @@ static const double MADE = 0.9;
 /* A point this far from a vertex, as a share of the mesh's size, means the vertex. */
 static const double SAME_PLACE = 1e-6;
 
-/* The sine of the largest angle at which a wall counts as straight: one degree. */
-static const double STRAIGHT = 0.0175;
-
 /* The faces of a file as a mesh that has no other vertices. */
 typedef struct faces {
     icc_mesh mesh;
@@ -205,12 +202,9 @@ static int take_points(told *t, const char *name)
 static bool take_wall(told *t, uint32_t v, uint32_t before, uint32_t after)
 {
     const double *x = t->faces->points, *a = x + 2 * (size_t)before, *b = x + 2 * (size_t)after;
-    const double *at = x + 2 * (size_t)v;
-    double p[2] = {at[0] - a[0], at[1] - a[1]}, q[2] = {b[0] - at[0], b[1] - at[1]};
-    double size = hypot(p[0], p[1]) * hypot(q[0], q[1]);
     t->directions[2 * v] = b[0] - a[0];
     t->directions[2 * v + 1] = b[1] - a[1];
-    return fabs(p[0] * q[1] - p[1] * q[0]) <= STRAIGHT * size && p[0] * q[0] + p[1] * q[1] > 0;
+    return fit_is_straight(a, x + 2 * (size_t)v, b);
 }
 
 /* Decides about a vertex of the boundary. */
@@ -330,10 +324,13 @@ static int tell_off(const told *t, job *j)
         if (hypot(residuals[2 * i], residuals[2 * i + 1]) >
             hypot(residuals[2 * worst], residuals[2 * worst + 1]))
             worst = i;
-    note(
-        "%s: %zu vertices are not at their places, up to %g off (line %zu), because the mesh would "
-        "fold or overlap on the way",
-        j->args->moves, info.n_off, info.most_off, worst < t->n_items ? t->item_lines[worst] : 0);
+    size_t line = t->item_lines[worst];
+    char where[40] = "";
+    if (line > 0)
+        snprintf(where, sizeof where, " (line %zu)", line);
+    note("%s: %zu vertices are not at their places, up to %g off%s, because the mesh would fold or "
+         "overlap on the way",
+         j->args->moves, info.n_off, info.most_off, where);
     free(residuals);
     return PARTIAL;
 }

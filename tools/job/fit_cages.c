@@ -12,8 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The sine of the largest angle at which a wall with sliding vertices counts as straight in the
- * source: one degree. */
+/* The sine of the largest angle at which a wall counts as straight: one degree. */
 static const double STRAIGHT = 0.0175;
 
 typedef struct told {
@@ -74,13 +73,12 @@ static void end(told *t)
     free(t->constraints);
 }
 
-/* True if the source bends at vertex v between its neighbours a and b. */
-static bool bends(const double *a, const double *v, const double *b)
+bool fit_is_straight(const double *a, const double *v, const double *b)
 {
     double x[2] = {v[0] - a[0], v[1] - a[1]}, y[2] = {b[0] - v[0], b[1] - v[1]};
     double size = hypot(x[0], x[1]) * hypot(y[0], y[1]);
     double along = x[0] * y[0] + x[1] * y[1];
-    return !(fabs(x[0] * y[1] - x[1] * y[0]) <= STRAIGHT * size) || !(along > 0);
+    return fabs(x[0] * y[1] - x[1] * y[0]) <= STRAIGHT * size && along > 0;
 }
 
 /* Finds the line of a vertex of the outline of n vertices that slides. */
@@ -101,7 +99,7 @@ static int add_sliding(told *t, const job *j, size_t n, size_t v)
             j->args->target, t->lines[v],
             "a vertex slides along the line between the nearest vertices before and after "
             "it that have coordinates; here these are not two");
-    if (bends(t->from + 2 * last, t->from + 2 * v, t->from + 2 * next))
+    if (!fit_is_straight(t->from + 2 * last, t->from + 2 * v, t->from + 2 * next))
         return failed(j->args->target, t->lines[v],
                       "this vertex cannot slide: the source has a corner there, so write where it "
                       "goes");

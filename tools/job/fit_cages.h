@@ -9,6 +9,9 @@
  * places that they come to. The cages must have been read and correspond. */
 int fit_cages(job *j);
 
+/* True if a wall from a over v to b is straight enough for v to slide along it. */
+bool fit_is_straight(const double *a, const double *v, const double *b);
+
 /* Prints why a fit of a job was not made, for its item of this line, or 0. Returns FAILED. */
 int fit_failed(job *j, const char *file, size_t line, const icc_error *err);
 
