@@ -319,14 +319,13 @@ static icc_status shape_of_domain(iccp_elastic_shape *s, const icc_domain *domai
     s->frame = domain->frame;
     s->n_vertices = domain->n_vertices;
     icc_status status = list_pins(&p, s, domain, told, env);
-    const double scale = s->frame.in[0] * s->frame.in[1];
     const iccp_pin_mesh_input input = {.domain = domain,
                                        .n_pins = p.n,
                                        .pins = p.points,
                                        .n_segments = p.n_segments,
                                        .segments = p.segments,
-                                       .cell = options->cell * scale,
-                                       .reach = options->reach * scale};
+                                       .cell = options->cell * s->frame.in[0] * s->frame.in[1],
+                                       .reach = options->reach * s->frame.in[0] * s->frame.in[1]};
     if (status == ICC_OK) {
         status = iccp_pin_mesh_create(&mesh, &input, env, err);
         if (status == ICC_ERR_OUTSIDE)

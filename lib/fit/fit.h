@@ -3,7 +3,7 @@
  * Words of this folder
  * - told: what the caller's constraints say. item: a point or vertex of a constraint (told.h).
  * - model: what carries the rest along. spline/ bends the least, elastic/ distorts the least.
- * - aim: to solve again for other targets.
+ * - aim: to give told items other targets.
  * - repair: to make a folded model one-to-one (map/nearest).
  * - shape: a mesh that an elastic fit moves (elastic_fit.h).
  *
@@ -14,7 +14,7 @@
  *   and certifies an ordinary map.
  *
  * Invariants
- * - A fit does not change. A fit that was made by moving shares what does not depend on targets.
+ * - A fit does not change. Elastic fits that were made by moving one another share their shape.
  * - Exact items that are not reported as off have their targets bit for bit.
  *
  * Begin with fit.c. */

@@ -161,22 +161,21 @@ static void note_residuals(spline_job *j, const double *images)
 {
     icc_fit *fit = j->fit;
     const iccp_spline *s = &j->spline;
+    const double *unit = j->frame[1].out;
     double sum = 0;
     for (size_t i = 0; i < fit->told.n; ++i)
         for (size_t k = 0; k < 2; ++k) {
             const double off =
                 images[2 * (size_t)s->control.number[i] + k] - fit->told.target[2 * i + k];
             fit->residuals[2 * i + k] = off;
-            fit->left_out[2 * i + k] =
-                s->left_out[2 * i + k] * j->frame[1].out[0] * j->frame[1].out[1];
+            fit->left_out[2 * i + k] = s->left_out[2 * i + k] * unit[0] * unit[1];
             sum += off * off;
         }
-    const double scale = j->frame[1].out[0] * j->frame[1].out[1];
     fit->info.margin = s->margin;
     fit->info.smoothing = s->smoothing;
     fit->info.residual = sqrt(sum / (double)fit->told.n);
-    fit->info.left_out = s->left_out_residual * scale;
-    fit->info.affine_residual = s->affine_residual * scale;
+    fit->info.left_out = s->left_out_residual * unit[0] * unit[1];
+    fit->info.affine_residual = s->affine_residual * unit[0] * unit[1];
 }
 
 static icc_status make_map(spline_job *j, const iccp_env *env, icc_error *err)

@@ -141,13 +141,13 @@ static void fill_report(icc_nearest_report *report, const maker *m, const iccp_n
         sum += square;
         most = iccp_max(most, square);
     }
-    const double unit = m->frame[1].out[0] * m->frame[1].out[1];
+    const double *unit = m->frame[1].out;
     report->repair = facts->repair;
     report->n_folded = facts->n_folded;
     report->n_patches = facts->n_patches;
     report->changed = facts->changed;
-    report->moved = sqrt(sum / (double)m->warp->n_vertices) * unit;
-    report->most_moved = sqrt(most) * unit;
+    report->moved = sqrt(sum / (double)m->warp->n_vertices) * unit[0] * unit[1];
+    report->most_moved = sqrt(most) * unit[0] * unit[1];
     report->n_iterations = facts->n_iterations;
 }
 
