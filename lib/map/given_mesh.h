@@ -15,7 +15,8 @@ typedef struct iccp_given_mesh {
 } iccp_given_mesh;
 
 /* Makes and certifies the map. Its domains are the outline of the mesh and of its image, whose
- * holes and held vertices become features. Vertices and triangles keep their numbers and their bits.
+ * holes and held vertices become features. Vertices and triangles keep their numbers and their
+ * bits.
  *
  * Returns
  * - ICC_ERR_BOUNDARY if the mesh is not a manifold or has a vertex without triangles, or if the

@@ -16,8 +16,8 @@ typedef struct iccp_corners {
  * triangles are added at the end, or one for a boundary edge. */
 void iccp_cut_edge(iccp_corners *corners, uint32_t corner, uint32_t m);
 
-/* Cuts a triangle into three around vertex m. Two triangles are added at the end. The last corner of
- * each of the three is at m. */
+/* Cuts a triangle into three around vertex m. Two triangles are added at the end. The last corner
+ * of each of the three is at m. */
 void iccp_cut_triangle(iccp_corners *corners, uint32_t triangle, uint32_t m);
 
 /* Flips an inner edge: replaces it by the other diagonal of its two triangles. */

@@ -440,7 +440,13 @@ START_TEST(wrong_requests_are_refused)
     check_refused(ICC_ERR_ARGUMENT, domain, &b.mesh, &told, NULL, "not both");
     told = points_of(1, (double[]){0.51, 0.5}, p);
     check_refused(ICC_ERR_ARGUMENT, NULL, &b.mesh, &told, NULL, "no vertex");
+    told = points_of(1, b.vertices, p);
+    check_refused(ICC_ERR_ARGUMENT, NULL, &b.mesh, &told,
+                  &(icc_fit_options){.size = sizeof(icc_fit_options), .cell = 1}, "cell");
     told = points_of(1, (double[]){20, 0.5}, p);
+    check_refused(ICC_ERR_OUTSIDE, domain, NULL, &told, NULL, "not inside");
+    told = points_of(2, (double[]){1, 0.5, 9, 5}, p);
+    told.kind = ICC_CONSTRAINT_LINE;
     check_refused(ICC_ERR_OUTSIDE, domain, NULL, &told, NULL, "not inside");
     told = (icc_constraint){.size = sizeof told,
                             .kind = ICC_CONSTRAINT_VERTICES,
@@ -449,6 +455,39 @@ START_TEST(wrong_requests_are_refused)
                             .target = p};
     check_refused(ICC_ERR_ARGUMENT, domain, NULL, &told, NULL, "vertex 99");
     check_refused(ICC_ERR_UNSUPPORTED, NULL, NULL, &told, NULL, "only points");
+    icc_domain_free(domain);
+}
+END_TEST
+
+/* Two triangles apart, a vertex of no triangle, and a vertex that does not exist. */
+START_TEST(wrong_meshes_are_refused)
+{
+    double points[14] = {0, 0, 1, 0, 0, 1, 3, 0, 4, 0, 3, 1, 9, 9};
+    uint32_t triangles[6] = {0, 1, 2, 3, 4, 5};
+    const icc_constraint told = points_of(1, points, points);
+    const size_t n_vertices[3] = {6, 7, 5};
+    const icc_status expected[3] = {ICC_ERR_TOPOLOGY, ICC_ERR_BOUNDARY, ICC_ERR_BOUNDARY};
+    const char *const words[3] = {"one piece", "vertex 6", "triangle 1"};
+    for (int k = 0; k < 3; ++k) {
+        const icc_mesh mesh = {.size = sizeof mesh,
+                               .dim = 2,
+                               .n_vertices = n_vertices[k],
+                               .vertices = points,
+                               .n_cells = 2,
+                               .cells = triangles};
+        check_refused(expected[k], NULL, &mesh, &told, NULL, words[k]);
+    }
+}
+END_TEST
+
+/* A told line that crosses itself has no mesh. */
+START_TEST(lines_that_meet_are_refused)
+{
+    const double p[8] = {1, 0.2, 2, 0.8, 1, 0.8, 2, 0.2};
+    icc_constraint told = points_of(4, p, p);
+    icc_domain *domain = bar();
+    told.kind = ICC_CONSTRAINT_LINE;
+    check_refused(ICC_ERR_CERTIFICATE, domain, NULL, &told, NULL, "lines meet");
     icc_domain_free(domain);
 }
 END_TEST
@@ -468,6 +507,8 @@ int main(void)
     tcase_add_test(tc, walls_slide);
     tcase_add_test(tc, quadrilaterals_stay_convex);
     tcase_add_test(tc, wrong_requests_are_refused);
+    tcase_add_test(tc, wrong_meshes_are_refused);
+    tcase_add_test(tc, lines_that_meet_are_refused);
     suite_add_tcase(suite, tc);
     return suite_run(suite);
 }

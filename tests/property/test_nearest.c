@@ -243,7 +243,7 @@ START_TEST(wrong_warps_are_refused)
     const warp good = w;
     for (size_t v = 0; v < w.n_vertices; ++v)
         w.images[2 * v] = -w.images[2 * v];
-    check_error(&w, ICC_ERR_ARGUMENT, 0);
+    check_error(&w, ICC_ERR_ARGUMENT, 2);
     memcpy(w.images, w.points, 2 * w.n_vertices * sizeof *w.images);
     w.images[0] = 0.5;
     w.images[1] = 2;

@@ -817,6 +817,24 @@ static bool is_below(const void *context, uint32_t a, uint32_t b)
     return values[a] < values[b];
 }
 
+START_TEST(selected_numbers_are_those_of_a_sorted_list)
+{
+    for (size_t n = 1; n < 40; ++n)
+        for (size_t k = 0; k < n; ++k) {
+            double x[40];
+            for (size_t i = 0; i < n; ++i)
+                x[i] = (uint32_t)((i + n) * 2654435761u >> 5) % 10;
+            size_t n_below = 0, n_not_above = 0;
+            const double least = iccp_select(x, n, k);
+            for (size_t i = 0; i < n; ++i) {
+                n_below += x[i] < least;
+                n_not_above += x[i] <= least;
+            }
+            ck_assert(n_below <= k && k < n_not_above);
+        }
+}
+END_TEST
+
 START_TEST(sorted_indices_keep_their_order_where_values_are_equal)
 {
     enum { MOST = 300 };
@@ -849,6 +867,7 @@ int main(void)
     tcase_add_test(tests, the_lesser_and_the_greater_of_two);
     tcase_add_test(tests, sorting_keeps_everything);
     tcase_add_test(tests, sorted_indices_keep_their_order_where_values_are_equal);
+    tcase_add_test(tests, selected_numbers_are_those_of_a_sorted_list);
     tcase_add_test(tests, every_status_has_its_name);
     tcase_add_test(tests, reading_a_struct);
     tcase_add_test(tests, writing_a_struct);
