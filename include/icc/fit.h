@@ -195,9 +195,9 @@ typedef struct icc_fit_info {
      *  take them. An honest estimate of the accuracy between points. NaN if not known */
     double left_out;
     double affine_residual; /**< spline: like `residual`, of the best affine map alone */
-    /** elastic: number of told vertices that did not reach their targets or lines, because the shape
-     *  would have overlapped or folded on the way. Vertices that libicc made on edges between told
-     *  ones count, too, so this may be more than n_items */
+    /** elastic: number of told vertices that did not reach their targets or lines, because the
+     *  shape would have overlapped or folded on the way. Vertices that libicc made on edges between
+     *  told ones count, too, so this may be more than n_items */
     size_t n_off;
     double most_off;     /**< elastic: the largest distance of such a vertex from its target */
     int32_t repair;      /**< spline: `ICC_REPAIR_*` */
