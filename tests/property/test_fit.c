@@ -467,7 +467,7 @@ START_TEST(wrong_meshes_are_refused)
     const icc_constraint told = points_of(1, points, points);
     const size_t n_vertices[3] = {6, 7, 5};
     const icc_status expected[3] = {ICC_ERR_TOPOLOGY, ICC_ERR_BOUNDARY, ICC_ERR_BOUNDARY};
-    const char *const words[3] = {"one piece", "vertex 6", "triangle 1"};
+    const char *const words[3] = {"one piece", "vertex 6", "vertex 5"};
     for (int k = 0; k < 3; ++k) {
         const icc_mesh mesh = {.size = sizeof mesh,
                                .dim = 2,
