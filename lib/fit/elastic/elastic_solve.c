@@ -16,6 +16,7 @@
 #include "fit/elastic/elastic_step.h"
 #include "fit/elastic/elastic_sums.h"
 #include "fit/elastic/paths.h"
+#include "fit/elastic/rigid_start.h"
 #include "math/elementary.h"
 
 #include <math.h>
@@ -380,6 +381,22 @@ static void fill_report(const drive *d, iccp_elastic_report *report)
     report->energy = iccp_elastic_triangles(s) / s->as->weight;
 }
 
+/* Moves all images as the held vertices move in common, if the state stays valid. */
+static icc_status start_rigidly(drive *d, const double *targets)
+{
+    iccp_elastic_state *s = d->state;
+    const size_t n = s->as->n_points;
+    iccp_rigid_motion motion;
+    icc_status status = ICC_OK;
+    if (!iccp_rigid_motion_find(&motion, n, s->as->hold, s->images, targets))
+        return ICC_OK;
+    memcpy(d->start, s->images, 2 * n * sizeof *d->start);
+    iccp_rigid_motion_apply(&motion, n, s->images);
+    if (!iccp_elastic_is_valid(s, &status))
+        memcpy(s->images, d->start, 2 * n * sizeof *d->start);
+    return status;
+}
+
 static icc_status solve(drive *d, const double *targets, uint8_t *off, iccp_elastic_report *report,
                         icc_error *err)
 {
@@ -388,8 +405,10 @@ static icc_status solve(drive *d, const double *targets, uint8_t *off, iccp_elas
     d->start = iccp_alloc(&s->threads.memory, as->n_points, 2 * sizeof *d->start);
     if (d->start == NULL)
         return ICC_ERR_MEMORY;
-    icc_status status = iccp_paths_create(&d->paths, as->n_points, as->hold, as->n_triangles,
-                                          as->corners, targets, s->images, &s->threads);
+    icc_status status = start_rigidly(d, targets);
+    if (status == ICC_OK)
+        status = iccp_paths_create(&d->paths, as->n_points, as->hold, as->n_triangles, as->corners,
+                                   targets, s->images, &s->threads);
     if (status == ICC_OK)
         status = lead_all(d, off);
     if (status == ICC_OK)

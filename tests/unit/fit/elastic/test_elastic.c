@@ -351,6 +351,29 @@ START_TEST(nothing_told_changes_nothing)
 }
 END_TEST
 
+/* Pins that all turn carry the figure along, without distorting it. One pin shifts it. */
+START_TEST(figures_move_rigidly)
+{
+    double outline[4 * BAR], pins[6];
+    size_t pin;
+    make_bar(outline, pins);
+    for (size_t n = 1; n <= 3; ++n)
+        for (int k = 1; k <= 8; ++k) {
+            scene s = make_puppet(2 * BAR, outline, n, pins, &pin);
+            const double c = cos(TURN * k / 8), z = sin(TURN * k / 8);
+            s.contact = true;
+            for (size_t i = 0; i < n; ++i) {
+                const double x = pins[2 * i], y = pins[2 * i + 1];
+                hold(&s, pin + i, c * x - z * y + 0.3, z * x + c * y - 0.2);
+            }
+            const iccp_elastic_report report = run(&s);
+            ck_assert_uint_eq(report.n_off, 0);
+            ck_assert_double_eq_tol(report.energy, 4, 1e-6);
+            clear_scene(&s);
+        }
+}
+END_TEST
+
 /* A trunk with an arm beside it: a U turned on its side. */
 static scene make_arm(size_t *pin)
 {
@@ -901,6 +924,7 @@ int main(void)
     tcase_add_test(tests, a_bar_bends_to_a_u);
     tcase_add_test(tests, a_star_moves_its_tips);
     tcase_add_test(tests, nothing_told_changes_nothing);
+    tcase_add_test(tests, figures_move_rigidly);
     tcase_add_test(tests, an_arm_is_pushed_against_the_trunk);
     tcase_add_test(tests, a_hand_is_dragged);
     tcase_add_test(tests, figures_are_posed);
