@@ -114,8 +114,8 @@ typedef struct icc_fit icc_fit;
 /** Kinds of constraints: icc_constraint::kind. */
 enum {
     ICC_CONSTRAINT_POINTS = 1, /**< points go to their targets. They may lie anywhere */
-    /** inside a domain, a polyline goes to a polyline: vertex to vertex, and edge to edge
-     *  linearly */
+    /** a polyline goes to a polyline: vertex to vertex, and edge to edge linearly. In a domain, or
+     *  along edges of a mesh */
     ICC_CONSTRAINT_LINE = 2,
     /** vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes
      *  along linearly if both its ends are told */
@@ -161,8 +161,8 @@ typedef struct icc_fit_options {
      *  NULL: the bounding box of the points */
     const double *box;
     /** without a domain and mesh: how far the map reaches beyond the box, as a share of its
-     *  longest side. Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen
-     *  by leaving each point out in turn */
+     *  longest side, at most 1000. Near: distortions of the whole, as of an old map. Far: local
+     *  ones. 0: chosen by leaving each point out in turn */
     double margin;
     /** spline: 0: points with a tolerance are smoothed as leaving each point out in turn suggests.
      *  Above 0: a factor, larger for smoother. Negative: all points are exact */
@@ -195,15 +195,14 @@ typedef struct icc_fit_info {
      *  take them. An honest estimate of the accuracy between points. NaN if not known */
     double left_out;
     double affine_residual; /**< spline: like `residual`, of the best affine map alone */
-    /** elastic: number of told vertices that did not reach their targets or lines, because the
-     *  shape would have overlapped or folded on the way. Vertices that libicc made on edges between
-     *  told ones count, too, so this may be more than n_items */
+    /** elastic: number of exact and sliding items that were not reached, because the shape would
+     *  have overlapped or folded on the way */
     size_t n_off;
-    double most_off;     /**< elastic: the largest distance of such a vertex from its target */
-    int32_t repair;      /**< spline: `ICC_REPAIR_*` */
-    size_t n_folded;     /**< spline: triangles of the model that are flat or reversed */
-    size_t n_patches;    /**< spline: patches that were mapped anew */
-    double changed;      /**< spline: their share of the area */
+    double most_off;  /**< elastic: the largest distance of such an item from its target or line */
+    int32_t repair;   /**< spline: `ICC_REPAIR_*` */
+    size_t n_folded;  /**< spline: triangles of the model that are flat or reversed */
+    size_t n_patches; /**< spline: patches that were mapped anew */
+    double changed;   /**< spline: their share of the area */
     size_t n_iterations; /**< Newton steps */
 } icc_fit_info;
 
@@ -240,6 +239,8 @@ typedef struct icc_fit_info {
  * - ::ICC_ERR_OUTSIDE if a point is not inside the domain
  * - ::ICC_ERR_BOUNDARY if the mesh is not valid
  * - ::ICC_ERR_TOPOLOGY if the mesh has several pieces
+ * - ::ICC_ERR_RESOLUTION if points are too close together beside the box, or if the cell is so small
+ *   that there would be more than four million triangles
  * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found, or if lines meet one another or the
  *   outline
  * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane, if the domain is a mask or has
@@ -284,7 +285,7 @@ ICC_API icc_status icc_fit_get_info(const icc_fit *fit, icc_fit_info *info);
  *
  * @param fit            the fit
  * @param[out] residuals 2 n_items coordinates: the image of each item minus its target; or NULL.
- *                       Sliding vertices have 0
+ *                       Sliding vertices: minus the nearest point of their line
  * @param[out] left_out  2 n_items coordinates: where the other points alone would take each point,
  *                       minus its target. NaN where that is not known: for items that are no
  *                       points, and for the elastic model. Or NULL

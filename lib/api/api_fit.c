@@ -10,7 +10,7 @@
 
 ICCP_END(fit)
 
-static const double MOST_STIFFNESS = 3;
+static const double MOST_STIFFNESS = 3, MOST_MARGIN = 1000;
 
 /* ---- constraints ---- */
 
@@ -139,7 +139,7 @@ static icc_status check_options(const icc_fit_options *o, const icc_domain *doma
                          ICC_FIT_ELASTIC);
     icc_status status = check_box(o->box, err);
     if (status == ICC_OK)
-        status = check_number(o->margin, HUGE_VAL, "margin", err);
+        status = check_number(o->margin, MOST_MARGIN, "margin", err);
     if (status == ICC_OK && !isfinite(o->smoothing))
         status = iccp_fail(err, ICC_ERR_ARGUMENT, "icc_fit_options.smoothing is not finite");
     if (status == ICC_OK)

@@ -209,6 +209,48 @@ static icc_status find_in_mesh(const iccp_elastic_shape *s, iccp_told *told, con
     return status;
 }
 
+/* Whether a triangle has an edge between two vertices. */
+static bool has_edge(const iccp_elastic_shape *s, uint32_t t, uint32_t a, uint32_t b)
+{
+    const uint32_t *v = s->triangles + 3 * (size_t)t;
+    return (v[0] == a || v[1] == a || v[2] == a) && (v[0] == b || v[1] == b || v[2] == b);
+}
+
+/* Checks that told lines run along edges of the caller's mesh, which then go along linearly. */
+static icc_status check_lines(const iccp_elastic_shape *s, const iccp_told *told,
+                              const iccp_env *env, icc_error *err)
+{
+    uint32_t *first = iccp_alloc_zero(&env->memory, s->n_points + 1, sizeof *first);
+    uint32_t *around = iccp_alloc(&env->memory, s->n_triangles, 3 * sizeof *around);
+    icc_status status = first != NULL && around != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        iccp_list_groups(around, first, s->n_points, s->triangles, s->n_triangles, 3);
+    for (size_t i = 0; status == ICC_OK && i < told->n; ++i) {
+        if (!told->joined[i])
+            continue;
+        const uint32_t a = told->vertex[i - 1], b = told->vertex[i];
+        uint32_t k = first[a];
+        while (k < first[a + 1] && !has_edge(s, around[k], a, b))
+            ++k;
+        if (k == first[a + 1])
+            status = iccp_fail_at(err, ICC_ERR_ARGUMENT, ICC_ITEM_POINT, (int64_t)i,
+                                  "the line from point %zu to point %zu is no edge of the mesh, "
+                                  "which is kept as it is",
+                                  i - 1, i);
+    }
+    iccp_free(&env->memory, first);
+    iccp_free(&env->memory, around);
+    return status;
+}
+
+static bool has_lines(const iccp_told *told)
+{
+    for (size_t i = 0; i < told->n; ++i)
+        if (told->joined[i])
+            return true;
+    return false;
+}
+
 /* ---- a mesh for a domain ---- */
 
 typedef struct pins {
@@ -506,6 +548,8 @@ static icc_status create(iccp_elastic_shape *s, const icc_domain *domain, const 
                                      : shape_of_domain(s, domain, told, options, env, err);
     if (status == ICC_OK && mesh != NULL)
         status = find_in_mesh(s, told, env, err);
+    if (status == ICC_OK && mesh != NULL && has_lines(told))
+        status = check_lines(s, told, env, err);
     if (status == ICC_OK)
         status = hold_items(s, told, err);
     if (status == ICC_OK)

@@ -98,6 +98,10 @@ static icc_status make_spline(spline_job *j, const iccp_env *env, icc_error *err
                                    .smoothing = fit->options.smoothing};
     if (status == ICC_OK)
         status = iccp_spline_create(&j->spline, &task, env, err);
+    if (status == ICC_ERR_SOLVER)
+        status = iccp_fail(err, ICC_ERR_RESOLUTION,
+                           "doubles cannot solve this: points are too close together beside the "
+                           "box, or tolerances too different");
     iccp_free(&env->memory, tolerances);
     return status;
 }

@@ -19,6 +19,9 @@
 /* Without a cell size, squares of its length fill the domain this many times. */
 static const double SQUARES = 700;
 
+/* Most squares of a cell's length in the domain's box; a square makes two triangles. */
+static const double MOST_SQUARES = 2e6;
+
 /* Edges that fit into the reach. From there on the answer hardly depends on the mesh, as was
  * measured with a pin in a square. Edges are not made shorter by more than FINEST for that. */
 static const double EDGES_IN_REACH = 5, FINEST = 2;
@@ -429,6 +432,12 @@ icc_status iccp_pin_mesh_create(iccp_pin_mesh *mesh, const iccp_pin_mesh_input *
 {
     builder b = {.input = input, .mesh = mesh, .env = env, .cell = cell_of(input)};
     *mesh = (iccp_pin_mesh){.memory = env->memory};
+    const icc_domain *domain = input->domain;
+    const double width = (domain->upper[0] - domain->lower[0]) / b.cell,
+                 height = (domain->upper[1] - domain->lower[1]) / b.cell;
+    if (!(width * height <= MOST_SQUARES))
+        return iccp_fail(err, ICC_ERR_RESOLUTION,
+                         "a cell this small would make more than %.0f triangles", 2 * MOST_SQUARES);
     const icc_status status = build(&b, err);
     iccp_free(&env->memory, b.sides);
     iccp_free(&env->memory, b.spacing);

@@ -31,7 +31,8 @@ typedef struct iccp_pin_mesh {
 
 /* Edges of the outline and segments are divided. Near pins that are close to one another, or to
  * the outline, triangles are smaller. Returns ICC_ERR_OUTSIDE if a pin is not inside, with its
- * number in `err`, and ICC_ERR_CERTIFICATE if segments meet the outline or one another, or if
+ * number in `err`, ICC_ERR_RESOLUTION if there would be too many triangles, and
+ * ICC_ERR_CERTIFICATE if segments meet the outline or one another, or if
  * points are so close that rounded ones touch. */
 icc_status iccp_pin_mesh_create(iccp_pin_mesh *mesh, const iccp_pin_mesh_input *input,
                                 const iccp_env *env, icc_error *err);

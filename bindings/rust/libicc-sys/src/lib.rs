@@ -3991,7 +3991,8 @@ opaque!(
 // Kinds of constraints: `icc_constraint.kind`.
 /// points go to their targets. They may lie anywhere
 pub const ICC_CONSTRAINT_POINTS: i32 = 1;
-/// inside a domain, a polyline goes to a polyline: vertex to vertex, and edge to edge linearly
+/// a polyline goes to a polyline: vertex to vertex, and edge to edge linearly. In a domain, or along edges of
+/// a mesh
 pub const ICC_CONSTRAINT_LINE: i32 = 2;
 /// vertices of the domain, or of the mesh, go to their targets. An edge of the boundary goes along linearly
 /// if both its ends are told
@@ -4044,9 +4045,9 @@ pub struct icc_fit_options {
     /// without a domain and mesh: the box that the map covers at least, lower and upper corner; NULL: the
     /// bounding box of the points
     pub r#box: *const f64,
-    /// without a domain and mesh: how far the map reaches beyond the box, as a share of its longest side.
-    /// Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen by leaving each point out
-    /// in turn
+    /// without a domain and mesh: how far the map reaches beyond the box, as a share of its longest side, at
+    /// most 1000. Near: distortions of the whole, as of an old map. Far: local ones. 0: chosen by leaving
+    /// each point out in turn
     pub margin: f64,
     /// spline: 0: points with a tolerance are smoothed as leaving each point out in turn suggests. Above 0: a
     /// factor, larger for smoother. Negative: all points are exact
@@ -4089,11 +4090,10 @@ pub struct icc_fit_info {
     pub left_out: f64,
     /// spline: like `residual`, of the best affine map alone
     pub affine_residual: f64,
-    /// elastic: number of told vertices that did not reach their targets or lines, because the shape would
-    /// have overlapped or folded on the way. Vertices that libicc made on edges between told ones count, too,
-    /// so this may be more than n_items
+    /// elastic: number of exact and sliding items that were not reached, because the shape would have
+    /// overlapped or folded on the way
     pub n_off: usize,
-    /// elastic: the largest distance of such a vertex from its target
+    /// elastic: the largest distance of such an item from its target or line
     pub most_off: f64,
     /// spline: `ICC_REPAIR_*`
     pub repair: i32,
@@ -4190,6 +4190,8 @@ extern "C" {
     /// - `ICC_ERR_OUTSIDE` if a point is not inside the domain
     /// - `ICC_ERR_BOUNDARY` if the mesh is not valid
     /// - `ICC_ERR_TOPOLOGY` if the mesh has several pieces
+    /// - `ICC_ERR_RESOLUTION` if points are too close together beside the box, or if the cell is so small
+    ///   that there would be more than four million triangles
     /// - `ICC_ERR_CERTIFICATE` if no one-to-one map was found, or if lines meet one another or the outline
     /// - `ICC_ERR_UNSUPPORTED` if the domain or mesh is not in the plane, if the domain is a mask or has
     ///   lines or points, or for lines and vertices without a domain and mesh
@@ -4241,7 +4243,7 @@ extern "C" {
     ///
     /// - `fit`: the fit
     /// - `residuals` (out): 2 n_items coordinates: the image of each item minus its target; or NULL. Sliding
-    ///   vertices have 0
+    ///   vertices: minus the nearest point of their line
     /// - `left_out` (out): 2 n_items coordinates: where the other points alone would take each point, minus
     ///   its target. NaN where that is not known: for items that are no points, and for the elastic model. Or
     ///   NULL
