@@ -239,8 +239,8 @@ typedef struct icc_fit_info {
  * - ::ICC_ERR_OUTSIDE if a point is not inside the domain
  * - ::ICC_ERR_BOUNDARY if the mesh is not valid
  * - ::ICC_ERR_TOPOLOGY if the mesh has several pieces
- * - ::ICC_ERR_RESOLUTION if points are too close together beside the box, or if the cell is so small
- *   that there would be more than four million triangles
+ * - ::ICC_ERR_RESOLUTION if points are too close together beside the box, or if the cell is so
+ *   small that there would be more than four million triangles
  * - ::ICC_ERR_CERTIFICATE if no one-to-one map was found, or if lines meet one another or the
  *   outline
  * - ::ICC_ERR_UNSUPPORTED if the domain or mesh is not in the plane, if the domain is a mask or has

@@ -35,9 +35,9 @@ static icc_status localise(maker *m, int side, icc_error *err)
     while (v < n && iccp_all_finite(2, given + 2 * v))
         ++v;
     if (v < n)
-        status = iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)v,
-                              "%s %zu is not finite", side == 0 ? "vertex" : "the image of vertex",
-                              v);
+        status =
+            iccp_fail_at(err, ICC_ERR_BOUNDARY, ICC_ITEM_VERTEX, (int64_t)v, "%s %zu is not finite",
+                         side == 0 ? "vertex" : "the image of vertex", v);
     if (status == ICC_OK) {
         iccp_frame_fit(&m->frame[side], 2, n, given);
         if (!iccp_frame_in_all(&m->frame[side], n, given, local))
