@@ -8,6 +8,7 @@
 #include "fit/fit_job.h"
 #include "fit/moves_file.h"
 #include "job/fit_cages.h"
+#include "mesh/element_kinds.h"
 #include "mesh/mesh_boundary.h"
 
 #include <math.h>
@@ -30,7 +31,39 @@ typedef struct faces {
     uint32_t *triangles;
     uint32_t *place;  /* of each vertex of the file: its number in the mesh, or NONE */
     uint32_t *origin; /* and back */
+    uint32_t *cells;  /* triangles and quadrilaterals, or NULL if there is anything else */
+    size_t *offsets;
+    size_t n_cells;
 } faces;
+
+/* Whether all elements of a file are triangles and quadrilaterals, with some of the latter. */
+static bool has_quads_alone(const mesh_file *m)
+{
+    size_t n_quads = 0;
+    for (size_t e = 0; e < m->n_elements; e++) {
+        const size_t n = m->node_starts[e + 1] - m->node_starts[e];
+        const int kind = m->kinds[e];
+        const bool is_quad = n == 4 && (kind == ELEMENT_QUADRILATERAL || kind == ELEMENT_POLYGON);
+        if (!is_quad && !(n == 3 && (kind == ELEMENT_TRIANGLE || kind == ELEMENT_POLYGON)))
+            return false;
+        n_quads += is_quad;
+    }
+    return n_quads > 0;
+}
+
+/* Takes quadrilaterals whole, because a fit then keeps all their corners. */
+static void take_quads(faces *f, const mesh_file *m)
+{
+    if (!has_quads_alone(m))
+        return;
+    const size_t n = m->n_elements;
+    f->cells = need(m->node_starts[n], sizeof *f->cells);
+    f->offsets = need(n + 1, sizeof *f->offsets);
+    f->n_cells = n;
+    memcpy(f->offsets, m->node_starts, (n + 1) * sizeof *f->offsets);
+    for (size_t i = 0; i < m->node_starts[n]; i++)
+        f->cells[i] = f->place[m->nodes[i]];
+}
 
 static faces take_faces(const mesh_file *m)
 {
@@ -58,6 +91,7 @@ static faces take_faces(const mesh_file *m)
     }
     f.mesh.vertices = f.points;
     f.mesh.cells = f.triangles;
+    take_quads(&f, m);
     return f;
 }
 
@@ -67,6 +101,8 @@ static void free_faces(faces *f)
     free(f->triangles);
     free(f->place);
     free(f->origin);
+    free(f->cells);
+    free(f->offsets);
 }
 
 /* Takes the images of the file's vertices from the map. Vertices of no face stay. */
@@ -290,9 +326,15 @@ static icc_status create(told *t, job *j, icc_error *err)
                                      .model = ICC_FIT_ELASTIC,
                                      .reach = a->reach,
                                      .stiffness = a->stiffness};
+    icc_mesh mesh = t->faces->mesh;
+    if (t->faces->cells != NULL) {
+        mesh.n_cells = t->faces->n_cells;
+        mesh.cells = t->faces->cells;
+        mesh.offsets = t->faces->offsets;
+    }
     progress_expect(&j->bar, MADE);
     icc_status status =
-        icc_fit_create(&j->fit, NULL, &t->faces->mesh, n_lists, lists, &options, &j->env, err);
+        icc_fit_create(&j->fit, NULL, &mesh, n_lists, lists, &options, &j->env, err);
     for (size_t i = 0; i < 2; i++) {
         free(vertices[i]);
         free(values[i]);
