@@ -248,6 +248,7 @@ protected:
     }
 
 private:
+    /// @cond
     struct release {
         std::shared_ptr<const void> owner = nullptr; // of a borrowed object
         void operator()(T *object) const noexcept
@@ -256,6 +257,7 @@ private:
                 Free(object);
         }
     };
+    /// @endcond
     std::unique_ptr<T, release> owned_;
 };
 
