@@ -256,7 +256,7 @@ static bool has_lines(const iccp_told *told)
 typedef struct pins {
     size_t n, n_segments;
     double *points;     /* 2 n, local */
-    uint32_t *segments; /* 2 n_segments, numbers of pins */
+    uint32_t *segments; /* 2 n_segments, numbers of told vertices (fit/elastic/pin_mesh.h) */
     uint32_t *of_item;  /* of each told item: its pin, or NONE */
     uint32_t *sorted, *work;
 } pins;
@@ -268,6 +268,27 @@ static void free_pins(pins *p, const iccp_env *env)
     iccp_free(&env->memory, p->of_item);
     iccp_free(&env->memory, p->sorted);
     iccp_free(&env->memory, p->work);
+}
+
+/* The told vertex of the mesh that an item will be. */
+static uint32_t vertex_of(const pins *p, const icc_domain *domain, const iccp_told *told, size_t i)
+{
+    return p->of_item[i] == NONE ? told->vertex[i] : (uint32_t)domain->n_vertices + p->of_item[i];
+}
+
+/* Lists the segment of a line that ends at item i, unless it is an edge of the outline, which goes
+ * along linearly anyway. */
+static void add_segment(pins *p, const icc_domain *domain, const iccp_told *told, size_t i)
+{
+    const uint32_t a = vertex_of(p, domain, told, i - 1), b = vertex_of(p, domain, told, i);
+    for (size_t f = 0; p->of_item[i] == NONE && p->of_item[i - 1] == NONE && f < domain->n_facets;
+         ++f) {
+        const uint32_t *ends = domain->facets + 2 * f;
+        if ((ends[0] == a && ends[1] == b) || (ends[0] == b && ends[1] == a))
+            return;
+    }
+    p->segments[2 * p->n_segments] = a;
+    p->segments[2 * p->n_segments++ + 1] = b;
 }
 
 /* Lists the told points, each place once, and the segments of told lines. Points at vertices of the
@@ -302,10 +323,8 @@ static icc_status list_pins(pins *p, const iccp_elastic_shape *s, const icc_doma
             memcpy(p->points + 2 * p->n, local, sizeof local);
             p->of_item[i] = (uint32_t)p->n++;
         }
-        if (told->joined[i] && p->of_item[i] != NONE && p->of_item[i - 1] != NONE) {
-            p->segments[2 * p->n_segments] = p->of_item[i - 1];
-            p->segments[2 * p->n_segments++ + 1] = p->of_item[i];
-        }
+        if (told->joined[i])
+            add_segment(p, domain, told, i);
     }
     return ICC_OK;
 }
@@ -337,7 +356,7 @@ static icc_status take_mesh(iccp_elastic_shape *s, iccp_pin_mesh *mesh, const ic
         iccp_domain_given(domain, v, s->given + 2 * v);
     for (size_t i = 0; i < told->n; ++i)
         if (p->of_item[i] != NONE) {
-            told->vertex[i] = (uint32_t)domain->n_vertices + p->of_item[i];
+            told->vertex[i] = vertex_of(p, domain, told, i);
             memcpy(s->given + 2 * (size_t)told->vertex[i], told->source + 2 * i,
                    2 * sizeof *s->given);
         }

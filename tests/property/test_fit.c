@@ -266,6 +266,36 @@ START_TEST(told_edges_are_straight)
 }
 END_TEST
 
+/* A line that begins at a corner of the outline and runs along an edge of it goes along linearly,
+ * too. */
+START_TEST(lines_may_begin_on_the_outline)
+{
+    icc_domain *domain = bar();
+    const double from[6] = {10, 1, 10, 0, 4, 0.5}, to[6] = {10, 1.5, 10, 0, 4, 1};
+    const icc_constraint told = {
+        .size = sizeof told, .kind = ICC_CONSTRAINT_LINE, .n = 3, .source = from, .target = to};
+    const icc_fit_options options = {.size = sizeof options, .cell = 0.3};
+    icc_fit *fit;
+    ck_assert_int_eq(icc_fit_create(&fit, domain, NULL, 1, &told, &options, NULL, NULL), ICC_OK);
+    check_certified(icc_fit_map(fit));
+    ck_assert_uint_eq(info_of(fit).n_off, 0);
+    for (int k = 0; k <= 32; ++k) {
+        const double t = k % 16 / 16.;
+        const size_t i = k < 16 ? 0 : 2;
+        double p[2], wanted[2], image[2];
+        for (size_t d = 0; d < 2; ++d) {
+            p[d] = k == 32 ? from[4 + d] : (1 - t) * from[i + d] + t * from[i + 2 + d];
+            wanted[d] = k == 32 ? to[4 + d] : (1 - t) * to[i + d] + t * to[i + 2 + d];
+        }
+        ck_assert_int_eq(icc_map_apply(icc_fit_map(fit), 1, p, image, NULL, NULL, NULL), ICC_OK);
+        for (size_t d = 0; d < 2; ++d)
+            ck_assert_double_eq_tol(image[d], wanted[d], 1e-12);
+    }
+    icc_fit_free(fit);
+    icc_domain_free(domain);
+}
+END_TEST
+
 enum { CELLS = 8, SIDE = CELLS + 1 };
 
 typedef struct box_mesh {
@@ -504,6 +534,7 @@ int main(void)
     tcase_add_test(tc, a_moved_spline_is_the_one_made_anew);
     tcase_add_test(tc, a_bar_bends);
     tcase_add_test(tc, told_edges_are_straight);
+    tcase_add_test(tc, lines_may_begin_on_the_outline);
     tcase_add_test(tc, walls_slide);
     tcase_add_test(tc, quadrilaterals_stay_convex);
     tcase_add_test(tc, wrong_requests_are_refused);

@@ -141,14 +141,13 @@ static icc_status space_pins(builder *b, icc_error *err)
 static void list_sides(builder *b)
 {
     const icc_domain *domain = b->input->domain;
-    const uint32_t first = (uint32_t)domain->n_vertices;
     for (size_t k = 0; k < b->n_sides; ++k) {
         side *s = &b->sides[k];
         s->is_boundary = k < domain->n_facets;
         const uint32_t *ends = s->is_boundary ? domain->facets + 2 * k
                                               : b->input->segments + 2 * (k - domain->n_facets);
-        s->a = ends[0] + (s->is_boundary ? 0 : first);
-        s->b = ends[1] + (s->is_boundary ? 0 : first);
+        s->a = ends[0];
+        s->b = ends[1];
         s->n = (uint32_t)iccp_min(iccp_max(ceil(between(b, s->a, s->b) / b->cell), 1), MOST_PARTS);
     }
 }

@@ -9,9 +9,11 @@ typedef struct iccp_pin_mesh_input {
     const icc_domain *domain; /* a polygon, with or without holes */
     size_t n_pins;            /* points inside, all different */
     const double *pins;       /* 2 n_pins */
-    size_t n_segments;        /* pairs of pins that edges of the mesh must join */
-    const uint32_t *segments; /* 2 n_segments */
-    double cell;              /* the longest edge, about; 0: as short as for some 1,500 triangles */
+    /* 2 n_segments: pairs of told vertices, numbered as below, that edges of the mesh must join.
+     * None is an edge of the outline */
+    size_t n_segments;
+    const uint32_t *segments;
+    double cell; /* the longest edge, about; 0: as short as for some 1,500 triangles */
     double
         reach; /* how far a pin carries its surroundings, or 0. Triangles at pins are much smaller.
                      Without a cell some edges fit into it, with up to four times the triangles */

@@ -813,7 +813,7 @@ END_TEST
 static icc_status mesh_once(const icc_env *env, icc_error *err, void *argument)
 {
     static const double pins[] = {0.3, 0.2, 0.7, 0.6, 0.7, 0.7};
-    static const uint32_t segments[] = {1, 2};
+    static const uint32_t segments[] = {5, 6}; /* after the corners */
     iccp_env full;
     iccp_pin_mesh mesh;
     ck_assert_int_eq(iccp_env_read(&full, env, err), ICC_OK);
@@ -855,7 +855,7 @@ START_TEST(meshes_contain_rings)
 {
     static const double square[] = {0, 0, 1, 0, 1, 1, 0, 1};
     static const double pins[] = {0.3, 0.3, 0.7, 0.3, 0.5, 0.7};
-    static const uint32_t segments[] = {0, 1, 1, 2, 2, 0};
+    static const uint32_t segments[] = {4, 5, 5, 6, 6, 4}; /* after the corners */
     const iccp_env env = default_env();
     icc_domain *domain;
     iccp_pin_mesh mesh;
@@ -878,7 +878,7 @@ START_TEST(meshes_contain_what_is_told)
     static const double square_back[] = {0, 0, 0, 1, 1, 1, 1, 0};
     static const double hole[] = {0.3, 0.3, 0.6, 0.3, 0.6, 0.6, 0.3, 0.6};
     static const double pins[] = {0.1, 0.8, 0.9, 0.85, 0.99, 0.5};
-    static const uint32_t segments[] = {0, 1};
+    static const uint32_t segments[] = {8, 9}; /* after both rings */
     const iccp_env env = default_env();
     for (int k = 0; k < 2; ++k) {
         icc_feature feature = {
