@@ -124,7 +124,7 @@ enum {
     ICC_CONSTRAINT_SLIDING = 4
 };
 
-/** What is known of a map: where some points, a line or some vertices go. */
+/** A part of what you know about a map: where some points, a line or some vertices go. */
 typedef struct icc_constraint {
     /** set by the caller: `sizeof(icc_constraint)`, the same for all elements of an array */
     size_t size;

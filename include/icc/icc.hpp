@@ -1003,7 +1003,7 @@ private:
     }
 };
 
-/** What is known of a map of the plane: where some points, a line or some vertices go.
+/** A part of what you know about a map of the plane: where some points, a line or some vertices go.
  *  `icc::constraint::points({..}, {..})` and its siblings borrow the numbers. */
 class constraint {
 public:

@@ -1,4 +1,4 @@
-/* What is told of a fit, item by item: the caller's constraints in one list. */
+/* The caller's constraints in one list of items. */
 #ifndef ICCP_TOLD_H
 #define ICCP_TOLD_H
 

@@ -26,7 +26,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What is told of a vertex. */
+/* How free a vertex is. */
 enum { ICCP_LOOSE = 0, ICCP_HELD = 1, ICCP_SLIDING = 2 };
 
 /* All arrays are copied. */

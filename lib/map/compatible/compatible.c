@@ -52,3 +52,20 @@ icc_status iccp_compatible_create(iccp_plmap *map, const iccp_planar *base,
     iccp_overlay_free(&overlay);
     return status;
 }
+
+icc_status iccp_plmap_of_overlay(iccp_plmap *map, size_t n, const iccp_overlay *overlay,
+                                 double stretch, const iccp_memory *memory)
+{
+    const icc_status status =
+        iccp_plmap_begin(map, overlay->n_vertices, overlay->corners.n_triangles, stretch, memory);
+    if (status != ICC_OK)
+        return status;
+    iccp_plmap_fill(map, overlay->points, overlay->images, overlay->corners.vertex,
+                    overlay->corners.twin);
+    for (uint32_t v = 0; v < overlay->n_vertices; ++v) {
+        map->fixed[v] = v < n ? ICCP_ALONG : ICCP_FREE;
+        map->facet[v] = v < n ? v : 0;
+        map->along[v] = 0;
+    }
+    return ICC_OK;
+}

@@ -211,25 +211,6 @@ static bool read_border(const patches *p, const patch *own)
 
 /* ---- overlays ---- */
 
-/* Makes a map of its own from the overlay of a patch. The border is fixed. */
-static icc_status fill(iccp_plmap *filled, size_t n_border, const iccp_overlay *overlay,
-                       double stretch, const iccp_memory *memory)
-{
-    const size_t n = overlay->n_vertices;
-    const icc_status status =
-        iccp_plmap_begin(filled, n, overlay->corners.n_triangles, stretch, memory);
-    if (status != ICC_OK)
-        return status;
-    iccp_plmap_fill(filled, overlay->points, overlay->images, overlay->corners.vertex,
-                    overlay->corners.twin);
-    for (uint32_t v = 0; v < n; ++v) {
-        filled->fixed[v] = v < n_border ? ICCP_ALONG : ICCP_FREE;
-        filled->facet[v] = v < n_border ? v : 0;
-        filled->along[v] = 0;
-    }
-    return ICC_OK;
-}
-
 /* Fills a patch whose border was read. It stays empty if the border is not simple before or after
  * the map, or if rounding spoils the overlay. */
 static icc_status draw(patch *own, const iccp_plmap *map, iccp_work *work, const iccp_env *env)
@@ -246,7 +227,7 @@ static icc_status draw(patch *own, const iccp_plmap *map, iccp_work *work, const
         status = iccp_compatible_overlay(&overlay, own->n, ends, ends + 2 * own->n, env);
     if (status == ICC_OK) {
         iccp_work_charge(work, ICCP_CROSSING_COST * (double)(overlay.n_vertices - own->n));
-        status = fill(&own->filled, own->n, &overlay, map->stretch, &env->memory);
+        status = iccp_plmap_of_overlay(&own->filled, own->n, &overlay, map->stretch, &env->memory);
     }
     iccp_overlay_free(&overlay);
     iccp_free(&env->memory, ends);
@@ -277,15 +258,6 @@ static icc_status fill_patch(patches *p, patch *own, iccp_work *work, const iccp
 
 /* ---- the whole map ---- */
 
-static void copy_vertex(iccp_plmap *to, size_t a, const iccp_plmap *from, size_t b)
-{
-    memcpy(to->points + 2 * a, from->points + 2 * b, 2 * sizeof(double));
-    memcpy(to->images + 2 * a, from->images + 2 * b, 2 * sizeof(double));
-    to->fixed[a] = from->fixed[b];
-    to->facet[a] = from->facet[b];
-    to->along[a] = from->along[b];
-}
-
 static bool is_kept(const patches *p, size_t triangle)
 {
     const uint32_t k = p->patch_of[triangle];
@@ -309,7 +281,7 @@ static void append(iccp_plmap *result, const patches *p, const patch *own)
     const size_t first = result->n_vertices - own->n;
     uint32_t *corner = result->corners.vertex + 3 * result->corners.n_triangles;
     for (size_t v = own->n; v < filled->n_vertices; ++v)
-        copy_vertex(result, first + v, filled, v);
+        iccp_plmap_copy_vertex(result, first + v, filled, v);
     for (size_t c = 0; c < 3 * filled->corners.n_triangles; ++c) {
         const uint32_t v = filled->corners.vertex[c];
         *corner++ = v < own->n ? p->name[own->border[v]] : (uint32_t)(first + v);
@@ -337,7 +309,7 @@ static icc_status splice(patches *p, const iccp_env *env)
         return status;
     for (size_t v = 0; v < map->n_vertices; ++v)
         if (p->name[v] != NONE)
-            copy_vertex(&result, p->name[v], map, v);
+            iccp_plmap_copy_vertex(&result, p->name[v], map, v);
     for (size_t c = 0; c < 3 * map->corners.n_triangles; ++c)
         if (is_kept(p, c / 3))
             result.corners.vertex[n_corners++] = p->name[map->corners.vertex[c]];

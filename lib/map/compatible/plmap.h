@@ -34,6 +34,8 @@
 #include "mesh/corners.h"
 #include "mesh/planar.h"
 
+#include <string.h>
+
 /* What a vertex is fixed to, and what iccp_plmap::facet then means. */
 enum {
     ICCP_FREE = 0,
@@ -82,6 +84,17 @@ static inline const double *iccp_plmap_image(const iccp_plmap *map, uint32_t cor
 static inline const double *iccp_plmap_point(const iccp_plmap *map, uint32_t corner)
 {
     return map->points + 2 * (size_t)map->corners.vertex[corner];
+}
+
+/* Copies what is known of vertex `b` of one map to vertex `a` of another. */
+static inline void iccp_plmap_copy_vertex(iccp_plmap *to, size_t a, const iccp_plmap *from,
+                                          size_t b)
+{
+    memcpy(to->points + 2 * a, from->points + 2 * b, 2 * sizeof *to->points);
+    memcpy(to->images + 2 * a, from->images + 2 * b, 2 * sizeof *to->images);
+    to->fixed[a] = from->fixed[b];
+    to->facet[a] = from->facet[b];
+    to->along[a] = from->along[b];
 }
 
 /* Returns the square of an edge's length after the map, or before it and stretched, whichever is

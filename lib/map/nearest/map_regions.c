@@ -147,15 +147,6 @@ icc_status iccp_pieces_fill(iccp_pieces *pieces, const iccp_env *env)
 
 /* ---- gluing ---- */
 
-static void copy_vertex(iccp_plmap *to, size_t a, const iccp_plmap *from, size_t b)
-{
-    memcpy(to->points + 2 * a, from->points + 2 * b, 2 * sizeof(double));
-    memcpy(to->images + 2 * a, from->images + 2 * b, 2 * sizeof(double));
-    to->fixed[a] = from->fixed[b];
-    to->facet[a] = from->facet[b];
-    to->along[a] = from->along[b];
-}
-
 static const iccp_refill *refill_of(const iccp_pieces *p, size_t region)
 {
     return &p->item[p->piece_of[p->regions.item[region].first]].refill;
@@ -169,7 +160,7 @@ static void append(iccp_plmap *result, const iccp_refill *f, uint32_t *number)
         number[v] = f->vertex[v];
         if (number[v] == NONE) {
             number[v] = (uint32_t)result->n_vertices++;
-            copy_vertex(result, number[v], &f->map, v);
+            iccp_plmap_copy_vertex(result, number[v], &f->map, v);
             result->fixed[number[v]] = ICCP_FREE;
         } else
             memcpy(result->images + 2 * (size_t)number[v], f->map.images + 2 * v,
@@ -206,7 +197,7 @@ static void copy_kept(iccp_plmap *result, const iccp_pieces *p)
     result->n_vertices = map->n_vertices;
     result->corners.n_triangles = 0;
     for (size_t v = 0; v < map->n_vertices; ++v)
-        copy_vertex(result, v, map, v);
+        iccp_plmap_copy_vertex(result, v, map, v);
     for (size_t t = 0; t < map->corners.n_triangles; ++t)
         if (p->regions.region[t] == NONE)
             memcpy(result->corners.vertex + 3 * result->corners.n_triangles++,

@@ -34,25 +34,6 @@ static icc_status allocate_numbers(iccp_refill *f, size_t n, const iccp_memory *
 
 /* ---- a disc with nothing held inside ---- */
 
-/* Makes a map from an overlay. The rim comes first and is fixed. */
-static icc_status read_overlay(iccp_plmap *map, size_t n_rim, const iccp_overlay *overlay,
-                               double stretch, const iccp_memory *memory)
-{
-    const size_t n = overlay->n_vertices;
-    const icc_status status =
-        iccp_plmap_begin(map, n, overlay->corners.n_triangles, stretch, memory);
-    if (status != ICC_OK)
-        return status;
-    iccp_plmap_fill(map, overlay->points, overlay->images, overlay->corners.vertex,
-                    overlay->corners.twin);
-    for (uint32_t v = 0; v < n; ++v) {
-        map->fixed[v] = v < n_rim ? ICCP_ALONG : ICCP_FREE;
-        map->facet[v] = v < n_rim ? v : 0;
-        map->along[v] = 0;
-    }
-    return ICC_OK;
-}
-
 static icc_status fill_disc(iccp_refill *f, const iccp_rim *rim, const iccp_plmap *whole,
                             const iccp_env *env)
 {
@@ -62,7 +43,7 @@ static icc_status fill_disc(iccp_refill *f, const iccp_rim *rim, const iccp_plma
     iccp_work work = {.left = allowance.relaxing};
     icc_status status = iccp_compatible_overlay(&overlay, n, rim->points, rim->images, env);
     if (status == ICC_OK)
-        status = read_overlay(&f->map, n, &overlay, whole->stretch, &env->memory);
+        status = iccp_plmap_of_overlay(&f->map, n, &overlay, whole->stretch, &env->memory);
     iccp_overlay_free(&overlay);
     if (status == ICC_OK && !iccp_plmap_is_positive(&f->map))
         return ICC_ERR_CERTIFICATE;

@@ -17,7 +17,7 @@ static const double NEARLY_FOLDED = 0.02;
  * ring, and by one more after every MORE_AFTER rounds. TYPICAL_ROUNDS: half of the progress. */
 enum { FIRST_RINGS = 2, MORE_AFTER = 3, TYPICAL_ROUNDS = 4 };
 
-/* In place of a region: none, and one that is not known yet. */
+/* NONE: the triangle is in no region. NEW: it is in a region that has no number yet. */
 static const uint32_t NONE = UINT32_MAX, NEW = UINT32_MAX - 1;
 
 /* ---- set-up ---- */

@@ -4000,7 +4000,7 @@ pub const ICC_CONSTRAINT_VERTICES: i32 = 3;
 /// vertices of the domain or of the mesh may move along a straight line only
 pub const ICC_CONSTRAINT_SLIDING: i32 = 4;
 
-/// What is known of a map: where some points, a line or some vertices go.
+/// A part of what you know about a map: where some points, a line or some vertices go.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct icc_constraint {
