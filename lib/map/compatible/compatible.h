@@ -20,8 +20,8 @@ icc_status iccp_compatible_create(iccp_plmap *map, const iccp_planar *base,
                                   const icc_domain *source, const double *images, double stretch,
                                   const iccp_env *env);
 
-/* Makes a map from the overlay of two polygons of n corners. The corners are fixed, each to the facet
- * of its own number. */
+/* Makes a map from the overlay of two polygons of n corners. The corners are fixed, each to the
+ * facet of its own number. */
 icc_status iccp_plmap_of_overlay(iccp_plmap *map, size_t n, const iccp_overlay *overlay,
                                  double stretch, const iccp_memory *memory);
 
