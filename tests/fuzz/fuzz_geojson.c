@@ -74,10 +74,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = text_of(data, size);
     if (text == NULL)
         return 0;
-    for (int policy = GEO_KEEP; policy <= GEO_FAIL; policy++) {
+    for (int way = 0; way < 2 * (GEO_FAIL + 1); way++) {
         geo_result r;
         problem wrong = {.text = ""};
-        if (geo_carry(&r, &c->carrier, (geo_policy)policy, 0.5, text, size, &wrong))
+        geo_options options = {.policy = (geo_policy)(way / 2),
+                               .tolerance = 0.5,
+                               .exact = way % 2 == 1,
+                               .drop = way / 2 == GEO_NULL ? 0.5 : 0};
+        if (geo_carry(&r, &c->carrier, &options, text, size, &wrong))
             check_result(&r, text, size);
         else
             require(wrong.text[0] != '\0' && strpbrk(wrong.text, "\r\n") == NULL);

@@ -83,6 +83,9 @@ static int report_all(const job *j, const geo_result *r, const char *text, doubl
     for (size_t i = 0; i < r->n_faults; i++)
         report_fault(&out.json, &r->faults[i], text);
     json_close(&out.json, ']');
+    json_flag(&out.json, "exact_lines", r->exact);
+    json_count(&out.json, "shared_sides", r->n_shared);
+    json_count(&out.json, "vertices_put_in", r->n_put_in);
     report_times(&out, j, seconds);
     return report_close(&out) ? DONE : FAILED;
 }
@@ -145,6 +148,20 @@ static double choose_tolerance(const job *j)
     return j->args->tolerance > 0 ? j->args->tolerance : size / 1000;
 }
 
+/* Refuses --exact if a map has no triangles. */
+static int check_exact(const job *j)
+{
+    for (size_t i = 0; i <= j->n_parts && j->args->exact_lines; i++) {
+        icc_map_info info = {.size = sizeof info};
+        icc_map_get_info(i == 0 ? j->map : j->parts[i - 1].map, &info);
+        if (info.kind != ICC_MAP_MESH)
+            return failed(j->args->source, 0,
+                          "--exact needs the triangles of a mesh map, but this is a curve map; "
+                          "--tolerance makes its lines as accurate as you need");
+    }
+    return DONE;
+}
+
 /* Reads the text, carries it with the job's map, and writes the result. */
 static int carry_file(job *j)
 {
@@ -157,9 +174,12 @@ static int carry_file(job *j)
     geo_result r = {0};
     problem wrong;
     double began = seconds_now();
+    geo_options options = {.policy = policy_of(j->args),
+                           .tolerance = choose_tolerance(j),
+                           .exact = j->args->exact_lines,
+                           .drop = j->args->tolerance};
     int result = job_start_carrier(j, &c);
-    if (result == DONE &&
-        !geo_carry(&r, &c, policy_of(j->args), choose_tolerance(j), text, n, &wrong)) {
+    if (result == DONE && !geo_carry(&r, &c, &options, text, n, &wrong)) {
         progress_end(&j->bar);
         result = failed(name, wrong.line, "%s", wrong.text);
     }
@@ -183,5 +203,7 @@ int geojson_apply(job *j)
         result = job_make_map(j);
     if (result == DONE)
         result = require_maps(j);
+    if (result == DONE)
+        result = check_exact(j);
     return result == DONE ? carry_file(j) : result;
 }

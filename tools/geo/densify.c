@@ -1,7 +1,9 @@
-/* Splits pieces of a line in rounds, and maps the check points of all open pieces at once. */
+/* Splits pieces of a line in rounds, and maps the check points of all open pieces at once. Or cuts
+ * them at the map's edges, which takes one round. */
 #include "geo/densify.h"
 
 #include "base/allocate.h"
+#include "geo/crossing.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -29,17 +31,20 @@ static double distance_to_segment(const double a[2], const double b[2], const do
     return hypot(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
 }
 
-/* A piece with a partial image is split as well, so that the gap begins where the map's does. */
+/* A piece with a partial image is split as well, so that the gap begins where the map's does. The
+ * answer is the same for the piece in the other direction. */
 static bool must_split(const double a[2], const double b[2], const double checks[2 * N_CHECKS],
                        double tolerance)
 {
+    bool swapped = point_before(b, a);
+    const double *from = swapped ? b : a, *to = swapped ? a : b;
     size_t n_missing = (isnan(a[0]) ? 1U : 0U) + (isnan(b[0]) ? 1U : 0U);
     for (size_t c = 0; c < N_CHECKS; c++)
         n_missing += isnan(checks[2 * c]) ? 1 : 0;
     if (n_missing > 0)
         return n_missing < N_CHECKS + 2;
     for (size_t c = 0; c < N_CHECKS; c++)
-        if (distance_to_segment(a, b, checks + 2 * c) > tolerance)
+        if (distance_to_segment(from, to, checks + 2 * c) > tolerance)
             return true;
     return false;
 }
@@ -66,14 +71,14 @@ static icc_status map_checks(const polyline *line, const carrier *c, size_t n_op
     return ran;
 }
 
-/* The vertex half-way between two vertices. They are at most one position apart unless one is a
- * corner of the cage. */
-static vertex middle_of(const vertex *a, const vertex *b, const double image[2])
+/* The vertex at a share of the way between two vertices. They are at most one position apart unless
+ * one is a corner of the cage. */
+static vertex vertex_between(const vertex *a, const vertex *b, double t, const double image[2])
 {
     vertex v = {.image = {image[0], image[1]}, .open = true};
     double at = (double)a->from + a->along, to = (double)b->from + b->along;
-    point_between(a, b, 0.5, v.point);
-    at = fabs(to - at) <= 1 ? at / 2 + to / 2 : at;
+    point_between(a, b, t, v.point);
+    at = fabs(to - at) <= 1 ? (1 - t) * at + t * to : at;
     v.from = (size_t)at;
     v.along = at - (double)v.from;
     return v;
@@ -94,7 +99,7 @@ static size_t split(polyline *line, const double *checks, double tolerance)
         polyline_add(&next, &v);
         if (!v.open)
             continue;
-        vertex middle = middle_of(&v, &line->vertices[i + 1], own + N_CHECKS / 2 * 2);
+        vertex middle = vertex_between(&v, &line->vertices[i + 1], 0.5, own + N_CHECKS / 2 * 2);
         polyline_add(&next, &middle);
         n_open += 2;
     }
@@ -125,4 +130,89 @@ int polyline_densify(polyline *line, const carrier *c, double tolerance, problem
         }
     }
     return DONE;
+}
+
+/* A part of a piece whose inner cuts may be left out: between cuts `first` and `last`, where 0 and
+ * n + 1 are the ends. */
+typedef struct span {
+    size_t first, last;
+} span;
+
+/* The image of cut i of 1 .. n, or of an end of the piece. */
+static const double *cut_image(const map_edges *e, const double ends[4], size_t i)
+{
+    return i == 0 ? ends : i > e->n_cuts ? ends + 2 : e->cuts[i - 1].image;
+}
+
+/* The inner cut of a part whose image is farthest from the straight line, or 0 if all are within
+ * the tolerance. */
+static size_t farthest_cut(const map_edges *e, const double ends[4], span part, double tolerance)
+{
+    size_t best = 0;
+    double most = tolerance;
+    for (size_t i = part.first + 1; i < part.last; i++) {
+        double off = distance_to_segment(cut_image(e, ends, part.first),
+                                         cut_image(e, ends, part.last), cut_image(e, ends, i));
+        best = off > most ? i : best;
+        most = fmax(off, most);
+    }
+    return best;
+}
+
+/* Leaves out cuts, by the method of Ramer, Douglas and Peucker. `ends` are the images of the ends
+ * in the order of the cuts. */
+static void thin_cuts(map_edges *e, const double ends[4], double tolerance)
+{
+    size_t n_parts = 0, n = 0;
+    bool *kept = need(e->n_cuts + 2, sizeof *kept);
+    span *parts = need(e->n_cuts + 2, sizeof *parts);
+    parts[n_parts++] = (span){0, e->n_cuts + 1};
+    while (n_parts > 0) {
+        span part = parts[--n_parts];
+        size_t cut = farthest_cut(e, ends, part, tolerance);
+        if (cut == 0)
+            continue;
+        kept[cut] = true;
+        parts[n_parts++] = (span){part.first, cut};
+        parts[n_parts++] = (span){cut, part.last};
+    }
+    for (size_t i = 0; i < e->n_cuts; i++)
+        if (kept[i + 1])
+            e->cuts[n++] = e->cuts[i];
+    e->n_cuts = n;
+    free(kept);
+    free(parts);
+}
+
+/* Adds the cuts between two vertices. */
+static void add_cuts(polyline *line, map_edges *e, const vertex *a, const vertex *b,
+                     double tolerance)
+{
+    bool swapped = point_before(b->point, a->point);
+    const vertex *from = swapped ? b : a, *to = swapped ? a : b;
+    map_edges_cut(e, from->point, to->point);
+    if (tolerance > 0)
+        thin_cuts(e, (double[4]){from->image[0], from->image[1], to->image[0], to->image[1]},
+                  tolerance);
+    for (size_t i = 0; i < e->n_cuts; i++) {
+        const edge_cut *cut = &e->cuts[swapped ? e->n_cuts - 1 - i : i];
+        vertex v = vertex_between(a, b, swapped ? 1 - cut->share : cut->share, cut->image);
+        v.open = false;
+        polyline_add(line, &v);
+    }
+}
+
+void polyline_cut(polyline *line, map_edges *edges, double tolerance)
+{
+    polyline cut = {0};
+    for (size_t i = 0; i < line->n; i++) {
+        vertex v = line->vertices[i];
+        bool open = v.open && i + 1 < line->n;
+        v.open = false;
+        polyline_add(&cut, &v);
+        if (open)
+            add_cuts(&cut, edges, &v, &line->vertices[i + 1], tolerance);
+    }
+    polyline_free(line);
+    *line = cut;
 }

@@ -1,9 +1,10 @@
-/* Adds vertices to lines where the map bends them, so that the mapped lines stay accurate. */
+/* Adds vertices to lines where the map bends them, so that the mapped lines stay accurate or are
+ * exact. */
 #ifndef DENSIFY_H
 #define DENSIFY_H
 
 #include "base/say.h"
-#include "geo/carrier.h"
+#include "geo/map_edges.h"
 
 /* A vertex and its origin: a position of a shape, or a share of the way to the next one. */
 typedef struct vertex {
@@ -26,5 +27,10 @@ void polyline_free(polyline *line);
  * tested at three points of the piece. There are at most 4096 pieces between two vertices. Where
  * the map has a gap there is a vertex without an image. DONE, or FAILED: see `wrong`. */
 int polyline_densify(polyline *line, const carrier *c, double tolerance, problem *wrong);
+
+/* Cuts each open piece at the map's edges, which makes its image exact. With tolerance > 0, cuts
+ * are then left out as long as the image stays that close. A piece gets the same vertices, bit by
+ * bit, in either direction. */
+void polyline_cut(polyline *line, map_edges *edges, double tolerance);
 
 #endif

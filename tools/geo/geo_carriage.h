@@ -3,13 +3,24 @@
 #define GEO_CARRIAGE_H
 
 #include "geo/geo_carry.h"
+#include "geo/geo_layer.h"
 #include "geo/geo_write.h"
+
+/* A vertex of a path that is carried: a position of the text, or a node of the layer on the way to
+ * the next one. */
+typedef struct origin {
+    bool position;
+    size_t from;
+    double along;
+    uint32_t node;
+} origin;
 
 typedef struct carriage {
     const carrier *cage;
     noding noding;
-    geo_policy policy;
-    double tolerance;
+    const geo_options *options;
+    geo_layer layer;
+    map_edges *edges; /* lines are cut at them; NULL: they are sampled */
     const char *text;
     geo_index index;
     geo_box *boxes; /* one for each object: the box of its contents */
@@ -19,11 +30,13 @@ typedef struct carriage {
     uint32_t fault_of;    /* the object of the last fault */
     /* The current geometry. */
     uint32_t object;
-    geo_shape shape;
+    geo_shape read;  /* as the text has it */
+    geo_shape shape; /* the same with vertices that neighbours have on its sides; it has no spans */
+    origin *origins; /* of each position of `shape`, which has the next four arrays, too */
     double *images;
     icc_status *status;
     bool *snapped;
-    size_t room_images, room_status, room_snapped;
+    size_t room_origins, room_images, room_status, room_snapped;
     polyline *lines;
     size_t n_lines, room_lines;
 } carriage;
@@ -45,6 +58,9 @@ polyline *geo_add_line(carriage *c);
  * its position, if there is one. */
 vertex geo_vertex_of(const carriage *c, const geo_node *node);
 bool geo_has_gap(const polyline *line);
+
+/* Adds vertices to a line until its image is exact or accurate. False: see c->wrong. */
+bool geo_refine_line(carriage *c, polyline *line);
 geo_writer geo_writer_of(carriage *c);
 
 /* Cuts the current geometry along the cage. False: see c->wrong. */

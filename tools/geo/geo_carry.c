@@ -7,6 +7,7 @@
 #include "base/degrees.h"
 #include "base/foreign.h"
 #include "base/orientation.h"
+#include "geo/crossing.h"
 #include "geo/geo_carriage.h"
 
 #include <math.h>
@@ -57,7 +58,7 @@ void geo_note_fault(carriage *c, size_t n_without, const char *fate)
 static void empty_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
-    bool whole = o->top != GEO_NOWHERE && (o->top == c->object || c->policy == GEO_NULL);
+    bool whole = o->top != GEO_NOWHERE && (o->top == c->object || c->options->policy == GEO_NULL);
     geo_span span = whole ? c->index.objects[o->top].all : o->coordinates;
     edits_replace(&c->out->edits, span.begin, span.end);
     edits_put_text(&c->out->edits, whole ? "null" : "[]");
@@ -68,7 +69,7 @@ static void empty_geometry(carriage *c)
 
 bool geo_leave_out(carriage *c, size_t n_without)
 {
-    geo_note_fault(c, n_without, c->policy == GEO_FAIL ? "refused" : "null");
+    geo_note_fault(c, n_without, c->options->policy == GEO_FAIL ? "refused" : "null");
     empty_geometry(c);
     return true;
 }
@@ -88,10 +89,15 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node)
 {
     vertex v = {.point = {node->at[0], node->at[1]},
                 .image = {NAN, NAN},
-                .position = node->vertex,
                 .from = node->from,
-                .along = node->along,
                 .open = node->in};
+    if (node->from != SIZE_MAX) {
+        const origin *o = &c->origins[node->from];
+        bool same = node->from + 1 < c->shape.n && o[1].from == o->from;
+        v.position = node->vertex && o->position;
+        v.from = o->from;
+        v.along = o->along + node->along * ((same ? o[1].along : 1) - o->along);
+    }
     bool mapped = node->vertex && c->status[node->from] == ICC_OK;
     if (mapped)
         memcpy(v.image, c->images + 2 * node->from, sizeof v.image);
@@ -101,6 +107,14 @@ vertex geo_vertex_of(const carriage *c, const geo_node *node)
     return v;
 }
 
+bool geo_refine_line(carriage *c, polyline *line)
+{
+    if (c->edges == NULL)
+        return polyline_densify(line, c->cage, c->options->tolerance, c->wrong) == DONE;
+    polyline_cut(line, c->edges, c->options->drop);
+    return true;
+}
+
 /* Adds the path that was noded last as a line, with all nodes or only with its vertices. */
 static void add_noded(carriage *c, bool all)
 {
@@ -108,7 +122,7 @@ static void add_noded(carriage *c, bool all)
     for (size_t i = 0; i < c->noding.n; i++) {
         vertex v = geo_vertex_of(c, &c->noding.nodes[i]);
         v.open = all ? v.open : i + 1 < c->noding.n;
-        if (all || v.position)
+        if (all || c->noding.nodes[i].vertex)
             polyline_add(line, &v);
     }
     for (size_t i = 0; i < line->n; i++)
@@ -130,9 +144,9 @@ static bool node_all(carriage *c)
 {
     bool whole = true;
     c->n_lines = 0;
-    for (size_t p = 0; p < c->shape.n_paths && (whole || c->policy == GEO_KEEP); p++) {
+    for (size_t p = 0; p < c->shape.n_paths && (whole || c->options->policy == GEO_KEEP); p++) {
         whole = noding_path(&c->noding, &c->shape, p, c->status, c->snapped) && whole;
-        add_noded(c, c->policy == GEO_KEEP);
+        add_noded(c, c->options->policy == GEO_KEEP || c->edges != NULL);
     }
     return whole;
 }
@@ -183,33 +197,84 @@ static bool take_points(carriage *c)
 
 geo_writer geo_writer_of(carriage *c)
 {
-    return (geo_writer){&c->out->edits, c->text, &c->shape, &c->boxes[c->object]};
+    return (geo_writer){&c->out->edits, c->text, &c->read, &c->boxes[c->object]};
 }
 
-static bool map_positions(carriage *c, size_t *n_without)
+/* Adds a node of the layer to the shape. */
+static void add_vertex(carriage *c, origin o)
 {
-    size_t n = c->shape.n;
+    size_t i = c->shape.n++, n = i + 1;
+    const geo_layer *l = &c->layer;
+    c->origins = grow(c->origins, &c->room_origins, n, sizeof *c->origins);
     c->images = grow(c->images, &c->room_images, 2 * n, sizeof *c->images);
     c->status = grow(c->status, &c->room_status, n, sizeof *c->status);
     c->snapped = grow(c->snapped, &c->room_snapped, n, sizeof *c->snapped);
-    icc_status ran = carrier_map(c->cage, n, c->shape.points, c->images, c->status, c->snapped);
-    if (ran != ICC_OK)
-        return stop(c, ran);
-    *n_without = 0;
-    for (size_t i = 0; i < n; i++)
-        *n_without += c->status[i] != ICC_OK;
-    c->out->n_positions += n;
-    c->out->n_without += *n_without;
-    return true;
+    c->shape.points = grow(c->shape.points, &c->shape.room_points, 2 * n, sizeof *c->shape.points);
+    c->origins[i] = o;
+    memcpy(c->images + 2 * i, l->images + 2 * (size_t)o.node, 2 * sizeof *c->images);
+    memcpy(c->shape.points + 2 * i, l->nodes + 2 * (size_t)o.node, 2 * sizeof *c->images);
+    c->status[i] = l->status[o.node];
+    c->snapped[i] = l->snapped[o.node];
+}
+
+/* Adds the nodes that are put into the side from a position to the next one. */
+static void add_nodes_between(carriage *c, origin from, uint32_t to)
+{
+    const geo_layer *l = &c->layer;
+    const layer_side *s = geo_layer_side(l, from.node, to);
+    if (s == NULL)
+        return;
+    const double *a = l->nodes + 2 * (size_t)from.node, *b = l->nodes + 2 * (size_t)to;
+    for (size_t k = 0; k < s->n_on; k++) {
+        bool forwards = s->a == from.node;
+        uint32_t node = l->on[s->first_on + (forwards ? k : s->n_on - 1 - k)];
+        double way = point_distance(a, b), off = point_distance(a, l->nodes + 2 * (size_t)node);
+        add_vertex(c, (origin){.from = from.from, .along = fmin(off / way, 1), .node = node});
+    }
+}
+
+/* Makes the shape that is carried of the one that has been read. */
+static void put_nodes_in(carriage *c)
+{
+    const geo_shape *read = &c->read;
+    const uint32_t *node = c->layer.node + c->layer.first[c->object];
+    geo_shape *s = &c->shape;
+    s->n = 0;
+    s->type = read->type;
+    s->n_parts = read->n_parts;
+    s->n_paths = read->n_paths;
+    s->paths = grow(s->paths, &s->room_paths, s->n_paths, sizeof *s->paths);
+    for (size_t p = 0; p < s->n_paths; p++) {
+        const geo_path *path = &read->paths[p];
+        s->paths[p] = (geo_path){.first = s->n, .part = path->part};
+        for (size_t i = path->first; i < path->first + path->n; i++) {
+            origin o = {.position = true, .from = i, .node = node[i]};
+            add_vertex(c, o);
+            if (i + 1 < path->first + path->n)
+                add_nodes_between(c, o, node[i + 1]);
+        }
+        s->paths[p].n = s->n - s->paths[p].first;
+    }
+}
+
+/* Counts the positions of the text that have no image. */
+static size_t count_without(carriage *c)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < c->shape.n; i++)
+        n += c->origins[i].position && c->status[i] != ICC_OK;
+    c->out->n_positions += c->read.n;
+    c->out->n_without += n;
+    return n;
 }
 
 /* Makes c->lines accurate, or finds that this is impossible. */
 static bool refine(carriage *c, bool *whole)
 {
     for (size_t l = 0; l < c->n_lines && *whole; l++) {
-        if (polyline_densify(&c->lines[l], c->cage, c->tolerance, c->wrong) != DONE)
+        if (!geo_refine_line(c, &c->lines[l]))
             return false;
-        *whole = c->policy == GEO_KEEP || !geo_has_gap(&c->lines[l]);
+        *whole = c->options->policy == GEO_KEEP || !geo_has_gap(&c->lines[l]);
     }
     return true;
 }
@@ -233,25 +298,24 @@ static size_t count_jumps(const geo_shape *s)
 static bool carry_geometry(carriage *c)
 {
     const geo_object *o = geo_current(c);
-    size_t n_without = 0;
-    if (!geo_shape_read(&c->shape, o, c->text, c->wrong))
+    if (!geo_shape_read(&c->read, o, c->text, c->wrong))
         return false;
-    if (c->shape.n == 0)
+    if (c->read.n == 0)
         return true;
-    if (!map_positions(c, &n_without))
-        return false;
+    put_nodes_in(c);
+    size_t n_without = count_without(c);
     bool points = o->type <= GEO_MULTI_POINT;
-    c->out->n_jumps += points ? 0 : count_jumps(&c->shape);
+    c->out->n_jumps += points ? 0 : count_jumps(&c->read);
     bool whole = points ? take_points(c) : node_all(c) && n_without == 0;
-    if (whole && c->policy == GEO_CLIP && o->type > GEO_MULTI_LINE)
+    if (whole && c->options->policy == GEO_CLIP && o->type > GEO_MULTI_LINE)
         whole = !covers_hole(c);
     if (c->noding.status != ICC_OK)
         return stop(c, c->noding.status);
-    bool writes = whole || c->policy == GEO_KEEP;
+    bool writes = whole || c->options->policy == GEO_KEEP;
     if (writes && !refine(c, &writes))
         return false;
     if (!writes)
-        return c->policy == GEO_CLIP ? geo_cut(c, n_without) : geo_leave_out(c, n_without);
+        return c->options->policy == GEO_CLIP ? geo_cut(c, n_without) : geo_leave_out(c, n_without);
     geo_writer w = geo_writer_of(c);
     geo_write_in_place(&w, o->coordinates, c->n_lines, c->lines);
     if (!whole)
@@ -274,35 +338,59 @@ static bool carry_objects(carriage *c)
     return good && geo_set_boxes(c);
 }
 
-bool geo_carry(geo_result *out, const carrier *carries, geo_policy policy, double tolerance,
+/* Reads the layer as a whole, maps its nodes, and decides how lines are mapped. */
+static bool prepare_layer(carriage *c, map_edges *edges)
+{
+    geo_layer *l = &c->layer;
+    bool exact = c->options->exact;
+    if (!geo_layer_read(l, &c->index, c->text, c->cage->snap, exact, c->wrong))
+        return false;
+    if ((exact || l->n_shared > 0) && map_edges_make(edges, c->cage))
+        c->edges = edges;
+    else if (exact)
+        return spoilt(c->wrong, 0, "exact lines need the triangles of a mesh map");
+    c->out->exact = c->edges != NULL;
+    c->out->n_shared = l->n_shared;
+    c->out->n_put_in = l->n_on;
+    icc_status ran = geo_layer_map(l, c->cage);
+    return ran == ICC_OK || stop(c, ran);
+}
+
+static void free_carriage(carriage *c)
+{
+    for (size_t l = 0; l < c->room_lines; l++)
+        polyline_free(&c->lines[l]);
+    free(c->lines);
+    free(c->origins);
+    free(c->images);
+    free(c->status);
+    free(c->snapped);
+    free(c->boxes);
+    geo_shape_free(&c->read);
+    geo_shape_free(&c->shape);
+    geo_index_free(&c->index);
+    geo_layer_free(&c->layer);
+    noding_free(&c->noding);
+}
+
+bool geo_carry(geo_result *out, const carrier *carries, const geo_options *options,
                const char *text, size_t n, problem *wrong)
 {
-    carriage c = {.cage = carries,
-                  .policy = policy,
-                  .tolerance = tolerance,
-                  .text = text,
-                  .out = out,
-                  .wrong = wrong,
-                  .line = 1};
+    carriage c = {
+        .cage = carries, .options = options, .text = text, .out = out, .wrong = wrong, .line = 1};
+    map_edges edges = {0};
     *out = (geo_result){0};
     noding_start(&c.noding, carries);
     bool good = !foreign_told(text, n, wrong) && !foreign_table_told(text, wrong) &&
                 geo_index_read(&c.index, text, n, wrong);
     out->sequence = c.index.sequence;
-    if (good) {
+    if (good && prepare_layer(&c, &edges)) {
         c.boxes = need(c.index.n, sizeof *c.boxes);
         good = carry_objects(&c);
-    }
-    for (size_t l = 0; l < c.room_lines; l++)
-        polyline_free(&c.lines[l]);
-    free(c.lines);
-    free(c.images);
-    free(c.status);
-    free(c.snapped);
-    free(c.boxes);
-    geo_shape_free(&c.shape);
-    geo_index_free(&c.index);
-    noding_free(&c.noding);
+    } else
+        good = false;
+    map_edges_free(&edges);
+    free_carriage(&c);
     return good;
 }
 

@@ -89,7 +89,7 @@ static bool cut_lines(carriage *c, size_t n_without)
         add_parts(c);
     }
     for (size_t l = 0; l < c->n_lines; l++) {
-        if (polyline_densify(&c->lines[l], c->cage, c->tolerance, c->wrong) != DONE)
+        if (!geo_refine_line(c, &c->lines[l]))
             return false;
         n = write_parts(NULL, &c->lines[l], false, n);
     }
@@ -114,7 +114,7 @@ static void add_ring(carriage *c, const clipped *cut, const clip_ring *ring, siz
                      bool reversed)
 {
     polyline *line = geo_add_line(c);
-    size_t from = first_position;
+    size_t from = c->origins[first_position].from;
     double along = 0;
     for (size_t i = 0; i <= ring->n; i++) {
         size_t k = i % ring->n;
@@ -150,7 +150,7 @@ static bool write_polygon(carriage *c, cutting *to)
 {
     geo_writer w = geo_writer_of(c);
     for (size_t l = 0; l < c->n_lines; l++) {
-        if (polyline_densify(&c->lines[l], c->cage, c->tolerance, c->wrong) != DONE)
+        if (!geo_refine_line(c, &c->lines[l]))
             return false;
         if (geo_has_gap(&c->lines[l])) {
             to->failed = true;

@@ -5,6 +5,7 @@
 
 #include "base/allocate.h"
 #include "base/orientation.h"
+#include "geo/crossing.h"
 
 #include <float.h>
 #include <math.h>
@@ -28,11 +29,6 @@ void noding_free(noding *x)
     x->nodes = NULL;
 }
 
-static double distance(const double a[2], const double b[2])
-{
-    return hypot(b[0] - a[0], b[1] - a[1]);
-}
-
 /* Finds the nearest point of a segment, as a share of it. Returns the distance. */
 static double nearest_on(const double a[2], const double b[2], const double p[2], double *share)
 {
@@ -50,7 +46,7 @@ static void put_on(const noding *x, geo_node *node, uint32_t facet, double share
     node->share = share;
     for (size_t end = 0; end < 2; end++) {
         const double *corner = cage_end(x->cage, facet, end);
-        if (distance(corner, node->at) <= x->grid.near) {
+        if (point_distance(corner, node->at) <= x->grid.near) {
             node->share = (double)end;
             node->at[0] = corner[0];
             node->at[1] = corner[1];
@@ -113,8 +109,8 @@ static void insert(noding *x, size_t first, const geo_node *a, const geo_node *b
 {
     if (is_at(a, node.at) || is_at(b, node.at))
         return;
-    double off, way = distance(a->at, b->at);
-    off = distance(a->at, node.at);
+    double off, way = point_distance(a->at, b->at);
+    off = point_distance(a->at, node.at);
     node.place = GEO_ON_CAGE;
     node.from = a->from;
     node.along = way > 0 && off < way ? off / way : way > 0 ? 1 : 0;
@@ -123,16 +119,6 @@ static void insert(noding *x, size_t first, const geo_node *a, const geo_node *b
     for (; i > first && x->nodes[i - 1].along > node.along; i--)
         x->nodes[i] = x->nodes[i - 1];
     x->nodes[i] = node;
-}
-
-/* The distance of an end of the cage's edge from the line a b that crosses it, in any unit. The
- * closer end of the line comes first, and its direction is scaled. So lines from far away neither
- * overflow nor lose the edge in rounding. */
-static double height(const double a[2], const double b[2], const double p[2])
-{
-    double dx = b[0] / 2 - a[0] / 2, dy = b[1] / 2 - a[1] / 2, scale = fmax(fabs(dx), fabs(dy));
-    const double *ref = distance(a, p) < distance(b, p) ? a : b;
-    return dx / scale * (p[1] - ref[1]) - dy / scale * (p[0] - ref[0]);
 }
 
 /* Finds where a piece crosses an edge of the cage, as a share of the edge. False if it does not. */
@@ -147,24 +133,25 @@ static bool crosses(const noding *x, const double a[2], const double b[2], uint3
     if (orientation(a, b, c) * orientation(a, b, d) >= 0 ||
         orientation(c, d, a) * orientation(c, d, b) >= 0)
         return false;
-    double u = height(a, b, c), v = height(a, b, d);
-    at = u / (u - v);
-    *share = at >= 0 && at <= 1 ? at : 0.5;
+    *share = crossing_share(a, b, c, d);
     return true;
 }
 
-/* Adds the places where the piece between two vertices meets the cage. */
+/* Adds the places where the piece between two vertices meets the cage. They are the same for the
+ * piece from b to a. */
 static void add_meetings(noding *x, geo_node a, geo_node b)
 {
     size_t first = x->n;
+    bool swapped = point_before(b.at, a.at);
+    const double *from = swapped ? b.at : a.at, *to = swapped ? a.at : b.at;
     cage_grid_ask(&x->grid, a.at, b.at);
     for (size_t i = 0; i < x->grid.n_found; i++) {
         uint32_t edge = x->grid.found[i];
         const double *c = cage_end(x->cage, edge, 0), *d = cage_end(x->cage, edge, 1);
         double share;
-        if (nearest_on(a.at, b.at, c, &share) <= x->grid.near)
+        if (nearest_on(from, to, c, &share) <= x->grid.near)
             insert(x, first, &a, &b, (geo_node){.at = {c[0], c[1]}, .facet = edge, .share = 0});
-        else if (crosses(x, a.at, b.at, edge, &share))
+        else if (crosses(x, from, to, edge, &share))
             insert(x, first, &a, &b,
                    (geo_node){.at = {c[0] + share * (d[0] - c[0]), c[1] + share * (d[1] - c[1])},
                               .facet = edge,

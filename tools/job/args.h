@@ -46,6 +46,7 @@ typedef struct args {
     double box[ICC_MAX_DIM], resolution, margin, smoothing, reach, stiffness;
     size_t n_box; /* numbers of the box; 0: not given */
     bool exact, smooths, slides, frees;
+    bool exact_lines; /* of a layer */
     /* how weights are made */
     int32_t sampling, seed, weights, kernel, initial, steps;
     double spacing, sigma;

@@ -49,6 +49,9 @@ static int check_method(const args *a, const command *c)
         return misused(c->name, "--map mesh needs a method that can be certified, not gradient");
     if (a->triangles && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangles needs a mesh map: --target FILE --map mesh");
+    if (a->exact_lines && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
+        return misused(c->name, "--exact needs the triangles of a mesh map, but a %s map has none",
+                       a->map == ICC_MAP_CURVES ? "curve" : "gradient");
     if (a->triangulation != NULL && (a->map == ICC_MAP_CURVES || a->method == ICC_METHOD_GRADIENT))
         return misused(c->name, "--triangulation needs a mesh map, which is the default");
     if (a->reach > 0 && (a->method != 0 || a->map == ICC_MAP_CURVES || a->mesh != NULL))
@@ -115,6 +118,8 @@ static int check_operands(const args *a, const command *c)
         return misused(c->name, "--untangle does not go with --inverse");
     if (a->tolerance > 0 && !a->geojson && !(c->bit & FOR_POSE))
         return misused(c->name, "--tolerance goes with --geojson only");
+    if (a->exact_lines && !a->geojson)
+        return misused(c->name, "--exact goes with --geojson only");
     if (a->outside == OUTSIDE_CLIP && !a->geojson)
         return misused(c->name, "--outside clip goes with --geojson only");
     if (a->outside == OUTSIDE_NULL && c->bit & FOR_MESH)

@@ -455,7 +455,14 @@ const option options[] = {
      .offset = AT(tolerance),
      .value = "LENGTH",
      .help = "with --geojson: maximum distance of a line from its exact image (default: 1/1000 of "
-             "the longest side of the result's cage)"},
+             "the longest side of the result's cage; 0 for exact lines)"},
+    {.name = "exact",
+     .group = OPTIONS_RARE,
+     .kind = OPTION_FLAG,
+     .commands = FOR_MAP,
+     .offset = AT(exact_lines),
+     .help = "with --geojson: exact images of all lines, by a vertex where a line crosses an edge "
+             "of the map's triangles (default for a layer whose polygons share sides)"},
     {.name = "resolution",
      .group = OPTIONS_RARE,
      .kind = OPTION_LENGTH,
@@ -496,8 +503,8 @@ const option options[] = {
      .offset = AT(snap),
      .zero = true,
      .value = "LENGTH",
-     .help = "move a point to the boundary if it lies at most LENGTH outside (default: 1e-9 of the "
-             "shape's size; 0: never)"},
+     .help = "move a point to the boundary if it lies at most LENGTH outside, or a corner to its "
+             "neighbour's side (default: 1e-9 of the shape's size; 0: never)"},
     {.name = "triangulation",
      .group = OPTIONS_RARE,
      .kind = OPTION_TEXT,

@@ -1,0 +1,382 @@
+/* Reads, welds and nodes a layer. Everything goes by sorting and by trees of boxes, so n positions
+ * take about n log n steps. */
+#include "geo/geo_layer.h"
+
+#include "base/allocate.h"
+#include "base/orientation.h"
+#include "geo/crossing.h"
+#include "geo/geo_shape.h"
+#include "geo/segment_tree.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { NO_POLYGON = UINT32_MAX };
+
+/* A side as it is given: positions, later nodes, and the polygon that it bounds. */
+typedef struct given_side {
+    uint32_t a, b, polygon;
+} given_side;
+
+/* A node that lies on a side. */
+typedef struct touch {
+    size_t side;
+    double share;
+    uint32_t node;
+} touch;
+
+typedef struct layer_reader {
+    geo_layer *out;
+    double length;
+    double *points;
+    size_t room_points;
+    given_side *given;
+    size_t n_given, room_given;
+    uint32_t *lead; /* of each node: the one to which it is welded, or itself */
+    touch *touches;
+    size_t n_touches, room_touches;
+} layer_reader;
+
+/* ---- reading ---- */
+
+static void add_given(layer_reader *r, uint32_t a, uint32_t b, uint32_t polygon)
+{
+    r->given = grow(r->given, &r->room_given, r->n_given + 1, sizeof *r->given);
+    r->given[r->n_given++] = (given_side){a, b, polygon};
+}
+
+/* Adds the positions of a geometry, and its sides as pairs of positions. */
+static void add_shape(layer_reader *r, const geo_shape *s, uint32_t *n_polygons)
+{
+    size_t base = r->out->n;
+    r->points = grow(r->points, &r->room_points, 2 * (base + s->n), sizeof *r->points);
+    if (s->n > 0)
+        memcpy(r->points + 2 * base, s->points, 2 * s->n * sizeof *r->points);
+    for (size_t p = 0; p < s->n_paths && s->type > GEO_MULTI_POINT; p++) {
+        bool polygon = s->type > GEO_MULTI_LINE;
+        if (polygon && (p == 0 || s->paths[p].part != s->paths[p - 1].part))
+            ++*n_polygons;
+        for (size_t i = 1; i < s->paths[p].n; i++) {
+            uint32_t at = (uint32_t)(base + s->paths[p].first + i);
+            add_given(r, at - 1, at, polygon ? *n_polygons : NO_POLYGON);
+        }
+    }
+    r->out->n += s->n;
+}
+
+static bool read_all(layer_reader *r, const geo_index *index, const char *text, problem *wrong)
+{
+    geo_shape shape = {0};
+    uint32_t n_polygons = 0;
+    bool good = true;
+    for (size_t i = 0; i < index->n && good; i++) {
+        const geo_object *o = &index->objects[i];
+        r->out->first[i] = r->out->n;
+        if (!o->live || o->type >= GEO_GEOMETRIES)
+            continue;
+        good = geo_shape_read(&shape, o, text, wrong);
+        if (good && shape.n >= UINT32_MAX - r->out->n)
+            good = spoilt(wrong, 0, "this GeoJSON has too many positions");
+        if (good)
+            add_shape(r, &shape, &n_polygons);
+    }
+    geo_shape_free(&shape);
+    return good;
+}
+
+/* ---- nodes ---- */
+
+typedef struct placed {
+    double point[2];
+    uint32_t position;
+} placed;
+
+static int by_place(const void *a, const void *b)
+{
+    const placed *p = a, *q = b;
+    return point_before(p->point, q->point) ? -1
+           : point_before(q->point, p->point)
+               ? 1
+               : (p->position > q->position) - (p->position < q->position);
+}
+
+static void find_nodes(layer_reader *r)
+{
+    geo_layer *out = r->out;
+    placed *list = need(out->n, sizeof *list);
+    out->node = need(out->n, sizeof *out->node);
+    out->nodes = need(out->n, 2 * sizeof *out->nodes);
+    for (size_t i = 0; i < out->n; i++)
+        list[i] = (placed){{r->points[2 * i], r->points[2 * i + 1]}, (uint32_t)i};
+    qsort(list, out->n, sizeof *list, by_place);
+    for (size_t i = 0; i < out->n; i++) {
+        if (i == 0 || point_before(list[i - 1].point, list[i].point))
+            memcpy(out->nodes + 2 * out->n_nodes++, list[i].point, sizeof list->point);
+        out->node[list[i].position] = (uint32_t)out->n_nodes - 1;
+    }
+    free(list);
+    for (size_t i = 0; i < r->n_given; i++) {
+        r->given[i].a = out->node[r->given[i].a];
+        r->given[i].b = out->node[r->given[i].b];
+    }
+}
+
+/* Welds nodes at ends of sides to the first one within the length that is not welded itself. So
+ * nothing moves farther than that. */
+static void weld_nodes(layer_reader *r)
+{
+    geo_layer *out = r->out;
+    size_t n = out->n_nodes;
+    r->lead = need(n, sizeof *r->lead);
+    for (uint32_t i = 0; i < n; i++)
+        r->lead[i] = i;
+    if (r->n_given == 0 || !(r->length > 0))
+        return;
+    double *dots = need(n, 4 * sizeof *dots);
+    bool *ends = need(n, sizeof *ends);
+    segment_tree tree;
+    for (size_t i = 0; i < 4 * n; i++)
+        dots[i] = out->nodes[2 * (i / 4) + i % 2];
+    for (size_t i = 0; i < r->n_given; i++)
+        ends[r->given[i].a] = ends[r->given[i].b] = true;
+    segment_tree_make(&tree, n, dots, r->length);
+    for (uint32_t i = 0; i < n; i++) {
+        if (r->lead[i] != i || !ends[i])
+            continue;
+        segment_tree_ask(&tree, dots + 4 * (size_t)i, dots + 4 * (size_t)i);
+        for (size_t k = 0; k < tree.n_found; k++) {
+            uint32_t j = tree.found[k];
+            if (j > i && ends[j] && r->lead[j] == j &&
+                point_distance(dots + 4 * (size_t)i, dots + 4 * (size_t)j) <= r->length)
+                r->lead[j] = i;
+        }
+    }
+    segment_tree_free(&tree);
+    free(dots);
+    free(ends);
+}
+
+/* ---- sides ---- */
+
+static int by_nodes(const void *a, const void *b)
+{
+    const given_side *x = a, *y = b;
+    if (x->a != y->a)
+        return x->a < y->a ? -1 : 1;
+    if (x->b != y->b)
+        return x->b < y->b ? -1 : 1;
+    return (x->polygon > y->polygon) - (x->polygon < y->polygon);
+}
+
+/* Orders the ends of sides, drops those without length, and sorts. */
+static void sort_sides(given_side *sides, size_t *n_sides, const uint32_t *lead)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < *n_sides; i++) {
+        uint32_t a = lead[sides[i].a], b = lead[sides[i].b];
+        if (a != b)
+            sides[n++] = (given_side){a < b ? a : b, a < b ? b : a, sides[i].polygon};
+    }
+    if (n > 1)
+        qsort(sides, n, sizeof *sides, by_nodes);
+    *n_sides = n;
+}
+
+static bool same_ends(const given_side *x, const given_side *y)
+{
+    return x->a == y->a && x->b == y->b;
+}
+
+static void list_sides(layer_reader *r)
+{
+    geo_layer *out = r->out;
+    sort_sides(r->given, &r->n_given, r->lead);
+    out->sides = need(r->n_given, sizeof *out->sides);
+    for (size_t i = 0; i < r->n_given; i++)
+        if (i == 0 || !same_ends(&r->given[i - 1], &r->given[i]))
+            out->sides[out->n_sides++] = (layer_side){.a = r->given[i].a, .b = r->given[i].b};
+}
+
+/* ---- vertices on sides ---- */
+
+static const double *node_at(const geo_layer *l, uint32_t node)
+{
+    return l->nodes + 2 * (size_t)node;
+}
+
+/* True if p is within `length` of the segment a b, between its ends. */
+static bool lies_on(const double a[2], const double b[2], const double p[2], double length,
+                    double *share)
+{
+    double way = point_distance(a, b), dx = (b[0] - a[0]) / way, dy = (b[1] - a[1]) / way;
+    double along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
+    *share = along / way;
+    if (!(*share > 0 && *share < 1))
+        return false;
+    return fabs((p[0] - a[0]) * dy - (p[1] - a[1]) * dx) <= length || orientation(a, b, p) == 0;
+}
+
+static void add_touches(layer_reader *r, segment_tree *tree, uint32_t node)
+{
+    const geo_layer *l = r->out;
+    const double *p = node_at(l, node);
+    segment_tree_ask(tree, p, p);
+    for (size_t k = 0; k < tree->n_found; k++) {
+        const layer_side *s = &l->sides[tree->found[k]];
+        double share;
+        if (s->a == node || s->b == node ||
+            !lies_on(node_at(l, s->a), node_at(l, s->b), p, r->length, &share))
+            continue;
+        r->touches = grow(r->touches, &r->room_touches, r->n_touches + 1, sizeof *r->touches);
+        r->touches[r->n_touches++] = (touch){tree->found[k], share, node};
+    }
+}
+
+static int by_side(const void *a, const void *b)
+{
+    const touch *x = a, *y = b;
+    if (x->side != y->side)
+        return x->side < y->side ? -1 : 1;
+    if (x->share < y->share || y->share < x->share)
+        return x->share < y->share ? -1 : 1;
+    return (x->node > y->node) - (x->node < y->node);
+}
+
+/* Puts nodes into the sides on which they lie. */
+static void put_into_sides(layer_reader *r)
+{
+    geo_layer *out = r->out;
+    double *ends = need(out->n_sides, 4 * sizeof *ends);
+    bool *asked = need(out->n_nodes, sizeof *asked);
+    segment_tree tree;
+    for (size_t i = 0; i < out->n_sides; i++) {
+        memcpy(ends + 4 * i, node_at(out, out->sides[i].a), 2 * sizeof *ends);
+        memcpy(ends + 4 * i + 2, node_at(out, out->sides[i].b), 2 * sizeof *ends);
+    }
+    segment_tree_make(&tree, out->n_sides, ends, r->length);
+    for (size_t i = 0; i < 2 * out->n_sides; i++) {
+        uint32_t node = i % 2 == 0 ? out->sides[i / 2].a : out->sides[i / 2].b;
+        if (!asked[node])
+            add_touches(r, &tree, node);
+        asked[node] = true;
+    }
+    segment_tree_free(&tree);
+    free(ends);
+    free(asked);
+    if (r->n_touches > 1)
+        qsort(r->touches, r->n_touches, sizeof *r->touches, by_side);
+    out->on = need(r->n_touches, sizeof *out->on);
+    out->n_on = r->n_touches;
+    for (size_t i = 0; i < r->n_touches; i++) {
+        layer_side *s = &out->sides[r->touches[i].side];
+        s->first_on = s->n_on++ == 0 ? i : s->first_on;
+        out->on[i] = r->touches[i].node;
+    }
+}
+
+/* Counts the sides between all nodes that bound at least two polygons. */
+static size_t count_shared(layer_reader *r)
+{
+    const geo_layer *l = r->out;
+    size_t n = r->n_given, n_shared = 0;
+    for (size_t i = 0; i < n; i++) {
+        given_side g = r->given[i];
+        const layer_side *s = geo_layer_side(l, g.a, g.b);
+        for (size_t k = 0; s != NULL && k < s->n_on; k++) {
+            add_given(r, g.a, l->on[s->first_on + k], g.polygon);
+            g.a = l->on[s->first_on + k];
+        }
+        r->given[i] = g;
+    }
+    sort_sides(r->given, &r->n_given, r->lead);
+    for (size_t i = 0, end; i < r->n_given; i = end) {
+        bool shared = false;
+        for (end = i + 1; end < r->n_given && same_ends(&r->given[i], &r->given[end]); end++)
+            shared = shared || (r->given[end].polygon != r->given[i].polygon &&
+                                r->given[end].polygon != NO_POLYGON);
+        n_shared += shared;
+    }
+    return n_shared;
+}
+
+static void leave_apart(geo_layer *l)
+{
+    free(l->sides);
+    free(l->on);
+    l->sides = NULL;
+    l->on = NULL;
+    l->n_sides = l->n_on = 0;
+}
+
+static void weld_positions(layer_reader *r)
+{
+    geo_layer *l = r->out;
+    for (size_t i = 0; i < l->n; i++) {
+        l->n_welded += r->lead[l->node[i]] != l->node[i];
+        l->node[i] = r->lead[l->node[i]];
+    }
+}
+
+bool geo_layer_read(geo_layer *out, const geo_index *index, const char *text, double length,
+                    bool joined, problem *wrong)
+{
+    *out = (geo_layer){.first = need(index->n, sizeof *out->first)};
+    layer_reader r = {.out = out, .length = length};
+    bool good = read_all(&r, index, text, wrong);
+    if (good) {
+        find_nodes(&r);
+        weld_nodes(&r);
+        list_sides(&r);
+        put_into_sides(&r);
+        out->n_shared = count_shared(&r);
+        if (joined || out->n_shared > 0)
+            weld_positions(&r);
+        else
+            leave_apart(out);
+    }
+    free(r.points);
+    free(r.given);
+    free(r.lead);
+    free(r.touches);
+    return good;
+}
+
+void geo_layer_free(geo_layer *layer)
+{
+    free(layer->first);
+    free(layer->node);
+    free(layer->nodes);
+    free(layer->images);
+    free(layer->status);
+    free(layer->snapped);
+    free(layer->sides);
+    free(layer->on);
+    *layer = (geo_layer){0};
+}
+
+icc_status geo_layer_map(geo_layer *layer, const carrier *c)
+{
+    size_t n = layer->n_nodes;
+    layer->images = need(n, 2 * sizeof *layer->images);
+    layer->status = need(n, sizeof *layer->status);
+    layer->snapped = need(n, sizeof *layer->snapped);
+    return carrier_map(c, n, layer->nodes, layer->images, layer->status, layer->snapped);
+}
+
+const layer_side *geo_layer_side(const geo_layer *layer, uint32_t a, uint32_t b)
+{
+    uint32_t low = a < b ? a : b, high = a < b ? b : a;
+    size_t first = 0, end = layer->n_sides;
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        const layer_side *s = &layer->sides[middle];
+        if (s->a < low || (s->a == low && s->b < high))
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    bool found =
+        first < layer->n_sides && layer->sides[first].a == low && layer->sides[first].b == high;
+    return found ? &layer->sides[first] : NULL;
+}
