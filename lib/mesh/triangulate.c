@@ -13,53 +13,43 @@
 /* Marks a triangle outside. */
 static const uint32_t OUTSIDE = UINT32_MAX;
 
-/* Sets number[t] of the triangles that can be reached from a seed without crossing a wall. `stack`
- * has room for every triangle. */
-static void flood(const iccp_trimesh *mesh, uint32_t seed, uint32_t mark, uint32_t *number,
-                  uint32_t *stack)
+/* Whether a corner faces a wall. Edges at the ghost are none. */
+static bool faces_wall(const iccp_trimesh *mesh, uint32_t corner)
+{
+    const uint32_t a = mesh->corners[iccp_after(corner)].vertex;
+    const uint32_t b = mesh->corners[iccp_before(corner)].vertex;
+    return a < mesh->n_points && b < mesh->n_points && iccp_is_wall(mesh, a, b);
+}
+
+/* Sets number[t] to OUTSIDE or to 0. It begins outside, with a ghost, and each wall leads from one
+ * to the other. `stack` has room for every triangle. Returns ICC_ERR_TOPOLOGY if walls do not
+ * separate inside from outside. */
+static icc_status mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
 {
     const iccp_corner *const c = mesh->corners;
-    uint32_t n = 0;
-    stack[n++] = seed;
-    number[seed] = mark;
+    const uint32_t unseen = OUTSIDE - 1;
+    icc_status status = ICC_OK;
+    uint32_t seed = 0, n = 0;
+    for (uint32_t t = 0; t < mesh->n_triangles; ++t)
+        number[t] = unseen;
+    while (c[seed].vertex != mesh->n_points)
+        ++seed;
+    stack[n++] = seed / 3;
+    number[seed / 3] = OUTSIDE;
     while (n > 0) {
         const uint32_t triangle = stack[--n];
         for (uint32_t corner = 3 * triangle; corner < 3 * triangle + 3; ++corner) {
             const uint32_t other = c[corner].twin / 3;
-            if (number[other] == mark ||
-                iccp_is_wall(mesh, c[iccp_after(corner)].vertex, c[iccp_before(corner)].vertex))
-                continue;
+            const bool is_outside = (number[triangle] == OUTSIDE) != faces_wall(mesh, corner);
+            const uint32_t mark = is_outside ? OUTSIDE : 0;
+            if (number[other] == unseen)
+                stack[n++] = other;
+            else if (number[other] != mark)
+                status = ICC_ERR_TOPOLOGY;
             number[other] = mark;
-            stack[n++] = other;
         }
     }
-}
-
-/* Marks the triangles outside the polygon, beginning with the ghosts: their number[t] becomes
- * OUTSIDE. Inside it stays 0. */
-static void mark_outside(const iccp_trimesh *mesh, uint32_t *number, uint32_t *stack)
-{
-    uint32_t seed = 0;
-    while (mesh->corners[seed].vertex != mesh->n_points)
-        ++seed;
-    flood(mesh, seed / 3, OUTSIDE, number, stack);
-}
-
-/* Sets number[t] to 0 for triangles on the left of a wall, and to OUTSIDE elsewhere. Returns
- * ICC_ERR_TOPOLOGY if walls do not bound that region. */
-static icc_status mark_left(const iccp_trimesh *mesh, uint32_t from, uint32_t to, uint32_t *number,
-                            uint32_t *stack)
-{
-    const iccp_corner *const c = mesh->corners;
-    uint32_t seed = 0;
-    while (c[iccp_after(seed)].vertex != from || c[iccp_before(seed)].vertex != to)
-        ++seed;
-    memset(number, 0xff, mesh->n_triangles * sizeof *number);
-    flood(mesh, seed / 3, 0, number, stack);
-    for (uint32_t corner = 0; corner < 3 * mesh->n_triangles; ++corner)
-        if (c[corner].vertex == mesh->n_points && number[corner / 3] == 0)
-            return ICC_ERR_TOPOLOGY;
-    return ICC_OK;
+    return status;
 }
 
 /* Returns the first point that is neither a vertex of the polygon nor inside, or n_points. */
@@ -111,7 +101,7 @@ static icc_status extract(const iccp_trimesh *mesh, uint32_t *triangles, uint32_
         status = iccp_fail_memory(err);
         goto done;
     }
-    mark_outside(mesh, number, stack);
+    (void)mark_outside(mesh, number, stack);
     const uint32_t outsider = find_outsider(mesh, number);
     if (outsider < mesh->n_points) {
         status = iccp_fail_at(err, ICC_ERR_OUTSIDE, ICC_ITEM_POINT, outsider,
@@ -151,10 +141,9 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
     return status;
 }
 
-icc_status iccp_triangulate_within(size_t n_points, const double *points, const iccp_walls *walls,
-                                   const iccp_walls *bounds, uint32_t from, uint32_t to,
-                                   uint32_t *triangles, uint32_t *neighbours, size_t *n_triangles,
-                                   const iccp_env *env)
+icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
+                                  const iccp_walls *bounds, uint32_t *triangles,
+                                  uint32_t *neighbours, size_t *n_triangles, const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
     const size_t room = 2 * n_points - 2;
@@ -169,7 +158,7 @@ icc_status iccp_triangulate_within(size_t n_points, const double *points, const 
         status = iccp_constrain(&mesh, env, NULL);
     mesh.walls = bounds;
     if (status == ICC_OK)
-        status = mark_left(&mesh, from, to, number, stack);
+        status = mark_outside(&mesh, number, stack);
     if (status == ICC_OK) {
         *n_triangles = number_inside(&mesh, number);
         copy_out(&mesh, number, triangles, neighbours);
@@ -178,14 +167,6 @@ icc_status iccp_triangulate_within(size_t n_points, const double *points, const 
     iccp_free(memory, stack);
     iccp_free(memory, number);
     return status;
-}
-
-icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
-                                  uint32_t from, uint32_t to, uint32_t *triangles,
-                                  uint32_t *neighbours, size_t *n_triangles, const iccp_env *env)
-{
-    return iccp_triangulate_within(n_points, points, walls, walls, from, to, triangles, neighbours,
-                                   n_triangles, env);
 }
 
 icc_status iccp_triangulate(size_t n_boundary, size_t n_points, const double *points,

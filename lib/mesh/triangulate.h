@@ -43,22 +43,16 @@ icc_status iccp_triangulate_mesh(size_t n_boundary, size_t n_points, const doubl
                                  uint32_t *triangles, uint32_t *neighbours, const iccp_env *env,
                                  icc_error *err);
 
-/* Writes a part of the triangulation that is constrained by walls. The part is the region on the
- * left of the wall from vertex `from` to vertex `to` that can be reached without crossing a wall.
- * Neighbours are as above, across walls if both sides belong to the part. Both arrays have room for
- * 6 n_points, of which 3 *n_triangles are used in the end.
+/* Writes the part of a triangulation that lies inside the bounds, which are some of its walls. A
+ * place is inside if a way from outside crosses an odd number of bounds. Other walls may close
+ * rings inside the part, and the part may have several pieces. Neighbours are as above, across
+ * walls if both sides belong to the part. Both arrays have room for 6 n_points, of which 3
+ * *n_triangles are used in the end.
  *
  * Returns ICC_ERR_BOUNDARY, ICC_ERR_OUTSIDE or ICC_ERR_ARGUMENT if walls cross, or if points lie on
- * walls or are equal. Returns ICC_ERR_TOPOLOGY if rings do not close. */
+ * walls or are equal. Returns ICC_ERR_TOPOLOGY if bounds do not close. */
 icc_status iccp_triangulate_walls(size_t n_points, const double *points, const iccp_walls *walls,
-                                  uint32_t from, uint32_t to, uint32_t *triangles,
+                                  const iccp_walls *bounds, uint32_t *triangles,
                                   uint32_t *neighbours, size_t *n_triangles, const iccp_env *env);
-
-/* Like iccp_triangulate_walls(), but the part ends only at `bounds`, which are some of the walls.
- * Other walls may close rings inside it. */
-icc_status iccp_triangulate_within(size_t n_points, const double *points, const iccp_walls *walls,
-                                   const iccp_walls *bounds, uint32_t from, uint32_t to,
-                                   uint32_t *triangles, uint32_t *neighbours, size_t *n_triangles,
-                                   const iccp_env *env);
 
 #endif

@@ -254,8 +254,6 @@ static icc_status triangulate(builder *b)
 {
     iccp_pin_mesh *mesh = b->mesh;
     const iccp_memory *memory = &b->env->memory;
-    const bool forward = b->input->domain->orientation > 0;
-    const uint32_t from = b->pairs[forward ? 0 : 1], to = b->pairs[forward ? 1 : 0];
     /* room for a cut in every edge, of which there are less than three for each point */
     const size_t room = 4 * mesh->n_points;
     iccp_walls walls = {0}, outline = {0};
@@ -267,8 +265,8 @@ static icc_status triangulate(builder *b)
     if (mesh->triangles == NULL || b->twins == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK)
-        status = iccp_triangulate_within(mesh->n_points, mesh->points, &walls, &outline, from, to,
-                                         mesh->triangles, b->twins, &mesh->n_triangles, b->env);
+        status = iccp_triangulate_walls(mesh->n_points, mesh->points, &walls, &outline,
+                                        mesh->triangles, b->twins, &mesh->n_triangles, b->env);
     iccp_walls_free(&walls, memory);
     iccp_walls_free(&outline, memory);
     return status;

@@ -86,8 +86,8 @@ static icc_status prepare(region *r, uint32_t number, const iccp_env *env, icc_e
 {
     const regions *all = r->all;
     const iccp_memory *memory = &env->memory;
-    icc_status status = iccp_region_mesh_create(&r->mesh, all->problem->shape, &all->vertices,
-                                                all->parent, number, env, err);
+    icc_status status =
+        iccp_region_mesh_create(&r->mesh, &all->vertices, all->parent, number, env, err);
     if (status != ICC_OK)
         return status;
     status = iccp_biharmonic_energy(&r->energy, &r->mesh, env);

@@ -10,7 +10,6 @@ typedef struct selection {
     uint32_t *number; /* by vertex of all regions: its number in the mesh, or ICCP_NOWHERE */
     uint32_t *pairs;  /* ends of walls, by numbers in the mesh */
     size_t n_walls;
-    uint32_t from, to; /* a wall of which the region is on the left */
 } selection;
 
 static bool bounds(const iccp_region_vertices *v, const uint32_t *parent, uint32_t region, size_t k)
@@ -35,23 +34,14 @@ static void choose(iccp_region_mesh *mesh, selection *s, const iccp_region_verti
     }
 }
 
-/* Copies the walls. The first wall of the region itself tells on which side the region is. */
-static void copy_walls(selection *s, const icc_shape *shape, const iccp_region_vertices *v,
-                       const uint32_t *parent, uint32_t region)
+static void copy_walls(selection *s, const iccp_region_vertices *v, const uint32_t *parent,
+                       uint32_t region)
 {
-    bool found = false;
-    for (size_t k = 0; k < v->n_pieces; ++k) {
-        const uint32_t a = s->number[v->pieces[2 * k]], b = s->number[v->pieces[2 * k + 1]];
-        if (!bounds(v, parent, region, k))
-            continue;
-        s->pairs[2 * s->n_walls] = a;
-        s->pairs[2 * s->n_walls++ + 1] = b;
-        if (found || v->owner[k] != region)
-            continue;
-        found = true;
-        s->from = shape->regions[region]->orientation > 0 ? a : b;
-        s->to = shape->regions[region]->orientation > 0 ? b : a;
-    }
+    for (size_t k = 0; k < v->n_pieces; ++k)
+        if (bounds(v, parent, region, k)) {
+            s->pairs[2 * s->n_walls] = s->number[v->pieces[2 * k]];
+            s->pairs[2 * s->n_walls++ + 1] = s->number[v->pieces[2 * k + 1]];
+        }
 }
 
 static icc_status triangulate(iccp_region_mesh *mesh, const selection *s, uint32_t region,
@@ -65,8 +55,8 @@ static icc_status triangulate(iccp_region_mesh *mesh, const selection *s, uint32
     mesh->twins = iccp_alloc(&mesh->memory, mesh->n, 6 * sizeof *mesh->twins);
     status = ICC_ERR_MEMORY;
     if (mesh->triangles != NULL && mesh->twins != NULL)
-        status = iccp_triangulate_walls(mesh->n, mesh->points, &walls, s->from, s->to,
-                                        mesh->triangles, mesh->twins, &mesh->n_triangles, env);
+        status = iccp_triangulate_walls(mesh->n, mesh->points, &walls, &walls, mesh->triangles,
+                                        mesh->twins, &mesh->n_triangles, env);
     iccp_walls_free(&walls, &mesh->memory);
     if (status == ICC_ERR_BOUNDARY || status == ICC_ERR_OUTSIDE || status == ICC_ERR_ARGUMENT ||
         status == ICC_ERR_TOPOLOGY)
@@ -76,9 +66,9 @@ static icc_status triangulate(iccp_region_mesh *mesh, const selection *s, uint32
     return iccp_explain(err, status);
 }
 
-icc_status iccp_region_mesh_create(iccp_region_mesh *mesh, const icc_shape *shape,
-                                   const iccp_region_vertices *vertices, const uint32_t *parent,
-                                   uint32_t region, const iccp_env *env, icc_error *err)
+icc_status iccp_region_mesh_create(iccp_region_mesh *mesh, const iccp_region_vertices *vertices,
+                                   const uint32_t *parent, uint32_t region, const iccp_env *env,
+                                   icc_error *err)
 {
     const iccp_memory *memory = &env->memory;
     *mesh = (iccp_region_mesh){.memory = *memory};
@@ -92,7 +82,7 @@ icc_status iccp_region_mesh_create(iccp_region_mesh *mesh, const icc_shape *shap
         status = iccp_fail_memory(err);
     if (status == ICC_OK) {
         choose(mesh, &s, vertices, parent, region);
-        copy_walls(&s, shape, vertices, parent, region);
+        copy_walls(&s, vertices, parent, region);
         status = triangulate(mesh, &s, region, env, err);
     }
     iccp_free(memory, s.number);

@@ -16,9 +16,9 @@ typedef struct iccp_region_mesh {
 /* Triangulates the region between its walls and those of the regions directly inside it. `parent`
  * has the parent of each region. The triangulation is constrained Delaunay. Returns
  * ICC_ERR_RESOLUTION if walls are so close that rounded points on them touch. */
-icc_status iccp_region_mesh_create(iccp_region_mesh *mesh, const icc_shape *shape,
-                                   const iccp_region_vertices *vertices, const uint32_t *parent,
-                                   uint32_t region, const iccp_env *env, icc_error *err);
+icc_status iccp_region_mesh_create(iccp_region_mesh *mesh, const iccp_region_vertices *vertices,
+                                   const uint32_t *parent, uint32_t region, const iccp_env *env,
+                                   icc_error *err);
 void iccp_region_mesh_free(iccp_region_mesh *mesh);
 
 #endif

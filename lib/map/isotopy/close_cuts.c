@@ -1,55 +1,64 @@
-/* Closes the cuts of an overlay. Two edges of the cut polygon that are partners become one edge.
- * Their corners become common vertices, which are found with disjoint sets (base/sets.h). */
+/* Closes the cuts of overlays. Two edges of cut polygons that are partners become one edge. Corners
+ * at the same node or bend become one vertex. */
 #include "map/isotopy/close_cuts.h"
-
-#include "base/sets.h"
 
 #include <string.h>
 
 static const uint32_t NONE = ICCP_NO_NEIGHBOUR;
 
-/* Joins the corners at both ends of partner edges. The smallest number in each set stands for the
- * set. */
-static void join_corners(uint32_t *leader, const iccp_cut_polygon *p)
+typedef struct closing {
+    const iccp_overlay *overlays;
+    const iccp_cut_polygons *polygons;
+    const iccp_domain_pair *domains;
+    size_t n_vertices, n_triangles; /* of all overlays */
+    uint32_t
+        *number;     /* of each vertex of the overlays, from overlay to overlay: the map's vertex */
+    uint32_t *first; /* of each node and bend: the map's vertex there */
+    uint32_t *facing; /* of each edge of the polygons: the corner of the map that faces it */
+} closing;
+
+/* Numbers the vertices of the overlays in their order. Corners at the same place get the number of
+ * the first one. Returns the number of vertices of the map. */
+static uint32_t number_vertices(const closing *c)
 {
-    iccp_sets_begin(leader, p->n);
-    for (uint32_t i = 0; i < p->n; ++i) {
-        const uint32_t j = p->partner[i];
-        if (j == NONE)
-            continue;
-        iccp_sets_join(leader, i, j + 1 < p->n ? j + 1 : 0);
-        iccp_sets_join(leader, i + 1 < p->n ? i + 1 : 0, j);
-    }
+    const iccp_cut_polygons *p = c->polygons;
+    uint32_t n = 0, *number = c->number;
+    for (size_t q = 0; q < p->n_polygons; ++q)
+        for (uint32_t i = 0; i < c->overlays[q].n_vertices; ++i) {
+            if (i >= iccp_cut_polygon_size(p, q)) {
+                *number++ = n++;
+                continue;
+            }
+            uint32_t *first = &c->first[p->vertex[p->first[q] + i]];
+            if (*first == NONE)
+                *first = n++;
+            *number++ = *first;
+        }
+    return n;
 }
 
-/* Sets number[i] to the vertex of the map for vertex i of the overlay. Returns the number of
- * vertices of the map. */
-static uint32_t number_vertices(uint32_t *number, uint32_t *leader, uint32_t n, size_t n_vertices)
+/* Fills in the map's triangles. */
+static void join_triangles(iccp_plmap *map, const closing *c)
 {
-    uint32_t n_left = 0;
-    for (uint32_t i = 0; i < n_vertices; ++i)
-        number[i] = i >= n || iccp_sets_leader(leader, i) == i
-                        ? n_left++
-                        : number[iccp_sets_leader(leader, i)];
-    return n_left;
-}
-
-/* Fills in the map's triangles. `facing` is work space: for each edge of the polygon, the corner
- * that faces it. */
-static void join_triangles(iccp_plmap *map, const iccp_overlay *o, const iccp_cut_polygon *p,
-                           const uint32_t *number, uint32_t *facing)
-{
-    iccp_corners *c = &map->corners;
-    const size_t n_corners = 3 * c->n_triangles;
-    for (uint32_t x = 0; x < n_corners; ++x) {
-        c->vertex[x] = number[o->corners.vertex[x]];
-        c->twin[x] = o->corners.twin[x];
-        if (o->corners.twin[x] == NONE)
-            facing[o->corners.vertex[iccp_after(x)]] = x;
+    const iccp_cut_polygons *p = c->polygons;
+    iccp_corners *mesh = &map->corners;
+    const uint32_t *number = c->number;
+    uint32_t begin = 0;
+    for (size_t q = 0; q < p->n_polygons; ++q) {
+        const iccp_overlay *o = &c->overlays[q];
+        for (uint32_t x = 0; x < 3 * o->corners.n_triangles; ++x) {
+            const uint32_t twin = o->corners.twin[x];
+            mesh->vertex[begin + x] = number[o->corners.vertex[x]];
+            mesh->twin[begin + x] = twin != NONE ? begin + twin : NONE;
+            if (twin == NONE)
+                c->facing[p->first[q] + o->corners.vertex[iccp_after(x)]] = begin + x;
+        }
+        number += o->n_vertices;
+        begin += 3 * (uint32_t)o->corners.n_triangles;
     }
     for (uint32_t i = 0; i < p->n; ++i)
         if (p->partner[i] != NONE)
-            c->twin[facing[i]] = facing[p->partner[i]];
+            mesh->twin[c->facing[i]] = c->facing[p->partner[i]];
 }
 
 /* Records the place of a vertex on a line or a point. The polygon's edge at such a vertex does not
@@ -80,21 +89,18 @@ static void place_on_ring(iccp_plmap *map, uint32_t v, const icc_domain *domain,
     map->along[v] = is_along ? 0 : 1;
 }
 
-static void place_vertices(iccp_plmap *map, const iccp_overlay *o, const iccp_cut_polygon *p,
-                           const iccp_domain_pair *domains, const uint32_t *number)
+/* Records what the vertices at the corners of a polygon are fixed to. `number` has those of its
+ * overlay. */
+static void place_corners(iccp_plmap *map, const closing *c, size_t polygon, const uint32_t *number)
 {
+    const iccp_domain_pair *domains = c->domains;
     const icc_domain *domain = domains->domain[0];
-    memset(map->fixed, 0, map->n_vertices);
-    memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
-    memset(map->along, 0, map->n_vertices * sizeof *map->along);
-    for (size_t i = 0; i < o->n_vertices; ++i) {
-        memcpy(map->points + 2 * (size_t)number[i], o->points + 2 * i, 2 * sizeof(double));
-        memcpy(map->images + 2 * (size_t)number[i], o->images + 2 * i, 2 * sizeof(double));
-    }
-    for (uint32_t i = 0; i < p->n; ++i) {
-        const uint32_t a = p->vertex[i], b = p->vertex[i + 1 < p->n ? i + 1 : 0];
+    const iccp_cut_polygons *p = c->polygons;
+    const uint32_t n = iccp_cut_polygon_size(p, polygon), *vertex = p->vertex + p->first[polygon];
+    for (uint32_t i = 0; i < n; ++i) {
+        const uint32_t a = vertex[i], b = vertex[i + 1 < n ? i + 1 : 0];
         const uint32_t component = a < domains->n ? domains->component[a] : 0;
-        if (p->partner[i] == NONE)
+        if (p->partner[p->first[polygon] + i] == NONE)
             place_on_ring(map, number[i], domain, domains, a, b);
         else if (a < domains->n && component > 0 &&
                  domain->features->item[component - 1].kind != ICC_FEATURE_HOLE)
@@ -102,25 +108,51 @@ static void place_vertices(iccp_plmap *map, const iccp_overlay *o, const iccp_cu
     }
 }
 
-icc_status iccp_close_cuts(iccp_plmap *map, const iccp_overlay *overlay,
-                           const iccp_cut_polygon *polygon, const iccp_domain_pair *domains,
+static void place_vertices(iccp_plmap *map, const closing *c)
+{
+    const uint32_t *number = c->number;
+    memset(map->fixed, 0, map->n_vertices);
+    memset(map->facet, 0, map->n_vertices * sizeof *map->facet);
+    memset(map->along, 0, map->n_vertices * sizeof *map->along);
+    for (size_t q = 0; q < c->polygons->n_polygons; ++q) {
+        const iccp_overlay *o = &c->overlays[q];
+        for (size_t i = 0; i < o->n_vertices; ++i) {
+            memcpy(map->points + 2 * (size_t)number[i], o->points + 2 * i, 2 * sizeof(double));
+            memcpy(map->images + 2 * (size_t)number[i], o->images + 2 * i, 2 * sizeof(double));
+        }
+        place_corners(map, c, q, number);
+        number += o->n_vertices;
+    }
+}
+
+icc_status iccp_close_cuts(iccp_plmap *map, const iccp_overlay *overlays,
+                           const iccp_cut_polygons *polygons, const iccp_domain_pair *domains,
                            const iccp_env *env)
 {
     const iccp_memory *memory = &env->memory;
-    uint32_t *leader = iccp_alloc(memory, polygon->n, sizeof *leader);
-    uint32_t *number = iccp_alloc(memory, overlay->n_vertices, sizeof *number);
+    closing c = {.overlays = overlays, .polygons = polygons, .domains = domains};
+    /* A polygon has no more bends than corners. */
+    const size_t n_places = domains->n + polygons->n;
     icc_status status = ICC_ERR_MEMORY;
     *map = (iccp_plmap){.memory = *memory};
-    if (leader != NULL && number != NULL) {
-        join_corners(leader, polygon);
-        const uint32_t n = number_vertices(number, leader, polygon->n, overlay->n_vertices);
-        status = iccp_plmap_begin(map, n, overlay->corners.n_triangles, 1 / domains->scale, memory);
+    for (size_t q = 0; q < polygons->n_polygons; ++q) {
+        c.n_vertices += overlays[q].n_vertices;
+        c.n_triangles += overlays[q].corners.n_triangles;
+    }
+    c.number = iccp_alloc(memory, c.n_vertices, sizeof *c.number);
+    c.first = iccp_alloc(memory, n_places, sizeof *c.first);
+    c.facing = iccp_alloc(memory, polygons->n, sizeof *c.facing);
+    if (c.number != NULL && c.first != NULL && c.facing != NULL) {
+        memset(c.first, 0xff, n_places * sizeof *c.first);
+        const uint32_t n = number_vertices(&c);
+        status = iccp_plmap_begin(map, n, c.n_triangles, 1 / domains->scale, memory);
     }
     if (status == ICC_OK) {
-        place_vertices(map, overlay, polygon, domains, number);
-        join_triangles(map, overlay, polygon, number, leader);
+        place_vertices(map, &c);
+        join_triangles(map, &c);
     }
-    iccp_free(memory, leader);
-    iccp_free(memory, number);
+    iccp_free(memory, c.number);
+    iccp_free(memory, c.first);
+    iccp_free(memory, c.facing);
     return status;
 }

@@ -25,52 +25,13 @@ icc_status iccp_triangulation_create(iccp_triangulation *triangulation, const ic
                                      const iccp_walls *walls, const iccp_memory *memory)
 {
     *triangulation = (iccp_triangulation){.mesh = mesh, .points = points, .walls = walls};
-    triangulation->corner = iccp_alloc(memory, n_vertices, sizeof *triangulation->corner);
-    if (triangulation->corner == NULL)
-        return ICC_ERR_MEMORY;
-    memset(triangulation->corner, 0xff, n_vertices * sizeof *triangulation->corner);
-    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c)
-        triangulation->corner[mesh->vertex[c]] = c;
-    return ICC_OK;
+    return iccp_fans_create(&triangulation->fans, mesh, n_vertices, memory);
 }
 
 void iccp_triangulation_free(iccp_triangulation *triangulation, const iccp_memory *memory)
 {
-    iccp_free(memory, triangulation->corner);
+    iccp_fans_free(&triangulation->fans, memory);
     *triangulation = (iccp_triangulation){0};
-}
-
-/* Returns the last corner at a vertex, turning clockwise until the boundary. At an inner vertex it
- * stops after one turn, next to `corner`. */
-static uint32_t clockwise_most(const iccp_triangulation *triangulation, uint32_t corner)
-{
-    uint32_t at = corner, twin;
-    while ((twin = triangulation->mesh->twin[iccp_before(at)]) != NONE &&
-           iccp_before(twin) != corner)
-        at = iccp_before(twin);
-    return at;
-}
-
-/* Returns the next corner at the vertex, counter-clockwise, or NONE after the last one. */
-static uint32_t next_at(const iccp_triangulation *triangulation, uint32_t corner, uint32_t first)
-{
-    const uint32_t twin = triangulation->mesh->twin[iccp_after(corner)];
-    return twin == NONE || iccp_after(twin) == first ? NONE : iccp_after(twin);
-}
-
-uint32_t iccp_triangulation_edge(const iccp_triangulation *triangulation, uint32_t a, uint32_t b)
-{
-    const uint32_t *v = triangulation->mesh->vertex,
-                   first = clockwise_most(triangulation, triangulation->corner[a]);
-    for (uint32_t at = first; at != NONE; at = next_at(triangulation, at, first)) {
-        const bool is_first = v[iccp_after(at)] == b;
-        if (!is_first && v[iccp_before(at)] != b)
-            continue;
-        const uint32_t facing = is_first ? iccp_before(at) : iccp_after(at);
-        const uint32_t twin = triangulation->mesh->twin[facing];
-        return twin < facing ? twin : facing;
-    }
-    return NONE;
 }
 
 /* ---- sequences ---- */
@@ -194,15 +155,16 @@ static const double *point_at(const iccp_triangulation *triangulation, uint32_t 
 static uint32_t find_start(const iccp_triangulation *triangulation, const piece *s, uint32_t from,
                            uint32_t to)
 {
-    const uint32_t *v = triangulation->mesh->vertex,
-                   first = clockwise_most(triangulation, triangulation->corner[from]);
-    for (uint32_t at = first; at != NONE; at = next_at(triangulation, at, first))
-        if (v[iccp_after(at)] == to || v[iccp_before(at)] == to)
-            return at;
-    for (uint32_t at = first; at != NONE; at = next_at(triangulation, at, first))
-        if (side_of(s, point_at(triangulation, iccp_after(at))) < 0 &&
-            side_of(s, point_at(triangulation, iccp_before(at))) > 0)
-            return at;
+    const iccp_corners *mesh = triangulation->mesh;
+    const iccp_fans *fans = &triangulation->fans;
+    const iccp_turn first = iccp_turn_begin(fans, mesh, from);
+    for (iccp_turn at = first; at.corner != NONE; iccp_turn_next(&at, fans, mesh))
+        if (mesh->vertex[iccp_after(at.corner)] == to || mesh->vertex[iccp_before(at.corner)] == to)
+            return at.corner;
+    for (iccp_turn at = first; at.corner != NONE; iccp_turn_next(&at, fans, mesh))
+        if (side_of(s, point_at(triangulation, iccp_after(at.corner))) < 0 &&
+            side_of(s, point_at(triangulation, iccp_before(at.corner))) > 0)
+            return at.corner;
     return NONE;
 }
 

@@ -11,17 +11,13 @@ typedef struct iccp_triangulation {
     const iccp_corners *mesh;
     const double *points;    /* 2 for each vertex */
     const iccp_walls *walls; /* edges that no path crosses, or NULL */
-    uint32_t *corner;        /* for each vertex, one corner at it */
+    iccp_fans fans;
 } iccp_triangulation;
 
 icc_status iccp_triangulation_create(iccp_triangulation *triangulation, const iccp_corners *mesh,
                                      size_t n_vertices, const double *points,
                                      const iccp_walls *walls, const iccp_memory *memory);
 void iccp_triangulation_free(iccp_triangulation *triangulation, const iccp_memory *memory);
-
-/* Returns the smaller of the two corners that face the edge between a and b. The edge must
- * exist. */
-uint32_t iccp_triangulation_edge(const iccp_triangulation *triangulation, uint32_t a, uint32_t b);
 
 /* A reduced path. It never crosses an edge and then at once crosses it back. Its first edge does
  * not end at its first vertex, nor its last edge at its last vertex.

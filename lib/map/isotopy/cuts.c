@@ -93,6 +93,15 @@ static kind_of_tree kind_of(uint64_t tree)
     return kind;
 }
 
+/* The state of a tree that grows. */
+typedef struct growth {
+    uint8_t *joined; /* of each component */
+    uint32_t *size;  /* of the first component of each part: how many it has */
+    uint64_t random;
+    size_t n_searches; /* that are left */
+    size_t n_done;     /* cuts, and the one that is being made */
+} growth;
+
 static double weigh(const kind_of_tree *kind, const double length[2])
 {
     return kind->weight[0] * length[0] + kind->weight[1] * length[1];
@@ -163,26 +172,41 @@ static icc_status next_cut(iccp_cutter *k, const kind_of_tree *kind, const uint8
     return status == ICC_OK ? ICC_ERR_TOPOLOGY : status;
 }
 
+/* Joins the components of one part of the domain. *n_done counts the cuts of all parts. */
+static icc_status grow_part(iccp_cutter *k, uint32_t component, const kind_of_tree *kind, growth *g,
+                            const iccp_env *env)
+{
+    const size_t n = k->domains->n_cuts;
+    icc_status status = ICC_OK;
+    iccp_heap_clear(&k->queue);
+    for (size_t left = g->size[component]; status == ICC_OK && left > 1; --left) {
+        g->joined[component] = 1;
+        offer_component(k, g->joined, component, kind, &g->random);
+        status = iccp_progress(env, "mesh", (double)++g->n_done / (double)(n + 1));
+        if (status == ICC_OK)
+            status = next_cut(k, kind, g->joined, &g->n_searches, &component);
+    }
+    return status;
+}
+
 static icc_status grow(iccp_cutter *k, uint64_t tree, const iccp_env *env)
 {
+    const iccp_domain_pair *domains = k->domains;
     const kind_of_tree kind = kind_of(tree);
-    const size_t n = k->domains->n_components;
-    size_t n_searches = MOST_SEARCHES + MOST_SEARCHES_EACH * n;
-    uint64_t random = tree;
-    uint8_t *joined = iccp_alloc_zero(&env->memory, n, 1);
-    icc_status status = joined != NULL ? ICC_OK : ICC_ERR_MEMORY;
-    uint32_t component = 0;
+    const size_t n = domains->n_components;
+    growth g = {iccp_alloc_zero(&env->memory, n, 1),
+                iccp_alloc_zero(&env->memory, n, sizeof *g.size), tree,
+                MOST_SEARCHES + MOST_SEARCHES_EACH * n, 0};
+    icc_status status = g.joined != NULL && g.size != NULL ? ICC_OK : ICC_ERR_MEMORY;
+    for (uint32_t c = 0; status == ICC_OK && c < n; ++c)
+        ++g.size[domains->part[c]];
     for (int side = 0; side < 2; ++side)
         iccp_path_search_reset(&k->search[side]);
-    iccp_heap_clear(&k->queue);
-    for (size_t i = 1; status == ICC_OK && i < n; ++i) {
-        joined[component] = 1;
-        offer_component(k, joined, component, &kind, &random);
-        status = iccp_progress(env, "mesh", (double)i / (double)n);
-        if (status == ICC_OK)
-            status = next_cut(k, &kind, joined, &n_searches, &component);
-    }
-    iccp_free(&env->memory, joined);
+    for (uint32_t c = 0; status == ICC_OK && c < n; ++c)
+        if (domains->part[c] == c)
+            status = grow_part(k, c, &kind, &g, env);
+    iccp_free(&env->memory, g.joined);
+    iccp_free(&env->memory, g.size);
     return status;
 }
 
@@ -273,7 +297,7 @@ icc_status iccp_cuts_create(iccp_cuts *cuts, iccp_cutter *cutter, uint64_t tree,
     *cuts = (iccp_cuts){.memory = env->memory};
     icc_status status = grow(cutter, tree, env);
     if (status == ICC_OK)
-        status = iccp_cuts_begin(cuts, cutter->domains->n_components - 1, &env->memory);
+        status = iccp_cuts_begin(cuts, cutter->domains->n_cuts, &env->memory);
     if (status == ICC_OK)
         status = draw(cuts, cutter);
     if (status != ICC_OK)

@@ -4,9 +4,9 @@
 
 #include "map/isotopy/shorten.h"
 
-/* A tree of paths that joins all components. In both domains a cut joins the same two vertices and
- * has the same number of bends. No cut crosses itself or another cut. At each vertex the cuts leave
- * in the same order between the same walls. */
+/* A tree of paths that joins all components, or one tree for each part of the domain. In both
+ * domains a cut joins the same two vertices and has the same number of bends. No cut crosses itself
+ * or another cut. At each vertex the cuts leave in the same order between the same walls. */
 typedef struct iccp_cuts {
     iccp_memory memory;
     size_t n;

@@ -1,20 +1,77 @@
 /* Makes the bare triangulations of two domains whose features correspond. */
 #include "map/isotopy/domain_pair.h"
 
-#include <math.h>
+#include "base/sets.h"
 
-icc_status iccp_triangulate_inside(iccp_corners *mesh, const icc_domain *domain, size_t n,
-                                   const double *points, const iccp_walls *walls,
+#include <math.h>
+#include <string.h>
+
+/* ---- triangulating the inside ---- */
+
+/* The points that are triangulated: nodes, and what follows the vertices. */
+typedef struct selection {
+    uint32_t *number, *point; /* of each point: its number among them; and back */
+    uint32_t *pairs;          /* the walls, by these numbers */
+    double *points;
+    size_t n;
+    iccp_walls walls, rim;
+} selection;
+
+static void free_selection(selection *s, const iccp_memory *memory)
+{
+    iccp_free(memory, s->number);
+    iccp_free(memory, s->point);
+    iccp_free(memory, s->pairs);
+    iccp_free(memory, s->points);
+    iccp_walls_free(&s->walls, memory);
+    iccp_walls_free(&s->rim, memory);
+}
+
+static icc_status choose(selection *s, const iccp_domain_pair *domains, size_t n,
+                         const double *points, size_t n_walls, const uint32_t *pairs,
+                         const iccp_memory *memory)
+{
+    *s = (selection){.number = iccp_alloc(memory, n, sizeof *s->number),
+                     .point = iccp_alloc(memory, n, sizeof *s->point),
+                     .pairs = iccp_alloc(memory, n_walls, 2 * sizeof *s->pairs),
+                     .points = iccp_alloc(memory, n, 2 * sizeof *s->points)};
+    if (s->number == NULL || s->point == NULL || s->pairs == NULL || s->points == NULL)
+        return ICC_ERR_MEMORY;
+    for (uint32_t v = 0; v < n; ++v) {
+        if (v < domains->n && domains->node[v] != v)
+            continue;
+        memcpy(s->points + 2 * s->n, points + 2 * (size_t)v, 2 * sizeof *points);
+        s->point[s->n] = v;
+        s->number[v] = (uint32_t)s->n++;
+    }
+    for (size_t k = 0; k < 2 * n_walls; ++k)
+        s->pairs[k] = s->number[pairs[k]];
+    const icc_status status = iccp_walls_create(&s->walls, s->n, n_walls, s->pairs, memory);
+    return status == ICC_OK ? iccp_walls_create(&s->rim, s->n, domains->n_rim, s->pairs, memory)
+                            : status;
+}
+
+icc_status iccp_triangulate_inside(iccp_corners *mesh, const iccp_domain_pair *domains, size_t n,
+                                   const double *points, size_t n_walls, const uint32_t *pairs,
                                    const iccp_env *env)
 {
-    const bool forward = domain->orientation > 0;
-    *mesh = (iccp_corners){.vertex = iccp_alloc(&env->memory, n, 6 * sizeof(uint32_t)),
-                           .twin = iccp_alloc(&env->memory, n, 6 * sizeof(uint32_t))};
+    const iccp_memory *memory = &env->memory;
+    selection s;
+    icc_status status = choose(&s, domains, n, points, n_walls, pairs, memory);
+    *mesh = (iccp_corners){.vertex = iccp_alloc(memory, s.n, 6 * sizeof(uint32_t)),
+                           .twin = iccp_alloc(memory, s.n, 6 * sizeof(uint32_t))};
     if (mesh->vertex == NULL || mesh->twin == NULL)
-        return ICC_ERR_MEMORY;
-    return iccp_triangulate_walls(n, points, walls, forward ? 0 : 1, forward ? 1 : 0, mesh->vertex,
-                                  mesh->twin, &mesh->n_triangles, env);
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = iccp_triangulate_walls(s.n, s.points, &s.walls, &s.rim, mesh->vertex, mesh->twin,
+                                        &mesh->n_triangles, env);
+    for (size_t c = 0; status == ICC_OK && c < 3 * mesh->n_triangles; ++c)
+        mesh->vertex[c] = s.point[mesh->vertex[c]];
+    free_selection(&s, memory);
+    return status;
 }
+
+/* ---- pairs of domains ---- */
 
 /* Skips the facets of points, whose two ends are the same vertex. Points may come before lines. */
 static void list_walls(iccp_domain_pair *domains)
@@ -32,6 +89,22 @@ static void list_walls(iccp_domain_pair *domains)
     for (size_t k = 0; k < f->n; ++k)
         for (size_t v = f->item[k].first; v < f->item[k].first + f->item[k].n; ++v)
             domains->component[v] = 1 + (uint32_t)k;
+    for (uint32_t v = 0; v < domains->n; ++v)
+        domains->node[v] = v;
+}
+
+/* Joins the components that an edge of the bare triangulation joins. */
+static void find_parts(iccp_domain_pair *domains)
+{
+    const iccp_corners *mesh = &domains->mesh[0];
+    iccp_sets_begin(domains->part, domains->n_components);
+    for (uint32_t c = 0; c < 3 * mesh->n_triangles; ++c) {
+        const uint32_t a = domains->component[mesh->vertex[c]];
+        const uint32_t b = domains->component[mesh->vertex[iccp_after(c)]];
+        domains->n_cuts += iccp_sets_join(domains->part, a, b);
+    }
+    for (uint32_t k = 0; k < domains->n_components; ++k)
+        domains->part[k] = iccp_sets_leader(domains->part, k);
 }
 
 icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *source,
@@ -43,19 +116,26 @@ icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *
                                   .n = source->n_vertices,
                                   .n_components = 1 + features->n,
                                   .n_walls = features->n_places - features->n_points,
+                                  .n_rim = source->n_facets,
                                   .scale = sqrt(source->measure / target->measure)};
+    domains->node = iccp_alloc(&env->memory, domains->n, sizeof *domains->node);
     domains->component = iccp_alloc(&env->memory, domains->n, sizeof *domains->component);
+    domains->part = iccp_alloc(&env->memory, domains->n_components, sizeof *domains->part);
     domains->pairs = iccp_alloc(&env->memory, domains->n_walls, 2 * sizeof *domains->pairs);
     icc_status status = ICC_ERR_MEMORY;
-    if (domains->component != NULL && domains->pairs != NULL) {
+    if (domains->node != NULL && domains->component != NULL && domains->part != NULL &&
+        domains->pairs != NULL) {
         list_walls(domains);
         status = iccp_walls_create(&domains->walls, domains->n, domains->n_walls, domains->pairs,
                                    &env->memory);
     }
     for (int k = 0; status == ICC_OK && k < 2; ++k)
-        status = iccp_triangulate_inside(&domains->mesh[k], domains->domain[k], domains->n,
-                                         domains->domain[k]->vertices, &domains->walls, env);
-    if (status != ICC_OK)
+        status = iccp_triangulate_inside(&domains->mesh[k], domains, domains->n,
+                                         domains->domain[k]->vertices, domains->n_walls,
+                                         domains->pairs, env);
+    if (status == ICC_OK)
+        find_parts(domains);
+    else
         iccp_domain_pair_free(domains);
     return status;
 }
@@ -63,7 +143,9 @@ icc_status iccp_domain_pair_create(iccp_domain_pair *domains, const icc_domain *
 void iccp_domain_pair_free(iccp_domain_pair *domains)
 {
     const iccp_memory *memory = &domains->memory;
+    iccp_free(memory, domains->node);
     iccp_free(memory, domains->component);
+    iccp_free(memory, domains->part);
     iccp_free(memory, domains->pairs);
     iccp_walls_free(&domains->walls, memory);
     for (int k = 0; k < 2; ++k) {

@@ -114,7 +114,8 @@ static void enter_crossings(drawing *s, const iccp_triangulation *triangulation)
         for (uint32_t place = 0; place < sequence->n; ++place, ++k) {
             const uint32_t right = sequence->sides[2 * place],
                            left = sequence->sides[2 * place + 1];
-            const uint32_t edge = iccp_triangulation_edge(triangulation, right, left);
+            const uint32_t edge =
+                iccp_fans_edge(&triangulation->fans, triangulation->mesh, right, left);
             s->sequence[k] = i;
             s->order[k] = k;
             r->crossing[k] = (iccp_crossing){

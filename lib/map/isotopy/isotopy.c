@@ -46,28 +46,28 @@ static size_t list_bridges(bridge *bridges, const iccp_domain_pair *domains)
     return n;
 }
 
-/* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956. The tree's edges are straight
- * lines without bends. Only the source's side is filled in. */
+/* J. B. Kruskal, On the shortest spanning subtree of a graph, 1956: one tree for each part of the
+ * domain. Its edges are straight lines without bends. Only the source's side is filled in. */
 static icc_status find_tree(iccp_cuts *tree, const iccp_domain_pair *domains, const iccp_env *env)
 {
-    const size_t n = domains->n_components;
+    const size_t n = domains->n_cuts;
     bridge *bridges =
         iccp_alloc(&env->memory, 3 * domains->mesh[0].n_triangles / 2 + 1, sizeof *bridges);
-    uint32_t *leader = iccp_alloc(&env->memory, n, sizeof *leader);
+    uint32_t *leader = iccp_alloc(&env->memory, domains->n_components, sizeof *leader);
     size_t n_found = 0;
-    icc_status status = iccp_cuts_begin(tree, n - 1, &env->memory);
+    icc_status status = iccp_cuts_begin(tree, n, &env->memory);
     if (bridges == NULL || leader == NULL)
         status = ICC_ERR_MEMORY;
     if (status == ICC_OK) {
         const size_t n_bridges = list_bridges(bridges, domains);
         iccp_sort(bridges, n_bridges, sizeof *bridges, compare);
-        iccp_sets_begin(leader, n);
-        for (size_t k = 0; k < n_bridges && n_found + 1 < n; ++k) {
+        iccp_sets_begin(leader, domains->n_components);
+        for (size_t k = 0; k < n_bridges && n_found < n; ++k) {
             const uint32_t *ends = bridges[k].ends;
             if (iccp_sets_join(leader, domains->component[ends[0]], domains->component[ends[1]]))
                 memcpy(tree->ends + 2 * n_found++, ends, 2 * sizeof *ends);
         }
-        status = n_found + 1 == n ? ICC_OK : ICC_ERR_TOPOLOGY;
+        status = n_found == n ? ICC_OK : ICC_ERR_TOPOLOGY;
     }
     iccp_free(&env->memory, bridges);
     iccp_free(&env->memory, leader);

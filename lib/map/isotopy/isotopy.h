@@ -6,8 +6,8 @@
 #include "map/isotopy/crossing_sequence.h"
 
 /* The class is described by the shortest tree of edges of the source's bare triangulation that
- * joins all components. It stores the class of each edge's image in the target. The description
- * depends on the map alone. */
+ * joins all components, or a tree for each part of the domain. It stores the class of each edge's
+ * image in the target. The description depends on the map alone. */
 typedef struct iccp_isotopy {
     iccp_memory memory;
     size_t n;

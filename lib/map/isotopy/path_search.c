@@ -63,31 +63,25 @@ static uint32_t sector_of(const iccp_path_search *r, uint32_t corner, uint32_t *
     return ICCP_WHOLE_SECTOR;
 }
 
-/* next_at() and first_at() list the corners at a vertex counter-clockwise, either all or those of
+/* first_at() and next_at() list the corners at a vertex counter-clockwise, either all or those of
  * one sector. NONE ends the list. */
-static uint32_t next_at(const iccp_path_search *r, uint32_t corner, uint32_t first, uint32_t sector)
+static void next_at(const iccp_path_search *r, iccp_turn *turn, uint32_t sector)
 {
-    const uint32_t facing = iccp_after(corner), twin = r->mesh.twin[facing];
-    if (twin == NONE || (sector != ICCP_ANY_SECTOR && !is_open(r, facing)))
-        return NONE;
-    const uint32_t next = iccp_after(twin);
-    return next != first ? next : NONE;
+    if (sector != ICCP_ANY_SECTOR && !is_open(r, iccp_after(turn->corner)))
+        turn->corner = NONE;
+    else
+        iccp_turn_next(turn, &r->fans, &r->mesh);
 }
 
-static uint32_t first_at(const iccp_path_search *r, uint32_t u, uint32_t sector)
+static iccp_turn first_at(const iccp_path_search *r, uint32_t u, uint32_t sector)
 {
-    const uint32_t begin = r->corner[u];
-    uint32_t first = begin, twin;
-    while ((twin = r->mesh.twin[iccp_before(first)]) != NONE && iccp_before(twin) != begin)
-        first = iccp_before(twin);
-    if (twin != NONE)
-        first = begin;
+    iccp_turn turn = iccp_turn_begin(&r->fans, &r->mesh, u);
     if (sector == ICCP_ANY_SECTOR || sector == ICCP_WHOLE_SECTOR)
-        return first;
-    uint32_t at = first;
-    while (at != NONE && name_of(r, u, r->mesh.vertex[iccp_after(at)]) != sector)
-        at = next_at(r, at, first, ICCP_ANY_SECTOR);
-    return at;
+        return turn;
+    while (turn.corner != NONE && name_of(r, u, r->mesh.vertex[iccp_after(turn.corner)]) != sector)
+        next_at(r, &turn, ICCP_ANY_SECTOR);
+    turn.first = turn.corner;
+    return turn;
 }
 
 /* ---- searching ---- */
@@ -199,9 +193,9 @@ static uint32_t search(iccp_path_search *r, iccp_found_path *found)
 
 static void mark_goals(iccp_path_search *r, uint32_t to, uint32_t sector, uint8_t mark)
 {
-    const uint32_t first = first_at(r, to, sector);
-    for (uint32_t at = first; at != NONE; at = next_at(r, at, first, sector))
-        r->is_goal[at] = mark;
+    iccp_turn turn = first_at(r, to, sector);
+    for (; turn.corner != NONE; next_at(r, &turn, sector))
+        r->is_goal[turn.corner] = mark;
 }
 
 icc_status iccp_path_search_find(iccp_path_search *r, uint32_t from, uint32_t from_sector,
@@ -220,10 +214,10 @@ icc_status iccp_path_search_find(iccp_path_search *r, uint32_t from, uint32_t fr
     }
     ++r->current;
     mark_goals(r, to, to_sector, 1);
-    const uint32_t first = first_at(r, from, from_sector);
-    for (uint32_t at = first; at != NONE; at = next_at(r, at, first, from_sector)) {
-        find_straight(r, at, found);
-        offer(r, at, NONE, point_at(r, at), 0, found->length);
+    iccp_turn turn = first_at(r, from, from_sector);
+    for (; turn.corner != NONE; next_at(r, &turn, from_sector)) {
+        find_straight(r, turn.corner, found);
+        offer(r, turn.corner, NONE, point_at(r, turn.corner), 0, found->length);
     }
     const uint32_t last = search(r, found);
     mark_goals(r, to, to_sector, 0);
@@ -239,7 +233,7 @@ static icc_status enlarge_vertices(iccp_path_search *r, size_t room)
     const iccp_memory *memory = &r->memory;
     const size_t n = r->n_vertices, n_bare = r->domains->n;
     if (!iccp_enlarge(memory, &r->points, n, room, 2 * sizeof *r->points) ||
-        !iccp_enlarge(memory, &r->corner, n, room, sizeof *r->corner) ||
+        !iccp_enlarge(memory, &r->fans.corner, n, room, sizeof *r->fans.corner) ||
         !iccp_enlarge(memory, &r->crossing, n - n_bare, room - n_bare, sizeof *r->crossing))
         return ICC_ERR_MEMORY;
     r->vertex_room = room;
@@ -265,27 +259,6 @@ static icc_status enlarge_triangles(iccp_path_search *r, size_t room)
     return iccp_heap_create(&r->queue, m, &r->memory) ? ICC_OK : ICC_ERR_MEMORY;
 }
 
-/* The smaller of the two corners that face an edge between vertices of the bare triangulation. */
-static uint32_t bare_edge(const iccp_path_search *r, uint32_t a, uint32_t b)
-{
-    const iccp_corners *bare = &r->domains->mesh[r->side];
-    const uint32_t begin = r->bare_corner[a];
-    uint32_t at = begin, facing, twin;
-    while (bare->vertex[iccp_after(at)] != b && bare->vertex[iccp_before(at)] != b) {
-        twin = bare->twin[iccp_after(at)];
-        if (twin == NONE)
-            break;
-        at = iccp_after(twin);
-        if (at == begin)
-            break;
-    }
-    while (bare->vertex[iccp_after(at)] != b && bare->vertex[iccp_before(at)] != b)
-        at = iccp_before(bare->twin[iccp_before(at)]);
-    facing = bare->vertex[iccp_after(at)] == b ? iccp_before(at) : iccp_after(at);
-    twin = bare->twin[facing];
-    return twin < facing ? twin : facing;
-}
-
 static bool is_end_of(const iccp_path_search *r, uint32_t v, uint32_t edge)
 {
     const uint32_t *vertex = r->domains->mesh[r->side].vertex;
@@ -297,7 +270,7 @@ static uint32_t whole_edge(const iccp_path_search *r, uint32_t a, uint32_t b)
 {
     const uint32_t n = (uint32_t)r->domains->n;
     if (a < n && b < n)
-        return bare_edge(r, a, b);
+        return iccp_fans_edge(&r->bare, &r->domains->mesh[r->side], a, b);
     const uint32_t own = a >= n ? a : b, other = a >= n ? b : a, edge = r->crossing[own - n].edge;
     if (edge == NONE)
         return NONE;
@@ -345,7 +318,7 @@ static icc_status cut(iccp_path_search *r, uint32_t corner, uint32_t place)
     const uint32_t triangles[4] = {3 * (corner / 3), 3 * (twin / 3), fresh, fresh + 3};
     for (int t = 0; t < 4; ++t)
         for (uint32_t c = triangles[t]; c < triangles[t] + 3; ++c)
-            r->corner[r->mesh.vertex[c]] = c;
+            iccp_fans_note(&r->fans, &r->mesh, c);
     return ICC_OK;
 }
 
@@ -380,7 +353,8 @@ void iccp_path_search_reset(iccp_path_search *r)
     r->mesh.n_triangles = bare->n_triangles;
     memcpy(r->mesh.vertex, bare->vertex, 3 * bare->n_triangles * sizeof *bare->vertex);
     memcpy(r->mesh.twin, bare->twin, 3 * bare->n_triangles * sizeof *bare->twin);
-    memcpy(r->corner, r->bare_corner, r->n_vertices * sizeof *r->corner);
+    memcpy(r->fans.corner, r->bare.corner, r->n_vertices * sizeof *r->fans.corner);
+    memcpy(r->fans.start, r->bare.start, r->bare.first[r->bare.n] * sizeof *r->fans.start);
     memset(r->first, 0xff, 3 * bare->n_triangles * sizeof *r->first);
 }
 
@@ -391,12 +365,15 @@ icc_status iccp_path_search_create(iccp_path_search *r, const iccp_domain_pair *
     const iccp_memory *memory = &env->memory;
     *r = (iccp_path_search){
         .memory = env->memory, .domains = domains, .side = side, .n_vertices = domains->n};
-    r->bare_corner = iccp_alloc(memory, domains->n, sizeof *r->bare_corner);
+    icc_status status = iccp_fans_create(&r->bare, bare, domains->n, memory);
+    if (status == ICC_OK)
+        status = iccp_fans_create(&r->fans, bare, domains->n, memory);
     r->first = iccp_alloc(memory, bare->n_triangles, 3 * sizeof *r->first);
     r->path = iccp_alloc(memory, domains->n_components, sizeof *r->path);
-    icc_status status = r->bare_corner != NULL && r->first != NULL && r->path != NULL
-                            ? enlarge_vertices(r, 2 * domains->n)
-                            : ICC_ERR_MEMORY;
+    if (r->first == NULL || r->path == NULL)
+        status = ICC_ERR_MEMORY;
+    if (status == ICC_OK)
+        status = enlarge_vertices(r, 2 * domains->n);
     if (status == ICC_OK)
         status = enlarge_triangles(r, 2 * bare->n_triangles);
     if (status != ICC_OK) {
@@ -404,8 +381,6 @@ icc_status iccp_path_search_create(iccp_path_search *r, const iccp_domain_pair *
         return status;
     }
     memcpy(r->points, domains->domain[side]->vertices, 2 * domains->n * sizeof *r->points);
-    for (uint32_t c = 0; c < 3 * bare->n_triangles; ++c)
-        r->bare_corner[bare->vertex[c]] = c;
     iccp_path_search_reset(r);
     return ICC_OK;
 }
@@ -416,8 +391,8 @@ void iccp_path_search_free(iccp_path_search *r)
     iccp_free(memory, r->mesh.vertex);
     iccp_free(memory, r->mesh.twin);
     iccp_free(memory, r->points);
-    iccp_free(memory, r->corner);
-    iccp_free(memory, r->bare_corner);
+    iccp_fans_free(&r->fans, memory);
+    iccp_fans_free(&r->bare, memory);
     iccp_free(memory, r->crossing);
     iccp_free(memory, r->first);
     iccp_free(memory, r->path);

@@ -4,6 +4,7 @@
 
 #include "base/heap.h"
 #include "map/isotopy/domain_pair.h"
+#include "mesh/vertex_fans.h"
 
 /* Walls and paths that end at a vertex divide its surroundings into sectors. A sector is named
  * after its clockwise border. A wall's name is the vertex at its other end. A path's name is n + 2
@@ -35,8 +36,7 @@ typedef struct iccp_path_search {
     size_t n_vertices, n_paths, vertex_room, triangle_room;
     iccp_corners mesh;       /* triangulation in which the laid paths run along edges */
     double *points;          /* 2 n_vertices */
-    uint32_t *corner;        /* for each vertex, one corner at it */
-    uint32_t *bare_corner;   /* the same in the bare triangulation */
+    iccp_fans fans, bare;    /* of that triangulation, and of the bare one */
     iccp_crossing *crossing; /* of each vertex beyond the domain's */
     uint32_t *first;         /* of each corner of the bare triangulation: the first crossing on
                                 its edge, or ICCP_NO_NEIGHBOUR */

@@ -143,7 +143,6 @@ static bool should_flip(const iccp_moving_triangulation *m, uint32_t corner, fli
 static icc_status flip_edges(iccp_sequences *sequences, iccp_moving_triangulation *m,
                              iccp_sequence *room, size_t *n_flips, const iccp_env *env)
 {
-    const uint32_t *v = m->mesh.vertex;
     icc_status status = ICC_OK;
     *n_flips = 0;
     for (uint32_t c = 0; status == ICC_OK && c < 3 * m->mesh.n_triangles; ++c) {
@@ -154,7 +153,7 @@ static icc_status flip_edges(iccp_sequences *sequences, iccp_moving_triangulatio
         iccp_flip_edge(&m->mesh, c);
         for (int t = 0; t < 2; ++t)
             for (uint32_t k = pair[t]; k < pair[t] + 3; ++k)
-                m->triangulation.corner[v[k]] = k;
+                iccp_fans_note(&m->triangulation.fans, &m->mesh, k);
         status = rewrite_all(sequences, &f, room, env);
         ++*n_flips;
     }

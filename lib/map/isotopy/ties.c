@@ -104,11 +104,13 @@ static size_t find_ring(const iccp_cuts *cuts, const iccp_domain_pair *domains, 
 
 static icc_status check_tree(const iccp_cuts *cuts, const iccp_domain_pair *domains, icc_error *err)
 {
-    const size_t n = domains->n_components - 1;
+    const size_t n = domains->n_cuts;
     if (cuts->n != n)
         return iccp_fail(err, ICC_ERR_TOPOLOGY,
-                         "%zu ties: there must be as many as features, which are %zu", cuts->n, n);
-    uint32_t *group = iccp_alloc(&cuts->memory, n + 1, sizeof *group);
+                         "%zu ties: there must be %zu, which join all rings, lines and points that "
+                         "are apart",
+                         cuts->n, n);
+    uint32_t *group = iccp_alloc(&cuts->memory, domains->n_components, sizeof *group);
     if (group == NULL)
         return iccp_fail_memory(err);
     const size_t i = find_ring(cuts, domains, group);
@@ -123,11 +125,11 @@ static icc_status first_meet(const iccp_cuts *cuts, const iccp_domain_pair *doma
                              size_t n, bool *meet, const iccp_env *env)
 {
     iccp_cuts some = *cuts;
-    iccp_cut_polygon polygon;
+    iccp_cut_polygons polygons;
     some.n = n;
-    const icc_status status = iccp_cut_polygon_create(&polygon, domains, side, &some, env);
+    const icc_status status = iccp_cut_polygons_create(&polygons, domains, side, &some, env);
     if (status == ICC_OK)
-        iccp_cut_polygon_free(&polygon);
+        iccp_cut_polygons_free(&polygons);
     *meet = status == ICC_ERR_CERTIFICATE;
     return status == ICC_ERR_TOPOLOGY || *meet ? ICC_OK : status;
 }
@@ -173,9 +175,9 @@ static size_t tie_between(const iccp_cuts *cuts, size_t n_vertices, uint32_t a, 
 
 /* Compares the two cut polygons. Where they differ, a tie lies between different neighbours. */
 static icc_status check_order(const iccp_cuts *cuts, const iccp_domain_pair *domains,
-                              const iccp_cut_polygon polygon[2], icc_error *err)
+                              const iccp_cut_polygons polygon[2], icc_error *err)
 {
-    for (uint32_t i = 1; i < polygon[0].n; ++i) {
+    for (uint32_t i = 1; i < polygon[0].n && i < polygon[1].n; ++i) {
         const uint32_t from = polygon[0].vertex[i - 1], *to = polygon[0].vertex + i;
         if (*to == polygon[1].vertex[i])
             continue;
@@ -192,17 +194,17 @@ static icc_status check_order(const iccp_cuts *cuts, const iccp_domain_pair *dom
 static icc_status check_ties(const iccp_cuts *cuts, const iccp_domain_pair *domains,
                              const iccp_env *env, icc_error *err)
 {
-    iccp_cut_polygon polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
+    iccp_cut_polygons polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
     icc_status status = check_tree(cuts, domains, err);
     for (int side = 0; status == ICC_OK && side < 2; ++side) {
-        status = iccp_cut_polygon_create(&polygon[side], domains, side, cuts, env);
+        status = iccp_cut_polygons_create(&polygon[side], domains, side, cuts, env);
         if (status == ICC_ERR_CERTIFICATE)
             status = fail_meeting(cuts, domains, side, env, err);
     }
     if (status == ICC_OK)
         status = check_order(cuts, domains, polygon, err);
     for (int side = 0; side < 2; ++side)
-        iccp_cut_polygon_free(&polygon[side]);
+        iccp_cut_polygons_free(&polygon[side]);
     return status;
 }
 

@@ -1,12 +1,13 @@
 /* Makes a start between domains with features (docs/theory/features.md). Both domains are cut open
- * along paths that join their components to a tree. That leaves two polygons whose corners
- * correspond, which are overlaid as cages are (map/compatible/overlay.c). Then the cuts are closed
- * again. Different cuts of the target give maps of different isotopy classes: they pass features
- * on different sides. */
+ * along their walls, and along paths that join the components in each face to a tree. That leaves
+ * two polygons for each face whose corners correspond, which are overlaid as cages are
+ * (map/compatible/overlay.c). Then the cuts are closed again. Different cuts of the target give
+ * maps of different isotopy classes: they pass features on different sides. */
 #include "map/plane/feature_start.h"
 
 #include "base/error.h"
 #include "base/minmax.h"
+#include "base/threads.h"
 #include "map/compatible/coarsen.h"
 #include "map/compatible/flips.h"
 #include "map/compatible/overlay_start.h"
@@ -34,32 +35,66 @@ static const double TOO_MANY = 3;
 /* Steps on both sides of a start that is GOOD. */
 static const iccp_descent DESCENT = {0, 10, 1e-3, 0.02, true};
 
+/* The overlays of all pairs of polygons. */
+typedef struct overlaying {
+    const iccp_cut_polygons *polygons; /* of both sides */
+    iccp_overlay *overlays;
+    const iccp_env *env; /* without progress */
+} overlaying;
+
+static icc_status overlay_some(void *argument, size_t begin, size_t end)
+{
+    const overlaying *all = argument;
+    icc_status status = ICC_OK;
+    for (size_t q = begin; status == ICC_OK && q < end; ++q) {
+        const iccp_ngon source = iccp_cut_polygon_ngon(&all->polygons[0], q);
+        const iccp_ngon target = iccp_cut_polygon_ngon(&all->polygons[1], q);
+        status = iccp_overlay_create(&all->overlays[q], iccp_cut_polygon_size(all->polygons, q),
+                                     &source, &target, all->env);
+    }
+    return status;
+}
+
+/* Overlays the polygons of each face and closes the cuts. */
+static icc_status overlay_polygons(iccp_plmap *map, const iccp_cut_polygons polygons[2],
+                                   const iccp_domain_pair *scene, const iccp_env *env)
+{
+    const size_t n = polygons[0].n_polygons;
+    const iccp_env quiet = iccp_quiet(env);
+    overlaying all = {polygons, iccp_alloc_zero(&env->memory, n, sizeof *all.overlays), &quiet};
+    if (all.overlays == NULL)
+        return ICC_ERR_MEMORY;
+    for (size_t q = 0; q < n; ++q)
+        all.overlays[q].memory = env->memory;
+    if (n == 1)
+        all.env = env;
+    icc_status status =
+        n == 1 ? overlay_some(&all, 0, 1) : iccp_for_chunks(env, "mesh", n, 1, overlay_some, &all);
+    if (status == ICC_OK)
+        status = iccp_close_cuts(map, all.overlays, &polygons[0], scene, env);
+    for (size_t q = 0; q < n; ++q)
+        iccp_overlay_free(&all.overlays[q]);
+    iccp_free(&env->memory, all.overlays);
+    return status;
+}
+
 /* Makes the map of one tree of cuts, without relaxing it. Returns ICC_ERR_CERTIFICATE if rounding
  * spoils it. */
 static icc_status start_from(iccp_plmap *map, const iccp_domain_pair *scene, const iccp_cuts *cuts,
                              const iccp_env *env)
 {
-    iccp_cut_polygon polygon[2] = {{.memory = env->memory}, {.memory = env->memory}};
-    iccp_overlay overlay = {.memory = env->memory};
+    iccp_cut_polygons polygons[2] = {{.memory = env->memory}, {.memory = env->memory}};
     icc_status status = ICC_OK;
     for (int side = 0; status == ICC_OK && side < 2; ++side)
-        status = iccp_cut_polygon_create(&polygon[side], scene, side, cuts, env);
-    if (status == ICC_OK &&
-        (polygon[0].n != polygon[1].n || memcmp(polygon[0].vertex, polygon[1].vertex,
-                                                polygon[0].n * sizeof *polygon[0].vertex) != 0))
+        status = iccp_cut_polygons_create(&polygons[side], scene, side, cuts, env);
+    if (status == ICC_OK && !iccp_cut_polygons_same(&polygons[0], &polygons[1]))
         status = ICC_ERR_CERTIFICATE;
-    if (status == ICC_OK) {
-        const iccp_ngon source = iccp_cut_polygon_ngon(&polygon[0]);
-        const iccp_ngon target = iccp_cut_polygon_ngon(&polygon[1]);
-        status = iccp_overlay_create(&overlay, polygon[0].n, &source, &target, env);
-    }
     if (status == ICC_OK)
-        status = iccp_close_cuts(map, &overlay, &polygon[0], scene, env);
+        status = overlay_polygons(map, polygons, scene, env);
     if (status == ICC_OK && !iccp_plmap_is_positive(map))
         status = ICC_ERR_CERTIFICATE;
-    iccp_overlay_free(&overlay);
     for (int side = 0; side < 2; ++side)
-        iccp_cut_polygon_free(&polygon[side]);
+        iccp_cut_polygons_free(&polygons[side]);
     if (status != ICC_OK)
         iccp_plmap_free(map);
     return status;
@@ -126,7 +161,8 @@ static icc_status choose(iccp_plmap *map, const iccp_domain_pair *scene, iccp_cu
     size_t least = SIZE_MAX;
     bool is_good = false;
     icc_status status = ICC_OK;
-    for (uint64_t tree = 0; tree < TREES && !is_good && work->left > 0; ++tree) {
+    const uint64_t n_trees = scene->n_cuts > 0 ? TREES : 1;
+    for (uint64_t tree = 0; tree < n_trees && !is_good && work->left > 0; ++tree) {
         iccp_cuts cuts = {.memory = env->memory};
         iccp_plmap other = {.memory = env->memory};
         double energy;

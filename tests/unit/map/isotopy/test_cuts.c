@@ -311,7 +311,7 @@ static void check_tree(const iccp_cuts *cuts, const iccp_domain_pair *s)
 
 /* Goes round once, each edge of a ring once and each of a line or cut twice, the inside on the
  * left; its triangles fill it. */
-static void check_polygon(const iccp_cut_polygon *p, const iccp_cuts *cuts,
+static void check_polygon(const iccp_cut_polygons *p, const iccp_cuts *cuts,
                           const iccp_domain_pair *s, int side)
 {
     const icc_domain *domain = s->domain[side];
@@ -348,12 +348,12 @@ static void check_polygon(const iccp_cut_polygon *p, const iccp_cuts *cuts,
 
 /* The overlay of both polygons, closed: a certified map, with every vertex on its partner and lines
  * made of edges. */
-static void check_closed(const iccp_cut_polygon polygon[2], const iccp_domain_pair *s)
+static void check_closed(const iccp_cut_polygons polygon[2], const iccp_domain_pair *s)
 {
     const iccp_env env = default_env();
     const icc_domain *source = s->domain[0], *target = s->domain[1];
-    const iccp_ngon ngon[2] = {iccp_cut_polygon_ngon(&polygon[0]),
-                               iccp_cut_polygon_ngon(&polygon[1])};
+    const iccp_ngon ngon[2] = {iccp_cut_polygon_ngon(&polygon[0], 0),
+                               iccp_cut_polygon_ngon(&polygon[1], 0)};
     iccp_overlay overlay;
     iccp_plmap map;
     uint32_t vertex[MIX_VERTICES + PLAN_VERTICES];
@@ -389,7 +389,7 @@ START_TEST(cuts_leave_polygons)
         ck_assert_int_eq(iccp_cutter_create(&cutter, &s, &env), ICC_OK);
         for (uint64_t tree = 0; tree < TREES; ++tree) {
             iccp_cuts c;
-            iccp_cut_polygon polygon[2];
+            iccp_cut_polygons polygon[2];
             ck_assert_int_eq(iccp_cuts_create(&c, &cutter, tree, &env), ICC_OK);
             check_tree(&c, &s);
             for (int side = 0; side < 2; ++side)
@@ -398,22 +398,21 @@ START_TEST(cuts_leave_polygons)
             /* Rounding may prevent an answer for long detours. */
             icc_status status[2];
             for (int side = 0; side < 2; ++side)
-                status[side] = iccp_cut_polygon_create(&polygon[side], &s, side, &c, &env);
+                status[side] = iccp_cut_polygons_create(&polygon[side], &s, side, &c, &env);
             if (status[0] == ICC_OK && status[1] == ICC_OK) {
                 for (int side = 0; side < 2; ++side) {
                     check_apart(&c, &s, side);
                     check_polygon(&polygon[side], &c, &s, side);
                 }
-                ck_assert_uint_eq(polygon[0].n, polygon[1].n);
-                ck_assert_mem_eq(polygon[0].vertex, polygon[1].vertex,
-                                 polygon[0].n * sizeof *polygon[0].vertex);
+                ck_assert_uint_eq(polygon[0].n_polygons, 1);
+                ck_assert(iccp_cut_polygons_same(&polygon[0], &polygon[1]));
                 if (tree == 0)
                     check_closed(polygon, &s);
                 ++n_made;
             }
             for (int side = 0; side < 2; ++side)
                 if (status[side] == ICC_OK)
-                    iccp_cut_polygon_free(&polygon[side]);
+                    iccp_cut_polygons_free(&polygon[side]);
             iccp_cuts_free(&c);
         }
         iccp_cutter_free(&cutter);
@@ -431,7 +430,7 @@ START_TEST(no_polygon)
     const plan p = walled();
     icc_domain *domain = plan_domain(&p);
     iccp_domain_pair s;
-    iccp_cut_polygon polygon;
+    iccp_cut_polygons polygon;
     static const uint32_t ends[3][6] = {{0, 4, 6, 7, 7, 1},  /* across the wall */
                                         {0, 4, 6, 2, 7, 0},  /* across it, too */
                                         {0, 4, 3, 5, 0, 6}}; /* a ring, and point 7 left out */
@@ -442,7 +441,7 @@ START_TEST(no_polygon)
         iccp_cuts c;
         ck_assert_int_eq(iccp_cuts_begin(&c, 3, &env.memory), ICC_OK);
         memcpy(c.ends, ends[k], sizeof ends[k]);
-        ck_assert_int_eq(iccp_cut_polygon_create(&polygon, &s, 0, &c, &env), expected[k]);
+        ck_assert_int_eq(iccp_cut_polygons_create(&polygon, &s, 0, &c, &env), expected[k]);
         iccp_cuts_free(&c);
     }
     iccp_domain_pair_free(&s);

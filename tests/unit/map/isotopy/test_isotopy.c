@@ -406,7 +406,7 @@ START_TEST(sequences)
     ck_assert_int_eq(
         iccp_sequence_read(&sequence, &triangulation, 0, 2, 1, (const double[]){-1, 2}, &env),
         ICC_ERR_TOPOLOGY);
-    ck_assert_uint_eq(mesh.vertex[iccp_triangulation_edge(&triangulation, 1, 4)], 0);
+    ck_assert_uint_eq(mesh.vertex[iccp_fans_edge(&triangulation.fans, &mesh, 1, 4)], 0);
     iccp_free(&env.memory, sequence.sides);
     iccp_triangulation_free(&triangulation, &env.memory);
 }

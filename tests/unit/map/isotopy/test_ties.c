@@ -55,7 +55,7 @@ START_TEST(refused)
                         huge[2] = {1e300, 0}, itself[6] = {5, 9, 5, 6, 2, 8};
     icc_tie ties[N];
     sound(ties);
-    check_refused(3, ties, ICC_ERR_TOPOLOGY, -1, 0, "as many as features, which are 4");
+    check_refused(3, ties, ICC_ERR_TOPOLOGY, -1, 0, "there must be 4");
     ties[1].vertex[1] = 12;
     check_refused(N, ties, ICC_ERR_ARGUMENT, 1, 0, "tie 1 ends at vertex 12");
     sound(ties);
