@@ -2,7 +2,7 @@
 """map --geojson of layers whose polygons share sides: random coverages with T-junctions stay coverages, bit by bit.
 
 usage: test_coverage.py LIBICC SCRATCH
-Needs the standard library only. Where SciPy and Shapely are installed, it also maps Voronoi cells and measures overlaps and gaps.
+Needs the standard library only. With SciPy and Shapely it also maps Voronoi cells, and measures overlaps and gaps.
 """
 import collections
 import json
@@ -87,8 +87,7 @@ def parcels(dice, n):
 def voronoi(dice, n):
     from scipy.spatial import Voronoi
     points = [[SIZE * dice.random(), SIZE * dice.random()] for _ in range(n)]
-    around = [[f(x), g(y)] for x, y in points for f, g in ((abs, abs), (lambda x: -x, abs), (abs, lambda y: -y),
-                                                           (lambda x: 2 * SIZE - x, abs), (abs, lambda y: 2 * SIZE - y))]
+    around = [p for x, y in points for p in ([x, y], [-x, y], [x, -y], [2 * SIZE - x, y], [x, 2 * SIZE - y])]
     v = Voronoi(around)
     cells = [[tuple(v.vertices[k]) for k in v.regions[v.point_region[5 * i]]] for i in range(n)]
     return [cell if area(cell) > 0 else cell[::-1] for cell in cells]
@@ -154,16 +153,18 @@ def is_exact(rings, back, what):
     """Images of sides: mapped back, the middle between two vertices is in the middle of them."""
     sides = list(sides_of(rings))
     points = [p for a, b in sides for p in (a, b, [(x + y) / 2 for x, y in zip(a, b)])]
-    got = run(0, "map", "-s", "cages.geojson", *back, "--snap", "1e-6", text="".join("%.17g %.17g\n" % tuple(p) for p in points))
+    text = "".join("%.17g %.17g\n" % tuple(p) for p in points)
+    got = run(0, "map", "-s", "cages.geojson", *back, "--snap", "1e-6", text=text)
     images = [list(map(float, line.split())) for line in got.stdout.splitlines()]
-    # The map shears, so within a triangle the middle stays the middle.
+    # Each piece is within a triangle, where the map is linear.
     off = max((abs((a + b) / 2 - m) for i in range(0, len(images), 3) for a, b, m in zip(*images[i:i + 3])), default=1)
     if not off < 1e-9 * SIZE:
         complain(f"{what}: the middle of a side is off by {off}")
 
 
 def carry(expected, *options):
-    run(expected, "map", "-s", "cages.geojson", "--json=report.json", *options, "--geojson", "in.geojson", "out.geojson")
+    run(expected, "map", "-s", "cages.geojson", "--json=report.json", *options,
+        "--geojson", "in.geojson", "out.geojson")
     with open("report.json") as file:
         return rings_of("out.geojson"), json.load(file)
 

@@ -13,6 +13,7 @@ from pandas.api.extensions import register_series_accessor
 from shapely.ops import transform
 
 from ._errors import Error, OutsideError
+from ._layer import exact_images
 from ._map import Map
 
 if TYPE_CHECKING:
@@ -31,7 +32,8 @@ class GeometryAccessor:
             raise AttributeError("only series of geometries have .icc")
         self._series = series
 
-    def map(self, mapping: Map, *, inverse: bool = False, tolerance: float = 0, outside: str = "raise") -> Any:
+    def map(self, mapping: Map, *, inverse: bool = False, tolerance: float = 0, exact: bool = False,
+            outside: str = "raise") -> Any:
         """Moves the geometries by a map of the plane. They keep their index, CRS and heights.
 
         >>> import geopandas, libicc, libicc.geopandas
@@ -45,6 +47,9 @@ class GeometryAccessor:
             inverse: map from the target to the source
             tolerance: edges get more vertices, at most 4095 each, until their quarter points are within this distance
                 of the true images; 0: no more vertices
+            exact: edges get a vertex wherever they cross an edge of the map's triangles, so their images are exact. A
+                vertex on a neighbour's edge becomes a vertex of that edge, too. So polygons that share edges stay
+                without gaps and overlaps. Only for mesh maps
             outside: what happens to geometries that lie partly or wholly outside: "raise" an `OutsideError`, or become
                 "null"
         """
@@ -52,8 +57,12 @@ class GeometryAccessor:
             raise ValueError(f"outside must be 'raise' or 'null', not {outside!r}")
         if mapping.dim != 2:
             raise ValueError(f"geometries are of the plane; this map has dimension {mapping.dim}")
+        if exact and tolerance > 0:
+            raise ValueError("exact and tolerance exclude each other")
+        if exact and mapping.info.kind != "mesh":
+            raise ValueError("exact needs the triangles of a mesh map; this is a curve map")
         lines, counts = _lines_of(self._series)
-        carried = iter(_carried(lines, mapping.inverse if inverse else mapping.apply, tolerance))
+        carried = iter(_carried(lines, mapping, inverse, tolerance, exact))
         moved: List[Any] = []
         for (label, geometry), count in zip(self._series.items(), counts):
             own = [next(carried) for _ in range(count)]
@@ -83,22 +92,32 @@ def _lines_of(series: Any) -> Tuple[List[Floats], List[int]]:
     return lines, counts
 
 
-def _carried(lines: List[Floats], carry: Callable[[Floats], Floats], tolerance: float) -> List[Floats]:
+def _carried(lines: List[Floats], mapping: Map, inverse: bool, tolerance: float, exact: bool) -> List[Floats]:
     """Moves all lines at once, NaN where there is no image. Coordinates beyond the first two stay."""
     if not lines:
         return []
     width = max(line.shape[1] for line in lines)
     points = np.concatenate([np.pad(line, ((0, 0), (0, width - line.shape[1]))) for line in lines])
     number = np.repeat(np.arange(len(lines)), [len(line) for line in lines])
+    if exact:
+        points, images, number = exact_images(points, number, mapping, inverse)
+    else:
+        points, images, number = _bent(points, number, mapping.inverse if inverse else mapping.apply, tolerance)
+    points[:, :2] = images
+    parts = np.split(points, np.searchsorted(number, np.arange(1, len(lines))))
+    return [part[:, :line.shape[1]] for part, line in zip(parts, lines)]
+
+
+def _bent(points: Floats, number: Array, carry: Callable[[Floats], Floats],
+          tolerance: float) -> Tuple[Floats, Floats, Array]:
+    """Adds vertices until all lines are right to a tolerance: the positions, their images, and the line of each."""
     images = carry(points[:, :2])
     begins = np.flatnonzero(number[:-1] == number[1:]) if tolerance > 0 else np.empty(0, int)
     for _ in range(_MOST_ROUNDS):
         begins, points, images, number = _split(begins, points, images, number, carry, tolerance)
         if len(begins) == 0:
             break
-    points[:, :2] = images
-    parts = np.split(points, np.searchsorted(number, np.arange(1, len(lines))))
-    return [part[:, :line.shape[1]] for part, line in zip(parts, lines)]
+    return points, images, number
 
 
 def _split(begins: Array, points: Floats, images: Floats, number: Array, carry: Callable[[Floats], Floats],
